@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: MIT
+# The header-only targets: sivid::sivid (core), sivid::io, sivid::report, sivid::parallel.
+
+if(POLICY CMP0167)
+    cmake_policy(SET CMP0167 NEW)   # BoostConfig.cmake of Boost itself
+endif()
+find_package(Boost 1.74 REQUIRED)
+find_package(Eigen3 REQUIRED NO_MODULE)
+
+set(sivid_core_folders number space measurement model enclosure paving diagnosis)
+set(sivid_include_dir "${PROJECT_SOURCE_DIR}/include")
+set(sivid_components "")
+
+# sivid_add_library(<name> FOLDERS <floor>... [FILES <header>...] [LINK <target>...]):
+# INTERFACE target sivid_<name> (alias and export name sivid::<name>) with the headers of these floors.
+function(sivid_add_library name)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "FOLDERS;FILES;LINK")
+    set(headers "")
+    foreach(folder IN LISTS arg_FOLDERS)
+        file(GLOB_RECURSE found CONFIGURE_DEPENDS "${sivid_include_dir}/sivid/${folder}/*.hpp")
+        list(APPEND headers ${found})
+    endforeach()
+    foreach(file IN LISTS arg_FILES)
+        list(APPEND headers "${sivid_include_dir}/sivid/${file}")
+    endforeach()
+
+    set(target sivid_${name})
+    add_library(${target} INTERFACE)
+    add_library(sivid::${name} ALIAS ${target})
+    set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} SIVID_HEADERS "${headers}")
+    target_compile_features(${target} INTERFACE cxx_std_20)
+    target_include_directories(${target} INTERFACE
+        "$<BUILD_INTERFACE:${sivid_include_dir}>" "$<INSTALL_INTERFACE:include>")
+    target_link_libraries(${target} INTERFACE ${arg_LINK})
+    if(CMAKE_VERSION VERSION_GREATER_EQUAL 3.23 AND headers)
+        target_sources(${target} INTERFACE
+            FILE_SET HEADERS BASE_DIRS "${sivid_include_dir}" FILES ${headers})
+    endif()
+    set(sivid_components ${sivid_components} ${name} PARENT_SCOPE)
+endfunction()
+
+sivid_add_library(sivid FOLDERS ${sivid_core_folders} FILES sivid.hpp version.hpp
+                  LINK Boost::headers Eigen3::Eigen)
+
+find_package(nlohmann_json 3.9 QUIET)
+if(nlohmann_json_FOUND)
+    sivid_add_library(io FOLDERS io LINK sivid_sivid nlohmann_json::nlohmann_json)
+    sivid_add_library(report FOLDERS report LINK sivid_io)
+else()
+    message(STATUS "sivid: nlohmann_json not found, sivid::io and sivid::report left out")
+endif()
+
+if(EXISTS "${sivid_include_dir}/sivid/parallel")
+    find_package(TBB QUIET)
+    if(TBB_FOUND)
+        sivid_add_library(parallel FOLDERS parallel LINK sivid_sivid TBB::tbb)
+    else()
+        message(STATUS "sivid: oneTBB not found, sivid::parallel left out")
+    endif()
+endif()

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+# Flags for tests, examples and benchmarks. They are folder properties, so that nothing reaches a
+# user through the targets of sivid.
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+    set(CMAKE_BUILD_TYPE Release)
+endif()
+set(CMAKE_CXX_EXTENSIONS OFF)
+
+find_program(SIVID_CCACHE ccache)
+mark_as_advanced(SIVID_CCACHE)
+if(SIVID_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    set(CMAKE_CXX_COMPILER_LAUNCHER "${SIVID_CCACHE}")
+endif()
+
+if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+    add_compile_options(-Wall -Wextra -Wpedantic -Wconversion -Wshadow)
+    if(SIVID_WERROR)
+        add_compile_options(-Werror)
+    endif()
+    if(SIVID_NATIVE)
+        add_compile_options(-march=native)
+    endif()
+    if(SIVID_SANITIZE)
+        add_compile_options(-fsanitize=${SIVID_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+        add_link_options(-fsanitize=${SIVID_SANITIZE})
+    endif()
+endif()
+
+add_compile_definitions("SIVID_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\"")
+get_filename_component(sivid_shared_dir "${PROJECT_SOURCE_DIR}/../shared" ABSOLUTE)
+if(IS_DIRECTORY "${sivid_shared_dir}/data")   # reference data that may lie beside the checkout
+    add_compile_definitions("SIVID_SHARED_DIR=\"${sivid_shared_dir}\"")
+endif()
+
+# sivid_add_folders(<folder>): adds each sub-folder that has a CMakeLists.txt.
+function(sivid_add_folders folder)
+    file(GLOB lists CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*/CMakeLists.txt")
+    foreach(list IN LISTS lists)
+        get_filename_component(child "${list}" DIRECTORY)
+        file(RELATIVE_PATH relative "${PROJECT_SOURCE_DIR}" "${child}")
+        add_subdirectory("${relative}")
+    endforeach()
+endfunction()

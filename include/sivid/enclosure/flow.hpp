@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_ENCLOSURE_FLOW_HPP
+#define SIVID_ENCLOSURE_FLOW_HPP
+
+#include <sivid/measurement/signal.hpp>
+#include <sivid/model/bound_model.hpp>
+#include <sivid/model/tape.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <variant>
+#include <vector>
+
+namespace sivid {
+
+/// One structurally non-zero entry of a Jacobian and the output of its tape that holds it.
+struct jacobian_entry {
+    std::size_t row = 0;
+    std::size_t column = 0; ///< a state, or state_count + a parameter
+    std::size_t output = 0;
+};
+
+/// An initial value problem as programs: x' = f(t, x, p, u(t)), with the inputs of one scenario.
+/// Immutable after construction; shared by all boxes and threads.
+class flow {
+public:
+    flow(recorded_model const& model, parameter_choice const& choice,
+         std::vector<signal> const& inputs)
+        : model_(bind(model, choice, inputs)), signals_(inputs.size()) {
+        for (auto const i : model_.sampled) signals_[i] = std::get<sampled_signal>(inputs[i]);
+        rate_ = tape(model_.g, model_.rate);
+        rate_jacobian_ = with_jacobian(model_.rate, model_.rate_dx, model_.rate_dp, entries_);
+        observe_ = tape(model_.g, model_.observe);
+        observe_jacobian_ =
+            with_jacobian(model_.observe, model_.observe_dx, model_.observe_dp, observe_entries_);
+        find_structure();
+    }
+
+    [[nodiscard]] bound_model const& model() const { return model_; }
+    [[nodiscard]] std::size_t states() const { return model_.state_count(); }
+    [[nodiscard]] std::size_t parameters() const { return model_.parameter_count(); }
+    [[nodiscard]] std::size_t channels() const { return model_.channel_count(); }
+
+    [[nodiscard]] tape const& rate() const { return rate_; }
+    /// Rates first (outputs 0 .. n-1), then the entries of `entries()`.
+    [[nodiscard]] tape const& rate_jacobian() const { return rate_jacobian_; }
+    [[nodiscard]] std::vector<jacobian_entry> const& entries() const { return entries_; }
+    [[nodiscard]] tape const& observe() const { return observe_; }
+    [[nodiscard]] tape const& observe_jacobian() const { return observe_jacobian_; }
+    [[nodiscard]] std::vector<jacobian_entry> const& observe_entries() const {
+        return observe_entries_;
+    }
+    /// Whether \f$ \partial x_i(t) / \partial (x_0, p)_c \f$ can be non-zero.
+    [[nodiscard]] bool sensitive(std::size_t i, std::size_t c) const {
+        return sensitive_[i * (states() + parameters()) + c];
+    }
+
+    [[nodiscard]] sampled_signal const& input(std::size_t i) const { return signals_[i]; }
+    [[nodiscard]] std::vector<std::size_t> const& sampled_inputs() const { return model_.sampled; }
+    /// First knot of a sampled input strictly after t, or +infinity.
+    [[nodiscard]] double next_knot(double t) const {
+        double next = HUGE_VAL;
+        for (auto const i : model_.sampled) next = std::min(next, signals_[i].next_knot(t));
+        return next;
+    }
+
+private:
+    [[nodiscard]] tape with_jacobian(std::vector<node_id> const& values,
+                                     std::vector<std::vector<node_id>> const& dx,
+                                     std::vector<std::vector<node_id>> const& dp,
+                                     std::vector<jacobian_entry>& entries) const {
+        auto outputs = values;
+        auto const collect = [&](std::vector<std::vector<node_id>> const& d, std::size_t offset) {
+            for (std::size_t i = 0; i < d.size(); ++i) {
+                for (std::size_t j = 0; j < d[i].size(); ++j) {
+                    if (model_.g.is(d[i][j], 0)) continue;
+                    entries.push_back({i, offset + j, outputs.size()});
+                    outputs.push_back(d[i][j]);
+                }
+            }
+        };
+        collect(dx, 0);
+        collect(dp, states());
+        return tape(model_.g, outputs);
+    }
+
+    /// Transitive closure of the Jacobian's pattern.
+    void find_structure() {
+        auto const n = states();
+        auto const columns = n + parameters();
+        sensitive_.assign(n * columns, false);
+        for (std::size_t i = 0; i < n; ++i) sensitive_[i * columns + i] = true;
+        for (auto const& e : entries_) {
+            if (e.column >= n) sensitive_[e.row * columns + e.column] = true;
+        }
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (auto const& e : entries_) {
+                if (e.column >= n) continue;
+                for (std::size_t c = 0; c < columns; ++c) {
+                    if (sensitive_[e.column * columns + c] && !sensitive_[e.row * columns + c]) {
+                        sensitive_[e.row * columns + c] = true;
+                        changed = true;
+                    }
+                }
+            }
+        }
+    }
+
+    bound_model model_;
+    std::vector<sampled_signal> signals_;
+    tape rate_, rate_jacobian_, observe_, observe_jacobian_;
+    std::vector<jacobian_entry> entries_, observe_entries_;
+    std::vector<bool> sensitive_;
+};
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_ENCLOSURE_OPTIONS_HPP
+#define SIVID_ENCLOSURE_OPTIONS_HPP
+
+#include <sivid/enclosure/tableau.hpp>
+
+#include <cstddef>
+#include <optional>
+
+namespace sivid {
+
+/// How trajectories are enclosed. Every choice is sound; they trade width against time.
+struct enclosure_options {
+    /// Highest order of the Taylor series. Each step uses the lowest order that meets the
+    /// tolerance.
+    std::size_t order = 14;
+    /// Order of the series of the variational equation; 0 follows the order of the step.
+    std::size_t variational_order = 0;
+    /// A Runge-Kutta method for the centre trajectory instead of the Taylor series.
+    std::optional<tableau> method = std::nullopt;
+    /// Largest truncation error of one step in state i, as a half-width:
+    /// tolerance * (1 + |x_i|) + relative_tolerance * width of the enclosure of x_i.
+    double tolerance = 1e-13;
+    double relative_tolerance = 1e-4;
+    /// Steps are never shorter than this [s], except where an input's knot or the end is closer.
+    double minimum_step = 1e-7;
+    double maximum_step = 1.0; ///< [s]
+    std::size_t maximum_steps = 1'000'000;
+    /// Give up when the enclosure of a state is wider than this many times the state's own range.
+    double widest = 2.0;
+};
+
+} // namespace sivid
+
+#endif

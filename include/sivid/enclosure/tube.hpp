@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_ENCLOSURE_TUBE_HPP
+#define SIVID_ENCLOSURE_TUBE_HPP
+
+#include <sivid/enclosure/observation.hpp>
+#include <sivid/enclosure/trajectory.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// Proven enclosures of all trajectories of an ensemble over a span of time. Only proved steps
+/// enter.
+template <class I>
+class tube {
+    using traits = interval_traits<I>;
+
+public:
+    tube(std::shared_ptr<flow const> f, enclosure_options const& options, ensemble<I> e,
+         doubleton<I> start)
+        : flow_(std::move(f)),
+          ensemble_(std::make_unique<ensemble<I>>(std::move(e))),
+          stepper_(std::make_unique<stepper<I>>(*flow_, options)),
+          end_(std::move(start)) {
+        stepper_->set_ensemble(*ensemble_);
+    }
+
+    /// @given  the step and the set at its end come from the same flow and ensemble (trusted)
+    void append(tube_step<I> step, doubleton<I> end) {
+        steps_.push_back(std::move(step));
+        end_ = std::move(end);
+    }
+    void stop(enclosure_failure why) { failure_ = why; }
+
+    [[nodiscard]] double begin_time() const {
+        return steps_.empty() ? end_.time : steps_.front().from;
+    }
+    /// Everything up to this time is proved.
+    [[nodiscard]] double end_time() const { return end_.time; }
+    [[nodiscard]] bool complete() const { return !failure_; }
+    [[nodiscard]] std::optional<enclosure_failure> const& failure() const { return failure_; }
+    [[nodiscard]] std::vector<tube_step<I>> const& steps() const { return steps_; }
+    [[nodiscard]] doubleton<I> const& end() const { return end_; }
+    [[nodiscard]] flow const& equations() const { return *flow_; }
+
+    /// The carried set at time t, as tight as at the steps' ends.
+    /// @throws std::out_of_range outside [begin_time, end_time]
+    /// @cost  that of one step when t lies inside a step
+    [[nodiscard]] doubleton<I> set_at(double t) const {
+        if (t == end_.time) return end_;
+        auto const& step = step_at(t);
+        return t == step.from ? step.start : stepper_->advance(step, t);
+    }
+    /// A box that contains all states at time t.
+    [[nodiscard]] basic_box<I> at(double t) const { return set_at(t).hull; }
+
+    /// A box that contains all states at all times in [from, to].
+    [[nodiscard]] basic_box<I> over(double from, double to) const {
+        basic_box<I> result = hull(at(from), at(to));
+        for (auto const& step : steps_) {
+            if (step.to <= from || step.from >= to) continue;
+            result = hull(result, step.swept);
+        }
+        return result;
+    }
+
+    /// Encloses the channels at time t.
+    [[nodiscard]] basic_box<I> observe_at(double t) const {
+        observer<I> look(*flow_);
+        look.set_ensemble(*ensemble_);
+        auto const start = t == begin_time() || steps_.empty() ? t : step_at(t).from;
+        auto const seen = look(set_at(t), start);
+        basic_box<I> result(seen.size());
+        for (std::size_t y = 0; y < seen.size(); ++y) {
+            result[y] = seen[y].defined ? seen[y].value : traits::entire();
+        }
+        return result;
+    }
+
+private:
+    /// The step with from < t <= to, or the first one at the begin.
+    [[nodiscard]] tube_step<I> const& step_at(double t) const {
+        if (steps_.empty() || !(t >= begin_time() && t <= end_time())) {
+            throw std::out_of_range("tube: time outside the proved span");
+        }
+        auto const found =
+            std::lower_bound(steps_.begin(), steps_.end(), t,
+                             [](tube_step<I> const& s, double time) { return s.to < time; });
+        return *found;
+    }
+
+    std::shared_ptr<flow const> flow_;
+    std::unique_ptr<ensemble<I>> ensemble_;
+    std::unique_ptr<stepper<I>> stepper_;
+    std::vector<tube_step<I>> steps_;
+    doubleton<I> end_;
+    std::optional<enclosure_failure> failure_;
+};
+
+/// Encloses x' = f(t, x, p, u) from the box `initial` at time `from` to time `to`.
+/// @param parameters  a box for the unknown constants
+/// @returns a tube over [from, to], or over the shorter span that was proved, with its failure
+template <class I = interval>
+[[nodiscard]] tube<I> integrate(std::shared_ptr<flow const> f, basic_box<I> const& initial,
+                                basic_box<I> const& parameters, double from, double to,
+                                enclosure_options const& options = {}) {
+    trajectory<I> run(*f, options);
+    run.begin(from, initial, parameters);
+    tube<I> result(f, options, run.ensemble(), run.set());
+    while (run.time() < to) {
+        if (!run.step(to)) {
+            result.stop(*run.failure());
+            break;
+        }
+        result.append(run.last(), run.set());
+    }
+    return result;
+}
+
+} // namespace sivid
+
+#endif

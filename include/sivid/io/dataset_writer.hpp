@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IO_DATASET_WRITER_HPP
+#define SIVID_IO_DATASET_WRITER_HPP
+
+#include <sivid/io/dataset_value.hpp>
+#include <sivid/io/json_writer.hpp>
+#include <sivid/io/model_names.hpp>
+#include <sivid/io/text_file.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace sivid {
+
+/// The text of `<scenario>.inputs.csv`. Inputs with different knots share one table; where an input
+/// has no knot its cell is empty.
+[[nodiscard]] inline std::string inputs_csv(scenario const& s, model_names const& model) {
+    std::string text = "t";
+    std::set<double> times{0.0, s.duration}; // of an input-free model; otherwise of the knots alone
+    if (!s.inputs.empty()) times.clear();
+    for (std::size_t i = 0; i < s.inputs.size(); ++i) {
+        auto const& name = model.inputs.at(i).name;
+        text += "," + name + (s.inputs[i].error.empty() ? "" : "," + name + "_err");
+        times.insert(s.inputs[i].signal.times().begin(), s.inputs[i].signal.times().end());
+    }
+    text += "\n";
+    std::vector<std::size_t> next(s.inputs.size(), 0);
+    for (double const t : times) {
+        text += exact_decimal::shortest(t).text();
+        for (std::size_t i = 0; i < s.inputs.size(); ++i) {
+            auto const& input = s.inputs[i];
+            auto& k = next[i];
+            bool const here = k < input.signal.times().size() && input.signal.times()[k] == t;
+            text += "," + (here ? exact_decimal::shortest(input.signal.values()[k]).text() : "");
+            if (!input.error.empty()) text += "," + (here ? input.stated_error.at(k).text() : "");
+            if (here) ++k;
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+/// The text of `<scenario>.measurements.csv`, with the channels that occur.
+[[nodiscard]] inline std::string measurements_csv(scenario const& s, model_names const& model) {
+    std::set<std::size_t> channels;
+    std::map<double, std::map<std::size_t, stated_measurement const*>> rows;
+    for (std::size_t i = 0; i < s.measurements.size(); ++i) {
+        channels.insert(s.measurements[i].channel);
+        rows[s.measurements[i].time][s.measurements[i].channel] = &s.stated.at(i);
+    }
+    std::string text = "t";
+    for (auto c : channels)
+        text += "," + model.channels.at(c).name + "," + model.channels.at(c).name + "_err";
+    text += "\n";
+    for (auto const& [time, cells] : rows) {
+        text += exact_decimal::shortest(time).text();
+        for (auto c : channels) {
+            auto const cell = cells.find(c);
+            text += cell == cells.end()
+                        ? ",,"
+                        : "," + cell->second->value.text() + "," + cell->second->error.text();
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+/// The text of `dataset.json`.
+[[nodiscard]] inline std::string dataset_json(dataset const& data, model_names const& model) {
+    using layout = json_writer::layout;
+    json_writer json;
+    auto const range = [&](stated_range const& r) {
+        json.begin_array(layout::one_line).decimal(r.lower).decimal(r.upper).end_array();
+    };
+    json.begin_object();
+    json.key("format")
+        .string("sivid-dataset-1")
+        .key("id")
+        .string(data.id)
+        .key("model")
+        .string(data.model);
+    json.key("parameters").begin_object();
+    for (auto const& p : data.parameters) {
+        json.key(p.name).begin_object(layout::one_line).key("prior");
+        range(p.prior);
+        json.key("unit").string(p.unit).end_object();
+    }
+    json.end_object();
+    if (!data.fixed.empty()) {
+        json.key("fixed").begin_object();
+        for (auto const& f : data.fixed)
+            json.key(model.constants.at(f.constant).name).decimal(f.stated);
+        json.end_object();
+    }
+    json.key("max_outlier_fraction").decimal(data.max_outlier_fraction);
+    json.key("scenarios").begin_array();
+    for (auto const& s : data.scenarios) {
+        bool const hold =
+            !s.inputs.empty() && s.inputs.front().signal.kind() == interpolation::hold;
+        json.begin_object();
+        json.key("name").string(s.name).key("role").string(
+            s.role == scenario_role::fit ? "fit" : "holdout");
+        json.key("duration").nearest(s.duration);
+        json.key("inputs")
+            .string(s.name + ".inputs.csv")
+            .key("interpolation")
+            .string(hold ? "hold" : "linear");
+        json.key("measurements").string(s.name + ".measurements.csv");
+        json.key("initial").begin_object(layout::one_line);
+        for (std::size_t i = 0; i < s.initial.size(); ++i) {
+            if (!s.initial[i].stated) continue;
+            json.key(model.states.at(i).name);
+            range(*s.initial[i].stated);
+        }
+        json.end_object().end_object();
+    }
+    json.end_array().end_object();
+    return json.text();
+}
+
+/// Stores a data set as a folder in the format sivid-dataset-1; read_dataset gives the same value
+/// back. dataset.json comes last and each file whole, so that a run that was killed leaves nothing
+/// that reads as complete.
+/// @given  as read_dataset returns it: one interpolation in a scenario, indices within the model's
+/// (trusted)
+/// @throws output_error
+inline void write_dataset(dataset const& data, model_names const& model,
+                          std::filesystem::path const& folder) {
+    for (auto const& s : data.scenarios) {
+        write_atomically(folder / (s.name + ".inputs.csv"), inputs_csv(s, model));
+        write_atomically(folder / (s.name + ".measurements.csv"), measurements_csv(s, model));
+    }
+    write_atomically(folder / "dataset.json", dataset_json(data, model));
+}
+
+} // namespace sivid
+
+#endif // SIVID_IO_DATASET_WRITER_HPP

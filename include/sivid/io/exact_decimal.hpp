@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IO_EXACT_DECIMAL_HPP
+#define SIVID_IO_EXACT_DECIMAL_HPP
+
+#include <sivid/number/decimal.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace sivid {
+
+/// A number as a file states it: any count of digits, nothing rounded.
+///   \f$ x = \pm d \cdot 10^e \f$, d an integer without leading or trailing zeros ("" is zero)
+/// Sums and products are exact, so that 0.29 * 100 is 29 and 2.04 - 0.02 is 2.02.
+class exact_decimal {
+public:
+    /// Exponents beyond this are far outside double and are refused, which also bounds all sizes.
+    static constexpr long largest_exponent = 5000;
+    static constexpr std::size_t most_digits = 5000;
+
+    exact_decimal() = default;
+
+    /// Reads `[+-] digits [. digits] [e [+-] digits]`; at least one digit; nothing else around it.
+    /// @returns nothing when malformed, or when digits or exponent pass the limits above
+    [[nodiscard]] static std::optional<exact_decimal> parse(std::string_view text) {
+        exact_decimal result;
+        if (!text.empty() && (text.front() == '+' || text.front() == '-')) {
+            result.negative_ = text.front() == '-';
+            text.remove_prefix(1);
+        }
+        bool any_digit = false, after_point = false;
+        while (!text.empty()) {
+            char const c = text.front();
+            if (c >= '0' && c <= '9') {
+                result.digits_ += c;
+                any_digit = true;
+                if (after_point) --result.exponent_;
+            } else if (c == '.' && !after_point) {
+                after_point = true;
+            } else {
+                break;
+            }
+            text.remove_prefix(1);
+        }
+        if (!any_digit) return std::nullopt;
+        long stated = 0;
+        if (!text.empty()) {
+            if (text.front() != 'e' && text.front() != 'E') return std::nullopt;
+            text.remove_prefix(1);
+            if (!text.empty() && text.front() == '+') {
+                text.remove_prefix(1);
+                if (!text.empty() && text.front() == '-') return std::nullopt;
+            }
+            auto const [end, fault] =
+                std::from_chars(text.data(), text.data() + text.size(), stated);
+            if (end != text.data() + text.size() || text.empty()) return std::nullopt;
+            if (fault != std::errc{}) return std::nullopt;
+        }
+        result.normalise();
+        if (result.is_zero()) return exact_decimal{};
+        if (result.digits_.size() > most_digits || std::abs(stated) > largest_exponent)
+            return std::nullopt;
+        result.exponent_ += stated;
+        if (std::abs(result.exponent_) > 2 * largest_exponent) return std::nullopt;
+        return result;
+    }
+
+    /// The shortest decimal that reads back as `value` (zero for what is not finite).
+    [[nodiscard]] static exact_decimal shortest(double value) {
+        char buffer[64];
+        auto const end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+        return parse({buffer, static_cast<std::size_t>(end - buffer)}).value_or(exact_decimal{});
+    }
+
+    /// `value` rounded to so many digits after the point.
+    /// @given  a magnitude below 1e300 and places <= 300 (trusted)
+    [[nodiscard]] static exact_decimal rounded(double value, int places) {
+        char buffer[700];
+        auto const end =
+            std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, places)
+                .ptr;
+        return parse({buffer, static_cast<std::size_t>(end - buffer)}).value_or(exact_decimal{});
+    }
+
+    [[nodiscard]] bool is_zero() const { return digits_.empty(); }
+    [[nodiscard]] bool is_positive() const { return !is_zero() && !negative_; }
+    [[nodiscard]] bool is_negative() const { return negative_; }
+
+    [[nodiscard]] exact_decimal operator-() const {
+        exact_decimal result = *this;
+        if (!is_zero()) result.negative_ = !negative_;
+        return result;
+    }
+
+    [[nodiscard]] friend exact_decimal operator+(exact_decimal const& a, exact_decimal const& b) {
+        auto const exponent = std::min(a.exponent_, b.exponent_);
+        auto x = a.digits_at(exponent), y = b.digits_at(exponent);
+        auto const width = std::max(x.size(), y.size()) + 1;
+        x.insert(0, width - x.size(), '0');
+        y.insert(0, width - y.size(), '0');
+
+        exact_decimal result;
+        result.exponent_ = exponent;
+        if (a.negative_ == b.negative_) {
+            result.negative_ = a.negative_;
+            result.digits_ = combine(x, y, +1);
+        } else if (x >= y) { // same length: text order is number order
+            result.negative_ = a.negative_;
+            result.digits_ = combine(x, y, -1);
+        } else {
+            result.negative_ = b.negative_;
+            result.digits_ = combine(y, x, -1);
+        }
+        result.normalise();
+        return result;
+    }
+    [[nodiscard]] friend exact_decimal operator-(exact_decimal const& a, exact_decimal const& b) {
+        return a + (-b);
+    }
+
+    /// x n, for n below 1e18. Named, because Boost's interval converts from everything and would
+    /// make `*` ambiguous.
+    [[nodiscard]] exact_decimal times(std::size_t n) const {
+        exact_decimal result;
+        if (is_zero() || n == 0) return result;
+        std::string reversed;
+        // carry < n + 1, so 9 n + carry must fit: n below 1e18
+        std::size_t carry = 0;
+        for (auto d = digits_.rbegin(); d != digits_.rend(); ++d) {
+            carry += static_cast<std::size_t>(*d - '0') * n;
+            reversed += static_cast<char>('0' + carry % 10);
+            carry /= 10;
+        }
+        for (; carry > 0; carry /= 10) reversed += static_cast<char>('0' + carry % 10);
+        result.negative_ = negative_;
+        result.exponent_ = exponent_;
+        result.digits_.assign(reversed.rbegin(), reversed.rend());
+        result.normalise();
+        return result;
+    }
+
+    /// floor(x) for 0 <= x < 1e18.
+    [[nodiscard]] std::size_t floor() const {
+        if (is_zero() || negative_) return 0;
+        auto whole = digits_;
+        if (exponent_ >= 0) {
+            whole.append(static_cast<std::size_t>(exponent_), '0');
+        } else {
+            auto const cut = static_cast<std::size_t>(-exponent_);
+            if (cut >= whole.size()) return 0;
+            whole.resize(whole.size() - cut);
+        }
+        std::size_t result = 0;
+        std::from_chars(whole.data(), whole.data() + whole.size(), result);
+        return result;
+    }
+
+    [[nodiscard]] friend bool operator==(exact_decimal const& a, exact_decimal const& b) = default;
+    [[nodiscard]] friend bool operator<(exact_decimal const& a, exact_decimal const& b) {
+        return (a - b).is_negative();
+    }
+
+    /// Plain notation where it is short ("0.0042", "-1250"), otherwise with an exponent.
+    [[nodiscard]] std::string text() const {
+        if (is_zero()) return "0";
+        std::string const sign = negative_ ? "-" : "";
+        auto const count = static_cast<long>(digits_.size());
+        if (exponent_ >= 0 && count + exponent_ <= 17)
+            return sign + digits_ + std::string(static_cast<std::size_t>(exponent_), '0');
+        if (exponent_ < 0 && count + exponent_ > 0) {
+            auto const whole = static_cast<std::size_t>(count + exponent_);
+            return sign + digits_.substr(0, whole) + "." + digits_.substr(whole);
+        }
+        if (exponent_ < 0 && count + exponent_ > -6)
+            return sign + "0." + std::string(static_cast<std::size_t>(-(count + exponent_)), '0') +
+                   digits_;
+        auto const fraction = digits_.substr(1);
+        return sign + digits_.substr(0, 1) + (fraction.empty() ? "" : "." + fraction) + "e" +
+               std::to_string(exponent_ + count - 1);
+    }
+
+private:
+    /// Digit-wise x + y or x - y for texts of one length; the difference must not be negative.
+    static std::string combine(std::string const& x, std::string const& y, int sign) {
+        std::string result(x.size(), '0');
+        int carry = 0;
+        for (auto i = x.size(); i-- > 0;) {
+            int digit = (x[i] - '0') + sign * (y[i] - '0') + carry;
+            carry = digit < 0 ? -1 : digit / 10;
+            digit -= 10 * carry;
+            result[i] = static_cast<char>('0' + digit);
+        }
+        return result;
+    }
+
+    /// The digits of the integer |x| 10^-exponent, for an exponent not above that of x.
+    [[nodiscard]] std::string digits_at(long exponent) const {
+        if (is_zero()) return {};
+        return digits_ + std::string(static_cast<std::size_t>(exponent_ - exponent), '0');
+    }
+
+    void normalise() {
+        digits_.erase(0, std::min(digits_.find_first_not_of('0'), digits_.size()));
+        auto const last = digits_.find_last_not_of('0');
+        if (last == std::string::npos) {
+            *this = exact_decimal{};
+            return;
+        }
+        exponent_ += static_cast<long>(digits_.size() - last - 1);
+        digits_.resize(last + 1);
+    }
+
+    bool negative_ = false;
+    std::string digits_;
+    long exponent_ = 0;
+};
+
+/// The tightest interval around a decimal; nothing when it is beyond the largest double.
+[[nodiscard]] inline std::optional<interval> enclose(exact_decimal const& x) {
+    return parse_decimal(x.text());
+}
+
+/// The tightest interval around [lower, upper]; nothing when it is beyond the largest double.
+/// @given  lower <= upper (trusted)
+[[nodiscard]] inline std::optional<interval> enclose(exact_decimal const& lower,
+                                                     exact_decimal const& upper) {
+    auto const a = parse_decimal(lower.text()), b = parse_decimal(upper.text());
+    if (!a || !b) return std::nullopt;
+    return hull(*a, *b);
+}
+
+/// The nearest double; nothing when it is beyond the largest one.
+[[nodiscard]] inline std::optional<double> nearest(exact_decimal const& x) {
+    return parse_nearest(x.text());
+}
+
+} // namespace sivid
+
+#endif // SIVID_IO_EXACT_DECIMAL_HPP

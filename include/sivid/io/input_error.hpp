@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IO_INPUT_ERROR_HPP
+#define SIVID_IO_INPUT_ERROR_HPP
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace sivid {
+
+/// Where in the input something is wrong. A table has line and column, a JSON file has a pointer.
+struct input_place {
+    std::string file;
+    std::size_t line = 0;   ///< physical line from 1; 0 = not known
+    std::size_t column = 0; ///< cell of the line from 1 (tables), character from 1 (malformed JSON)
+    std::string heading = {}; ///< the heading of that cell, if it has one
+    std::string pointer = {}; ///< RFC 6901, "" = the whole document
+    bool is_json = false;
+};
+
+/// What is wrong with an input, where, and what to do: one message for one defect, nothing is read
+/// further.
+///   "S1.inputs.csv: line 12, column 3 (delta): '0,1x' is not a number; write a decimal such as
+///   0.25 or 1e-3"
+class input_error : public std::runtime_error {
+public:
+    input_error(input_place place, std::string problem, std::string remedy)
+        : std::runtime_error(message(place, problem, remedy)),
+          place_(std::move(place)),
+          problem_(std::move(problem)),
+          remedy_(std::move(remedy)) {}
+
+    [[nodiscard]] input_place const& place() const { return place_; }
+    [[nodiscard]] std::string const& problem() const { return problem_; }
+    [[nodiscard]] std::string const& remedy() const { return remedy_; }
+
+private:
+    static std::string message(input_place const& place, std::string const& problem,
+                               std::string const& remedy) {
+        std::string text = place.file;
+        if (place.is_json) text += ": " + (place.pointer.empty() ? "(document)" : place.pointer);
+        if (place.line > 0) text += ": line " + std::to_string(place.line);
+        if (place.column > 0) text += ", column " + std::to_string(place.column);
+        if (!place.heading.empty()) text += " (" + place.heading + ")";
+        text += ": " + problem;
+        if (!remedy.empty()) text += "; " + remedy;
+        return text;
+    }
+
+    input_place place_;
+    std::string problem_, remedy_;
+};
+
+/// "'text'" for messages: shortened, and with control characters made visible.
+[[nodiscard]] inline std::string in_quotes(std::string const& text) {
+    constexpr std::size_t longest = 40;
+    std::string result = "'";
+    for (char c : text.substr(0, longest)) {
+        auto const byte = static_cast<unsigned char>(c);
+        result += byte < 0x20 || byte == 0x7f ? '?' : c;
+    }
+    return result + (text.size() > longest ? "...'" : "'");
+}
+
+} // namespace sivid
+
+#endif // SIVID_IO_INPUT_ERROR_HPP

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_MODEL_BOUND_MODEL_HPP
+#define SIVID_MODEL_BOUND_MODEL_HPP
+
+#include <sivid/measurement/signal.hpp>
+#include <sivid/model/differentiate.hpp>
+#include <sivid/model/model.hpp>
+#include <sivid/model/rewrite.hpp>
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace sivid {
+
+/// An input given by a formula in time, recorded once.
+struct analytic_signal {
+    graph g;
+    node_id value = 0;
+
+    /// From a functor on a scalar: `analytic_signal::from([](auto const& t) { return sin(t); })`.
+    template <class F>
+    [[nodiscard]] static analytic_signal from(F const& f) {
+        analytic_signal s;
+        expression const t(s.g, s.g.leaf(operation::time, 0));
+        s.value = expression(f(t)).in(s.g);
+        return s;
+    }
+};
+
+/// An input of a scenario: recorded samples or a formula.
+using signal = std::variant<sampled_signal, analytic_signal>;
+
+/// Index of `name` in a list of named things.
+/// @throws std::invalid_argument that names what exists
+template <class Items>
+[[nodiscard]] std::size_t index_of(Items const& items, std::string const& wanted,
+                                   std::string const& kind) {
+    std::string known;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        if (items[i].name == wanted) return i;
+        known += (i ? ", " : "") + std::string(items[i].name);
+    }
+    throw std::invalid_argument("unknown " + kind + " '" + wanted + "'; known: " + known);
+}
+
+/// Which constants are unknown, and the values of those that differ from the model's nominal ones.
+struct parameter_choice {
+    std::vector<std::string> unknown;      ///< names; their order is the order of the parameters
+    std::map<std::string, interval> fixed; ///< overrides
+};
+
+/// A model with its constants bound and its analytic inputs inserted: the graph that is simulated
+/// and enclosed. `operation::constant` leaves are now the unknown parameters p.
+struct bound_model {
+    model_description about;
+    std::vector<std::size_t> parameters; ///< index of each unknown among the model's constants
+    std::vector<std::size_t> sampled;    ///< inputs that are sampled, by index in the model
+    graph g;
+    std::vector<node_id> rate;
+    std::vector<node_id> observe;
+    std::vector<std::vector<node_id>> rate_dx, rate_dp;       ///< \f$ \partial f/\partial x, p \f$
+    std::vector<std::vector<node_id>> observe_dx, observe_dp; ///< \f$ \partial g/\partial x, p \f$
+
+    [[nodiscard]] std::size_t state_count() const { return rate.size(); }
+    [[nodiscard]] std::size_t parameter_count() const { return parameters.size(); }
+    [[nodiscard]] std::size_t channel_count() const { return observe.size(); }
+};
+
+/// Binds constants and inputs, folds what became constant, and differentiates.
+/// @param inputs  one signal per input of the model
+/// @throws std::invalid_argument on unknown names, a wrong number of inputs, or an empty value
+[[nodiscard]] inline bound_model bind(recorded_model const& model, parameter_choice const& choice,
+                                      std::vector<signal> const& inputs) {
+    auto const& about = model.about;
+    if (inputs.size() != about.inputs.size()) {
+        throw std::invalid_argument("model '" + about.name + "' has " +
+                                    std::to_string(about.inputs.size()) + " inputs, but " +
+                                    std::to_string(inputs.size()) + " signals were given");
+    }
+    bound_model result;
+    result.about = about;
+    std::vector<int> position(about.constants.size(), -1);
+    for (auto const& name : choice.unknown) {
+        auto const k = index_of(about.constants, name, "constant");
+        if (position[k] >= 0) throw std::invalid_argument("parameter '" + name + "' stands twice");
+        position[k] = static_cast<int>(result.parameters.size());
+        result.parameters.push_back(k);
+    }
+    std::vector<literal> values;
+    for (auto const& c : about.constants) values.push_back(c.nominal);
+    for (auto const& [name, value] : choice.fixed) {
+        if (is_empty(value)) throw std::invalid_argument("constant '" + name + "' has no value");
+        values[index_of(about.constants, name, "constant")] = literal{value, mid(value)};
+    }
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        if (std::holds_alternative<sampled_signal>(inputs[i])) result.sampled.push_back(i);
+    }
+
+    std::vector<node_id> outputs = model.rate;
+    outputs.insert(outputs.end(), model.observe.begin(), model.observe.end());
+    auto& g = result.g;
+    auto const leaf = [&](node const& n, graph& to) -> node_id {
+        auto const k = static_cast<std::size_t>(n.index);
+        if (n.op == operation::constant) {
+            if (position[k] < 0) return to.constant(values[k]);
+            return to.leaf(operation::constant, static_cast<std::size_t>(position[k]));
+        }
+        if (n.op == operation::input) {
+            if (auto const* formula = std::get_if<analytic_signal>(&inputs[k])) {
+                auto const time = [](node const&, graph& h) { return h.leaf(operation::time, 0); };
+                return copy_into(to, formula->g, {formula->value}, time).front();
+            }
+        }
+        return to.leaf(n.op, k);
+    };
+    auto const images = copy_into(g, model.g, outputs, leaf);
+    auto const split = images.begin() + static_cast<std::ptrdiff_t>(model.rate.size());
+    result.rate.assign(images.begin(), split);
+    result.observe.assign(split, images.end());
+
+    std::vector<node_id> x;
+    std::vector<node_id> p;
+    for (std::size_t i = 0; i < result.state_count(); ++i) x.push_back(g.leaf(operation::state, i));
+    for (std::size_t j = 0; j < result.parameter_count(); ++j) {
+        p.push_back(g.leaf(operation::constant, j));
+    }
+    result.rate_dx = differentiate(g, result.rate, x);
+    result.rate_dp = differentiate(g, result.rate, p);
+    result.observe_dx = differentiate(g, result.observe, x);
+    result.observe_dp = differentiate(g, result.observe, p);
+    return result;
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_MODEL_MODEL_HPP
+#define SIVID_MODEL_MODEL_HPP
+
+#include <sivid/model/expression.hpp>
+#include <sivid/number/decimal.hpp>
+#include <sivid/space/vec.hpp>
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// A named quantity with its unit: an input or an output channel of a model.
+struct quantity {
+    std::string_view name;
+    std::string_view unit;
+};
+
+/// A state with its own range \f$ |x| \le limit \f$, used where nothing else is known of it.
+struct state_quantity {
+    std::string_view name;
+    std::string_view unit;
+    double limit;
+};
+
+/// A constant of a model with its nominal value, an exact decimal.
+struct constant_quantity {
+    std::string_view name;
+    std::string_view unit;
+    decimal nominal;
+};
+
+namespace model_detail {
+template <class T, std::size_t... K>
+constexpr std::array<T, sizeof...(K)> to_array(T const* items, std::index_sequence<K...>) {
+    return {items[K]...};
+}
+} // namespace model_detail
+
+/// `static constexpr auto states = sivid::states({{"u", "m/s", 8}, ...});`
+template <std::size_t N>
+constexpr auto states(state_quantity const (&list)[N]) {
+    return model_detail::to_array(list, std::make_index_sequence<N>{});
+}
+/// `static constexpr auto inputs = sivid::inputs({{"W", "1/s"}, {"delta", "rad"}});`
+template <std::size_t N>
+constexpr auto inputs(quantity const (&list)[N]) {
+    return model_detail::to_array(list, std::make_index_sequence<N>{});
+}
+/// A model without inputs: `static constexpr auto inputs = sivid::no_inputs;`
+inline constexpr std::array<quantity, 0> no_inputs{};
+/// `static constexpr auto channels = sivid::channels({{"u", "m/s"}, ...});`
+template <std::size_t N>
+constexpr auto channels(quantity const (&list)[N]) {
+    return model_detail::to_array(list, std::make_index_sequence<N>{});
+}
+/// `static constexpr auto constants = sivid::constants({{"m", "kg", 1.297_dec}, ...});`
+template <std::size_t N>
+constexpr auto constants(constant_quantity const (&list)[N]) {
+    return model_detail::to_array(list, std::make_index_sequence<N>{});
+}
+
+template <class Model>
+inline constexpr std::size_t state_count =
+    std::tuple_size_v<std::remove_cvref_t<decltype(Model::states)>>;
+template <class Model>
+inline constexpr std::size_t input_count =
+    std::tuple_size_v<std::remove_cvref_t<decltype(Model::inputs)>>;
+template <class Model>
+inline constexpr std::size_t channel_count =
+    std::tuple_size_v<std::remove_cvref_t<decltype(Model::channels)>>;
+template <class Model>
+inline constexpr std::size_t constant_count =
+    std::tuple_size_v<std::remove_cvref_t<decltype(Model::constants)>>;
+
+/// The constants in the order of their declaration: `auto const& [r, K] = c;`
+template <class Model, class T>
+using constants_of = vec<T, constant_count<Model>>;
+template <class Model, class T>
+using states_of = vec<T, state_count<Model>>;
+template <class Model, class T>
+using inputs_of = vec<T, input_count<Model>>;
+template <class Model, class T>
+using channels_of = vec<T, channel_count<Model>>;
+
+/// A dynamic model: `rate` is the right-hand side \f$ x' = f(t, x, c, u) \f$, `observe` the output
+/// \f$ y = g(t, x, c, u) \f$; both are member templates on the scalar, free of side effects, and
+/// `name`, `states`, `inputs`, `channels`, `constants` say what the numbers mean.
+template <class M>
+concept dynamic_model = requires(M const m, expression t, states_of<M, expression> x,
+                                 constants_of<M, expression> c, inputs_of<M, expression> u) {
+    { M::name } -> std::convertible_to<std::string_view>;
+    { m.rate(t, x, c, u) } -> std::same_as<states_of<M, expression>>;
+    { m.observe(t, x, c, u) } -> std::same_as<channels_of<M, expression>>;
+};
+
+/// Names and units of everything a model speaks of.
+struct model_description {
+    struct state {
+        std::string name, unit;
+        double limit = 0; ///< own range: |x| <= limit
+    };
+    struct item {
+        std::string name, unit;
+    };
+    struct constant {
+        std::string name, unit;
+        literal nominal;
+    };
+    std::string name;
+    std::vector<state> states;
+    std::vector<item> inputs;
+    std::vector<item> channels;
+    std::vector<constant> constants;
+};
+
+/// A model as data: its description and its recorded graph. From here on nothing depends on the
+/// model's C++ type, so that constants, effects and variants are chosen at run time.
+struct recorded_model {
+    model_description about;
+    graph g;
+    std::vector<node_id> rate;    ///< one node a state
+    std::vector<node_id> observe; ///< one node a channel
+};
+
+/// Runs the functor once on the recording scalar.
+/// @guarantee evaluating the graph with a sound interval type encloses the functor's real value.
+template <dynamic_model M>
+[[nodiscard]] recorded_model record_model(M const& model = {}) {
+    recorded_model result;
+    auto& about = result.about;
+    about.name = std::string(M::name);
+    for (auto const& s : M::states) {
+        about.states.push_back({std::string(s.name), std::string(s.unit), s.limit});
+    }
+    for (auto const& i : M::inputs) {
+        about.inputs.push_back({std::string(i.name), std::string(i.unit)});
+    }
+    for (auto const& y : M::channels) {
+        about.channels.push_back({std::string(y.name), std::string(y.unit)});
+    }
+    for (auto const& c : M::constants) {
+        about.constants.push_back({std::string(c.name), std::string(c.unit),
+                                   literal{enclose(c.nominal), nearest(c.nominal)}});
+    }
+    auto& g = result.g;
+    auto const leaves = [&g]<std::size_t N>(operation op, std::array<expression, N>& out) {
+        for (std::size_t i = 0; i < N; ++i) out[i] = expression(g, g.leaf(op, i));
+    };
+    states_of<M, expression> x;
+    constants_of<M, expression> c;
+    inputs_of<M, expression> u;
+    leaves(operation::state, x);
+    leaves(operation::constant, c);
+    leaves(operation::input, u);
+    expression const t(g, g.leaf(operation::time, 0));
+    for (auto const& e : model.rate(t, x, c, u)) result.rate.push_back(e.in(g));
+    for (auto const& e : model.observe(t, x, c, u)) result.observe.push_back(e.in(g));
+    return result;
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_NUMBER_DECIMAL_OUTPUT_HPP
+#define SIVID_NUMBER_DECIMAL_OUTPUT_HPP
+
+/// @file
+/// Numbers written outward: the text of a lower bound is never above the bound, that of an upper bound
+/// never below, and both are the shortest decimals less than one float away.
+
+#include <sivid/number/decimal.hpp>
+#include <sivid/number/interval.hpp>
+#include <sivid/number/rounding.hpp>
+
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace sivid {
+
+namespace detail {
+
+/// Decimal digits d1 d2 ... dn of 0.d1d2...dn 10^point.
+struct digit_string {
+    std::string digits;
+    int point = 0;
+};
+
+/// All digits of a finite x > 0: at most 767 are significant.
+inline digit_string exact_digits(double x) {
+    std::array<char, 800> buffer;
+    auto const end =
+        std::to_chars(buffer.data(), buffer.data() + buffer.size(), x, std::chars_format::scientific, 766);
+    std::string_view const text{buffer.data(), static_cast<std::size_t>(end.ptr - buffer.data())};
+    std::size_t const e = text.find('e');
+    digit_string d;
+    d.digits += text[0];
+    d.digits += text.substr(2, e - 2);
+    int exponent = 0;
+    std::string_view const power = text.substr(text[e + 1] == '+' ? e + 2 : e + 1);
+    std::from_chars(power.data(), power.data() + power.size(), exponent);
+    d.point = exponent + 1;
+    return d;
+}
+
+/// Plain notation while it is not longer than about 21 characters, else d.ddde±x.
+inline std::string layout(digit_string d) {
+    while (d.digits.size() > 1 && d.digits.back() == '0') d.digits.pop_back();
+    auto const n = static_cast<int>(d.digits.size());
+    if (d.point > 0 && d.point <= 17) {
+        if (n <= d.point) return d.digits + std::string(static_cast<std::size_t>(d.point - n), '0');
+        auto const whole = static_cast<std::size_t>(d.point);
+        return d.digits.substr(0, whole) + '.' + d.digits.substr(whole);
+    }
+    if (d.point <= 0 && d.point > -4)
+        return "0." + std::string(static_cast<std::size_t>(-d.point), '0') + d.digits;
+    std::string text = d.digits.substr(0, 1);
+    if (n > 1) text += '.' + d.digits.substr(1);
+    return text + 'e' + std::to_string(d.point - 1);
+}
+
+/// The first `count` digits, the rest cut off or carried up.
+inline digit_string shortened(digit_string const& all, std::size_t count, bool up) {
+    digit_string d{all.digits.substr(0, count), all.point};
+    bool const rest = all.digits.find_first_not_of('0', count) != std::string::npos;
+    if (!up || !rest) return d;
+    std::size_t i = count;
+    while (i > 0 && d.digits[i - 1] == '9') d.digits[--i] = '0';
+    if (i > 0) {
+        ++d.digits[i - 1];
+    } else {
+        d.digits.insert(d.digits.begin(), '1');
+        d.digits.pop_back();
+        ++d.point;
+    }
+    return d;
+}
+
+/// The shortest decimal on one side of a finite x > 0, less than one float away from it.
+inline std::string shortest_magnitude(double x, bool up) {
+    digit_string const all = exact_digits(x);
+    // 17 digits always suffice: their spacing is below the spacing of doubles.
+    for (std::size_t count = 1; count < 17; ++count) {
+        std::string text = layout(shortened(all, count, up));
+        number_text const n = scan_number(text);
+        interval const seen = enclose_text(text, n, false);
+        if ((up ? seen.lower() : seen.upper()) == x && is_bounded(seen)) return text;
+    }
+    return layout(shortened(all, 17, up));
+}
+
+inline std::string to_decimal(double x, bool up) {
+    if (is_nan(x)) return "nan";
+    if (is_infinite(x)) return x > 0.0 ? "inf" : "-inf";
+    if (is_zero(x)) return "0";
+    return x > 0.0 ? shortest_magnitude(x, up) : '-' + shortest_magnitude(-x, !up);
+}
+
+}  // namespace detail
+
+/// The shortest decimal t <= x with no double in [t, x) (none strictly between either): 0.1 gives
+/// "0.1" (the double is a little above). Infinities are "inf", "-inf".
+inline std::string to_decimal_lower(double x) { return detail::to_decimal(x, false); }
+
+/// The shortest decimal t >= x with no double in (x, t].
+inline std::string to_decimal_upper(double x) { return detail::to_decimal(x, true); }
+
+/// "[lo, hi]" with bounds rounded outward, or "[empty]".
+inline std::string to_string(interval const& x) {
+    if (is_empty(x)) return "[empty]";
+    return '[' + to_decimal_lower(x.lower()) + ", " + to_decimal_upper(x.upper()) + ']';
+}
+
+/// Exact hexadecimal text, for instance "-0x1.8p+1"; "inf", "-inf", "nan".
+inline std::string to_hex(double x) {
+    if (detail::is_nan(x)) return "nan";
+    if (detail::is_infinite(x)) return x > 0.0 ? "inf" : "-inf";
+    bool const negative = (detail::bits(x) & detail::sign_bit) != 0;
+    std::array<char, 40> buffer;
+    auto const end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), negative ? -x : x,
+                                   std::chars_format::hex);
+    std::string text = negative ? "-0x" : "0x";
+    text.append(buffer.data(), end.ptr);
+    return text;
+}
+
+/// The double of which `text` is the exact hexadecimal text; nothing if it is malformed or no double
+/// has that value. Accepts "inf", "-inf" and "nan".
+inline std::optional<double> from_hex(std::string_view text) {
+    if (text == "inf") return detail::infinity;
+    if (text == "-inf") return -detail::infinity;
+    if (text == "nan") return detail::not_a_number;
+    detail::number_text const n = detail::scan_number(text);
+    if (!n.valid || !n.hexadecimal) return std::nullopt;
+    detail::rounded_magnitude const r = detail::round_text(text, n);
+    if (!r.exact) return std::nullopt;
+    return n.negative ? -r.below : r.below;
+}
+
+}  // namespace sivid
+
+#endif

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_NUMBER_DECIMAL_TEXT_HPP
+#define SIVID_NUMBER_DECIMAL_TEXT_HPP
+
+/// @file
+/// The syntax of number texts and their exact rounding to neighbouring doubles. Work is bounded: digits
+/// past the 800th only matter by being zero or not, exponents saturate.
+
+#include <sivid/number/rounding.hpp>
+
+#include <boost/multiprecision/cpp_int.hpp>
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+
+namespace sivid::detail {
+
+/// A number text taken apart: (-1)^negative * 0.d1 d2 d3 ... * 10^point, or hexadecimal
+/// 0.h1 h2 ... * 16^point * 2^exponent2. Digits are those of `text` from `first` on, separators and the
+/// point left out.
+struct number_text {
+    bool valid = false, negative = false, hexadecimal = false;
+    std::size_t first = 0, digit_count = 0;   ///< from the first non-zero digit to the last digit
+    std::int64_t point = 0;
+    std::int64_t exponent2 = 0;
+};
+
+/// Exponents saturate here: far outside the range of double, far inside that of int64.
+inline constexpr std::int64_t exponent_limit = 1'000'000'000'000;
+
+constexpr int digit_value(char c, bool hexadecimal) noexcept {
+    if (c >= '0' && c <= '9') return c - '0';
+    if (!hexadecimal) return -1;
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+}
+
+/// [+-] digits [. digits] [e [+-] digits], or [+-] 0x hexdigits [. hexdigits] [p [+-] digits]. At least
+/// one digit; `'` may separate digits as in C++ literals. Nothing else: no blanks, inf, nan.
+constexpr number_text scan_number(std::string_view text) noexcept {
+    number_text n;
+    std::size_t i = 0;
+    if (i < text.size() && (text[i] == '+' || text[i] == '-')) n.negative = text[i++] == '-';
+    if (i + 1 < text.size() && text[i] == '0' && (text[i + 1] == 'x' || text[i + 1] == 'X')) {
+        n.hexadecimal = true;
+        i += 2;
+    }
+    bool any = false, seen_point = false, significant = false;
+    for (; i < text.size(); ++i) {
+        char const c = text[i];
+        if (c == '\'') {
+            bool const between = i > 0 && i + 1 < text.size() &&
+                                 digit_value(text[i - 1], n.hexadecimal) >= 0 &&
+                                 digit_value(text[i + 1], n.hexadecimal) >= 0;
+            if (!between) return n;
+            continue;
+        }
+        if (c == '.') {
+            if (seen_point) return n;
+            seen_point = true;
+            continue;
+        }
+        int const d = digit_value(c, n.hexadecimal);
+        if (d < 0) break;
+        any = true;
+        if (!significant && d != 0) {
+            significant = true;
+            n.first = i;
+        }
+        if (significant) ++n.digit_count;
+        if (significant && !seen_point) ++n.point;
+        if (!significant && seen_point) --n.point;
+    }
+    if (!any) return n;
+    if (i < text.size()) {
+        char const e = text[i++];
+        bool const fits = n.hexadecimal ? e == 'p' || e == 'P' : e == 'e' || e == 'E';
+        if (!fits) return n;
+        bool down = false;
+        if (i < text.size() && (text[i] == '+' || text[i] == '-')) down = text[i++] == '-';
+        if (i == text.size()) return n;
+        std::int64_t value = 0;
+        for (; i < text.size(); ++i) {
+            if (text[i] == '\'' && digit_value(text[i - 1], false) >= 0 && i + 1 < text.size()) continue;
+            int const d = digit_value(text[i], false);
+            if (d < 0) return n;
+            value = value * 10 + d;
+            if (value > exponent_limit) value = exponent_limit;
+        }
+        (n.hexadecimal ? n.exponent2 : n.point) += down ? -value : value;
+    }
+    n.valid = true;
+    return n;
+}
+
+/// |number| between neighbouring doubles.
+struct rounded_magnitude {
+    double below = 0.0;          ///< the greatest double <= |number|; the greatest of all if it overflows
+    bool exact = true;           ///< `below` is the number
+    bool overflow = false;       ///< |number| > greatest double
+    int half = -1;               ///< sign of |number| - middle of the neighbours, when not exact
+};
+
+/// floor(n / d 2^shift) made to at most 53 bits, with the comparison against the middle; n, d > 0.
+/// `more`: the number is a little greater than n/d (less than any representable difference).
+inline rounded_magnitude round_ratio(boost::multiprecision::cpp_int n, boost::multiprecision::cpp_int d,
+                                     std::int64_t exponent, bool more) {
+    using boost::multiprecision::cpp_int;
+    // The number is n/d 2^exponent. Choose the unit 2^unit so that the quotient has 53 or 54 bits.
+    auto const bits_of = [](cpp_int const& x) { return static_cast<std::int64_t>(msb(x)) + 1; };
+    std::int64_t const top = bits_of(n) - bits_of(d) + exponent;   // number in [2^(top-1), 2^(top+1))
+    rounded_magnitude r;
+    if (top - 1 >= 1024) {
+        r.overflow = true;
+        r.exact = false;
+        r.below = std::numeric_limits<double>::max();
+        return r;
+    }
+    if (top + 1 < -1074) {
+        r.exact = false;
+        return r;                                                   // below half the least subnormal
+    }
+    std::int64_t unit = top - 53;
+    if (unit < -1074) unit = -1074;
+    cpp_int q, rest;
+    auto const divide = [&] {
+        std::int64_t const shift = exponent - unit;
+        cpp_int const scaled_n = shift > 0 ? cpp_int{n << static_cast<unsigned>(shift)} : n;
+        cpp_int const scaled_d = shift < 0 ? cpp_int{d << static_cast<unsigned>(-shift)} : d;
+        divide_qr(scaled_n, scaled_d, q, rest);
+        cpp_int const twice = rest * 2;
+        r.half = twice < scaled_d ? -1 : twice > scaled_d || more ? 1 : 0;
+        r.exact = rest == 0 && !more;
+    };
+    divide();
+    if (q >= cpp_int{1} << 53) {
+        ++unit;
+        divide();
+    }
+    if (unit > 971) {
+        r.overflow = true;
+        r.exact = false;
+        r.below = std::numeric_limits<double>::max();
+        return r;
+    }
+    // q < 2^53 and q 2^unit is a double: put the bits together.
+    auto const m = q.convert_to<std::uint64_t>();
+    constexpr std::uint64_t hidden = std::uint64_t{1} << 52;
+    r.below = std::bit_cast<double>(
+        m < hidden ? m : (m - hidden) | static_cast<std::uint64_t>(unit + 1075) << 52);
+    if (!r.exact && r.below == std::numeric_limits<double>::max()) r.overflow = true;
+    return r;
+}
+
+/// Exact rounding of a valid text.  @cost  up to 20 us for long texts and large exponents
+inline rounded_magnitude round_text(std::string_view text, number_text const& n) {
+    using boost::multiprecision::cpp_int;
+    if (n.digit_count == 0) return {};
+    std::int64_t const base_bits = n.hexadecimal ? 4 : 1;
+    // The leading digit decides out-of-range numbers without any work.
+    std::int64_t const scale = n.hexadecimal ? base_bits * n.point + n.exponent2 : n.point;
+    if (scale > (n.hexadecimal ? 1030 : 310))
+        return {std::numeric_limits<double>::max(), false, true, 1};
+    if (scale < (n.hexadecimal ? -1080 : -330)) return {0.0, false, false, -1};
+    // 800 digits exceed the longest decimal expansion of a double or of a middle of two (769).
+    constexpr std::size_t kept_digits = 800;
+    std::string digits;
+    bool more = false;
+    std::size_t seen = 0;
+    for (std::size_t i = n.first; seen < n.digit_count; ++i) {
+        int const d = digit_value(text[i], n.hexadecimal);
+        if (d < 0) continue;
+        if (seen < kept_digits) digits += text[i];
+        else if (d != 0) more = true;
+        ++seen;
+    }
+    auto const kept = static_cast<std::int64_t>(digits.size());
+    if (n.hexadecimal) {
+        return round_ratio(cpp_int{"0x" + digits}, cpp_int{1}, 4 * (n.point - kept) + n.exponent2, more);
+    }
+    std::int64_t const power = n.point - kept;
+    auto const magnitude = static_cast<unsigned>(power < 0 ? -power : power);
+    cpp_int const ten = pow(cpp_int{10}, magnitude);
+    cpp_int const numerator{digits};
+    return power >= 0 ? round_ratio(cpp_int{numerator * ten}, cpp_int{1}, 0, more)
+                      : round_ratio(numerator, ten, 0, more);
+}
+
+}  // namespace sivid::detail
+
+#endif

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_NUMBER_DETAIL_PACK_ELEMENTARY_HPP
+#define SIVID_NUMBER_DETAIL_PACK_ELEMENTARY_HPP
+
+/// @file
+/// Elementary functions of vectors of intervals: kernels at the ends, domains cut, empty lanes kept.
+/// Lanes that a kernel does not serve (|x| > 2^20 of sin, cos, tan), and pow, atan2 and the inverse
+/// hyperbolic functions, go one by one through the vocabulary type, with its excess.
+
+#include <sivid/number/detail/pack_arctangent.hpp>
+#include <sivid/number/detail/pack_logarithm.hpp>
+#include <sivid/number/detail/pack_trigonometric.hpp>
+#include <sivid/number/interval_traits.hpp>
+
+#include <array>
+#include <cstddef>
+#include <emmintrin.h>
+
+namespace sivid::simd {
+inline namespace SIVID_PACK_TARGET {
+
+template <class V>
+[[nodiscard]] interval lane_of(std::array<double, V::lanes> const& lo,
+                               std::array<double, V::lanes> const& hi, std::size_t i) noexcept {
+    return interval_traits<interval>::bounds(lo[i], hi[i]);
+}
+
+/// y with f(x...) in the lanes of `which`; f sets its last argument where it is not defined.
+template <class V, class F, class... X>
+[[nodiscard]] bounds<V> replace_lanes(bounds<V> y, unsigned which, mask_of<V>& undefined, F const& f,
+                                      X... x) noexcept {
+    std::array<double, V::lanes> lo, hi, flag{};
+    y.lo.store(lo.data());
+    y.hi.store(hi.data());
+    std::array<std::array<std::array<double, V::lanes>, 2>, sizeof...(X)> in;
+    std::size_t n = 0;
+    ((x.lo.store(in[n][0].data()), x.hi.store(in[n][1].data()), ++n), ...);
+    for (std::size_t i = 0; i < V::lanes; ++i) {
+        if ((which >> i & 1u) == 0) continue;
+        bool cut = false;
+        interval z;
+        if constexpr (sizeof...(X) == 1) z = f(lane_of<V>(in[0][0], in[0][1], i), cut);
+        else z = f(lane_of<V>(in[0][0], in[0][1], i), lane_of<V>(in[1][0], in[1][1], i), cut);
+        lo[i] = z.lower();
+        hi[i] = z.upper();
+        flag[i] = cut ? 1.0 : 0.0;
+    }
+    undefined = undefined | (V::load(flag.data()) > V(0.0));
+    return {V::load(lo.data()), V::load(hi.data())};
+}
+template <class V, class F, class... X>
+[[nodiscard]] bounds<V> lane_by_lane(mask_of<V>& undefined, F const& f, X... x) noexcept {
+    return replace_lanes(constant<V>(0.0, 0.0), ~0u, undefined, f, x...);
+}
+
+/// Keeps the kernel's operations between here and there, whatever the mode is elsewhere.
+template <class V>
+[[nodiscard]] bounds<V> pinned(bounds<V> x) noexcept {
+    if constexpr (!V::keeps_own_mode) {
+        auto lo = x.lo.raw(), hi = x.hi.raw();
+        __asm__ volatile("" : "+x"(lo), "+x"(hi));
+        return {V(lo), V(hi)};
+    } else {
+        return x;
+    }
+}
+
+/// kernel(x) where the thread rounds to nearest and keeps subnormals; else, and in back ends with
+/// embedded rounding never, lane by lane through the vocabulary type, which sets its own mode.
+template <class V, class Kernel, class F>
+[[nodiscard]] bounds<V> evaluate(bounds<V> x, mask_of<V>& undefined, Kernel const& kernel,
+                                 F const& f) noexcept {
+    if constexpr (!V::keeps_own_mode) {
+        constexpr unsigned rounding_and_flush = 0xE040;
+        if ((_mm_getcsr() & rounding_and_flush) != 0) [[unlikely]]
+            return lane_by_lane<V>(undefined, f, x);
+    }
+    return pinned(kernel(pinned(x)));
+}
+template <class V, class Kernel, class F>
+[[nodiscard]] bounds<V> evaluate(bounds<V> x, Kernel const& kernel, F const& f) noexcept {
+    mask_of<V> ignored{};
+    return evaluate(x, ignored, kernel, [&](interval const& t, bool&) { return f(t); });
+}
+
+template <class V>
+[[nodiscard]] bounds<V> exp(bounds<V> x) noexcept {
+    return evaluate(
+        x, [](bounds<V> t) { return bounds<V>{exp_lower(t.lo), exp_upper(t.hi)}; },
+        [](interval const& t) { return sivid::exp(t); });
+}
+template <class V>
+[[nodiscard]] bounds<V> expm1(bounds<V> x) noexcept {
+    return evaluate(
+        x, [](bounds<V> t) { return bounds<V>{expm1_lower(t.lo), expm1_upper(t.hi)}; },
+        [](interval const& t) { return sivid::expm1(t); });
+}
+template <class V>
+[[nodiscard]] bounds<V> log(bounds<V> x, mask_of<V>& undefined) noexcept {
+    undefined = undefined | (x.lo <= V(0.0));
+    return evaluate(
+        x, undefined,
+        [](bounds<V> t) {
+            return empty_where(t.hi <= V(0.0), bounds<V>{log_lower(t.lo), log_upper(t.hi)});
+        },
+        [](interval const& t, bool& cut) { return sivid::log(t, cut); });
+}
+template <class V>
+[[nodiscard]] bounds<V> log1p(bounds<V> x, mask_of<V>& undefined) noexcept {
+    undefined = undefined | (x.lo <= V(-1.0));
+    return evaluate(
+        x, undefined,
+        [](bounds<V> t) {
+            return empty_where(t.hi <= V(-1.0), bounds<V>{log1p_lower(t.lo), log1p_upper(t.hi)});
+        },
+        [](interval const& t, bool& cut) { return sivid::log1p(t, cut); });
+}
+
+/// Lanes with an end beyond the limit of the trigonometric kernels.
+template <class V>
+[[nodiscard]] unsigned beyond_limit(bounds<V> x) noexcept {
+    return (mag(x) > V(trigonometric_limit)).bits();
+}
+template <class V>
+[[nodiscard]] bounds<V> sin(bounds<V> x) noexcept {
+    auto const f = [](interval const& t) { return sivid::sin(t); };
+    bounds<V> y = evaluate(x, [](bounds<V> t) { return sin_within_limit(t); }, f);
+    if (unsigned const far = beyond_limit(x); far != 0) [[unlikely]] {
+        mask_of<V> ignored{};
+        y = replace_lanes(y, far, ignored, [](interval const& t, bool&) { return sivid::sin(t); }, x);
+    }
+    return y;
+}
+template <class V>
+[[nodiscard]] bounds<V> cos(bounds<V> x) noexcept {
+    auto const f = [](interval const& t) { return sivid::cos(t); };
+    bounds<V> y = evaluate(x, [](bounds<V> t) { return cos_within_limit(t); }, f);
+    if (unsigned const far = beyond_limit(x); far != 0) [[unlikely]] {
+        mask_of<V> ignored{};
+        y = replace_lanes(y, far, ignored, [](interval const& t, bool&) { return sivid::cos(t); }, x);
+    }
+    return y;
+}
+template <class V>
+[[nodiscard]] bounds<V> tan(bounds<V> x, mask_of<V>& undefined) noexcept {
+    auto const f = [](interval const& t, bool& cut) { return sivid::tan(t, cut); };
+    mask_of<V> ignored{};
+    bounds<V> y = evaluate(
+        x, ignored, [](bounds<V> t) { return tan_within_limit(t); }, f);
+    auto const far = mag(x) > V(trigonometric_limit);
+    undefined = undefined | ((y.lo == V(-infinity)) & !far);
+    if (far.bits() != 0) [[unlikely]] y = replace_lanes(y, far.bits(), undefined, f, x);
+    return y;
+}
+
+template <class V>
+[[nodiscard]] bounds<V> atan(bounds<V> x) noexcept {
+    return evaluate(
+        x, [](bounds<V> t) { return bounds<V>{atan_lower(t.lo), atan_upper(t.hi)}; },
+        [](interval const& t) { return sivid::atan(t); });
+}
+
+/// Cut to [-1, 1]; `outside` where nothing is left.
+template <class V>
+struct unit_cut {
+    bounds<V> x;
+    mask_of<V> outside;
+};
+template <class V>
+[[nodiscard]] unit_cut<V> cut_to_unit(bounds<V> x) noexcept {
+    V const one(1.0);
+    return {{max(-one, x.lo), min(one, x.hi)}, (x.lo > one) | (x.hi < -one)};
+}
+template <class V>
+[[nodiscard]] bounds<V> asin(bounds<V> x, mask_of<V>& undefined) noexcept {
+    undefined = undefined | (x.lo < V(-1.0)) | (x.hi > V(1.0));
+    return evaluate(
+        x, undefined,
+        [](bounds<V> t) {
+            auto const c = cut_to_unit(t);
+            return empty_where(c.outside, bounds<V>{asin_lower(c.x.lo), asin_upper(c.x.hi)});
+        },
+        [](interval const& t, bool& cut) { return sivid::asin(t, cut); });
+}
+template <class V>
+[[nodiscard]] bounds<V> acos(bounds<V> x, mask_of<V>& undefined) noexcept {
+    undefined = undefined | (x.lo < V(-1.0)) | (x.hi > V(1.0));
+    return evaluate(
+        x, undefined,
+        [](bounds<V> t) {
+            auto const c = cut_to_unit(t);
+            return empty_where(c.outside, bounds<V>{acos_lower(c.x.hi), acos_upper(c.x.lo)});
+        },
+        [](interval const& t, bool& cut) { return sivid::acos(t, cut); });
+}
+
+template <class V>
+[[nodiscard]] bounds<V> sinh(bounds<V> x) noexcept {
+    return evaluate(
+        x, [](bounds<V> t) { return bounds<V>{sinh_lower(t.lo), sinh_upper(t.hi)}; },
+        [](interval const& t) { return sivid::sinh(t); });
+}
+template <class V>
+[[nodiscard]] bounds<V> cosh(bounds<V> x) noexcept {
+    return evaluate(
+        x, [](bounds<V> t) { return bounds<V>{cosh_lower(mig(t)), cosh_upper(mag(t))}; },
+        [](interval const& t) { return sivid::cosh(t); });
+}
+template <class V>
+[[nodiscard]] bounds<V> tanh(bounds<V> x) noexcept {
+    return evaluate(
+        x, [](bounds<V> t) { return bounds<V>{tanh_lower(t.lo), tanh_upper(t.hi)}; },
+        [](interval const& t) { return sivid::tanh(t); });
+}
+
+template <class V>
+[[nodiscard]] bounds<V> asinh(bounds<V> x) noexcept {
+    mask_of<V> ignored{};
+    return lane_by_lane<V>(ignored, [](interval const& t, bool&) { return sivid::asinh(t); }, x);
+}
+template <class V>
+[[nodiscard]] bounds<V> acosh(bounds<V> x, mask_of<V>& undefined) noexcept {
+    return lane_by_lane<V>(
+        undefined, [](interval const& t, bool& cut) { return sivid::acosh(t, cut); }, x);
+}
+template <class V>
+[[nodiscard]] bounds<V> atanh(bounds<V> x, mask_of<V>& undefined) noexcept {
+    return lane_by_lane<V>(
+        undefined, [](interval const& t, bool& cut) { return sivid::atanh(t, cut); }, x);
+}
+template <class V>
+[[nodiscard]] bounds<V> pow(bounds<V> x, bounds<V> y, mask_of<V>& undefined) noexcept {
+    return lane_by_lane<V>(
+        undefined,
+        [](interval const& s, interval const& t, bool& cut) { return sivid::pow(s, t, cut); }, x, y);
+}
+template <class V>
+[[nodiscard]] bounds<V> atan2(bounds<V> y, bounds<V> x, mask_of<V>& undefined) noexcept {
+    return lane_by_lane<V>(
+        undefined,
+        [](interval const& s, interval const& t, bool& cut) { return sivid::atan2(s, t, cut); }, y, x);
+}
+
+}  // namespace SIVID_PACK_TARGET
+}  // namespace sivid::simd
+
+#endif

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_NUMBER_EXPONENTIAL_HPP
+#define SIVID_NUMBER_EXPONENTIAL_HPP
+
+/// @file
+/// exp, expm1, log, log1p of an interval. All are increasing: the bounds come from the ends.
+
+#include <sivid/number/excess.hpp>
+#include <sivid/number/interval.hpp>
+#include <sivid/number/rounding.hpp>
+
+#include <cmath>
+
+namespace sivid {
+
+namespace detail {
+
+/// A library function at x, kept between the changes of the rounding mode around it.
+/// @given  round-to-nearest is set
+template <class Function>
+[[gnu::always_inline]] inline double library(Function const& f, double x) noexcept {
+    return pinned(f(pinned(x)));
+}
+inline constexpr auto library_exp = [](double x) { return std::exp(x); };
+inline constexpr auto library_expm1 = [](double x) { return std::expm1(x); };
+inline constexpr auto library_log = [](double x) { return std::log(x); };
+inline constexpr auto library_log1p = [](double x) { return std::log1p(x); };
+
+constexpr double at_least(double x, double bound) noexcept { return x < bound ? bound : x; }
+constexpr double at_most(double x, double bound) noexcept { return x > bound ? bound : x; }
+
+inline double exp_down(double x) noexcept {
+    if (x == 0.0) return 1.0;
+    double const y = step(library(library_exp, x), -excess::exp);
+    return at_least(y, x > 0.0 ? 1.0 : 0.0);
+}
+inline double exp_up(double x) noexcept {
+    if (x == 0.0) return 1.0;
+    double const y = step(library(library_exp, x), excess::exp);
+    return x < 0.0 ? at_most(y, 1.0) : y;
+}
+// expm1(x) >= x everywhere; expm1(x) > -1.
+inline double expm1_down(double x) noexcept {
+    if (x == 0.0) return 0.0;
+    return at_least(at_least(step(library(library_expm1, x), -excess::expm1), -1.0), x);
+}
+inline double expm1_up(double x) noexcept {
+    if (x == 0.0) return 0.0;
+    double const y = step(library(library_expm1, x), excess::expm1);
+    return x < 0.0 ? at_most(y, 0.0) : y;
+}
+inline double log_down(double x) noexcept {
+    if (x <= 0.0) return -infinity;
+    if (x == 1.0) return 0.0;
+    double const y = step(library(library_log, x), -excess::log);
+    return x > 1.0 ? at_least(y, 0.0) : y;
+}
+inline double log_up(double x) noexcept {
+    if (x == infinity) return infinity;
+    if (x == 1.0) return 0.0;
+    double const y = step(library(library_log, x), excess::log);
+    return x < 1.0 ? at_most(y, 0.0) : y;
+}
+inline double log1p_down(double x) noexcept {
+    if (x <= -1.0) return -infinity;
+    if (x == 0.0) return 0.0;
+    double const y = step(library(library_log1p, x), -excess::log1p);
+    return x > 0.0 ? at_least(y, 0.0) : y;
+}
+// log1p(x) <= x everywhere.
+inline double log1p_up(double x) noexcept {
+    if (x == infinity) return infinity;
+    if (x == 0.0) return 0.0;
+    return at_most(step(library(library_log1p, x), excess::log1p), x);
+}
+
+}  // namespace detail
+
+/// \f$ \{e^t : t \in x\} \f$.  Max excess: `excess::exp` floats a side; exp(0) = 1 exactly.
+inline interval exp(interval const& x) noexcept {
+    if (is_empty(x)) return x;
+    detail::nearest_mode const mode;
+    return detail::unchecked_interval(detail::exp_down(x.lower()), detail::exp_up(x.upper()));
+}
+
+/// \f$ \{e^t - 1 : t \in x\} \f$.  Max excess: `excess::expm1` floats a side.
+inline interval expm1(interval const& x) noexcept {
+    if (is_empty(x)) return x;
+    detail::nearest_mode const mode;
+    return detail::unchecked_interval(detail::expm1_down(x.lower()), detail::expm1_up(x.upper()));
+}
+
+/// \f$ \{\ln t : t \in x, t > 0\} \f$; sets `cut` if x has elements <= 0.
+/// Max excess: `excess::log` floats a side; log(1) = 0 exactly.
+inline interval log(interval const& x, bool& cut) noexcept {
+    if (is_empty(x)) return x;
+    if (x.lower() <= 0.0) cut = true;
+    if (x.upper() <= 0.0) return detail::empty_interval();
+    detail::nearest_mode const mode;
+    return detail::unchecked_interval(detail::log_down(x.lower()), detail::log_up(x.upper()));
+}
+
+/// \f$ \{\ln(1+t) : t \in x, t > -1\} \f$; sets `cut` if x has elements <= -1.
+/// Max excess: `excess::log1p` floats a side.
+inline interval log1p(interval const& x, bool& cut) noexcept {
+    if (is_empty(x)) return x;
+    if (x.lower() <= -1.0) cut = true;
+    if (x.upper() <= -1.0) return detail::empty_interval();
+    detail::nearest_mode const mode;
+    return detail::unchecked_interval(detail::log1p_down(x.lower()), detail::log1p_up(x.upper()));
+}
+
+// A cut of the domain is silent in the forms without the flag.
+inline interval log(interval const& x) noexcept {
+    bool cut = false;
+    return log(x, cut);
+}
+inline interval log1p(interval const& x) noexcept {
+    bool cut = false;
+    return log1p(x, cut);
+}
+
+}  // namespace sivid
+
+#endif

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_NUMBER_GUARD_HPP
+#define SIVID_NUMBER_GUARD_HPP
+
+/// @file
+/// Refuses builds and machines on which interval arithmetic would not prove anything.
+
+#if !defined(__x86_64__)
+#error "sivid: the rounding kernels are written for x86-64"
+#endif
+#if defined(__FAST_MATH__)
+#error "sivid: -ffast-math breaks every inclusion; compile without it"
+#endif
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ != 0
+#error "sivid: -ffinite-math-only removes infinities and the empty interval; compile without it"
+#endif
+#if defined(__ASSOCIATIVE_MATH__)
+#error "sivid: -fassociative-math breaks exact residuals; compile without it"
+#endif
+#if defined(__RECIPROCAL_MATH__)
+#error "sivid: -freciprocal-math replaces divisions; compile without it"
+#endif
+#if defined(__NO_SIGNED_ZEROS__)
+#error "sivid: -fno-signed-zeros is part of fast-math; compile without it"
+#endif
+#if !defined(__SSE2_MATH__)
+#error "sivid: x87 arithmetic rounds twice; compile with -mfpmath=sse"
+#endif
+#if !defined(__FLT_EVAL_METHOD__) || __FLT_EVAL_METHOD__ != 0
+#error "sivid: doubles must be evaluated as doubles (FLT_EVAL_METHOD == 0)"
+#endif
+
+#include <sivid/number/rounding.hpp>
+
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+
+namespace sivid {
+
+static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<double>::digits == 53);
+
+/// The machine's floating-point state, or the way this file was compiled, makes proofs impossible.
+class unsound_environment : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+namespace detail {
+
+/// False if the compiler rearranged plain arithmetic. clang defines no macro for
+/// -fassociative-math, -freciprocal-math and -fno-signed-zeros, so only running code shows them.
+/// Inlined always: it has to be compiled with the flags of the file that asks.
+[[gnu::always_inline]] inline bool plain_arithmetic_is_kept() noexcept {
+    double const big = opaque(0x1p53), one = opaque(1.0);
+    double const residual = (big + one) - big;             // 0; 1 when reassociated
+    double const x = opaque(5.0), y = opaque(-0.0);
+    double const quotient = x / 49.0;                      // 5 * (1/49) rounds differently
+    double const zero = y + 0.0;                           // +0; -0 when signed zeros are ignored
+    return opaque(residual) == 0.0 && opaque(quotient) == opaque(x) / opaque(49.0) &&
+           std::bit_cast<std::uint64_t>(opaque(zero)) == 0;
+}
+
+}  // namespace detail
+
+/// Checks that proofs are possible here and now; every solver calls it on entry.
+/// @guarantee  on return: round-to-nearest is set, subnormals are neither flushed nor read as zero,
+///             directed rounding works in each way that sivid uses, plain arithmetic is not rearranged
+/// @throws     unsound_environment with the reason otherwise (for instance under valgrind, which
+///             ignores the rounding mode, or in a program linked with -ffast-math)
+/// @cost       about 50 ns, no state
+[[gnu::always_inline]] inline void require_sound_environment() {
+    unsigned const control = detail::read_mxcsr();
+    if ((control & detail::mxcsr_rounding) != 0)
+        throw unsound_environment{
+            "the floating-point rounding mode is not round-to-nearest; restore it with "
+            "std::fesetround(FE_TONEAREST) before calling sivid"};
+    if ((control & detail::mxcsr_flush) != 0)
+        throw unsound_environment{
+            "subnormal numbers are flushed to zero (FTZ or DAZ is set); a library or an object "
+            "linked with -ffast-math does that; link without it or clear the flags"};
+    double const one = detail::opaque(1.0), three = detail::opaque(3.0);
+    double const tiny = detail::opaque(std::numeric_limits<double>::denorm_min());
+    if (!(detail::div_down(one, three) < detail::div_up(one, three)) ||
+        !(detail::directed_div<detail::direction::down>(one, three) <
+          detail::directed_div<detail::direction::up>(one, three)) ||
+        !(detail::mul_up(tiny, tiny) > 0.0) || !(detail::add_up(one, tiny) > one) ||
+        detail::opaque(tiny) + detail::opaque(tiny) == 0.0)
+        throw unsound_environment{
+            "directed rounding has no effect; valgrind and software floating point behave so"};
+    if (!detail::plain_arithmetic_is_kept())
+        throw unsound_environment{
+            "the compiler rearranges floating-point arithmetic (-funsafe-math-optimizations, "
+            "-fassociative-math, -freciprocal-math or -fno-signed-zeros); compile without them"};
+}
+
+}  // namespace sivid
+
+#endif

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_NUMBER_INTERVAL_HPP
+#define SIVID_NUMBER_INTERVAL_HPP
+
+/// @file
+/// The vocabulary type: Boost.Interval over double with a rounding policy that optimisers cannot
+/// break, and the functions that read it.
+///
+/// A plain double stands for its exact value. The empty set has NaN bounds; an infinite bound means
+/// unbounded, infinity itself is never a member.
+
+#include <sivid/number/guard.hpp>
+#include <sivid/number/rounding.hpp>
+
+#include <boost/numeric/interval/arith.hpp>
+#include <boost/numeric/interval/checking.hpp>
+#include <boost/numeric/interval/compare.hpp>
+#include <boost/numeric/interval/interval.hpp>
+#include <boost/numeric/interval/policies.hpp>
+#include <boost/numeric/interval/rounding.hpp>
+#include <boost/numeric/interval/utility.hpp>
+
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+namespace sivid {
+
+/// Rounding policy of Boost.Interval: upward mode of MXCSR set once for each operation, FTZ and DAZ
+/// cleared, lower bounds through negation. Operands and results pass through volatile empty assembly
+/// between the two changes of the mode, so no compiler can fold, share or move the operation.
+/// It has no transcendental functions: Boost's own are unsound with every policy.
+class opaque_rounding {
+public:
+    using rounding_mode = unsigned;
+
+    static void get_rounding_mode(rounding_mode& mode) noexcept { mode = detail::read_mxcsr(); }
+    static void set_rounding_mode(rounding_mode mode) noexcept { detail::write_mxcsr(mode); }
+    static void upward() noexcept { enter(detail::direction::up); }
+    static void downward() noexcept { enter(detail::direction::down); }
+    static void to_nearest() noexcept { enter(detail::direction::nearest); }
+    static void init() noexcept { upward(); }
+
+    static double add_up(double x, double y) noexcept { return pin(pin(x) + pin(y)); }
+    static double sub_up(double x, double y) noexcept { return pin(pin(x) - pin(y)); }
+    static double mul_up(double x, double y) noexcept { return pin(pin(x) * pin(y)); }
+    static double div_up(double x, double y) noexcept { return pin(pin(x) / pin(y)); }
+    static double add_down(double x, double y) noexcept { return -pin(pin(-x) - pin(y)); }
+    static double sub_down(double x, double y) noexcept { return -pin(pin(y) - pin(x)); }
+    static double mul_down(double x, double y) noexcept { return -pin(pin(x) * pin(-y)); }
+    static double div_down(double x, double y) noexcept { return -pin(pin(x) / pin(-y)); }
+    static double sqrt_up(double x) noexcept { return pin(detail::plain_sqrt(pin(x))); }
+    static double sqrt_down(double x) noexcept {
+        downward();
+        double const root = pin(detail::plain_sqrt(pin(x)));
+        upward();
+        return root;
+    }
+    static double median(double x, double y) noexcept {
+        to_nearest();
+        double const middle = pin(pin(x) + pin(y)) / 2.0;
+        double const result = pin(middle);
+        upward();
+        return result;
+    }
+    template <std::integral N>
+    static double conv_up(N n) noexcept {
+        return converted(n);
+    }
+    template <std::integral N>
+    static double conv_down(N n) noexcept {
+        downward();
+        double const result = converted(n);
+        upward();
+        return result;
+    }
+    // Every float is a double.
+    static double conv_up(float x) noexcept { return static_cast<double>(x); }
+    static double conv_down(float x) noexcept { return static_cast<double>(x); }
+    static double conv_up(double x) noexcept { return x; }
+    static double conv_down(double x) noexcept { return x; }
+
+private:
+    static double pin(double x) noexcept { return detail::pinned(x); }
+    template <std::integral N>
+    static double converted(N n) noexcept {
+        std::conditional_t<std::unsigned_integral<N>, std::uint64_t, std::int64_t> wide = n;
+        asm volatile("" : "+r"(wide) : : "memory");
+        return pin(static_cast<double>(wide));
+    }
+    /// All exceptions masked, FTZ and DAZ off. A constant: reading the register is what costs.
+    static void enter(detail::direction d) noexcept {
+        detail::write_mxcsr(0x1f80u | static_cast<unsigned>(d));
+    }
+};
+
+/// The interval type that users see. `+ - * /` of Boost are sound on it; `interval_traits` is
+/// tighter (division), faster, and the way by which the library computes.
+using interval = boost::numeric::interval<
+    double, boost::numeric::interval_lib::policies<
+                boost::numeric::interval_lib::save_state<opaque_rounding>,
+                boost::numeric::interval_lib::checking_base<double>>>;
+
+namespace detail {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr double greatest = std::numeric_limits<double>::max();
+inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// [lo, hi] as given, unchecked.
+[[gnu::always_inline]] inline interval unchecked_interval(double lo, double hi) noexcept {
+    return interval{lo, hi, true};
+}
+[[gnu::always_inline]] inline interval empty_interval() noexcept {
+    return unchecked_interval(not_a_number, not_a_number);
+}
+[[gnu::always_inline]] inline interval entire_interval() noexcept {
+    return unchecked_interval(-infinity, infinity);
+}
+/// [lo, hi] of bounds that were computed outward. A bound that overflowed to the wrong infinity
+/// stands for finite numbers beyond the greatest double.
+inline interval bounded(double lo, double hi) noexcept {
+    if (!(lo <= hi)) return empty_interval();
+    if (lo == infinity) lo = greatest;
+    if (hi == -infinity) hi = -greatest;
+    return unchecked_interval(lo, hi);
+}
+
+/// The rest of a computation in round-to-nearest, whatever the caller's mode; restored at the end.
+using nearest_mode = with_rounding<direction::nearest>;
+
+}  // namespace detail
+
+// Reading. Bounds are exact; derived numbers are rounded to the safe side.
+inline double lower(interval const& x) noexcept { return x.lower(); }
+inline double upper(interval const& x) noexcept { return x.upper(); }
+inline bool is_empty(interval const& x) noexcept { return !(x.lower() <= x.upper()); }
+inline bool is_point(interval const& x) noexcept { return x.lower() == x.upper(); }
+inline bool is_entire(interval const& x) noexcept {
+    return x.lower() == -detail::infinity && x.upper() == detail::infinity;
+}
+/// Non-empty and bounded.
+inline bool is_bounded(interval const& x) noexcept {
+    return x.lower() > -detail::infinity && x.upper() < detail::infinity;
+}
+
+/// A finite number inside x: the nearest to the middle (0 for the whole line, the greatest finite
+/// number for a half-line); NaN if x is empty.
+inline double mid(interval const& x) noexcept {
+    double const lo = x.lower(), hi = x.upper();
+    if (is_empty(x)) return detail::not_a_number;
+    if (lo == -detail::infinity) return hi == detail::infinity ? 0.0 : -detail::greatest;
+    if (hi == detail::infinity) return detail::greatest;
+    double const sum = detail::opaque(detail::opaque(lo) + detail::opaque(hi));
+    double m = detail::is_infinite(sum) ? 0.5 * lo + 0.5 * hi : 0.5 * sum;
+    m = m < lo ? lo : m;
+    return m > hi ? hi : m;
+}
+/// The least double r with x inside [mid(x) - r, mid(x) + r].
+inline double rad(interval const& x) noexcept {
+    if (is_empty(x)) return detail::not_a_number;
+    double const m = mid(x);
+    double const below = detail::add_up(m, -x.lower()), above = detail::add_up(x.upper(), -m);
+    return below > above ? below : above;
+}
+/// upper - lower, rounded up.
+inline double width(interval const& x) noexcept {
+    return is_empty(x) ? detail::not_a_number : detail::add_up(x.upper(), -x.lower());
+}
+/// The greatest |t| in x.
+inline double mag(interval const& x) noexcept {
+    double const a = x.lower() < 0.0 ? -x.lower() : x.lower();
+    double const b = x.upper() < 0.0 ? -x.upper() : x.upper();
+    return a > b ? a : b;
+}
+/// The least |t| in x.
+inline double mig(interval const& x) noexcept {
+    if (is_empty(x)) return detail::not_a_number;
+    if (x.lower() > 0.0) return x.lower();
+    return x.upper() < 0.0 ? -x.upper() : 0.0;
+}
+
+// Sets.
+inline bool contains(interval const& x, double t) noexcept {
+    return x.lower() <= t && t <= x.upper() && !detail::is_infinite(t);
+}
+/// Every element of a is in b; the empty set is in every set.
+inline bool subset(interval const& a, interval const& b) noexcept {
+    return is_empty(a) || (b.lower() <= a.lower() && a.upper() <= b.upper());
+}
+/// a lies in the topological interior of b.
+inline bool interior(interval const& a, interval const& b) noexcept {
+    if (is_empty(a)) return true;
+    bool const below = b.lower() < a.lower() || b.lower() == -detail::infinity;
+    bool const above = a.upper() < b.upper() || b.upper() == detail::infinity;
+    return below && above && !is_empty(b);
+}
+inline bool disjoint(interval const& a, interval const& b) noexcept {
+    return !(a.lower() <= b.upper() && b.lower() <= a.upper()) || is_empty(a) || is_empty(b);
+}
+/// The same set.
+inline bool equal(interval const& a, interval const& b) noexcept {
+    return (is_empty(a) && is_empty(b)) || (a.lower() == b.lower() && a.upper() == b.upper());
+}
+/// The least interval that contains both.
+inline interval hull(interval const& a, interval const& b) noexcept {
+    if (is_empty(a)) return b;
+    if (is_empty(b)) return a;
+    return detail::unchecked_interval(b.lower() < a.lower() ? b.lower() : a.lower(),
+                                      b.upper() > a.upper() ? b.upper() : a.upper());
+}
+/// The common elements.
+inline interval intersect(interval const& a, interval const& b) noexcept {
+    if (disjoint(a, b)) return detail::empty_interval();
+    return detail::unchecked_interval(b.lower() > a.lower() ? b.lower() : a.lower(),
+                                      b.upper() < a.upper() ? b.upper() : a.upper());
+}
+/// A rounded decimal such as 0.10 is not the decimal: write hull(0.10_dec, 0.12_dec), or
+/// `interval_traits<interval>::bounds` for two exact doubles.
+template <std::floating_point A, std::floating_point B>
+interval hull(A, B) = delete;
+
+// Whole numbers beside intervals are exact (or enclosed above 2^53); Boost offers doubles only.
+// Templates on the interval, since Boost's implicit constructor would let any type convert to it.
+template <std::same_as<interval> I, std::integral N>
+I operator+(I const& x, N n) { return x + interval{n, n}; }
+template <std::integral N, std::same_as<interval> I>
+I operator+(N n, I const& x) { return interval{n, n} + x; }
+template <std::same_as<interval> I, std::integral N>
+I operator-(I const& x, N n) { return x - interval{n, n}; }
+template <std::integral N, std::same_as<interval> I>
+I operator-(N n, I const& x) { return interval{n, n} - x; }
+template <std::same_as<interval> I, std::integral N>
+I operator*(I const& x, N n) { return x * interval{n, n}; }
+template <std::integral N, std::same_as<interval> I>
+I operator*(N n, I const& x) { return interval{n, n} * x; }
+template <std::same_as<interval> I, std::integral N>
+I operator/(I const& x, N n) { return x / interval{n, n}; }
+template <std::integral N, std::same_as<interval> I>
+I operator/(N n, I const& x) { return interval{n, n} / x; }
+
+}  // namespace sivid
+
+#endif

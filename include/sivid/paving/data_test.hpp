@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_DATA_TEST_HPP
+#define SIVID_PAVING_DATA_TEST_HPP
+
+#include <sivid/enclosure/observation.hpp>
+#include <sivid/enclosure/trajectory.hpp>
+#include <sivid/paving/problem.hpp>
+#include <sivid/paving/response.hpp>
+#include <sivid/paving/set_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// How boxes of parameters are tested against the data.
+struct data_test_options {
+    enclosure_options enclosure{
+        .order = 10, .tolerance = 1e-9, .relative_tolerance = 1e-3, .minimum_step = 1e-3};
+    /// Contract boxes by the affine dependence of the outputs on the parameters, and decide parts
+    /// of a box by what was computed for the whole. Without it the test is the report's: enclosure
+    /// against measurement, one integration a box.
+    bool contract = true;
+    /// Leave an experiment when the part of every output that is not affine in the parameters is
+    /// wider than this many times the affine part and the measurement together.
+    double hopeless = 3;
+    /// A part of a box is integrated anew when the non-affine share of an undecided output's width
+    /// exceeds this.
+    double sharp_enough = 0.5;
+};
+
+/// Tests boxes of parameters against all experiments of a problem.
+///   outside: in some experiment more than `outliers` measurements certainly fail, whatever the
+///   start; inside: in every experiment at least n - `outliers` certainly hold, for the starts
+///   given to `set_starts` (any start in the box proves existence).
+/// The outlier rule is the consistent reading of the report's Algorithm 2.
+class data_test {
+public:
+    /// Responses of the experiments over a box: for all starts, and for the chosen ones.
+    struct knowledge {
+        std::vector<std::shared_ptr<response const>> all_starts;
+        std::vector<std::shared_ptr<response const>> chosen_starts;
+    };
+
+    data_test(identification_problem const& problem, data_test_options const& options)
+        : problem_(&problem), options_(options) {
+        problem.require_valid();
+        for (auto const& e : problem.experiments) {
+            flows_.push_back(std::make_shared<flow const>(problem.model, problem.choice, e.inputs));
+            records_.push_back(sorted(e.measurements));
+            starts_.push_back(e.initial);
+            runs_.push_back(
+                std::make_unique<trajectory<interval>>(*flows_.back(), options_.enclosure));
+            observers_.push_back(std::make_unique<observer<interval>>(*flows_.back()));
+        }
+    }
+
+    /// Initial states, one box per experiment within its own, from which existence is proved.
+    void set_starts(std::vector<box> starts) { starts_ = std::move(starts); }
+
+    [[nodiscard]] std::size_t integrations() const { return integrations_; }
+    [[nodiscard]] std::shared_ptr<flow const> flow_of(std::size_t e) const { return flows_[e]; }
+    /// The measurements of an experiment in the order of their times.
+    [[nodiscard]] record const& record_of(std::size_t e) const { return records_[e]; }
+
+    [[nodiscard]] assessment<knowledge> operator()(box const& parameters,
+                                                   std::shared_ptr<knowledge const> const& known) {
+        assessment<knowledge> result{.rest = parameters};
+        if (known && options_.contract) {
+            double const share = judge(*known, result);
+            if (result.verdict != box_verdict::undecided || share <= options_.sharp_enough) {
+                result.knowledge = known;
+                return result;
+            }
+        }
+        auto found = std::make_shared<knowledge>();
+        result.smear.assign(parameters.size(), 0.0);
+        for (std::size_t e = 0; e < flows_.size(); ++e) {
+            auto const& all = problem_->experiments[e].initial;
+            auto answer = run(e, all, result.rest);
+            auto part = result.rest;
+            auto const says = assess(*answer, part);
+            if (says.refuted) {
+                result.verdict = box_verdict::outside;
+                return result;
+            }
+            if (options_.contract) result.rest = std::move(part);
+            add_smear(result, says.smear);
+            if (answer->outputs.size() < answer->measurements) add_growth(result, e);
+            if (!is_point(all) && starts_differ(e)) {
+                found->chosen_starts.push_back(says.explained ? answer
+                                                              : run(e, starts_[e], result.rest));
+            } else {
+                found->chosen_starts.push_back(answer);
+            }
+            found->all_starts.push_back(std::move(answer));
+        }
+        // `rest` may have shrunk since an experiment was judged.
+        auto smear = std::move(result.smear);
+        judge(*found, result);
+        result.smear = std::move(smear);
+        result.knowledge = std::move(found);
+        return result;
+    }
+
+    /// One experiment over a box of starts and parameters.
+    [[nodiscard]] std::shared_ptr<response const> run(std::size_t e, box const& initial,
+                                                      box const& parameters);
+
+private:
+    static bool is_point(box const& x) {
+        return std::all_of(x.begin(), x.end(), [](interval const& side) {
+            return interval_traits<interval>::is_point(side);
+        });
+    }
+    [[nodiscard]] bool starts_differ(std::size_t e) const {
+        return !subset(problem_->experiments[e].initial, starts_[e]);
+    }
+    static void add_smear(assessment<knowledge>& a, std::vector<double> const& more) {
+        for (std::size_t j = 0; j < a.smear.size(); ++j) a.smear[j] += more[j];
+    }
+
+    /// Contracts and decides by responses alone. @returns the largest non-affine share.
+    double judge(knowledge const& known, assessment<knowledge>& a) const {
+        bool inside = true;
+        double share = 0;
+        a.smear.assign(a.rest.size(), 0.0);
+        for (std::size_t e = 0; e < known.all_starts.size(); ++e) {
+            auto part = a.rest;
+            auto const says = assess(*known.all_starts[e], part);
+            if (says.refuted) {
+                a.verdict = box_verdict::outside;
+                return 0;
+            }
+            bool holds = says.explained;
+            if (!holds && known.chosen_starts[e] != known.all_starts[e]) {
+                auto copy = a.rest;
+                holds = assess(*known.chosen_starts[e], copy).explained;
+            }
+            inside = inside && holds;
+            if (!holds) {
+                share = std::max(share, says.sharpness);
+                if (known.all_starts[e]->outputs.size() < known.all_starts[e]->measurements) {
+                    share = std::numeric_limits<double>::infinity();
+                }
+            }
+            if (options_.contract) a.rest = std::move(part);
+            add_smear(a, says.smear);
+        }
+        a.verdict = inside ? box_verdict::inside : box_verdict::undecided;
+        return share;
+    }
+
+    /// Where the run ended early the parameters that move the states most are to be split.
+    void add_growth(assessment<knowledge>& a, std::size_t e) const {
+        auto const& set = runs_[e]->set();
+        auto const& r = runs_[e]->ensemble().deviation;
+        auto const n = set.centre.size();
+        for (std::size_t j = 0; j < a.smear.size(); ++j) {
+            for (std::size_t k = 0; k < n; ++k) {
+                auto const c =
+                    set.shape(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(n + j));
+                a.smear[j] += std::abs(c) * width(r[n + j]) / problem_->model.about.states[k].limit;
+            }
+        }
+    }
+
+    identification_problem const* problem_;
+    data_test_options options_;
+    std::vector<std::shared_ptr<flow const>> flows_;
+    std::vector<record> records_;
+    std::vector<box> starts_;
+    std::vector<std::unique_ptr<trajectory<interval>>> runs_;
+    std::vector<std::unique_ptr<observer<interval>>> observers_;
+    std::size_t integrations_ = 0;
+};
+
+inline std::shared_ptr<response const> data_test::run(std::size_t e, box const& initial,
+                                                      box const& parameters) {
+    using traits = interval_traits<interval>;
+    auto& trajectory = *runs_[e];
+    auto& look = *observers_[e];
+    auto const& samples = records_[e];
+    trajectory.begin(problem_->experiments[e].begin, initial, parameters);
+    look.set_ensemble(trajectory.ensemble());
+    ++integrations_;
+    auto answer = std::make_shared<response>();
+    answer->measurements = samples.size();
+    answer->allowed = problem_->experiments[e].outliers;
+    answer->parameter_centre = trajectory.ensemble().parameter_centre;
+    auto const& deviation = trajectory.ensemble().deviation;
+    answer->start_deviation = box(initial.size());
+    for (std::size_t i = 0; i < initial.size(); ++i) answer->start_deviation[i] = deviation[i];
+    std::size_t failed = 0;
+    double start = trajectory.time();
+    for (std::size_t i = 0; i < samples.size();) {
+        double const t = samples[i].time;
+        while (trajectory.time() < t) {
+            start = trajectory.time();
+            if (!trajectory.step(t)) return answer;
+        }
+        auto const outputs = look(trajectory.set(), start);
+        bool hopeless = true;
+        for (; i < samples.size() && samples[i].time == t; ++i) {
+            auto const& y = outputs[samples[i].channel];
+            auto const& bound = samples[i].bound;
+            if (!y.defined) continue;
+            answer->outputs.push_back({y.gradient, y.rest, y.value, bound});
+            if (traits::disjoint(y.value, bound) && ++failed > answer->allowed) return answer;
+            double const affine = std::max(width(y.value) - width(y.rest), 0.0);
+            hopeless = hopeless && width(y.rest) > options_.hopeless * (affine + width(bound));
+        }
+        if (hopeless) return answer;
+    }
+    return answer;
+}
+
+} // namespace sivid
+
+#endif

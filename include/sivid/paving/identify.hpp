@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_IDENTIFY_HPP
+#define SIVID_PAVING_IDENTIFY_HPP
+
+#include <sivid/model/combination.hpp>
+#include <sivid/paving/data_test.hpp>
+#include <sivid/paving/fit.hpp>
+#include <sivid/paving/invert.hpp>
+#include <sivid/paving/problem.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// How the prior is searched.
+enum class algorithm {
+    contracting, ///< mean-value contraction, smear bisection, largest box first, witness
+    report_1,    ///< Algorithm 1 of the report: bisection alone, no outlier allowed
+    report_2     ///< Algorithm 2 of the report with the consistent outlier rule
+};
+
+struct identify_options {
+    sivid::algorithm algorithm = sivid::algorithm::contracting;
+    inversion_options search;
+    data_test_options test;
+};
+
+/// A parameter and one initial state per experiment that are proved to explain the data.
+struct verified_witness {
+    std::vector<double> parameters;
+    std::vector<std::vector<double>> starts;
+    /// Per experiment and measurement (in order of time): whether the witness violates it.
+    std::vector<std::vector<bool>> violated;
+};
+
+/// A combination of parameters with what the data allow it.
+struct combination_hull {
+    combination what;
+    interval hull;
+};
+
+/// A measurement that every feasible parameter violates.
+struct forced_outlier {
+    std::size_t experiment = 0;
+    std::size_t measurement = 0; ///< index in the order of time
+};
+
+/// What was found about a problem; everything in it is proved, `guess` excepted.
+struct identification {
+    explicit identification(box const& prior) : paving(prior), hull(prior) {}
+
+    sivid::verdict verdict = sivid::verdict::undecided;
+    stop_reason reason = stop_reason::decided;
+    subpaving paving;
+    box hull; ///< contains every feasible parameter; empty sides when there is none
+    std::optional<verified_witness> witness;
+    std::vector<combination_hull> combinations;
+    std::vector<std::size_t> entangled; ///< parameters known only through `combinations`
+    std::vector<forced_outlier> forced;
+    std::vector<std::string> assumptions;
+    std::optional<approximate_fit> guess; ///< the best fit found, not proved
+    std::size_t boxes = 0;
+    std::size_t integrations = 0;
+    double seconds = 0;
+};
+
+/// Verifies a guess by one validated run per experiment, at the guessed point.
+[[nodiscard]] inline std::optional<verified_witness>
+verify_witness(data_test& test, identification_problem const& problem,
+               std::vector<double> const& parameters,
+               std::vector<std::vector<double>> const& starts) {
+    verified_witness result{parameters, starts, {}};
+    if (!contains(problem.prior, parameters)) return std::nullopt;
+    for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
+        if (!contains(problem.experiments[s].initial, starts[s])) return std::nullopt;
+        auto const answer = test.run(s, point_box(starts[s]), point_box(parameters));
+        auto point = point_box(parameters);
+        if (!assess(*answer, point).explained) return std::nullopt;
+        auto& violated = result.violated.emplace_back();
+        for (auto const& y : answer->outputs) violated.push_back(!subset(y.value, y.bound));
+        violated.resize(answer->measurements, true);
+    }
+    return result;
+}
+
+namespace paving_detail {
+
+/// Measurements that fail for every parameter that is left.
+inline std::vector<forced_outlier>
+find_forced(data_test& test, identification_problem const& problem, box const& hull) {
+    std::vector<forced_outlier> forced;
+    for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
+        if (problem.experiments[s].outliers == 0) continue;
+        auto const answer = test.run(s, problem.experiments[s].initial, hull);
+        for (std::size_t i = 0; i < answer->outputs.size(); ++i) {
+            auto const& y = answer->outputs[i];
+            if (disjoint(y.value, y.bound)) forced.push_back({s, i});
+        }
+    }
+    return forced;
+}
+
+} // namespace paving_detail
+
+/// Finds the parameters in the prior that can explain the data.
+/// @guarantee  `consistent`: a parameter and starts exist; `inconsistent`: none in the whole prior;
+///             `hull`, `paving`, `combinations` contain every feasible parameter; inside boxes are
+///             feasible throughout. All under the listed assumptions.
+/// @cost  dominated by the integrations: boxes times experiments
+[[nodiscard]] inline identification identify(identification_problem const& problem,
+                                             identify_options options = {}) {
+    problem.require_valid();
+    auto const begin = std::chrono::steady_clock::now();
+    auto working = problem;
+    if (options.algorithm != algorithm::contracting) {
+        options.test.contract = false;
+        options.search.order = search_order::first_in;
+    }
+    if (options.algorithm == algorithm::report_1) {
+        for (auto& s : working.experiments) s.outliers = 0;
+    }
+    data_test test(working, options.test);
+    identification result(problem.prior);
+    result.assumptions.push_back("inputs exact");
+    if (options.algorithm == algorithm::contracting) {
+        fitter fit(working);
+        auto guess = fit();
+        if (!guess.parameters.empty()) {
+            result.witness = verify_witness(test, working, guess.parameters, guess.starts);
+            std::vector<box> starts;
+            for (auto const& x0 : guess.starts) starts.push_back(point_box(x0));
+            test.set_starts(std::move(starts));
+            result.guess = std::move(guess);
+        }
+    }
+    auto const spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin);
+    options.search.seconds = std::max(0.0, options.search.seconds - spent.count());
+    auto found = invert(test, problem.prior, options.search);
+    result.paving = std::move(found.paving);
+    result.reason = found.reason;
+    result.boxes = found.tested;
+    result.hull = result.paving.outer_hull();
+    if (result.witness || result.paving.count(box_verdict::inside) > 0) {
+        result.verdict = verdict::consistent;
+    } else if (!result.paving.has_outer()) {
+        result.verdict = verdict::inconsistent;
+    }
+    if (result.paving.has_outer()) {
+        auto const structure = find_combinations(test.flow_of(0)->model());
+        result.entangled = structure.entangled;
+        for (auto const& c : structure.combinations) {
+            auto range = interval_traits<interval>::empty();
+            for (auto const& b : result.paving.boxes()) {
+                if (b.verdict != box_verdict::outside) range = hull(range, c.over(b.set));
+            }
+            result.combinations.push_back({c, range});
+        }
+        result.forced = paving_detail::find_forced(test, working, result.hull);
+    }
+    result.integrations = test.integrations();
+    result.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return result;
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_INVERT_HPP
+#define SIVID_PAVING_INVERT_HPP
+
+#include <sivid/number/guard.hpp>
+#include <sivid/paving/set_test.hpp>
+#include <sivid/paving/subpaving.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace sivid {
+
+/// The state of a running search.
+struct paving_progress {
+    double seconds = 0;
+    std::size_t tested = 0;  ///< boxes tested
+    std::size_t pending = 0; ///< boxes that wait
+    double inner = 0;        ///< relative volume proved inside (approximately, for display)
+    double outer = 1;        ///< relative volume not proved outside
+};
+
+/// Order in which waiting boxes are taken.
+enum class search_order {
+    largest_first, ///< anytime: the outer volume falls fastest
+    first_in       ///< the queue of the report's Algorithm 1
+};
+
+struct inversion_options {
+    /// A box is left undecided when no side is wider than this fraction of the prior's side.
+    double accuracy = 1.0 / 64;
+    /// Stop when the inner volume reaches this fraction of the outer one (1: never).
+    double sufficient_ratio = 1;
+    double seconds = 60;
+    std::size_t boxes = 10'000'000;
+    search_order order = search_order::largest_first;
+    /// Whether proved outside boxes are kept in the result (for pictures).
+    bool keep_outside = true;
+    /// Called after each test; false stops the search with what is proved until then.
+    std::function<bool(paving_progress const&)> progress;
+};
+
+struct inversion {
+    subpaving paving;
+    stop_reason reason = stop_reason::decided;
+    std::size_t tested = 0;
+    double seconds = 0;
+};
+
+namespace paving_detail {
+
+/// Waiting boxes as a heap: by volume, or by age.
+template <class Knowledge>
+class frontier {
+public:
+    explicit frontier(search_order order) : order_(order) {}
+
+    struct item {
+        box set;
+        std::shared_ptr<Knowledge const> known;
+        double volume = 0;
+        double rank = 0;
+        double age = 0;
+    };
+
+    void push(box x, double volume, std::shared_ptr<Knowledge const> known) {
+        total_ += volume;
+        double const age = static_cast<double>(pushed_++);
+        double const rank = order_ == search_order::first_in ? -age : volume;
+        items_.push_back({std::move(x), std::move(known), volume, rank, -age});
+        std::push_heap(items_.begin(), items_.end(), after);
+    }
+    [[nodiscard]] item pop() {
+        std::pop_heap(items_.begin(), items_.end(), after);
+        auto next = std::move(items_.back());
+        items_.pop_back();
+        total_ -= next.volume;
+        return next;
+    }
+    [[nodiscard]] bool empty() const { return items_.empty(); }
+    [[nodiscard]] std::size_t size() const { return items_.size(); }
+    [[nodiscard]] double volume() const { return std::max(0.0, total_); }
+
+private:
+    static bool after(item const& a, item const& b) {
+        return a.rank < b.rank || (a.rank == b.rank && a.age < b.age);
+    }
+
+    search_order order_;
+    std::vector<item> items_;
+    std::size_t pushed_ = 0;
+    double total_ = 0;
+};
+
+/// The side to split: strongest smear, else widest against the prior, among the sides that are
+/// wider than the accuracy; nothing when there is none.
+[[nodiscard]] inline std::optional<std::size_t>
+side_to_split(box const& x, box const& prior, std::vector<double> const& smear, double accuracy) {
+    std::optional<std::size_t> best;
+    double best_rank = -1;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        double const whole = width(prior[i]);
+        double const share = whole > 0 ? width(x[i]) / whole : 0;
+        double const middle = mid(x[i]);
+        bool const splits = x[i].lower() < middle && middle < x[i].upper();
+        if (!(share > accuracy) || !splits) continue;
+        double const rank = smear.empty() ? share : smear[i];
+        if (rank > best_rank ||
+            (rank == best_rank && share > width(x[*best]) / width(prior[*best]))) {
+            best = i;
+            best_rank = rank;
+        }
+    }
+    return best;
+}
+
+template <class Test>
+struct knowledge_of {
+    using type = std::monostate;
+};
+template <learning_set_test Test>
+struct knowledge_of<Test> {
+    using type = typename Test::knowledge;
+};
+
+} // namespace paving_detail
+
+/// Set inversion via interval analysis (SIVIA) over any set test: paves `prior` with boxes that are
+/// proved inside, proved outside, undecided, or still pending when the budget ends.
+/// @guarantee  the boxes cover the prior; every verdict is the test's proof
+/// @ref  Jaulin and Walter, Automatica 29 (1993): SIVIA; Chabert and Jaulin 2009 (contractors)
+template <set_test Test>
+[[nodiscard]] inversion invert(Test& test, box const& prior,
+                               inversion_options const& options = {}) {
+    require_sound_environment();
+    if (prior.size() == 0 || is_empty(prior)) throw std::invalid_argument("invert: empty prior");
+    for (auto const& side : prior) {
+        if (!std::isfinite(width(side))) throw std::invalid_argument("invert: unbounded prior");
+    }
+    auto const begin = std::chrono::steady_clock::now();
+    auto const elapsed = [&begin] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    };
+    inversion result{subpaving(prior)};
+    auto& paving = result.paving;
+    using knowledge = typename paving_detail::knowledge_of<Test>::type;
+    paving_detail::frontier<knowledge> waiting(options.order);
+    auto const assess = [&test](box const& x, std::shared_ptr<knowledge const> const& known) {
+        if constexpr (learning_set_test<Test>) {
+            return test(x, known);
+        } else {
+            return test(x);
+        }
+    };
+    auto const volume = [&prior](box const& x) { return relative_volume(x, prior).upper(); };
+    auto const decide = [&](box x, box_verdict v) {
+        if (v != box_verdict::outside || options.keep_outside) paving.add(std::move(x), v);
+    };
+    waiting.push(prior, 1, nullptr);
+    while (!waiting.empty()) {
+        double const inner = paving.inner_volume().upper();
+        double const outer = paving.outer_volume().upper() + waiting.volume();
+        std::optional<stop_reason> stop;
+        if (options.progress &&
+            !options.progress({elapsed(), result.tested, waiting.size(), inner, outer})) {
+            stop = stop_reason::cancelled;
+        } else if (elapsed() > options.seconds) {
+            stop = stop_reason::time_budget;
+        } else if (result.tested >= options.boxes) {
+            stop = stop_reason::box_budget;
+        } else if (inner > 0 && inner >= options.sufficient_ratio * outer &&
+                   options.sufficient_ratio < 1) {
+            stop = stop_reason::accuracy_reached;
+        }
+        if (stop) {
+            result.reason = *stop;
+            while (!waiting.empty()) paving.add(waiting.pop().set, box_verdict::pending);
+            break;
+        }
+        auto [x, known, size, rank, age] = waiting.pop();
+        auto found = assess(x, known);
+        ++result.tested;
+        if (found.verdict == box_verdict::outside || is_empty(found.rest)) {
+            decide(std::move(x), box_verdict::outside);
+            continue;
+        }
+        for (auto& cut : difference(x, found.rest)) decide(std::move(cut), box_verdict::outside);
+        if (found.verdict == box_verdict::inside) {
+            decide(std::move(found.rest), box_verdict::inside);
+            continue;
+        }
+        // A box that shrank much is worth another look before it is split.
+        double const after = volume(found.rest);
+        if (after < 0.5 * size && after > 0) {
+            waiting.push(std::move(found.rest), after, std::move(found.knowledge));
+            continue;
+        }
+        auto const side =
+            paving_detail::side_to_split(found.rest, prior, found.smear, options.accuracy);
+        if (!side) {
+            result.reason = stop_reason::accuracy_reached;
+            decide(std::move(found.rest), box_verdict::undecided);
+            continue;
+        }
+        auto [low, high] = bisect(found.rest, *side, mid(found.rest[*side]));
+        double const low_volume = volume(low);
+        double const high_volume = volume(high);
+        waiting.push(std::move(low), low_volume, found.knowledge);
+        waiting.push(std::move(high), high_volume, std::move(found.knowledge));
+    }
+    result.seconds = elapsed();
+    return result;
+}
+
+} // namespace sivid
+
+#endif

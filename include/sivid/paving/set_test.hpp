@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_SET_TEST_HPP
+#define SIVID_PAVING_SET_TEST_HPP
+
+#include <sivid/paving/verdict.hpp>
+#include <sivid/space/box.hpp>
+
+#include <concepts>
+#include <cstddef>
+#include <memory>
+#include <variant>
+#include <vector>
+
+namespace sivid {
+
+/// What a test proved about a box.
+/// @tparam Knowledge  what else it found that helps with parts of the box (a local model of the
+///                    outputs, say); shared by all parts, nothing for a plain test
+template <class Knowledge = std::monostate>
+struct assessment {
+    /// inside: all of `rest`; outside: all of the box; undecided: nothing about `rest`.
+    box_verdict verdict = box_verdict::undecided;
+    /// A part of the box outside which nothing of the box belongs to the set (a contraction).
+    box rest;
+    /// How strongly each side spreads the outputs (smear); sides with larger values are split
+    /// first. Empty: the side that is widest against the prior.
+    std::vector<double> smear = {};
+    std::shared_ptr<Knowledge const> knowledge = nullptr;
+};
+
+/// A test of boxes against a set: sound verdicts and a sound contraction, completeness not
+/// required.
+template <class T>
+concept plain_set_test = requires(T test, box const& x) {
+    { test(x) } -> std::same_as<assessment<>>;
+};
+
+/// A test that hands its knowledge of a box on to the box's parts. It must be sound for any
+/// knowledge that it returned for a box containing the new one, and for none (null).
+template <class T>
+concept learning_set_test = requires(T test, box const& x,
+                                     std::shared_ptr<typename T::knowledge const> const& known) {
+    { test(x, known) } -> std::same_as<assessment<typename T::knowledge>>;
+};
+
+template <class T>
+concept set_test = plain_set_test<T> || learning_set_test<T>;
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_SUBPAVING_HPP
+#define SIVID_PAVING_SUBPAVING_HPP
+
+#include <sivid/paving/verdict.hpp>
+#include <sivid/space/box.hpp>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// A box with what is known of it.
+struct paved_box {
+    box set;
+    box_verdict verdict = box_verdict::pending;
+};
+
+/// Boxes that cover the prior and overlap at most in their faces. Everything that no inside,
+/// undecided or pending box covers is proved outside, whether or not the outside boxes were kept.
+class subpaving {
+public:
+    explicit subpaving(box prior) : prior_(std::move(prior)) {}
+
+    void add(box set, box_verdict v) {
+        auto const volume = relative_volume(set, prior_);
+        if (v == box_verdict::inside) inner_ = sum(inner_, volume);
+        if (v != box_verdict::outside) {
+            outer_ = sum(outer_, volume);
+            hull_ = has_outer_ ? hull(hull_, set) : set;
+            has_outer_ = true;
+        }
+        boxes_.push_back({std::move(set), v});
+    }
+
+    [[nodiscard]] box const& prior() const { return prior_; }
+    [[nodiscard]] std::vector<paved_box> const& boxes() const { return boxes_; }
+    /// Volume proved inside, relative to the prior.
+    [[nodiscard]] interval inner_volume() const { return inner_; }
+    /// Volume of all that is not proved outside, relative to the prior.
+    [[nodiscard]] interval outer_volume() const { return outer_; }
+    /// Whether anything is not proved outside.
+    [[nodiscard]] bool has_outer() const { return has_outer_; }
+    /// The smallest box around all that is not proved outside; empty sides when all is.
+    [[nodiscard]] box outer_hull() const {
+        if (has_outer_) return hull_;
+        box none(prior_.size());
+        for (std::size_t i = 0; i < none.size(); ++i) none[i] = interval_traits<interval>::empty();
+        return none;
+    }
+    [[nodiscard]] std::size_t count(box_verdict v) const {
+        std::size_t n = 0;
+        for (auto const& b : boxes_) n += b.verdict == v ? 1 : 0;
+        return n;
+    }
+
+private:
+    static interval sum(interval const& a, interval const& b) {
+        return interval_traits<interval>::add(a, b);
+    }
+
+    box prior_;
+    std::vector<paved_box> boxes_;
+    interval inner_{0.0};
+    interval outer_{0.0};
+    box hull_;
+    bool has_outer_ = false;
+};
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_VERDICT_HPP
+#define SIVID_PAVING_VERDICT_HPP
+
+#include <string_view>
+
+namespace sivid {
+
+/// What is known of a box of parameters.
+enum class box_verdict {
+    inside,    ///< proved: every point belongs to the set
+    outside,   ///< proved: no point belongs to it
+    undecided, ///< tested, and small enough to be left
+    pending    ///< still to be tested or split when the work stopped
+};
+
+/// What is known of a whole identification problem.
+enum class verdict {
+    consistent,   ///< proved: some parameter explains the data
+    inconsistent, ///< proved: none in the prior does
+    undecided
+};
+
+/// Why a search ended.
+enum class stop_reason {
+    decided,          ///< every box is proved inside or outside
+    accuracy_reached, ///< what is undecided is smaller than asked for
+    time_budget,
+    box_budget,
+    cancelled
+};
+
+[[nodiscard]] constexpr std::string_view to_string(box_verdict v) {
+    switch (v) {
+    case box_verdict::inside:
+        return "inside";
+    case box_verdict::outside:
+        return "outside";
+    case box_verdict::undecided:
+        return "undecided";
+    case box_verdict::pending:
+        return "pending";
+    }
+    return "";
+}
+[[nodiscard]] constexpr std::string_view to_string(verdict v) {
+    switch (v) {
+    case verdict::consistent:
+        return "consistent";
+    case verdict::inconsistent:
+        return "inconsistent";
+    case verdict::undecided:
+        return "undecided";
+    }
+    return "";
+}
+[[nodiscard]] constexpr std::string_view to_string(stop_reason r) {
+    switch (r) {
+    case stop_reason::decided:
+        return "every box decided";
+    case stop_reason::accuracy_reached:
+        return "accuracy reached";
+    case stop_reason::time_budget:
+        return "time budget spent";
+    case stop_reason::box_budget:
+        return "box budget spent";
+    case stop_reason::cancelled:
+        return "cancelled";
+    }
+    return "";
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// The whole core in one header (written by scripts/update-umbrella). Data files and results:
+// <sivid/io/...>; reports: <sivid/report/...>.
+#ifndef SIVID_SIVID_HPP
+#define SIVID_SIVID_HPP
+
+#include <sivid/number/arithmetic.hpp>
+#include <sivid/number/decimal.hpp>
+#include <sivid/number/decimal_output.hpp>
+#include <sivid/number/decimal_text.hpp>
+#include <sivid/number/elementary.hpp>
+#include <sivid/number/excess.hpp>
+#include <sivid/number/exponential.hpp>
+#include <sivid/number/guard.hpp>
+#include <sivid/number/hyperbolic.hpp>
+#include <sivid/number/interval.hpp>
+#include <sivid/number/interval_traits.hpp>
+#include <sivid/number/inverse_trigonometric.hpp>
+#include <sivid/number/pack.hpp>
+#include <sivid/number/pack_functions.hpp>
+#include <sivid/number/pack_traits.hpp>
+#include <sivid/number/piecewise.hpp>
+#include <sivid/number/power.hpp>
+#include <sivid/number/relations.hpp>
+#include <sivid/number/rounding.hpp>
+#include <sivid/number/trigonometric.hpp>
+#include <sivid/space/box.hpp>
+#include <sivid/space/matrix.hpp>
+#include <sivid/space/orthogonal_frame.hpp>
+#include <sivid/space/vec.hpp>
+#include <sivid/measurement/record.hpp>
+#include <sivid/measurement/signal.hpp>
+#include <sivid/model/arithmetic.hpp>
+#include <sivid/model/bound_model.hpp>
+#include <sivid/model/combination.hpp>
+#include <sivid/model/differentiate.hpp>
+#include <sivid/model/expression.hpp>
+#include <sivid/model/graph.hpp>
+#include <sivid/model/graph_rules.hpp>
+#include <sivid/model/model.hpp>
+#include <sivid/model/operation.hpp>
+#include <sivid/model/rewrite.hpp>
+#include <sivid/model/series.hpp>
+#include <sivid/model/tape.hpp>
+#include <sivid/model/unit.hpp>
+#include <sivid/enclosure/doubleton.hpp>
+#include <sivid/enclosure/expansion.hpp>
+#include <sivid/enclosure/failure.hpp>
+#include <sivid/enclosure/flow.hpp>
+#include <sivid/enclosure/observation.hpp>
+#include <sivid/enclosure/options.hpp>
+#include <sivid/enclosure/runge_kutta.hpp>
+#include <sivid/enclosure/simulate.hpp>
+#include <sivid/enclosure/stepper.hpp>
+#include <sivid/enclosure/stepper_rules.hpp>
+#include <sivid/enclosure/tableau.hpp>
+#include <sivid/enclosure/trajectory.hpp>
+#include <sivid/enclosure/tube.hpp>
+#include <sivid/enclosure/tube_step.hpp>
+#include <sivid/enclosure/variation_bound.hpp>
+#include <sivid/paving/data_test.hpp>
+#include <sivid/paving/fit.hpp>
+#include <sivid/paving/identify.hpp>
+#include <sivid/paving/invert.hpp>
+#include <sivid/paving/linear_contraction.hpp>
+#include <sivid/paving/problem.hpp>
+#include <sivid/paving/relaxed_intersection.hpp>
+#include <sivid/paving/set_test.hpp>
+#include <sivid/paving/subpaving.hpp>
+#include <sivid/paving/verdict.hpp>
+#include <sivid/version.hpp>
+
+#endif // SIVID_SIVID_HPP

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_SPACE_BOX_HPP
+#define SIVID_SPACE_BOX_HPP
+
+#include <sivid/number/interval_traits.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <initializer_list>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// A Cartesian product of intervals, \f$ [x_1] \times \dots \times [x_n] \f$; empty as soon as one
+/// factor is empty.
+template <class I>
+class basic_box {
+    using traits = interval_traits<I>;
+
+public:
+    basic_box() = default;
+    explicit basic_box(std::size_t n) : sides_(n, traits::point(0.0)) {}
+    basic_box(std::initializer_list<I> sides) : sides_(sides) {}
+    explicit basic_box(std::vector<I> sides) : sides_(std::move(sides)) {}
+
+    [[nodiscard]] std::size_t size() const { return sides_.size(); }
+    I& operator[](std::size_t i) { return sides_[i]; }
+    I const& operator[](std::size_t i) const { return sides_[i]; }
+    [[nodiscard]] auto begin() const { return sides_.begin(); }
+    [[nodiscard]] auto end() const { return sides_.end(); }
+    [[nodiscard]] I const* data() const { return sides_.data(); }
+
+private:
+    std::vector<I> sides_;
+};
+
+using box = basic_box<interval>;
+
+template <class I>
+[[nodiscard]] bool is_empty(basic_box<I> const& x) {
+    return std::any_of(x.begin(), x.end(),
+                       [](I const& s) { return interval_traits<I>::is_empty(s); });
+}
+
+/// The box that holds one point.
+template <class I = interval>
+[[nodiscard]] basic_box<I> point_box(std::vector<double> const& x) {
+    basic_box<I> result(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) result[i] = interval_traits<I>::point(x[i]);
+    return result;
+}
+
+/// The smallest box that contains both; an empty operand adds nothing.
+template <class I>
+[[nodiscard]] basic_box<I> hull(basic_box<I> const& a, basic_box<I> const& b) {
+    if (is_empty(a)) return b;
+    if (is_empty(b)) return a;
+    basic_box<I> result(a.size());
+    for (std::size_t i = 0; i < a.size(); ++i) result[i] = interval_traits<I>::hull(a[i], b[i]);
+    return result;
+}
+
+template <class I>
+[[nodiscard]] basic_box<I> intersect(basic_box<I> const& a, basic_box<I> const& b) {
+    basic_box<I> result(a.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        result[i] = interval_traits<I>::intersect(a[i], b[i]);
+    }
+    return result;
+}
+
+template <class I>
+[[nodiscard]] bool subset(basic_box<I> const& a, basic_box<I> const& b) {
+    if (is_empty(a)) return true;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        if (!interval_traits<I>::subset(a[i], b[i])) return false;
+    }
+    return true;
+}
+
+template <class I>
+[[nodiscard]] bool contains(basic_box<I> const& a, std::vector<double> const& x) {
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        if (!interval_traits<I>::contains(a[i], x[i])) return false;
+    }
+    return true;
+}
+
+/// A point of the box close to its centre; finite even for unbounded sides.
+template <class I>
+[[nodiscard]] std::vector<double> mid(basic_box<I> const& x) {
+    std::vector<double> result(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) result[i] = interval_traits<I>::mid(x[i]);
+    return result;
+}
+
+/// The width of the widest side, rounded up.
+template <class I>
+[[nodiscard]] double width(basic_box<I> const& x) {
+    double result = 0;
+    for (I const& side : x) result = std::max(result, interval_traits<I>::width(side));
+    return result;
+}
+
+/// The two halves of `x` along side `i`, cut at the double `at`; they share the face at the cut.
+/// @given  `at` lies in the side (checked: a cut outside leaves one half empty).
+template <class I>
+[[nodiscard]] std::pair<basic_box<I>, basic_box<I>> bisect(basic_box<I> const& x, std::size_t i,
+                                                           double at) {
+    using traits = interval_traits<I>;
+    auto below = x;
+    auto above = x;
+    below[i] = traits::bounds(traits::lower(x[i]), at);
+    above[i] = traits::bounds(at, traits::upper(x[i]));
+    return {std::move(below), std::move(above)};
+}
+
+/// Boxes that cover the closure of `outer` without `inner`; neighbours share faces only.
+/// @returns at most 2n boxes; `{outer}` when `inner` is empty.
+template <class I>
+[[nodiscard]] std::vector<basic_box<I>> difference(basic_box<I> const& outer,
+                                                   basic_box<I> const& inner) {
+    using traits = interval_traits<I>;
+    if (is_empty(outer)) return {};
+    if (is_empty(inner)) return {outer};
+    std::vector<basic_box<I>> pieces;
+    auto rest = outer;
+    for (std::size_t i = 0; i < outer.size(); ++i) {
+        double const lo = traits::lower(rest[i]);
+        double const hi = traits::upper(rest[i]);
+        double const a = std::max(lo, traits::lower(inner[i]));
+        double const b = std::min(hi, traits::upper(inner[i]));
+        if (a > b) return {outer};
+        if (lo < a) {
+            pieces.push_back(rest);
+            pieces.back()[i] = traits::bounds(lo, a);
+        }
+        if (b < hi) {
+            pieces.push_back(rest);
+            pieces.back()[i] = traits::bounds(b, hi);
+        }
+        rest[i] = traits::bounds(a, b);
+    }
+    return pieces;
+}
+
+/// Volume of `x` relative to `whole`, as an interval; sides of zero width in `whole` are left out.
+/// @guarantee contains \f$ \prod_i w(x_i) / w(whole_i) \f$ in exact arithmetic.
+template <class I>
+[[nodiscard]] I relative_volume(basic_box<I> const& x, basic_box<I> const& whole) {
+    using traits = interval_traits<I>;
+    if (is_empty(x)) return traits::point(0.0);
+    auto const length = [](I const& s) {
+        return traits::sub(traits::point(traits::upper(s)), traits::point(traits::lower(s)));
+    };
+    typename traits::mask undefined{};
+    I result = traits::point(1.0);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        if (traits::is_point(whole[i])) continue;
+        result = traits::mul(result, traits::div(length(x[i]), length(whole[i]), undefined));
+    }
+    return result;
+}
+
+} // namespace sivid
+
+#endif
