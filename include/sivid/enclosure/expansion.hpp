@@ -7,6 +7,7 @@
 #include <sivid/space/box.hpp>
 #include <sivid/space/matrix.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -22,15 +23,13 @@ struct input_pieces {
     /// @param t      the expansion point, or a range of times within the step
     input_pieces(flow const& f, double start, T const& t)
         : value(f.model().about.inputs.size(), arithmetic_of<T>::point(0.0)), slope(value) {
+        using A = arithmetic_of<T>;
         for (auto const i : f.sampled_inputs()) {
             auto const& u = f.input(i);
             auto const piece = u.piece(start);
-            if constexpr (std::is_same_v<T, double>) {
-                value[i] = u.approximate_on(piece, t);
-            } else {
-                value[i] = u.template value<T>(piece, t);
-                slope[i] = u.template slope<T>(piece);
-            }
+            slope[i] = A::enclose(u.template slope<interval>(piece));
+            auto const since = A::sub(t, A::point(u.times()[piece]));
+            value[i] = A::add(A::point(u.values()[piece]), A::mul(slope[i], since));
         }
     }
     T operator()(std::size_t i, std::size_t k) const {
@@ -39,131 +38,136 @@ struct input_pieces {
     }
 };
 
+/// Which derivatives of the flow an expansion computes.
+enum class variations {
+    by_state,              ///< n columns
+    by_state_and_parameter ///< n + parameters columns
+};
+
 /// Taylor coefficients of the solution of x' = f(t, x, p, u), and of its variational equation
 ///   \f$ V' = \partial_x f \, V + [0, \partial_p f] \f$, \f$ V(0) = [1, 0] \f$,
-/// about any box of states and range of times. For intervals, each coefficient encloses the true
-/// one at every point of the ranges.
-template <class I>
+/// about any states and times of scalar type T: an interval, a Taylor model, a double. Each
+/// coefficient encloses the true one at every point of the arguments' ranges.
+template <class T>
 class expansion {
-    using traits = arithmetic_of<I>;
+    using arithmetic = arithmetic_of<T>;
 
 public:
-    expansion(flow const& f, std::size_t max_order)
+    expansion(flow const& f, std::size_t max_order,
+              variations which = variations::by_state_and_parameter)
         : flow_(&f),
           stride_(max_order + 1),
+          columns_(f.states() + (which == variations::by_state_and_parameter ? f.parameters() : 0)),
           values_(f.rate(), max_order),
           jacobian_(f.rate_jacobian(), max_order),
-          x_(f.states() * stride_, traits::point(0.0)),
-          v_(f.states() * (f.states() + f.parameters()) * stride_, traits::point(0.0)) {}
+          x_(f.states() * stride_, arithmetic::point(0.0)),
+          v_(f.states() * columns_ * stride_, arithmetic::point(0.0)) {}
 
-    void set_parameters(basic_box<I> const& p) {
+    template <class Box>
+    void set_parameters(Box const& p) {
         values_.set_parameters(p);
         jacobian_.set_parameters(p);
     }
 
     /// Coefficients 0 .. order of the solution through `x` at `t`.
-    void expand(double start, I const& t, basic_box<I> const& x, std::size_t order) {
+    template <class States>
+    void expand(double start, T const& t, States const& x, std::size_t order) {
         run(values_, start, t, x, order);
+        jumped_ = values_.jumped();
     }
 
     /// The same with the coefficients 0 .. order of V.
-    void expand_with_variations(double start, I const& t, basic_box<I> const& x,
-                                std::size_t order) {
+    template <class States>
+    void expand_with_variations(double start, T const& t, States const& x, std::size_t order) {
         run(jacobian_, start, t, x, order);
         auto const n = flow_->states();
-        auto const columns = n + flow_->parameters();
         for (std::size_t i = 0; i < n; ++i) {
-            for (std::size_t c = 0; c < columns; ++c) {
-                v(i, c, 0) = traits::point(i == c ? 1.0 : 0.0);
+            for (std::size_t c = 0; c < columns_; ++c) {
+                v(i, c, 0) = arithmetic::point(i == c ? 1.0 : 0.0);
             }
         }
         auto const& program = flow_->rate_jacobian();
+        std::vector<typename arithmetic::accumulator> sums(n * columns_);
         for (std::size_t k = 0; k < order; ++k) {
-            for (std::size_t i = 0; i < n; ++i) {
-                for (std::size_t c = 0; c < columns; ++c) v(i, c, k + 1) = traits::point(0.0);
-            }
+            std::fill(sums.begin(), sums.end(), typename arithmetic::accumulator{});
             for (auto const& e : flow_->entries()) {
                 bool const varies = program.output_varies(e.output);
                 if (e.column >= n) {
-                    if (k == 0 || varies) {
-                        auto& target = v(e.row, e.column, k + 1);
-                        target = traits::add(target, jacobian_.output(e.output, k));
+                    if (e.column < columns_ && (k == 0 || varies)) {
+                        sums[e.row * columns_ + e.column].add(jacobian_.output(e.output, k));
                     }
                     continue;
                 }
                 std::size_t const last = varies ? k : 0;
-                for (std::size_t c = 0; c < columns; ++c) {
+                for (std::size_t c = 0; c < columns_; ++c) {
                     if (!flow_->sensitive(e.column, c)) continue;
-                    I sum = v(e.row, c, k + 1);
+                    auto& sum = sums[e.row * columns_ + c];
                     for (std::size_t j = 0; j <= last; ++j) {
-                        sum = traits::add(
-                            sum, traits::mul(jacobian_.output(e.output, j), v(e.column, c, k - j)));
+                        if (k - j == 0 && e.column != c) continue; // V starts as the identity
+                        sum.add_product(jacobian_.output(e.output, j), v(e.column, c, k - j));
                     }
-                    v(e.row, c, k + 1) = sum;
                 }
             }
-            divide(k, columns);
+            for (std::size_t i = 0; i < n; ++i) {
+                for (std::size_t c = 0; c < columns_; ++c) {
+                    if (!flow_->sensitive(i, c)) continue;
+                    v(i, c, k + 1) = over(sums[i * columns_ + c].result(), k + 1);
+                }
+            }
         }
     }
 
+    [[nodiscard]] std::size_t columns() const { return columns_; }
     /// \f$ x_i^{[k]} \f$
-    [[nodiscard]] I const& state(std::size_t i, std::size_t k) const { return x_[i * stride_ + k]; }
+    [[nodiscard]] T const& state(std::size_t i, std::size_t k) const { return x_[i * stride_ + k]; }
     /// \f$ V_{ic}^{[k]} \f$, c a state or state_count + a parameter.
-    [[nodiscard]] I const& variation(std::size_t i, std::size_t c, std::size_t k) const {
-        return v_[(i * (flow_->states() + flow_->parameters()) + c) * stride_ + k];
+    [[nodiscard]] T const& variation(std::size_t i, std::size_t c, std::size_t k) const {
+        return v_[(i * columns_ + c) * stride_ + k];
     }
     /// Value of an entry of the Jacobian of f, after `expand_with_variations`.
-    [[nodiscard]] I const& jacobian(jacobian_entry const& e) const {
+    [[nodiscard]] T const& jacobian(jacobian_entry const& e) const {
         return jacobian_.output(e.output, 0);
     }
-    [[nodiscard]] typename traits::mask undefined() const { return undefined_; }
+    [[nodiscard]] typename arithmetic::mask undefined() const { return undefined_; }
     [[nodiscard]] bool kinked() const { return kinked_; }
     /// The right-hand side itself may jump within the last `expand` (not its Jacobian).
     [[nodiscard]] bool jumped() const { return jumped_; }
     [[nodiscard]] std::size_t max_order() const { return stride_ - 1; }
 
 private:
-    I& v(std::size_t i, std::size_t c, std::size_t k) {
-        return v_[(i * (flow_->states() + flow_->parameters()) + c) * stride_ + k];
+    T& v(std::size_t i, std::size_t c, std::size_t k) {
+        return v_[(i * columns_ + c) * stride_ + k];
     }
-    void run(series<I>& s, double start, I const& t, basic_box<I> const& x, std::size_t order) {
-        input_pieces<I> const inputs(*flow_, start, t);
-        auto const state = [this](std::size_t i, std::size_t k) { return x_[i * stride_ + k]; };
+    template <class States>
+    void run(series<T>& s, double start, T const& t, States const& x, std::size_t order) {
+        input_pieces<T> const inputs(*flow_, start, t);
+        auto const state = [this](std::size_t i, std::size_t k) -> T const& {
+            return x_[i * stride_ + k];
+        };
         auto const n = flow_->states();
         for (std::size_t i = 0; i < n; ++i) x_[i * stride_] = x[i];
         s.start(t);
-        // The last order is needed of the Jacobian only where its entries enter V of that order.
         for (std::size_t k = 0; k < order; ++k) {
             s.advance(k, state, inputs);
             for (std::size_t i = 0; i < n; ++i) {
                 bool const zero = k > 0 && !flow_->rate().output_varies(i);
-                x_[i * stride_ + k + 1] = zero ? traits::point(0.0) : over(s.output(i, k), k + 1);
+                x_[i * stride_ + k + 1] =
+                    zero ? arithmetic::point(0.0) : over(s.output(i, k), k + 1);
             }
         }
         undefined_ = s.undefined();
         kinked_ = s.kinked();
-        jumped_ = values_.jumped();
     }
-    void divide(std::size_t k, std::size_t columns) {
-        if (k == 0) return;
-        for (std::size_t i = 0; i < flow_->states(); ++i) {
-            for (std::size_t c = 0; c < columns; ++c) {
-                if (flow_->sensitive(i, c)) v(i, c, k + 1) = over(v(i, c, k + 1), k + 1);
-            }
-        }
-    }
-    static I over(I const& a, std::size_t k) {
-        typename traits::mask undefined{};
-        return k == 1 ? a : traits::div(a, traits::point(static_cast<double>(k)), undefined);
-    }
+    static T over(T const& a, std::size_t k) { return k == 1 ? a : arithmetic::over(a, k); }
 
     flow const* flow_;
     std::size_t stride_;
-    series<I> values_;
-    series<I> jacobian_;
-    std::vector<I> x_;
-    std::vector<I> v_;
-    typename traits::mask undefined_{};
+    std::size_t columns_;
+    series<T> values_;
+    series<T> jacobian_;
+    std::vector<T> x_;
+    std::vector<T> v_;
+    typename arithmetic::mask undefined_{};
     bool kinked_ = false;
     bool jumped_ = false;
 };

@@ -28,23 +28,27 @@ class observer {
 
 public:
     explicit observer(flow const& f)
-        : flow_(&f), at_set_(f.observe_jacobian(), 0), at_centre_(f.observe(), 0) {}
+        : flow_(&f),
+          at_set_(f.observe_jacobian(), 0),
+          direct_(f.observe(), 0),
+          at_centre_(f.observe(), 0) {}
 
     void set_ensemble(ensemble<I> const& e) {
         ensemble_ = &e;
         at_set_.set_parameters(e.parameters);
+        direct_.set_parameters(e.parameters);
         at_centre_.set_parameters(point_box<I>(e.parameter_centre));
     }
 
-    /// All channels at the set's time.
-    /// @param start  begin of the step that led to the set: it selects the inputs' pieces
+    /// All channels at the set's time; a held input has its new value at a knot.
     /// @guarantee  mean-value form about the set's centre, intersected with the direct evaluation
-    [[nodiscard]] std::vector<observation<I>> operator()(doubleton<I> const& set, double start) {
+    [[nodiscard]] std::vector<observation<I>> operator()(doubleton<I> const& set) {
         auto const n = flow_->states();
         auto const columns = n + flow_->parameters();
         I const t = traits::point(set.time);
-        evaluate(at_set_, t, set.hull, start);
-        evaluate(at_centre_, t, point_box<I>(set.centre), start);
+        evaluate(at_set_, t, set.hull, set.time);
+        evaluate(direct_, t, set.hull, set.time);
+        evaluate(at_centre_, t, point_box<I>(set.centre), set.time);
         std::vector<observation<I>> result(flow_->channels());
         std::vector<interval_matrix<I>> slopes(result.size(), interval_matrix<I>(1, columns));
         std::vector<interval_matrix<I>> axes(result.size(), interval_matrix<I>(1, n));
@@ -82,17 +86,21 @@ public:
             for (std::size_t c = 0; c < columns; ++c) {
                 sum = traits::add(sum, traits::mul(traits::point(o.gradient[c]), r0[c]));
             }
-            o.value = traits::intersect(sum, at_set_.output(y, 0));
+            o.value = traits::intersect(sum, direct_.output(y, 0));
+            if (direct_.jumped()) { // no mean value across a jump of an output
+                o.value = o.rest = direct_.output(y, 0);
+                o.gradient.assign(columns, 0.0);
+            }
         }
         return result;
     }
 
     /// The channels over a box of states and a range of times, directly.
     [[nodiscard]] basic_box<I> over(double start, I const& times, basic_box<I> const& states) {
-        evaluate(at_set_, times, states, start);
+        evaluate(direct_, times, states, start);
         basic_box<I> result(flow_->channels());
         for (std::size_t y = 0; y < result.size(); ++y) {
-            result[y] = at_set_.undefined() ? traits::entire() : at_set_.output(y, 0);
+            result[y] = direct_.undefined() ? traits::entire() : direct_.output(y, 0);
         }
         return result;
     }
@@ -107,6 +115,7 @@ private:
 
     flow const* flow_;
     series<I> at_set_;
+    series<I> direct_;
     series<I> at_centre_;
     ensemble<I> const* ensemble_ = nullptr;
 };

@@ -28,6 +28,9 @@ struct enclosure_options {
     std::size_t maximum_steps = 1'000'000;
     /// Give up when the enclosure of a state is wider than this many times the state's own range.
     double widest = 2.0;
+    /// Give up when what a Taylor-model set has lost to its generators exceeds this share of what
+    /// its polynomial spans (or of a fiftieth of the state's own range, if that is more).
+    double remainder_share = 0.5;
 };
 
 } // namespace sivid

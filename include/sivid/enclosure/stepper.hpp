@@ -2,123 +2,268 @@
 #ifndef SIVID_ENCLOSURE_STEPPER_HPP
 #define SIVID_ENCLOSURE_STEPPER_HPP
 
-#include <sivid/enclosure/doubleton.hpp>
-#include <sivid/enclosure/expansion.hpp>
-#include <sivid/enclosure/failure.hpp>
-#include <sivid/enclosure/options.hpp>
-#include <sivid/enclosure/runge_kutta.hpp>
-#include <sivid/enclosure/tube_step.hpp>
-#include <sivid/enclosure/variation_bound.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <optional>
-#include <utility>
-#include <vector>
+#include <sivid/enclosure/detail/stepper_class.hpp>
 
 namespace sivid {
 
-/// Proves steps of x' = f(t, x, p, u) for a family of trajectories, and maps its set along them.
-///   A-priori enclosure: B with
-///   \f$ \sum_{k<q} [0,h]^k x^{[k]}(X) + [0,h]^q x^{[q]}(B) \subset B \f$ (existence on [0, h]);
-///   centre: \f$ \sum_{k<K} s^k x^{[k]}(m) + s^K x^{[K]}(B) \f$, or a Runge-Kutta formula;
-///   derivative: \f$ \sum_{k<q} s^k V^{[k]}(X) + s^q (J_q(B) W) \f$, W an enclosure of V on [0, h].
-/// @guarantee  what `prove` returns is proved; a refusal says why.
-/// @ref  Nedialkov, Jackson and Corliss 1999 (high-order enclosure); Lohner 1987; Zgliczynski 2002
-///       (C1-Lohner). The factor W in the Lagrange term of V is not to be dropped: V is not 1 at
-///       the intermediate time.
+/// Step length from the growth of the centre's coefficients; a preference, no proof rests on it.
 template <class I>
-class stepper {
-    using traits = arithmetic_of<I>;
-
-public:
-    stepper(flow const& f, enclosure_options const& options)
-        : flow_(&f),
-          options_(options),
-          centre_(f, options.order + 1),
-          start_(f, options.order + 1),
-          tube_(f, options.order + 1) {
-        if (options.method) method_.emplace(f, *options.method);
-    }
-
-    void set_ensemble(ensemble<I> const& e) {
-        ensemble_ = &e;
-        auto const centre = point_box<I>(e.parameter_centre);
-        centre_.set_parameters(centre);
-        start_.set_parameters(e.parameters);
-        tube_.set_parameters(e.parameters);
-        if (method_) method_->set_parameters(centre);
-        learned_ = 1;
-        extra_order_ = 0;
-    }
-
-    /// Proves a step from `set` that ends at `limit` or before.
-    /// @param limit  later than the set's time, at most the next knot of a sampled input
-    [[nodiscard]] std::optional<tube_step<I>> prove(doubleton<I> const& set, double limit,
-                                                    enclosure_failure& why);
-
-    /// The set at a time in (from, to] of a proved step.
-    [[nodiscard]] doubleton<I> advance(tube_step<I> const& step, double to) {
-        load(step);
-        return map(step, to);
-    }
-    /// The set at the end of the step that was proved last.
-    [[nodiscard]] doubleton<I> finish(tube_step<I> const& step) { return map(step, step.to); }
-
-private:
-    static constexpr double reject_factor = 0.5;
-
-    [[nodiscard]] I span(double from, double to) const {
-        return traits::sub(traits::point(to), traits::point(from));
-    }
-    [[nodiscard]] double allowed(basic_box<I> const& x, std::size_t i) const {
-        return options_.tolerance * (1 + traits::mag(x[i])) +
-               options_.relative_tolerance * traits::width(x[i]);
-    }
-    /// \f$ \sum_{k<order} s^k x_i^{[k]} + s^{order} last_i \f$ by Horner's rule.
-    [[nodiscard]] static basic_box<I> sum(expansion<I> const& e, I const& s, std::size_t order,
-                                          basic_box<I> const& last) {
-        basic_box<I> result(last.size());
-        for (std::size_t i = 0; i < last.size(); ++i) {
-            I value = last[i];
-            for (std::size_t k = order; k-- > 0;) {
-                value = traits::add(e.state(i, k), traits::mul(s, value));
-            }
-            result[i] = value;
+double stepper<I>::propose(double limit, double from, basic_box<I> const& x) const {
+    double const rest = limit - from;
+    double h = std::min(options_.maximum_step, rest);
+    std::size_t const top = method_ ? method_->order() + 1 : options_.order;
+    for (std::size_t k = top > 1 ? top - 1 : 1; k <= top; ++k) {
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            double const c = traits::mag(centre_.state(i, k));
+            if (!(c > 0) || !std::isfinite(c)) continue;
+            // The remainder's half-width is a fraction of the coefficient times h^k.
+            double const estimate = std::pow(allowed(x, i) / c, 1.0 / static_cast<double>(k));
+            h = std::min(h, learned_ * estimate);
         }
-        return result;
     }
-    [[nodiscard]] basic_box<I> coefficients(expansion<I> const& e, std::size_t k) const {
-        basic_box<I> result(flow_->states());
-        for (std::size_t i = 0; i < result.size(); ++i) result[i] = e.state(i, k);
-        return result;
-    }
-    /// Half-width of s^k c, per state.
-    [[nodiscard]] static double scaled_radius(I const& c, double h, std::size_t k) {
-        return traits::rad(c) * std::pow(h, static_cast<double>(k));
-    }
+    if (h >= rest) return rest;
+    return h > 0.5 * rest ? 0.5 * rest : h; // no tiny last step
+}
 
-    [[nodiscard]] double propose(double limit, double from, basic_box<I> const& x) const;
-    [[nodiscard]] std::size_t choose_order(double h, basic_box<I> const& x) const;
-    void load(tube_step<I> const& step);
-    [[nodiscard]] doubleton<I> map(tube_step<I> const& step, double to);
-    [[nodiscard]] basic_box<I> centre_image(tube_step<I> const& step, I const& s);
+/// The lowest order whose truncation stays within the tolerance for a step of length h.
+template <class I>
+std::size_t stepper<I>::choose_order(double h, basic_box<I> const& x) const {
+    if (method_) return method_->order() + 1;
+    for (std::size_t order = 2; order < options_.order; ++order) {
+        bool enough = true;
+        for (std::size_t k = order; k <= order + 1 && enough; ++k) {
+            for (std::size_t i = 0; i < x.size() && enough; ++i) {
+                double const c = traits::mag(centre_.state(i, k));
+                enough = c * std::pow(h, static_cast<double>(k)) <= 0.1 * allowed(x, i);
+            }
+        }
+        if (enough) return std::min(options_.order, order + extra_order_);
+    }
+    return options_.order;
+}
 
-    flow const* flow_;
-    enclosure_options options_;
-    expansion<I> centre_, start_, tube_;
-    std::optional<runge_kutta<I>> method_;
-    ensemble<I> const* ensemble_ = nullptr;
-    basic_box<I> lagrange_;       ///< x^[K](B)
-    basic_box<I> tube_lagrange_;  ///< x^[q](B)
-    double learned_ = 1;          ///< accepted over estimated step length
-    std::size_t extra_order_ = 0; ///< what wide sets need above the centre's order
-};
+template <class I>
+std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double limit,
+                                              enclosure_failure& why) {
+    auto const n = flow_->states();
+    double const from = set.time;
+    auto const& x = set.hull;
+    I const begin = traits::point(from);
+    why.time = from;
+    centre_.expand(from, begin, point_box<I>(set.centre),
+                   method_ ? method_->order() + 1 : options_.order);
+    if (centre_.undefined()) {
+        why.reason = failure_reason::undefined;
+        why.help = advice::check_model;
+        return std::nullopt;
+    }
+    double h = propose(limit, from, x);
+    double const proposed = h;
+    bool smooth = true;
+    bool undefined = false;
+    std::size_t start_order = 0;
+    for (int attempt = 0; attempt < 60; ++attempt) {
+        double const to = h >= limit - from ? limit : from + h;
+        if (!(to > from)) break;
+        if (h < options_.minimum_step && to < limit) break;
+        tube_step<I> step;
+        step.from = from;
+        step.to = to;
+        step.order = smooth ? choose_order(h, x) : 1;
+        step.variational_order =
+            std::min(step.order, !smooth ? 1
+                                 : options_.variational_order > 0
+                                     ? options_.variational_order
+                                     : std::max<std::size_t>(2, (step.order + 1) / 2));
+        auto const q = step.variational_order;
+        step.smooth = smooth;
+        if (start_order != step.variational_order) {
+            start_order = step.variational_order;
+            start_.expand_with_variations(from, begin, x, start_order);
+        }
+        if (start_.undefined()) {
+            why.reason = failure_reason::undefined;
+            why.help = advice::smaller_box;
+            return std::nullopt;
+        }
+        I const length = span(from, to);
+        I const range = traits::bounds(0.0, traits::upper(length));
+        I const times = traits::bounds(from, to);
+        // Guess B from the series at X, then let the test widen it.
+        auto b = sum(start_, range, q, coefficients(start_, q));
+        for (std::size_t i = 0; i < n; ++i) {
+            double const room = 0.05 * traits::width(b[i]) + allowed(x, i);
+            b[i] = traits::add(b[i], traits::bounds(-room, room));
+        }
+        bool proved = false;
+        undefined = false;
+        bool became_rough = false;
+        for (int round = 0; round < 4 && !proved; ++round) {
+            tube_.expand(from, times, b, step.order);
+            undefined = tube_.undefined();
+            if (undefined) break;
+            if (smooth && step.order > 1 && tube_.kinked()) {
+                became_rough = true;
+                break;
+            }
+            lagrange_ = coefficients(tube_, step.order);
+            tube_lagrange_ = coefficients(tube_, q);
+            auto const image = sum(start_, range, q, tube_lagrange_);
+            proved = true;
+            for (std::size_t i = 0; i < n; ++i) {
+                if (!(traits::mag(image[i]) < std::numeric_limits<double>::max())) {
+                    proved = false;
+                    round = 4;
+                    break;
+                }
+                if (!traits::subset(image[i], b[i])) {
+                    proved = false;
+                    why.component = i;
+                    double const room = 0.3 * traits::width(image[i]);
+                    b[i] = traits::hull(b[i], traits::add(image[i], traits::bounds(-room, room)));
+                }
+            }
+            if (proved) step.swept = intersect(image, b);
+        }
+        if (became_rough) { // a kink lies in the tube: a set-valued step of first order
+            smooth = false;
+            start_order = 0;
+            h = std::min(h, options_.maximum_step);
+            continue;
+        }
+        if (!proved) {
+            h *= reject_factor;
+            smooth = true;
+            continue;
+        }
+        // Truncation within the tolerance? At kinks the first-order error is what it is: there the
+        // step only has to be short against the change of the set.
+        double ratio = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            double const error = scaled_radius(lagrange_[i], traits::upper(length), step.order);
+            double const limit_i = smooth ? allowed(x, i) : 1e3 * allowed(x, i);
+            if (error / limit_i > ratio) {
+                ratio = error / limit_i;
+                why.component = i;
+            }
+        }
+        bool const shortest = h <= 4 * options_.minimum_step || (!smooth && h <= 1e-4);
+        if (ratio > 1 && !shortest) {
+            if (smooth && !method_ && step.order < options_.order && ratio < 1e4) {
+                extra_order_ += 2;
+                continue;
+            }
+            double const power = 1.0 / static_cast<double>(step.order);
+            h *= std::clamp(0.9 * std::pow(1 / ratio, power), 0.1, 0.8);
+            continue;
+        }
+        step.jumps = tube_.jumped();
+        tube_.expand_with_variations(from, times, b, q);
+        undefined = tube_.undefined();
+        if (undefined || (smooth && q > 1 && tube_.kinked())) {
+            smooth = undefined;
+            if (undefined) h *= reject_factor;
+            start_order = 0;
+            continue;
+        }
+        auto variation = bound_variation(*flow_, tube_, traits::upper(length));
+        if (!variation) {
+            h *= reject_factor;
+            continue;
+        }
+        step.variation = std::move(*variation);
+        step.start = set;
+        step.tube = std::move(b);
+        // A step that the end of the interval cut short teaches nothing.
+        if (h < proposed) {
+            learned_ = std::max(0.05, learned_ * h / proposed);
+        } else if (h < 0.5 * (limit - from)) {
+            learned_ = std::min(4.0, 1.08 * learned_);
+        }
+        return step;
+    }
+    why.reason = undefined ? failure_reason::undefined : failure_reason::minimum_step;
+    why.help = advice::smaller_box;
+    return std::nullopt;
+}
+
+template <class I>
+void stepper<I>::load(tube_step<I> const& step) {
+    I const begin = traits::point(step.from);
+    I const times = traits::bounds(step.from, step.to);
+    centre_.expand(step.from, begin, point_box<I>(step.start.centre), step.order);
+    start_.expand_with_variations(step.from, begin, step.start.hull, step.variational_order);
+    tube_.expand(step.from, times, step.tube, step.order);
+    lagrange_ = coefficients(tube_, step.order);
+    tube_lagrange_ = coefficients(tube_, step.variational_order);
+    tube_.expand_with_variations(step.from, times, step.tube, step.variational_order);
+}
+
+template <class I>
+basic_box<I> stepper<I>::centre_image(tube_step<I> const& step, I const& s) {
+    auto taylor = sum(centre_, s, step.order, lagrange_);
+    if (!method_ || !step.smooth) return taylor;
+    // phi(s) + s^(p+1) (x^[p+1](B) - phi^[p+1]([0, s]))
+    auto const p = method_->order();
+    typename traits::mask undefined{};
+    auto const m = point_box<I>(step.start.centre);
+    auto image = method_->coefficient(step.from, m, s, 0, undefined);
+    bool rough = method_->kinked();
+    auto const range = traits::hull(traits::point(0.0), s);
+    auto const error = method_->coefficient(step.from, m, range, p + 1, undefined);
+    rough = rough || method_->kinked();
+    // A stage may leave the domain although the solution does not: the series then stands alone.
+    if (undefined || rough) return taylor;
+    typename traits::mask ignored{};
+    auto const power = traits::pown(s, static_cast<int>(p + 1), ignored);
+    for (std::size_t i = 0; i < image.size(); ++i) {
+        image[i] = traits::add(image[i], traits::mul(power, traits::sub(lagrange_[i], error[i])));
+    }
+    return image;
+}
+
+template <class I>
+doubleton<I> stepper<I>::map(tube_step<I> const& step, double to) {
+    auto const n = flow_->states();
+    auto const columns = n + flow_->parameters();
+    I const s = span(step.from, to);
+    auto const q = step.variational_order;
+    auto const& deviation = ensemble_->deviation;
+    auto const direct = intersect(sum(start_, s, q, tube_lagrange_), step.tube);
+    if (step.jumps) {
+        // No derivative exists across a jump: the set starts anew from the set-valued step.
+        auto next = doubleton<I>::start(to, direct, flow_->parameters());
+        next.shape.setZero();
+        next.remainder = subtract(direct, next.centre);
+        return next;
+    }
+    interval_matrix<I> j(n, columns);
+    I power = traits::point(1.0);
+    for (std::size_t k = 0; k < q; ++k) power = traits::mul(power, s);
+    auto const w = [&](std::size_t i, std::size_t c) {
+        double const e = step.variation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c));
+        return traits::add(traits::point(i == c ? 1.0 : 0.0), traits::bounds(-e, e));
+    };
+    for (std::size_t c = 0; c < columns; ++c) {
+        for (std::size_t i = 0; i < n; ++i) {
+            if (!flow_->sensitive(i, c)) continue;
+            // J_q(B) W: the q-th coefficient of the variational equation from any V in W.
+            I last = c >= n ? tube_.variation(i, c, q) : traits::point(0.0);
+            for (std::size_t l = 0; l < n; ++l) {
+                if (!flow_->sensitive(i, l)) continue;
+                last = traits::add(last, traits::mul(tube_.variation(i, l, q), w(l, c)));
+            }
+            I value = traits::mul(power, last);
+            I polynomial = traits::point(0.0);
+            for (std::size_t k = q; k-- > 0;) {
+                polynomial = traits::add(start_.variation(i, c, k), traits::mul(s, polynomial));
+            }
+            j(i, c) = traits::add(polynomial, value);
+        }
+    }
+    return step.start.mapped(to, centre_image(step, s), j, direct, deviation);
+}
 
 } // namespace sivid
-
-#include <sivid/enclosure/stepper_rules.hpp>
 
 #endif

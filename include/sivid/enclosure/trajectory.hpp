@@ -6,6 +6,7 @@
 #include <sivid/number/guard.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
@@ -31,8 +32,12 @@ public:
         if (initial.size() != flow_->states() || parameters.size() != flow_->parameters()) {
             throw std::invalid_argument("trajectory: the boxes do not have the model's sizes");
         }
-        if (is_empty(initial) || is_empty(parameters)) {
-            throw std::invalid_argument("trajectory: empty box");
+        for (auto const* x : {&initial, &parameters}) {
+            for (I const& side : *x) {
+                if (!std::isfinite(traits::mag(side))) {
+                    throw std::invalid_argument("trajectory: empty or unbounded box");
+                }
+            }
         }
         ensemble_.emplace(initial, parameters);
         stepper_.set_ensemble(*ensemble_);

@@ -62,6 +62,8 @@ public:
 
     /// A box that contains all states at all times in [from, to].
     [[nodiscard]] basic_box<I> over(double from, double to) const {
+        if (!(from <= to))
+            throw std::invalid_argument("tube: a span must not end before it begins");
         basic_box<I> result = hull(at(from), at(to));
         for (auto const& step : steps_) {
             if (step.to <= from || step.from >= to) continue;
@@ -74,8 +76,7 @@ public:
     [[nodiscard]] basic_box<I> observe_at(double t) const {
         observer<I> look(*flow_);
         look.set_ensemble(*ensemble_);
-        auto const start = t == begin_time() || steps_.empty() ? t : step_at(t).from;
-        auto const seen = look(set_at(t), start);
+        auto const seen = look(set_at(t));
         basic_box<I> result(seen.size());
         for (std::size_t y = 0; y < seen.size(); ++y) {
             result[y] = seen[y].defined ? seen[y].value : traits::entire();
@@ -110,6 +111,7 @@ template <class I = interval>
 [[nodiscard]] tube<I> integrate(std::shared_ptr<flow const> f, basic_box<I> const& initial,
                                 basic_box<I> const& parameters, double from, double to,
                                 enclosure_options const& options = {}) {
+    if (!(from <= to)) throw std::invalid_argument("integrate: the end lies before the begin");
     trajectory<I> run(*f, options);
     run.begin(from, initial, parameters);
     tube<I> result(f, options, run.ensemble(), run.set());

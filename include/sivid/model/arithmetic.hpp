@@ -11,19 +11,48 @@
 
 namespace sivid {
 
+/// A constant of a model: a proven enclosure, and the double nearest to it for simulation.
+struct literal {
+    interval enclosure;
+    double nearest = 0;
+};
+
+/// Sums of products, one operation after the other.
+template <class A>
+class plain_accumulator {
+    using value_type = typename A::value_type;
+
+public:
+    void add(value_type const& a) { sum_ = A::add(sum_, a); }
+    void add_product(value_type const& a, value_type const& b) {
+        sum_ = A::add(sum_, A::mul(a, b));
+    }
+    [[nodiscard]] value_type const& result() const { return sum_; }
+
+private:
+    value_type sum_ = A::point(0.0);
+};
+
 /// Plain floating point behind the names of `interval_traits`: simulation and fitting run the same
 /// graph as the proofs. Nothing computed with it is a proof.
 struct approximate_arithmetic {
     using value_type = double;
     using mask = bool;
     static constexpr std::size_t lanes = 1;
+    static constexpr bool keeps_reciprocals = false;
+    using accumulator = plain_accumulator<approximate_arithmetic>;
 
     static double point(double x) { return x; }
+    static double enclose(literal const& l) { return l.nearest; }
+    static double enclose(interval const& x) { return mid(x); }
+    /// +1 or -1 for the sign of a value, 0 when it is not decided.
+    static int branch(double a) { return a > 0 ? 1 : a < 0 ? -1 : 0; }
     static double neg(double a) { return -a; }
     static double add(double a, double b) { return a + b; }
     static double sub(double a, double b) { return a - b; }
     static double mul(double a, double b) { return a * b; }
     static double div(double a, double b, bool&) { return a / b; }
+    static double over(double a, std::size_t k) { return a / static_cast<double>(k); }
     static double sqr(double a) { return a * a; }
     static double pown(double a, int n, bool&) { return std::pow(a, n); }
     static double sqrt(double a, bool&) { return std::sqrt(a); }
@@ -44,6 +73,27 @@ struct approximate_arithmetic {
 template <class I>
 struct proven_arithmetic : interval_traits<I> {
     using value_type = I;
+    using accumulator = plain_accumulator<proven_arithmetic>;
+    /// Whether division by a series' first coefficient is done by its stored reciprocal.
+    static constexpr bool keeps_reciprocals = false;
+
+    static I enclose(interval const& x) { return interval_traits<I>::bounds(x.lower(), x.upper()); }
+    static I enclose(literal const& l) { return enclose(l.enclosure); }
+    /// a divided by a natural number.
+    static I over(I const& a, std::size_t k) {
+        typename interval_traits<I>::mask never{};
+        return interval_traits<I>::div(a, interval_traits<I>::point(static_cast<double>(k)), never);
+    }
+    static int branch(I const& a) {
+        using traits = interval_traits<I>;
+        bool positive = true;
+        bool negative = true;
+        for (std::size_t l = 0; l < traits::lanes; ++l) {
+            positive = positive && traits::lower(a, l) > 0;
+            negative = negative && traits::upper(a, l) < 0;
+        }
+        return positive ? 1 : negative ? -1 : 0;
+    }
 
     /// The sign as a set: [-1, 1] as soon as the argument touches 0. This is Filippov's value of a
     /// discontinuous right-hand side and Clarke's derivative of the absolute value.

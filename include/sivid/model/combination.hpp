@@ -55,8 +55,8 @@ struct dependence_structure {
 
 namespace model_detail {
 
-/// Exponent vector of each maximal product in which parameters stand.
-inline std::set<std::vector<int>> parameter_monomials(bound_model const& model) {
+/// Exponent vector of each maximal product in which parameters stand, added to `found`.
+inline void collect_monomials(bound_model const& model, std::set<std::vector<int>>& found) {
     auto const& g = model.g;
     auto const count = model.parameter_count();
     auto outputs = model.rate;
@@ -69,7 +69,6 @@ inline std::set<std::vector<int>> parameter_monomials(bound_model const& model) 
         needed[n.a] = true;
         if (is_binary(n.op)) needed[n.b] = true;
     }
-    std::set<std::vector<int>> found;
     std::vector<std::vector<int>> power(g.size(), std::vector<int>(count, 0));
     auto const use = [&](node_id i) { found.insert(power[i]); };
     for (std::size_t k = 0; k < g.size(); ++k) {
@@ -106,7 +105,6 @@ inline std::set<std::vector<int>> parameter_monomials(bound_model const& model) 
     }
     for (auto const i : outputs) use(i);
     found.erase(std::vector<int>(count, 0));
-    return found;
 }
 
 inline Eigen::Index rank_of(std::vector<std::vector<int>> const& rows, std::size_t columns) {
@@ -148,13 +146,20 @@ inline combination named_combination(std::vector<int> exponents, bound_model con
 /// Finds the products of parameters through which all rates and outputs depend on them.
 ///   The equations contain the parameters only in the monomials collected here; where those span
 ///   fewer dimensions than there are parameters (in logarithms), some parameters are entangled.
+/// @param models  the same model bound to the inputs of each experiment, since an input that
+/// vanishes
+///                takes terms with it
 /// @guarantee  `entangled` is a theorem about the equations. Parameters that are not listed may
 /// still
 ///             be left open by the data, or be tied by sums, which this does not look for.
-[[nodiscard]] inline dependence_structure find_combinations(bound_model const& model) {
+[[nodiscard]] inline dependence_structure
+find_combinations(std::vector<bound_model const*> const& models) {
     dependence_structure result;
+    if (models.empty()) return result;
+    auto const& model = *models.front();
     auto const count = model.parameter_count();
-    auto const found = model_detail::parameter_monomials(model);
+    std::set<std::vector<int>> found;
+    for (auto const* m : models) model_detail::collect_monomials(*m, found);
     std::vector<std::vector<int>> rows(found.begin(), found.end());
     // Short products first, so that the basis reads well.
     auto const length = [](std::vector<int> const& e) {

@@ -77,7 +77,7 @@ public:
         graph* const g = a.owner_;
         graph scratch;
         graph& target = g != nullptr ? *g : scratch;
-        return wrap(target, g != nullptr, target.pown(a.in(target), n));
+        return finish(target, g != nullptr, target.pown(a.in(target), n));
     }
     /// `a` clamped to [lo, hi].
     friend expression saturate(expression const& a, expression const& lo, expression const& hi) {

@@ -30,15 +30,10 @@ public:
     series(tape const& program, std::size_t max_order)
         : program_(&program),
           stride_(max_order + 1),
-          c_(program.slots() * stride_, arithmetic::point(0.0)) {
+          c_(program.slots() * stride_, arithmetic::point(0.0)),
+          reciprocal_(arithmetic::keeps_reciprocals ? program.slots() : 0, arithmetic::point(0.0)) {
         for (std::size_t i = 0; i < program.literals().size(); ++i) {
-            auto& slot = c_[program.literal_slots()[i] * stride_];
-            if constexpr (std::is_same_v<T, double>) {
-                slot = program.literals()[i].nearest;
-            } else {
-                auto const& l = program.literals()[i].enclosure;
-                slot = arithmetic::bounds(l.lower(), l.upper());
-            }
+            c_[program.literal_slots()[i] * stride_] = arithmetic::enclose(program.literals()[i]);
         }
     }
 
@@ -60,12 +55,14 @@ public:
     template <class Box>
     void set_parameters(Box const& p) {
         constant_undefined_ = mask{};
+        constant_jumped_ = false;
         for (auto const& i : program_->constant()) {
             if (i.op == operation::constant) {
                 at(i.target, 0) = p[static_cast<std::size_t>(i.index)];
             } else {
                 at(i.target, 0) = value(i, constant_undefined_);
             }
+            constant_jumped_ = constant_jumped_ || jumps(i);
         }
     }
 
@@ -75,7 +72,7 @@ public:
         time_slope_ = slope;
         undefined_ = constant_undefined_;
         kinked_ = false;
-        jumped_ = false;
+        jumped_ = constant_jumped_;
     }
     /// Computes coefficient k of everything that varies.
     /// @param state  (i, k) -> coefficient k of state i
@@ -98,7 +95,7 @@ public:
                 result = k == 0 ? value(i, undefined_) : higher(i, k);
                 break;
             }
-            if (k == 0 && i.op == operation::sign && branch(get(i.a, 0)) == 0) jumped_ = true;
+            if (k == 0 && jumps(i)) jumped_ = true;
         }
     }
 
@@ -108,42 +105,72 @@ private:
         return c_[slot * stride_ + k];
     }
 
-    T value(instruction const& i, mask& undefined) const {
+    [[nodiscard]] bool jumps(instruction const& i) const {
+        return i.op == operation::sign && arithmetic::branch(get(i.a, 0)) == 0;
+    }
+
+    T value(instruction const& i, mask& undefined) {
+        if constexpr (arithmetic::keeps_reciprocals) {
+            auto& inverse = reciprocal_[i.target];
+            auto const invert = [&](T const& b) { return arithmetic::reciprocal(b, undefined); };
+            switch (i.op) {
+            case operation::div:
+                inverse = invert(get(i.b, 0));
+                return arithmetic::mul(get(i.a, 0), inverse);
+            case operation::sqrt: {
+                auto const y = arithmetic::sqrt(get(i.a, 0), undefined);
+                inverse = invert(arithmetic::mul(number(2), y));
+                return y;
+            }
+            case operation::log:
+                inverse = invert(get(i.a, 0));
+                break;
+            case operation::atan:
+                inverse = invert(get(i.companion, 0));
+                break;
+            default:
+                break;
+            }
+        }
         return apply<arithmetic>(i.op, get(i.a, 0), get(i.b, 0), i.index, undefined);
     }
 
     /// \f$ \sum_{j=from}^{to} a_j b_{k-j} \f$
     T convolve(std::size_t a, std::size_t b, std::size_t k, std::size_t from,
                std::size_t to) const {
-        T sum = arithmetic::point(0.0);
-        for (std::size_t j = from; j <= to; ++j) {
-            sum = arithmetic::add(sum, arithmetic::mul(get(a, j), get(b, k - j)));
-        }
-        return sum;
+        typename arithmetic::accumulator sum;
+        for (std::size_t j = from; j <= to; ++j) sum.add_product(get(a, j), get(b, k - j));
+        return sum.result();
     }
     /// \f$ \sum_{j=1}^{to} j a_j b_{k-j} \f$
     T weighted(std::size_t a, std::size_t b, std::size_t k, std::size_t to) const {
-        T sum = arithmetic::point(0.0);
+        typename arithmetic::accumulator sum;
         for (std::size_t j = 1; j <= to; ++j) {
-            auto const term = arithmetic::mul(get(a, j), get(b, k - j));
-            sum = arithmetic::add(sum, arithmetic::mul(number(j), term));
+            sum.add_product(arithmetic::mul(number(j), get(a, j)), get(b, k - j));
         }
-        return sum;
+        return sum.result();
     }
     /// Squares of a series: each product once, the middle one as a square.
     T square(std::size_t a, std::size_t k, std::size_t from) const {
-        T sum = arithmetic::point(0.0);
-        for (std::size_t j = from; 2 * j < k; ++j) {
-            sum = arithmetic::add(sum, arithmetic::mul(get(a, j), get(a, k - j)));
-        }
-        sum = arithmetic::mul(number(2), sum);
+        typename arithmetic::accumulator half;
+        for (std::size_t j = from; 2 * j < k; ++j) half.add_product(get(a, j), get(a, k - j));
+        T sum = arithmetic::mul(number(2), half.result());
         if (k % 2 == 0 && k / 2 >= from) {
             sum = arithmetic::add(sum, arithmetic::sqr(get(a, k / 2)));
         }
         return sum;
     }
     static T number(std::size_t k) { return arithmetic::point(static_cast<double>(k)); }
-    T over(T const& a, std::size_t k) { return arithmetic::div(a, number(k), undefined_); }
+    T over(T const& a, std::size_t k) const { return arithmetic::over(a, k); }
+    /// a divided by coefficient 0 of a slot, or of twice it.
+    T divide(T const& a, instruction const& i, std::size_t slot, bool twice = false) {
+        if constexpr (arithmetic::keeps_reciprocals) {
+            return arithmetic::mul(a, reciprocal_[i.target]);
+        } else {
+            auto const& b = get(slot, 0);
+            return arithmetic::div(a, twice ? arithmetic::mul(number(2), b) : b, undefined_);
+        }
+    }
 
     T higher(instruction const& i, std::size_t k) {
         using A = arithmetic;
@@ -161,25 +188,20 @@ private:
             if (!i.b_varies) return A::mul(get(a, k), get(i.b, 0));
             return convolve(a, i.b, k, 0, k);
         case operation::div:
-            if (!i.b_varies) return A::div(get(a, k), get(i.b, 0), undefined_);
-            if (!i.a_varies) {
-                return A::neg(A::div(convolve(y, i.b, k, 0, k - 1), get(i.b, 0), undefined_));
-            }
-            return A::div(A::sub(get(a, k), convolve(y, i.b, k, 0, k - 1)), get(i.b, 0),
-                          undefined_);
+            if (!i.b_varies) return divide(get(a, k), i, i.b);
+            if (!i.a_varies) return A::neg(divide(convolve(y, i.b, k, 0, k - 1), i, i.b));
+            return divide(A::sub(get(a, k), convolve(y, i.b, k, 0, k - 1)), i, i.b);
         case operation::sqr:
             return square(a, k, 0);
         case operation::sqrt:
-            return A::div(A::sub(get(a, k), square(y, k, 1)), A::mul(number(2), get(y, 0)),
-                          undefined_);
+            return divide(A::sub(get(a, k), square(y, k, 1)), i, y, true);
         case operation::exp:
             return over(weighted(a, y, k, k), k);
         case operation::log:
-            return A::div(A::sub(get(a, k), over(weighted(y, a, k, k - 1), k)), get(a, 0),
-                          undefined_);
+            return divide(A::sub(get(a, k), over(weighted(y, a, k, k - 1), k)), i, a);
         case operation::atan:
-            return A::div(A::sub(get(a, k), over(weighted(y, i.companion, k, k - 1), k)),
-                          get(i.companion, 0), undefined_);
+            return divide(A::sub(get(a, k), over(weighted(y, i.companion, k, k - 1), k)), i,
+                          i.companion);
         case operation::sin:
         case operation::tan:
         case operation::tanh:
@@ -206,7 +228,7 @@ private:
         using A = arithmetic;
         auto const zero = A::point(0.0);
         bool const two = i.op == operation::min || i.op == operation::max;
-        int const side = branch(two ? A::sub(get(i.a, 0), get(i.b, 0)) : get(i.a, 0));
+        int const side = arithmetic::branch(two ? A::sub(get(i.a, 0), get(i.b, 0)) : get(i.a, 0));
         if (side == 0) {
             kinked_ = true;
             return zero;
@@ -224,30 +246,17 @@ private:
             return zero;
         }
     }
-    /// +1 or -1 when every lane is positive or negative, else 0.
-    static int branch(T const& d) {
-        if constexpr (std::is_same_v<T, double>) {
-            return d > 0 ? 1 : d < 0 ? -1 : 0;
-        } else {
-            bool positive = true;
-            bool negative = true;
-            for (std::size_t l = 0; l < arithmetic::lanes; ++l) {
-                positive = positive && arithmetic::lower(d, l) > 0;
-                negative = negative && arithmetic::upper(d, l) < 0;
-            }
-            return positive ? 1 : negative ? -1 : 0;
-        }
-    }
-
     tape const* program_;
     std::size_t stride_;
     std::vector<T> c_;
+    std::vector<T> reciprocal_; ///< of what order 0 divides by, where the arithmetic keeps it
     T time_ = arithmetic::point(0.0);
     T time_slope_ = arithmetic::point(1.0);
     mask undefined_{};
     mask constant_undefined_{};
     bool kinked_ = false;
     bool jumped_ = false;
+    bool constant_jumped_ = false;
 };
 
 } // namespace sivid

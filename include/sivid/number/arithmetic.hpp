@@ -32,15 +32,18 @@ inline interval neg(interval const& x) noexcept {
 #if defined(__AVX512F__)
 
 /// All four products at once: lanes 0 to 3 hold x y, lanes 4 to 7 hold x (-y), both rounded upward;
-/// the greatest of each half are the upper bound and minus the lower bound. (The zero-masking forms of
-/// the intrinsics keep g++ from warning about its own header.)
+/// the greatest of each half are the upper bound and minus the lower bound. (The zero-masking forms
+/// of the intrinsics keep g++ from warning about its own header.)
 inline interval mul(interval const& x, interval const& y) noexcept {
-    if (is_empty(x) || is_empty(y)) [[unlikely]] return empty_interval();
+    if (is_empty(x) || is_empty(y)) [[unlikely]]
+        return empty_interval();
     constexpr __mmask8 all = 0xff;
     __m512d const xx = _mm512_zextpd128_pd512(_mm_set_pd(opaque(x.upper()), opaque(x.lower())));
     __m512d const yy = _mm512_zextpd128_pd512(_mm_set_pd(opaque(y.upper()), opaque(y.lower())));
-    __m512d const a = _mm512_maskz_permutexvar_pd(all, _mm512_set_epi64(1, 1, 0, 0, 1, 1, 0, 0), xx);
-    __m512d const b = _mm512_maskz_permutexvar_pd(all, _mm512_set_epi64(1, 0, 1, 0, 1, 0, 1, 0), yy);
+    __m512d const a =
+        _mm512_maskz_permutexvar_pd(all, _mm512_set_epi64(1, 1, 0, 0, 1, 1, 0, 0), xx);
+    __m512d const b =
+        _mm512_maskz_permutexvar_pd(all, _mm512_set_epi64(1, 0, 1, 0, 1, 0, 1, 0), yy);
     constexpr auto minus = std::bit_cast<long long>(sign_bit);
     __m512d const c = _mm512_castsi512_pd(_mm512_xor_si512(
         _mm512_castpd_si512(b), _mm512_set_epi64(minus, minus, minus, minus, 0, 0, 0, 0)));
@@ -56,21 +59,24 @@ inline interval mul(interval const& x, interval const& y) noexcept {
 #else
 
 /// Two products a_i b_i as [a_0 b_0 rounded down, a_1 b_1 rounded up]; 0 * inf is 0.
-[[gnu::always_inline]] inline interval products(std::uint64_t a0, std::uint64_t b0, std::uint64_t a1,
-                                                std::uint64_t b1) noexcept {
+[[gnu::always_inline]] inline interval products(std::uint64_t a0, std::uint64_t b0,
+                                                std::uint64_t a1, std::uint64_t b1) noexcept {
     std::uint64_t const minus_a0 = a0 ^ sign_bit;
-    __m128d const up = mul_up_pair(_mm_set_pd(std::bit_cast<double>(a1), std::bit_cast<double>(minus_a0)),
-                                   _mm_set_pd(std::bit_cast<double>(b1), std::bit_cast<double>(b0)));
+    __m128d const up =
+        mul_up_pair(_mm_set_pd(std::bit_cast<double>(a1), std::bit_cast<double>(minus_a0)),
+                    _mm_set_pd(std::bit_cast<double>(b1), std::bit_cast<double>(b0)));
     return unchecked_interval(-_mm_cvtsd_f64(up), _mm_cvtsd_f64(_mm_unpackhi_pd(up, up)));
 }
 
-/// Unless both factors have both signs, the end points that make the lower bound are given by two signs
-/// (the upper bound is minus the lower bound of x (-y)):
-///   from x: the upper end if y_l < 0 (if y_u < 0 where x <= 0), else the lower end; from y likewise.
-/// Signs are sign bits: a zero counts as a tiny number of its sign, which selects products with the same
-/// limit. Selection is by masks, since signs of operands cannot be predicted.
+/// Unless both factors have both signs, the end points that make the lower bound are given by two
+/// signs (the upper bound is minus the lower bound of x (-y)):
+///   from x: the upper end if y_l < 0 (if y_u < 0 where x <= 0), else the lower end; from y
+///   likewise.
+/// Signs are sign bits: a zero counts as a tiny number of its sign, which selects products with the
+/// same limit. Selection is by masks, since signs of operands cannot be predicted.
 inline interval mul(interval const& x, interval const& y) noexcept {
-    if (is_empty(x) || is_empty(y)) [[unlikely]] return empty_interval();
+    if (is_empty(x) || is_empty(y)) [[unlikely]]
+        return empty_interval();
     std::uint64_t const xl = bits(x.lower()), xu = bits(x.upper());
     std::uint64_t const yl = bits(y.lower()), yu = bits(y.upper());
     auto const negative = [](std::uint64_t b) {
@@ -79,7 +85,8 @@ inline interval mul(interval const& x, interval const& y) noexcept {
     auto const select = [](std::uint64_t mask, std::uint64_t a, std::uint64_t b) {
         return (a & mask) | (b & ~mask);
     };
-    std::uint64_t const nxl = negative(xl), nxu = negative(xu), nyl = negative(yl), nyu = negative(yu);
+    std::uint64_t const nxl = negative(xl), nxu = negative(xu), nyl = negative(yl),
+                        nyu = negative(yu);
     if ((nxl & ~nxu & nyl & ~nyu) != 0) {
         interval const p = products(xl, yu, xl, yl), q = products(xu, yl, xu, yu);
         return unchecked_interval(p.lower() < q.lower() ? p.lower() : q.lower(),
@@ -92,7 +99,8 @@ inline interval mul(interval const& x, interval const& y) noexcept {
 #endif
 
 inline interval sqr(interval const& x) noexcept {
-    if (is_empty(x)) [[unlikely]] return empty_interval();
+    if (is_empty(x)) [[unlikely]]
+        return empty_interval();
     double const least = mig(x), most = mag(x);
 #if defined(__AVX512F__)
     return unchecked_interval(mul_down(least, least), mul_up(most, most));
@@ -115,11 +123,12 @@ inline interval div(interval const& x, interval const& y, bool& undefined) noexc
         double const nearest_x = xl >= 0.0 ? xl : xu, farthest_y = yu > 0.0 ? yu : yl;
         // An infinite divisor or zero numerator brings the quotients down to 0.
         if (is_zero(nearest_x) || is_infinite(farthest_y))
-            return positive ? unchecked_interval(0.0, infinity) : unchecked_interval(-infinity, 0.0);
+            return positive ? unchecked_interval(0.0, infinity)
+                            : unchecked_interval(-infinity, 0.0);
         return positive ? unchecked_interval(div_down(nearest_x, farthest_y), infinity)
                         : unchecked_interval(-infinity, div_up(nearest_x, farthest_y));
     }
-    double a, b, c, d;                                   // the result is [a/b, c/d]
+    double a, b, c, d; // the result is [a/b, c/d]
     if (yl > 0.0) {
         a = xl;
         b = xl >= 0.0 ? yu : yl;
@@ -134,8 +143,8 @@ inline interval div(interval const& x, interval const& y, bool& undefined) noexc
     return unchecked_interval(div_down(a, b), div_up(c, d));
 }
 
-}  // inline namespace
+} // namespace SIVID_ROUNDING_KERNELS
 
-}  // namespace sivid::detail
+} // namespace sivid::detail
 
 #endif

@@ -21,8 +21,8 @@ namespace sivid {
 
 namespace detail {
 
-/// The fast way: at most 15 digits and a power of ten that is a double make two exact operands of one
-/// product or quotient. Returns false if the text needs the slow way.
+/// The fast way: at most 15 digits and a power of ten that is a double make two exact operands of
+/// one product or quotient. Returns false if the text needs the slow way.
 inline bool short_decimal(std::string_view text, number_text const& n, double& digits, int& power) {
     if (n.hexadecimal || n.digit_count > 15) return false;
     std::int64_t const exponent = n.point - static_cast<std::int64_t>(n.digit_count);
@@ -69,11 +69,11 @@ inline double nearest_text(std::string_view text, number_text const& n, bool neg
     return negative ? -y : y;
 }
 
-}  // namespace detail
+} // namespace detail
 
 /// An exact decimal (or hexadecimal) number, kept as the text of its literal.
 struct decimal {
-    char const* text = "0";   ///< static storage, unsigned
+    char const* text = "0"; ///< static storage, unsigned
     std::size_t size = 1;
     bool negative = false;
 
@@ -95,7 +95,7 @@ constexpr decimal operator""_dec() noexcept {
     static_assert(detail::scan_number(text).valid, "not a decimal or hexadecimal number");
     return {text.data(), text.size(), false};
 }
-}  // namespace literals
+} // namespace literals
 
 /// The tightest interval that contains d. A number beyond the range of double gives a half-line.
 inline interval enclose(decimal d) {
@@ -107,8 +107,8 @@ inline double nearest(decimal d) {
     return detail::nearest_text(d.view(), detail::scan_number(d.view()), d.negative);
 }
 
-/// The tightest interval that contains the number written in `text`; nothing if it is malformed (the
-/// whole text must be one number) or beyond the range of double.
+/// The tightest interval that contains the number written in `text`; nothing if it is malformed
+/// (the whole text must be one number) or beyond the range of double.
 /// @cost  bounded by the length of the text plus about 20 us; 30 ns up to 15 digits
 inline std::optional<interval> parse_decimal(std::string_view text) {
     detail::number_text const n = detail::scan_number(text);
@@ -135,35 +135,52 @@ namespace detail {
 inline interval exactly(decimal d) { return enclose(d); }
 inline interval exactly(interval const& x) { return x; }
 template <std::integral N>
-interval exactly(N n) { return interval{n, n}; }
-}  // namespace detail
+interval exactly(N n) {
+    return interval{n, n};
+}
+} // namespace detail
 
-/// The least interval that contains both, for instance hull(0.10_dec, 0.12_dec) or hull(0.1_dec, 3).
+/// The least interval that contains both, for instance hull(0.10_dec, 0.12_dec) or hull(0.1_dec,
+/// 3).
 template <exact_number A, exact_number B>
     requires(!(std::same_as<A, interval> && std::same_as<B, interval>))
-interval hull(A const& a, B const& b) {
-    return hull(detail::exactly(a), detail::exactly(b));
-}
+interval hull(A const& a, B const& b) { return hull(detail::exactly(a), detail::exactly(b)); }
 
 // Decimals beside intervals.
 template <std::same_as<interval> I>
-I operator+(I const& x, decimal d) { return x + enclose(d); }
+I operator+(I const& x, decimal d) {
+    return x + enclose(d);
+}
 template <std::same_as<interval> I>
-I operator+(decimal d, I const& x) { return enclose(d) + x; }
+I operator+(decimal d, I const& x) {
+    return enclose(d) + x;
+}
 template <std::same_as<interval> I>
-I operator-(I const& x, decimal d) { return x - enclose(d); }
+I operator-(I const& x, decimal d) {
+    return x - enclose(d);
+}
 template <std::same_as<interval> I>
-I operator-(decimal d, I const& x) { return enclose(d) - x; }
+I operator-(decimal d, I const& x) {
+    return enclose(d) - x;
+}
 template <std::same_as<interval> I>
-I operator*(I const& x, decimal d) { return x * enclose(d); }
+I operator*(I const& x, decimal d) {
+    return x * enclose(d);
+}
 template <std::same_as<interval> I>
-I operator*(decimal d, I const& x) { return enclose(d) * x; }
+I operator*(decimal d, I const& x) {
+    return enclose(d) * x;
+}
 template <std::same_as<interval> I>
-I operator/(I const& x, decimal d) { return x / enclose(d); }
+I operator/(I const& x, decimal d) {
+    return x / enclose(d);
+}
 template <std::same_as<interval> I>
-I operator/(decimal d, I const& x) { return enclose(d) / x; }
+I operator/(decimal d, I const& x) {
+    return enclose(d) / x;
+}
 
-}  // namespace sivid
+} // namespace sivid
 
 #include <sivid/number/decimal_output.hpp>
 

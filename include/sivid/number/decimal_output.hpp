@@ -3,8 +3,8 @@
 #define SIVID_NUMBER_DECIMAL_OUTPUT_HPP
 
 /// @file
-/// Numbers written outward: the text of a lower bound is never above the bound, that of an upper bound
-/// never below, and both are the shortest decimals less than one float away.
+/// Numbers written outward: the text of a lower bound is never above the bound, that of an upper
+/// bound never below, and both are the shortest decimals less than one float away.
 
 #include <sivid/number/decimal.hpp>
 #include <sivid/number/interval.hpp>
@@ -30,8 +30,8 @@ struct digit_string {
 /// All digits of a finite x > 0: at most 767 are significant.
 inline digit_string exact_digits(double x) {
     std::array<char, 800> buffer;
-    auto const end =
-        std::to_chars(buffer.data(), buffer.data() + buffer.size(), x, std::chars_format::scientific, 766);
+    auto const end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x,
+                                   std::chars_format::scientific, 766);
     std::string_view const text{buffer.data(), static_cast<std::size_t>(end.ptr - buffer.data())};
     std::size_t const e = text.find('e');
     digit_string d;
@@ -90,14 +90,20 @@ inline std::string shortest_magnitude(double x, bool up) {
     return layout(shortened(all, 17, up));
 }
 
-inline std::string to_decimal(double x, bool up) {
+/// `digits` significant digits, or as many as the shortest text needs if that is 0.
+inline std::string to_decimal(double x, bool up, int digits = 0) {
     if (is_nan(x)) return "nan";
     if (is_infinite(x)) return x > 0.0 ? "inf" : "-inf";
     if (is_zero(x)) return "0";
-    return x > 0.0 ? shortest_magnitude(x, up) : '-' + shortest_magnitude(-x, !up);
+    auto const magnitude = [&](double m, bool away) {
+        return digits > 0
+                   ? layout(shortened(exact_digits(m), static_cast<std::size_t>(digits), away))
+                   : shortest_magnitude(m, away);
+    };
+    return x > 0.0 ? magnitude(x, up) : '-' + magnitude(-x, !up);
 }
 
-}  // namespace detail
+} // namespace detail
 
 /// The shortest decimal t <= x with no double in [t, x) (none strictly between either): 0.1 gives
 /// "0.1" (the double is a little above). Infinities are "inf", "-inf".
@@ -106,10 +112,27 @@ inline std::string to_decimal_lower(double x) { return detail::to_decimal(x, fal
 /// The shortest decimal t >= x with no double in (x, t].
 inline std::string to_decimal_upper(double x) { return detail::to_decimal(x, true); }
 
+/// The greatest decimal <= x of at most `digits` significant digits, without trailing zeros.
+inline std::string to_decimal_lower(double x, int digits) {
+    return detail::to_decimal(x, false, digits);
+}
+
+/// The least decimal >= x of at most `digits` significant digits, without trailing zeros.
+inline std::string to_decimal_upper(double x, int digits) {
+    return detail::to_decimal(x, true, digits);
+}
+
 /// "[lo, hi]" with bounds rounded outward, or "[empty]".
 inline std::string to_string(interval const& x) {
     if (is_empty(x)) return "[empty]";
     return '[' + to_decimal_lower(x.lower()) + ", " + to_decimal_upper(x.upper()) + ']';
+}
+
+/// The same with at most `digits` significant digits in each bound, rounded outward.
+inline std::string to_string(interval const& x, int digits) {
+    if (is_empty(x)) return "[empty]";
+    return '[' + to_decimal_lower(x.lower(), digits) + ", " + to_decimal_upper(x.upper(), digits) +
+           ']';
 }
 
 /// Exact hexadecimal text, for instance "-0x1.8p+1"; "inf", "-inf", "nan".
@@ -125,8 +148,8 @@ inline std::string to_hex(double x) {
     return text;
 }
 
-/// The double of which `text` is the exact hexadecimal text; nothing if it is malformed or no double
-/// has that value. Accepts "inf", "-inf" and "nan".
+/// The double of which `text` is the exact hexadecimal text; nothing if it is malformed or no
+/// double has that value. Accepts "inf", "-inf" and "nan".
 inline std::optional<double> from_hex(std::string_view text) {
     if (text == "inf") return detail::infinity;
     if (text == "-inf") return -detail::infinity;
@@ -138,6 +161,6 @@ inline std::optional<double> from_hex(std::string_view text) {
     return n.negative ? -r.below : r.below;
 }
 
-}  // namespace sivid
+} // namespace sivid
 
 #endif

@@ -3,8 +3,8 @@
 #define SIVID_NUMBER_DECIMAL_TEXT_HPP
 
 /// @file
-/// The syntax of number texts and their exact rounding to neighbouring doubles. Work is bounded: digits
-/// past the 800th only matter by being zero or not, exponents saturate.
+/// The syntax of number texts and their exact rounding to neighbouring doubles. Work is bounded:
+/// digits past the 800th only matter by being zero or not, exponents saturate.
 
 #include <sivid/number/rounding.hpp>
 
@@ -20,11 +20,11 @@
 namespace sivid::detail {
 
 /// A number text taken apart: (-1)^negative * 0.d1 d2 d3 ... * 10^point, or hexadecimal
-/// 0.h1 h2 ... * 16^point * 2^exponent2. Digits are those of `text` from `first` on, separators and the
-/// point left out.
+/// 0.h1 h2 ... * 16^point * 2^exponent2. Digits are those of `text` from `first` on, separators and
+/// the point left out.
 struct number_text {
     bool valid = false, negative = false, hexadecimal = false;
-    std::size_t first = 0, digit_count = 0;   ///< from the first non-zero digit to the last digit
+    std::size_t first = 0, digit_count = 0; ///< from the first non-zero digit to the last digit
     std::int64_t point = 0;
     std::int64_t exponent2 = 0;
 };
@@ -39,8 +39,8 @@ constexpr int digit_value(char c, bool hexadecimal) noexcept {
     return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
-/// [+-] digits [. digits] [e [+-] digits], or [+-] 0x hexdigits [. hexdigits] [p [+-] digits]. At least
-/// one digit; `'` may separate digits as in C++ literals. Nothing else: no blanks, inf, nan.
+/// [+-] digits [. digits] [e [+-] digits], or [+-] 0x hexdigits [. hexdigits] [p [+-] digits]. At
+/// least one digit; `'` may separate digits as in C++ literals. Nothing else: no blanks, inf, nan.
 constexpr number_text scan_number(std::string_view text) noexcept {
     number_text n;
     std::size_t i = 0;
@@ -85,7 +85,8 @@ constexpr number_text scan_number(std::string_view text) noexcept {
         if (i == text.size()) return n;
         std::int64_t value = 0;
         for (; i < text.size(); ++i) {
-            if (text[i] == '\'' && digit_value(text[i - 1], false) >= 0 && i + 1 < text.size()) continue;
+            if (text[i] == '\'' && digit_value(text[i - 1], false) >= 0 && i + 1 < text.size())
+                continue;
             int const d = digit_value(text[i], false);
             if (d < 0) return n;
             value = value * 10 + d;
@@ -99,30 +100,28 @@ constexpr number_text scan_number(std::string_view text) noexcept {
 
 /// |number| between neighbouring doubles.
 struct rounded_magnitude {
-    double below = 0.0;          ///< the greatest double <= |number|; the greatest of all if it overflows
-    bool exact = true;           ///< `below` is the number
-    bool overflow = false;       ///< |number| > greatest double
-    int half = -1;               ///< sign of |number| - middle of the neighbours, when not exact
+    double below = 0.0;    ///< the greatest double <= |number|; the greatest of all if it overflows
+    bool exact = true;     ///< `below` is the number
+    bool overflow = false; ///< |number| > greatest double
+    int half = -1;         ///< sign of |number| - middle of the neighbours, when not exact
 };
 
 /// floor(n / d 2^shift) made to at most 53 bits, with the comparison against the middle; n, d > 0.
 /// `more`: the number is a little greater than n/d (less than any representable difference).
-inline rounded_magnitude round_ratio(boost::multiprecision::cpp_int n, boost::multiprecision::cpp_int d,
-                                     std::int64_t exponent, bool more) {
+inline rounded_magnitude round_ratio(boost::multiprecision::cpp_int n,
+                                     boost::multiprecision::cpp_int d, std::int64_t exponent,
+                                     bool more) {
     using boost::multiprecision::cpp_int;
     // The number is n/d 2^exponent. Choose the unit 2^unit so that the quotient has 53 or 54 bits.
     auto const bits_of = [](cpp_int const& x) { return static_cast<std::int64_t>(msb(x)) + 1; };
-    std::int64_t const top = bits_of(n) - bits_of(d) + exponent;   // number in [2^(top-1), 2^(top+1))
+    std::int64_t const top = bits_of(n) - bits_of(d) + exponent; // number in [2^(top-1), 2^(top+1))
     rounded_magnitude r;
     if (top - 1 >= 1024) {
-        r.overflow = true;
-        r.exact = false;
-        r.below = std::numeric_limits<double>::max();
-        return r;
+        return {std::numeric_limits<double>::max(), false, true, 1};
     }
     if (top + 1 < -1074) {
         r.exact = false;
-        return r;                                                   // below half the least subnormal
+        return r; // below half the least subnormal
     }
     std::int64_t unit = top - 53;
     if (unit < -1074) unit = -1074;
@@ -142,10 +141,7 @@ inline rounded_magnitude round_ratio(boost::multiprecision::cpp_int n, boost::mu
         divide();
     }
     if (unit > 971) {
-        r.overflow = true;
-        r.exact = false;
-        r.below = std::numeric_limits<double>::max();
-        return r;
+        return {std::numeric_limits<double>::max(), false, true, 1};
     }
     // q < 2^53 and q 2^unit is a double: put the bits together.
     auto const m = q.convert_to<std::uint64_t>();
@@ -174,13 +170,16 @@ inline rounded_magnitude round_text(std::string_view text, number_text const& n)
     for (std::size_t i = n.first; seen < n.digit_count; ++i) {
         int const d = digit_value(text[i], n.hexadecimal);
         if (d < 0) continue;
-        if (seen < kept_digits) digits += text[i];
-        else if (d != 0) more = true;
+        if (seen < kept_digits)
+            digits += text[i];
+        else if (d != 0)
+            more = true;
         ++seen;
     }
     auto const kept = static_cast<std::int64_t>(digits.size());
     if (n.hexadecimal) {
-        return round_ratio(cpp_int{"0x" + digits}, cpp_int{1}, 4 * (n.point - kept) + n.exponent2, more);
+        return round_ratio(cpp_int{"0x" + digits}, cpp_int{1}, 4 * (n.point - kept) + n.exponent2,
+                           more);
     }
     std::int64_t const power = n.point - kept;
     auto const magnitude = static_cast<unsigned>(power < 0 ? -power : power);
@@ -190,6 +189,6 @@ inline rounded_magnitude round_text(std::string_view text, number_text const& n)
                       : round_ratio(numerator, ten, 0, more);
 }
 
-}  // namespace sivid::detail
+} // namespace sivid::detail
 
 #endif

@@ -7,7 +7,7 @@
 /// leave at least one float of margin over the largest error seen against MPFR with glibc 2.36 on
 /// x86-64 (docs/numbers.md). The proven alternative is number/mp_interval.hpp.
 
-#include <cmath>    // defines __GLIBC__ where it applies
+#include <cmath> // defines __GLIBC__ where it applies
 
 #if !defined(__GLIBC__)
 #error "sivid: the error bounds of the elementary functions were tested with glibc only"
@@ -22,8 +22,8 @@ namespace excess {
 inline constexpr int exp = 2, expm1 = 2, log = 2, log1p = 2, pow = 2;
 inline constexpr int sin = 2, cos = 2, tan = 2, asin = 2, acos = 2, atan = 2, atan2 = 4;
 inline constexpr int sinh = 4, cosh = 4, tanh = 4, asinh = 4, acosh = 4, atanh = 4, cbrt = 6;
-}  // namespace excess
+} // namespace excess
 
-}  // namespace sivid
+} // namespace sivid
 
 #endif

@@ -74,7 +74,7 @@ inline double log1p_up(double x) noexcept {
     return at_most(step(library(library_log1p, x), excess::log1p), x);
 }
 
-}  // namespace detail
+} // namespace detail
 
 /// \f$ \{e^t : t \in x\} \f$.  Max excess: `excess::exp` floats a side; exp(0) = 1 exactly.
 inline interval exp(interval const& x) noexcept {
@@ -120,6 +120,6 @@ inline interval log1p(interval const& x) noexcept {
     return log1p(x, cut);
 }
 
-}  // namespace sivid
+} // namespace sivid
 
 #endif

@@ -53,19 +53,20 @@ namespace detail {
 /// Inlined always: it has to be compiled with the flags of the file that asks.
 [[gnu::always_inline]] inline bool plain_arithmetic_is_kept() noexcept {
     double const big = opaque(0x1p53), one = opaque(1.0);
-    double const residual = (big + one) - big;             // 0; 1 when reassociated
+    double const residual = (big + one) - big; // 0; 1 when reassociated
     double const x = opaque(5.0), y = opaque(-0.0);
-    double const quotient = x / 49.0;                      // 5 * (1/49) rounds differently
-    double const zero = y + 0.0;                           // +0; -0 when signed zeros are ignored
+    double const quotient = x / 49.0; // 5 * (1/49) rounds differently
+    double const zero = y + 0.0;      // +0; -0 when signed zeros are ignored
     return opaque(residual) == 0.0 && opaque(quotient) == opaque(x) / opaque(49.0) &&
            std::bit_cast<std::uint64_t>(opaque(zero)) == 0;
 }
 
-}  // namespace detail
+} // namespace detail
 
 /// Checks that proofs are possible here and now; every solver calls it on entry.
 /// @guarantee  on return: round-to-nearest is set, subnormals are neither flushed nor read as zero,
-///             directed rounding works in each way that sivid uses, plain arithmetic is not rearranged
+///             directed rounding works in each way that sivid uses, plain arithmetic is not
+///             rearranged
 /// @throws     unsound_environment with the reason otherwise (for instance under valgrind, which
 ///             ignores the rounding mode, or in a program linked with -ffast-math)
 /// @cost       about 50 ns, no state
@@ -94,6 +95,6 @@ namespace detail {
             "-fassociative-math, -freciprocal-math or -fno-signed-zeros); compile without them"};
 }
 
-}  // namespace sivid
+} // namespace sivid
 
 #endif

@@ -35,7 +35,7 @@ interval increasing_odd(Function const& f, int excess_floats, interval const& x)
     return unchecked_interval(lo, hi);
 }
 
-}  // namespace detail
+} // namespace detail
 
 /// \f$ \{\sinh t : t \in x\} \f$.  Max excess: `excess::sinh` floats a side.
 inline interval sinh(interval const& x) noexcept {
@@ -61,7 +61,8 @@ inline interval cosh(interval const& x) noexcept {
 inline interval tanh(interval const& x) noexcept {
     if (is_empty(x)) return x;
     interval const y = detail::increasing_odd(detail::library_tanh, excess::tanh, x);
-    return detail::unchecked_interval(detail::at_least(y.lower(), -1.0), detail::at_most(y.upper(), 1.0));
+    return detail::unchecked_interval(detail::at_least(y.lower(), -1.0),
+                                      detail::at_most(y.upper(), 1.0));
 }
 
 /// \f$ \{\mathrm{arsinh}\, t : t \in x\} \f$.  Max excess: `excess::asinh` floats a side.
@@ -106,6 +107,6 @@ inline interval atanh(interval const& x) noexcept {
     return atanh(x, cut);
 }
 
-}  // namespace sivid
+} // namespace sivid
 
 #endif

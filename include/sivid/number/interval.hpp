@@ -28,9 +28,9 @@
 namespace sivid {
 
 /// Rounding policy of Boost.Interval: upward mode of MXCSR set once for each operation, FTZ and DAZ
-/// cleared, lower bounds through negation. Operands and results pass through volatile empty assembly
-/// between the two changes of the mode, so no compiler can fold, share or move the operation.
-/// It has no transcendental functions: Boost's own are unsound with every policy.
+/// cleared, lower bounds through negation. Operands and results pass through volatile empty
+/// assembly between the two changes of the mode, so no compiler can fold, share or move the
+/// operation. It has no transcendental functions: Boost's own are unsound with every policy.
 class opaque_rounding {
 public:
     using rounding_mode = unsigned;
@@ -97,10 +97,10 @@ private:
 
 /// The interval type that users see. `+ - * /` of Boost are sound on it; `interval_traits` is
 /// tighter (division), faster, and the way by which the library computes.
-using interval = boost::numeric::interval<
-    double, boost::numeric::interval_lib::policies<
-                boost::numeric::interval_lib::save_state<opaque_rounding>,
-                boost::numeric::interval_lib::checking_base<double>>>;
+using interval =
+    boost::numeric::interval<double, boost::numeric::interval_lib::policies<
+                                         boost::numeric::interval_lib::save_state<opaque_rounding>,
+                                         boost::numeric::interval_lib::checking_base<double>>>;
 
 namespace detail {
 
@@ -130,7 +130,7 @@ inline interval bounded(double lo, double hi) noexcept {
 /// The rest of a computation in round-to-nearest, whatever the caller's mode; restored at the end.
 using nearest_mode = with_rounding<direction::nearest>;
 
-}  // namespace detail
+} // namespace detail
 
 // Reading. Bounds are exact; derived numbers are rounded to the safe side.
 inline double lower(interval const& x) noexcept { return x.lower(); }
@@ -216,6 +216,22 @@ inline interval intersect(interval const& a, interval const& b) noexcept {
     return detail::unchecked_interval(b.lower() > a.lower() ? b.lower() : a.lower(),
                                       b.upper() < a.upper() ? b.upper() : a.upper());
 }
+// Comparisons are about all elements: true if certain, false if not (Boost's own throw where
+// intervals overlap). `!(a < b)` does not mean `a >= b`; `a != b` means "not certainly equal". Sets
+// are compared by `equal` and `subset`.
+inline bool operator<(interval const& a, interval const& b) noexcept {
+    return a.upper() < b.lower();
+}
+inline bool operator<=(interval const& a, interval const& b) noexcept {
+    return a.upper() <= b.lower();
+}
+inline bool operator>(interval const& a, interval const& b) noexcept { return b < a; }
+inline bool operator>=(interval const& a, interval const& b) noexcept { return b <= a; }
+inline bool operator==(interval const& a, interval const& b) noexcept {
+    return is_point(a) && a.lower() == b.lower() && a.lower() == b.upper();
+}
+inline bool operator!=(interval const& a, interval const& b) noexcept { return !(a == b); }
+
 /// A rounded decimal such as 0.10 is not the decimal: write hull(0.10_dec, 0.12_dec), or
 /// `interval_traits<interval>::bounds` for two exact doubles.
 template <std::floating_point A, std::floating_point B>
@@ -224,22 +240,59 @@ interval hull(A, B) = delete;
 // Whole numbers beside intervals are exact (or enclosed above 2^53); Boost offers doubles only.
 // Templates on the interval, since Boost's implicit constructor would let any type convert to it.
 template <std::same_as<interval> I, std::integral N>
-I operator+(I const& x, N n) { return x + interval{n, n}; }
+I operator+(I const& x, N n) {
+    return x + interval{n, n};
+}
 template <std::integral N, std::same_as<interval> I>
-I operator+(N n, I const& x) { return interval{n, n} + x; }
+I operator+(N n, I const& x) {
+    return interval{n, n} + x;
+}
 template <std::same_as<interval> I, std::integral N>
-I operator-(I const& x, N n) { return x - interval{n, n}; }
+I operator-(I const& x, N n) {
+    return x - interval{n, n};
+}
 template <std::integral N, std::same_as<interval> I>
-I operator-(N n, I const& x) { return interval{n, n} - x; }
+I operator-(N n, I const& x) {
+    return interval{n, n} - x;
+}
 template <std::same_as<interval> I, std::integral N>
-I operator*(I const& x, N n) { return x * interval{n, n}; }
+I operator*(I const& x, N n) {
+    return x * interval{n, n};
+}
 template <std::integral N, std::same_as<interval> I>
-I operator*(N n, I const& x) { return interval{n, n} * x; }
+I operator*(N n, I const& x) {
+    return interval{n, n} * x;
+}
 template <std::same_as<interval> I, std::integral N>
-I operator/(I const& x, N n) { return x / interval{n, n}; }
+I operator/(I const& x, N n) {
+    return x / interval{n, n};
+}
 template <std::integral N, std::same_as<interval> I>
-I operator/(N n, I const& x) { return interval{n, n} / x; }
+I operator/(N n, I const& x) {
+    return interval{n, n} / x;
+}
 
-}  // namespace sivid
+} // namespace sivid
+
+/// An interval has no smallest or greatest value and no precision: algorithms that use such numbers
+/// as thresholds for neglecting something get 0.
+template <>
+class std::numeric_limits<sivid::interval> {
+public:
+    static constexpr bool is_specialized = false, is_integer = false, is_signed = true,
+                          is_exact = false;
+    static constexpr bool is_iec559 = false, is_bounded = false, has_infinity = false;
+    static constexpr bool has_quiet_NaN = false, has_signaling_NaN = false, is_modulo = false;
+    static constexpr int digits = 53, digits10 = 15, max_digits10 = 17, radix = 2;
+    static constexpr std::float_round_style round_style = std::round_indeterminate;
+    static sivid::interval(min)() noexcept { return {}; }
+    static sivid::interval(max)() noexcept { return {}; }
+    static sivid::interval lowest() noexcept { return {}; }
+    static sivid::interval epsilon() noexcept { return {}; }
+    static sivid::interval round_error() noexcept { return {}; }
+    static sivid::interval denorm_min() noexcept { return {}; }
+    static sivid::interval infinity() noexcept { return {}; }
+    static sivid::interval quiet_NaN() noexcept { return {}; }
+};
 
 #endif

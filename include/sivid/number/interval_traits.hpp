@@ -3,7 +3,8 @@
 #define SIVID_NUMBER_INTERVAL_TRAITS_HPP
 
 /// @file
-/// The one customisation point of interval types, its concept, and the vocabulary type's model of it.
+/// The one customisation point of interval types, its concept, and the vocabulary type's model of
+/// it.
 ///
 /// A type plugs in by specialising `interval_traits`. Everything is static. A type with bounds that
 /// are doubles, or can be given as such, derives its specialisation from `traits_by_bounds` and
@@ -21,55 +22,55 @@ namespace sivid {
 template <class I>
 struct interval_traits;
 
-/// I has a complete `interval_traits`. Every operation encloses; those with a mask set it (|=) where
-/// the function is not defined on the whole argument, and never clear it.
+/// I has a complete `interval_traits`. Every operation encloses; those with a mask set it (|=)
+/// where the function is not defined on the whole argument, and never clear it.
 template <class I>
-concept interval_scalar =
-    std::copyable<I> && std::default_initializable<typename interval_traits<I>::mask> &&
+concept interval_scalar = std::copyable<I> &&
+    std::default_initializable<typename interval_traits<I>::mask> &&
     requires(I const& a, I const& b, double t, int n, typename interval_traits<I>::mask& cut) {
-        { interval_traits<I>::lanes } -> std::convertible_to<std::size_t>;
-        { interval_traits<I>::point(t) } -> std::same_as<I>;
-        { interval_traits<I>::bounds(t, t) } -> std::same_as<I>;
-        { interval_traits<I>::empty() } -> std::same_as<I>;
-        { interval_traits<I>::entire() } -> std::same_as<I>;
-        { interval_traits<I>::lower(a, std::size_t{}) } -> std::same_as<double>;
-        { interval_traits<I>::upper(a, std::size_t{}) } -> std::same_as<double>;
-        { interval_traits<I>::hull(a, b) } -> std::same_as<I>;
-        { interval_traits<I>::intersect(a, b) } -> std::same_as<I>;
-        { interval_traits<I>::neg(a) } -> std::same_as<I>;
-        { interval_traits<I>::add(a, b) } -> std::same_as<I>;
-        { interval_traits<I>::sub(a, b) } -> std::same_as<I>;
-        { interval_traits<I>::mul(a, b) } -> std::same_as<I>;
-        { interval_traits<I>::div(a, b, cut) } -> std::same_as<I>;
-        { interval_traits<I>::sqr(a) } -> std::same_as<I>;
-        { interval_traits<I>::abs(a) } -> std::same_as<I>;
-        { interval_traits<I>::min(a, b) } -> std::same_as<I>;
-        { interval_traits<I>::max(a, b) } -> std::same_as<I>;
-        { interval_traits<I>::sqrt(a, cut) } -> std::same_as<I>;
-        { interval_traits<I>::pown(a, n, cut) } -> std::same_as<I>;
-        { interval_traits<I>::pow(a, b, cut) } -> std::same_as<I>;
-        { interval_traits<I>::exp(a) } -> std::same_as<I>;
-        { interval_traits<I>::expm1(a) } -> std::same_as<I>;
-        { interval_traits<I>::log(a, cut) } -> std::same_as<I>;
-        { interval_traits<I>::log1p(a, cut) } -> std::same_as<I>;
-        { interval_traits<I>::sin(a) } -> std::same_as<I>;
-        { interval_traits<I>::cos(a) } -> std::same_as<I>;
-        { interval_traits<I>::tan(a, cut) } -> std::same_as<I>;
-        { interval_traits<I>::asin(a, cut) } -> std::same_as<I>;
-        { interval_traits<I>::acos(a, cut) } -> std::same_as<I>;
-        { interval_traits<I>::atan(a) } -> std::same_as<I>;
-        { interval_traits<I>::atan2(a, b, cut) } -> std::same_as<I>;
-        { interval_traits<I>::sinh(a) } -> std::same_as<I>;
-        { interval_traits<I>::cosh(a) } -> std::same_as<I>;
-        { interval_traits<I>::tanh(a) } -> std::same_as<I>;
-        { interval_traits<I>::hypot(a, b) } -> std::same_as<I>;
-        { interval_traits<I>::sign(a) } -> std::same_as<I>;
-        { interval_traits<I>::saturate(a, b, b) } -> std::same_as<I>;
-        { interval_traits<I>::deadband(a, b) } -> std::same_as<I>;
-    };
+    { interval_traits<I>::lanes } -> std::convertible_to<std::size_t>;
+    { interval_traits<I>::point(t) } -> std::same_as<I>;
+    { interval_traits<I>::bounds(t, t) } -> std::same_as<I>;
+    { interval_traits<I>::empty() } -> std::same_as<I>;
+    { interval_traits<I>::entire() } -> std::same_as<I>;
+    { interval_traits<I>::lower(a, std::size_t{}) } -> std::same_as<double>;
+    { interval_traits<I>::upper(a, std::size_t{}) } -> std::same_as<double>;
+    { interval_traits<I>::hull(a, b) } -> std::same_as<I>;
+    { interval_traits<I>::intersect(a, b) } -> std::same_as<I>;
+    { interval_traits<I>::neg(a) } -> std::same_as<I>;
+    { interval_traits<I>::add(a, b) } -> std::same_as<I>;
+    { interval_traits<I>::sub(a, b) } -> std::same_as<I>;
+    { interval_traits<I>::mul(a, b) } -> std::same_as<I>;
+    { interval_traits<I>::div(a, b, cut) } -> std::same_as<I>;
+    { interval_traits<I>::sqr(a) } -> std::same_as<I>;
+    { interval_traits<I>::abs(a) } -> std::same_as<I>;
+    { interval_traits<I>::min(a, b) } -> std::same_as<I>;
+    { interval_traits<I>::max(a, b) } -> std::same_as<I>;
+    { interval_traits<I>::sqrt(a, cut) } -> std::same_as<I>;
+    { interval_traits<I>::pown(a, n, cut) } -> std::same_as<I>;
+    { interval_traits<I>::pow(a, b, cut) } -> std::same_as<I>;
+    { interval_traits<I>::exp(a) } -> std::same_as<I>;
+    { interval_traits<I>::expm1(a) } -> std::same_as<I>;
+    { interval_traits<I>::log(a, cut) } -> std::same_as<I>;
+    { interval_traits<I>::log1p(a, cut) } -> std::same_as<I>;
+    { interval_traits<I>::sin(a) } -> std::same_as<I>;
+    { interval_traits<I>::cos(a) } -> std::same_as<I>;
+    { interval_traits<I>::tan(a, cut) } -> std::same_as<I>;
+    { interval_traits<I>::asin(a, cut) } -> std::same_as<I>;
+    { interval_traits<I>::acos(a, cut) } -> std::same_as<I>;
+    { interval_traits<I>::atan(a) } -> std::same_as<I>;
+    { interval_traits<I>::atan2(a, b, cut) } -> std::same_as<I>;
+    { interval_traits<I>::sinh(a) } -> std::same_as<I>;
+    { interval_traits<I>::cosh(a) } -> std::same_as<I>;
+    { interval_traits<I>::tanh(a) } -> std::same_as<I>;
+    { interval_traits<I>::hypot(a, b) } -> std::same_as<I>;
+    { interval_traits<I>::sign(a) } -> std::same_as<I>;
+    { interval_traits<I>::saturate(a, b, b) } -> std::same_as<I>;
+    { interval_traits<I>::deadband(a, b) } -> std::same_as<I>;
+};
 
-/// The vocabulary type: tight for + - * / sqr sqrt min max hull intersect; elementary functions widen
-/// the C library's results by `excess` floats. Independent of the caller's rounding mode.
+/// The vocabulary type: tight for + - * / sqr sqrt min max hull intersect; elementary functions
+/// widen the C library's results by `excess` floats. Independent of the caller's rounding mode.
 template <>
 struct interval_traits<interval> {
     using mask = bool;
@@ -95,14 +96,18 @@ struct interval_traits<interval> {
     static bool contains(interval const& a, double t) noexcept { return sivid::contains(a, t); }
 
     // Sets.
-    static bool subset(interval const& a, interval const& b) noexcept { return sivid::subset(a, b); }
+    static bool subset(interval const& a, interval const& b) noexcept {
+        return sivid::subset(a, b);
+    }
     static bool interior(interval const& a, interval const& b) noexcept {
         return sivid::interior(a, b);
     }
     static bool disjoint(interval const& a, interval const& b) noexcept {
         return sivid::disjoint(a, b);
     }
-    static interval hull(interval const& a, interval const& b) noexcept { return sivid::hull(a, b); }
+    static interval hull(interval const& a, interval const& b) noexcept {
+        return sivid::hull(a, b);
+    }
     static interval intersect(interval const& a, interval const& b) noexcept {
         return sivid::intersect(a, b);
     }
@@ -119,7 +124,9 @@ struct interval_traits<interval> {
     static interval abs(interval const& a) noexcept { return sivid::abs(a); }
     static interval min(interval const& a, interval const& b) noexcept { return sivid::min(a, b); }
     static interval max(interval const& a, interval const& b) noexcept { return sivid::max(a, b); }
-    static interval hypot(interval const& a, interval const& b) noexcept { return sivid::hypot(a, b); }
+    static interval hypot(interval const& a, interval const& b) noexcept {
+        return sivid::hypot(a, b);
+    }
 
     // Elementary functions.
     static interval sqrt(interval const& a, mask& undefined) noexcept {
@@ -177,6 +184,6 @@ struct interval_traits<interval> {
 
 static_assert(interval_scalar<interval>);
 
-}  // namespace sivid
+} // namespace sivid
 
 #endif

@@ -5,6 +5,7 @@
 /// @file
 /// asin, acos, atan, atan2 of intervals.
 
+#include <sivid/number/arithmetic.hpp>
 #include <sivid/number/excess.hpp>
 #include <sivid/number/exponential.hpp>
 #include <sivid/number/interval.hpp>
@@ -44,7 +45,7 @@ double upper_half_angle(double y, double x) noexcept {
 /// atan2 on y >= 0 without the origin, y not inside {0} when x is {0}.
 inline interval upper_half_atan2(interval const& y, interval const& x) noexcept {
     double const xl = x.lower(), xu = x.upper(), yl = y.lower(), yu = y.upper();
-    if (is_zero(yu)) {   // a piece of the axis
+    if (is_zero(yu)) { // a piece of the axis
         return unchecked_interval(xu > 0.0 ? 0.0 : pi_down, xl < 0.0 ? pi_up : 0.0);
     }
     // The angle decreases with x; it grows with y on the right, and falls with y on the left.
@@ -62,7 +63,7 @@ inline interval upper_half_atan2(interval const& y, interval const& x) noexcept 
     return unchecked_interval(lo, hi);
 }
 
-}  // namespace detail
+} // namespace detail
 
 /// \f$ \{\arcsin t : t \in x \cap [-1, 1]\} \f$; sets `cut` if x leaves [-1, 1].
 /// Max excess: `excess::asin` floats a side.
@@ -105,9 +106,9 @@ inline interval atan(interval const& x) noexcept {
                                       b == 0.0 ? 0.0 : detail::clamp(hi, -bound, bound));
 }
 
-/// \f$ \{\mathrm{atan2}(s, t) : s \in y, t \in x, (s, t) \ne (0, 0)\} \f$ in \f$ (-\pi, \pi] \f$; sets
-/// `cut` if the origin is in the box. Across the negative half of the x axis the function jumps: the
-/// result is then the hull [-pi, pi].  Max excess: `excess::atan2` floats a side.
+/// \f$ \{\mathrm{atan2}(s, t) : s \in y, t \in x, (s, t) \ne (0, 0)\} \f$ in \f$ (-\pi, \pi] \f$;
+/// sets `cut` if the origin is in the box. Across the negative half of the x axis the function
+/// jumps: the result is then the hull [-pi, pi].  Max excess: `excess::atan2` floats a side.
 inline interval atan2(interval const& y, interval const& x, bool& cut) noexcept {
     if (is_empty(x) || is_empty(y)) return detail::empty_interval();
     double const xl = x.lower(), xu = x.upper(), yl = y.lower(), yu = y.upper();
@@ -137,6 +138,6 @@ inline interval atan2(interval const& y, interval const& x) noexcept {
     return atan2(y, x, cut);
 }
 
-}  // namespace sivid
+} // namespace sivid
 
 #endif

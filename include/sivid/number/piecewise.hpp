@@ -63,6 +63,6 @@ inline interval deadband(interval const& x, interval const& half_width) noexcept
         bound(x.upper(), least, most, [](double a, double b) { return detail::add_up(a, b); }));
 }
 
-}  // namespace sivid
+} // namespace sivid
 
 #endif

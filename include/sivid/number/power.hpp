@@ -37,7 +37,8 @@ inline double pown_down(double t, unsigned n) noexcept {
     if (n == 3) return mul_down(square, t);
     if (n == 4) return mul_down(square, square);
     nearest_mode const mode;
-    double const y = step(pinned(std::pow(pinned(t), pinned(static_cast<double>(n)))), -excess::pow);
+    double const y =
+        step(pinned(std::pow(pinned(t), pinned(static_cast<double>(n)))), -excess::pow);
     double const least = t > 1.0 ? 1.0 : 0.0;
     return y < least ? least : y;
 }
@@ -66,7 +67,8 @@ inline double negative_pown_down(double t, unsigned n) noexcept {
     if (is_zero(t)) return infinity;
     if (n == 1) return div_down(1.0, t);
     nearest_mode const mode;
-    double const y = step(pinned(std::pow(pinned(t), pinned(-static_cast<double>(n)))), -excess::pow);
+    double const y =
+        step(pinned(std::pow(pinned(t), pinned(-static_cast<double>(n)))), -excess::pow);
     double const least = t < 1.0 ? 1.0 : 0.0;
     return y < least ? least : y;
 }
@@ -76,7 +78,8 @@ inline double negative_pown_up(double t, unsigned n) noexcept {
     if (is_infinite(t)) return 0.0;
     if (n == 1) return div_up(1.0, t);
     nearest_mode const mode;
-    double const y = step(pinned(std::pow(pinned(t), pinned(-static_cast<double>(n)))), excess::pow);
+    double const y =
+        step(pinned(std::pow(pinned(t), pinned(-static_cast<double>(n)))), excess::pow);
     return t > 1.0 && y > 1.0 ? 1.0 : y;
 }
 
@@ -84,16 +87,18 @@ inline double negative_pown_up(double t, unsigned n) noexcept {
 inline interval negative_pown(interval const& x, unsigned n) noexcept {
     double const lo = x.lower(), hi = x.upper();
     if (is_zero(lo) && is_zero(hi)) return empty_interval();
-    if (n % 2 == 0) return unchecked_interval(negative_pown_down(mag(x), n), negative_pown_up(mig(x), n));
+    if (n % 2 == 0)
+        return unchecked_interval(negative_pown_down(mag(x), n), negative_pown_up(mig(x), n));
     if (lo < 0.0 && hi > 0.0) return entire_interval();
     if (lo >= 0.0) return unchecked_interval(negative_pown_down(hi, n), negative_pown_up(lo, n));
     return unchecked_interval(-negative_pown_up(-hi, n), -negative_pown_down(-lo, n));
 }
 
-}  // namespace detail
+} // namespace detail
 
-/// \f$ \{t^n : t \in x\} \f$ for an integer n, with \f$ t^0 = 1 \f$; sets `cut` if n < 0 and 0 is in x.
-/// Max excess: 0 for n = 0, 1, 2, -1, two roundings for n = 3, 4, else `excess::pow` floats a side.
+/// \f$ \{t^n : t \in x\} \f$ for an integer n, with \f$ t^0 = 1 \f$; sets `cut` if n < 0 and 0 is
+/// in x. Max excess: 0 for n = 0, 1, 2, -1, two roundings for n = 3, 4, else `excess::pow` floats a
+/// side.
 inline interval pown(interval const& x, int n, bool& cut) noexcept {
     if (is_empty(x)) return x;
     if (n == 0) return detail::unchecked_interval(1.0, 1.0);
@@ -102,10 +107,10 @@ inline interval pown(interval const& x, int n, bool& cut) noexcept {
     return detail::negative_pown(x, 0u - static_cast<unsigned>(n));
 }
 
-/// \f$ \{s^t : s \in x, t \in y, s > 0 \text{ or } (s = 0, t > 0)\} \f$; sets `cut` if pairs are left
-/// out. ln(s^t) = t ln s is bilinear, so the extremes are at the corners; at corners out of the domain
-/// the library's pow returns the limits that are needed.
-/// Max excess: `excess::pow` floats a side.
+/// \f$ \{s^t : s \in x, t \in y, s > 0 \text{ or } (s = 0, t > 0)\} \f$; sets `cut` if pairs are
+/// left out. ln(s^t) = t ln s is bilinear, so the extremes are at the corners; at corners out of
+/// the domain the library's pow returns the limits that are needed. Max excess: `excess::pow`
+/// floats a side.
 inline interval pow(interval const& x, interval const& y, bool& cut) noexcept {
     if (is_empty(x) || is_empty(y)) return detail::empty_interval();
     if (x.lower() < 0.0 || (x.lower() <= 0.0 && y.lower() <= 0.0)) cut = true;
@@ -126,8 +131,10 @@ inline interval pow(interval const& x, interval const& y, bool& cut) noexcept {
     }
     if (lo < 0.0) lo = 0.0;
     // Powers that cannot cross 1.
-    bool const above_one = (xl >= 1.0 && y.lower() >= 0.0) || (x.upper() <= 1.0 && y.upper() <= 0.0);
-    bool const below_one = (xl >= 1.0 && y.upper() <= 0.0) || (x.upper() <= 1.0 && y.lower() >= 0.0);
+    bool const above_one =
+        (xl >= 1.0 && y.lower() >= 0.0) || (x.upper() <= 1.0 && y.upper() <= 0.0);
+    bool const below_one =
+        (xl >= 1.0 && y.upper() <= 0.0) || (x.upper() <= 1.0 && y.lower() >= 0.0);
     if (above_one && lo < 1.0) lo = 1.0;
     if (below_one && hi > 1.0) hi = 1.0;
     return detail::bounded(lo, hi);
@@ -149,7 +156,7 @@ double hypot_bound(double a, double b) noexcept {
     return down == 1.0 ? root : div<D>(root, down);
 }
 
-}  // namespace detail
+} // namespace detail
 
 /// \f$ \{\sqrt{s^2 + t^2} : s \in x, t \in y\} \f$.  Max excess: 2 floats a side.
 inline interval hypot(interval const& x, interval const& y) noexcept {
@@ -175,6 +182,6 @@ inline interval pow(interval const& x, interval const& y) noexcept {
 /// @see pown
 inline interval pow(interval const& x, int n) noexcept { return pown(x, n); }
 
-}  // namespace sivid
+} // namespace sivid
 
 #endif

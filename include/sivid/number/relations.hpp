@@ -3,8 +3,8 @@
 #define SIVID_NUMBER_RELATIONS_HPP
 
 /// @file
-/// Order relations of IEEE 1788 between intervals. They are statements about all or some elements, not
-/// an order: `!less(a, b)` does not mean `less(b, a)`.
+/// Order relations of IEEE 1788 between intervals. They are statements about all or some elements,
+/// not an order: `!less(a, b)` does not mean `less(b, a)`.
 
 #include <sivid/number/interval.hpp>
 
@@ -14,7 +14,7 @@ namespace detail {
 inline bool below_or_both_infinite(double a, double b) noexcept {
     return a < b || (a == b && is_infinite(a));
 }
-}  // namespace detail
+} // namespace detail
 
 /// Every element of a has one of b that is >= it, and every element of b one of a that is <= it.
 inline bool less(interval const& a, interval const& b) noexcept {
@@ -36,6 +36,6 @@ inline bool strict_precedes(interval const& a, interval const& b) noexcept {
     return is_empty(a) || is_empty(b) || a.upper() < b.lower();
 }
 
-}  // namespace sivid
+} // namespace sivid
 
 #endif

@@ -8,8 +8,8 @@
 /// Two ways, chosen by the flags of the including file:
 ///   * AVX-512: the direction is part of the instruction;
 ///   * otherwise: the result r of one operation in *any* mode is one of the two neighbours of the
-///     exact value; the sign of the exact residual says on which side it lies, and r is moved by one
-///     step if it lies on the wrong one. No control register is read or written.
+///     exact value; the sign of the exact residual says on which side it lies, and r is moved by
+///     one step if it lies on the wrong one. No control register is read or written.
 /// Rare operands (subnormal, overflow) take the slow way through MXCSR.
 
 #include <bit>
@@ -18,8 +18,8 @@
 
 #include <immintrin.h>
 
-// Kernels that differ with compiler flags live in a namespace that names the flags, so that translation
-// units with different flags can be linked.
+// Kernels that differ with compiler flags live in a namespace that names the flags, so that
+// translation units with different flags can be linked.
 #if defined(__AVX512F__)
 #define SIVID_ROUNDING_KERNELS rounding_avx512
 #elif defined(__FMA__)
@@ -30,8 +30,8 @@
 
 namespace sivid::detail {
 
-inline constexpr unsigned mxcsr_rounding = 0x6000;   ///< 00 nearest, 01 down, 10 up, 11 to zero
-inline constexpr unsigned mxcsr_flush = 0x8040;      ///< FTZ (bit 15) and DAZ (bit 6)
+inline constexpr unsigned mxcsr_rounding = 0x6000; ///< 00 nearest, 01 down, 10 up, 11 to zero
+inline constexpr unsigned mxcsr_flush = 0x8040;    ///< FTZ (bit 15) and DAZ (bit 6)
 
 enum class direction : unsigned { nearest = 0x0000, down = 0x2000, up = 0x4000 };
 
@@ -151,15 +151,18 @@ inline constexpr int embedded =
 
 template <direction D>
 [[gnu::always_inline]] inline double add(double a, double b) noexcept {
-    return _mm_cvtsd_f64(_mm_add_round_sd(_mm_set_sd(opaque(a)), _mm_set_sd(opaque(b)), embedded<D>));
+    return _mm_cvtsd_f64(
+        _mm_add_round_sd(_mm_set_sd(opaque(a)), _mm_set_sd(opaque(b)), embedded<D>));
 }
 template <direction D>
 [[gnu::always_inline]] inline double mul(double a, double b) noexcept {
-    return _mm_cvtsd_f64(_mm_mul_round_sd(_mm_set_sd(opaque(a)), _mm_set_sd(opaque(b)), embedded<D>));
+    return _mm_cvtsd_f64(
+        _mm_mul_round_sd(_mm_set_sd(opaque(a)), _mm_set_sd(opaque(b)), embedded<D>));
 }
 template <direction D>
 [[gnu::always_inline]] inline double div(double a, double b) noexcept {
-    return _mm_cvtsd_f64(_mm_div_round_sd(_mm_set_sd(opaque(a)), _mm_set_sd(opaque(b)), embedded<D>));
+    return _mm_cvtsd_f64(
+        _mm_div_round_sd(_mm_set_sd(opaque(a)), _mm_set_sd(opaque(b)), embedded<D>));
 }
 template <direction D>
 [[gnu::always_inline]] inline double sqrt(double a) noexcept {
@@ -177,19 +180,20 @@ inline constexpr std::uint64_t fraction = (std::uint64_t{1} << 52) - 1;
 [[gnu::always_inline]] constexpr std::uint64_t significand(double x) noexcept {
     return (bits(x) & fraction) | (fraction + 1);
 }
-/// Exponents of operands and result that are neither zero, subnormal, infinite nor NaN, the result not
-/// in the uppermost binade either: rounded towards zero, an overflow would look like the greatest finite
-/// number. Operands of a finite result are finite, so they are only tested for 0 (bit 11 of e - 1).
+/// Exponents of operands and result that are neither zero, subnormal, infinite nor NaN, the result
+/// not in the uppermost binade either: rounded towards zero, an overflow would look like the
+/// greatest finite number. Operands of a finite result are finite, so they are only tested for 0
+/// (bit 11 of e - 1).
 [[gnu::always_inline]] constexpr bool are_normal(std::uint64_t e, std::uint64_t f,
                                                  std::uint64_t result) noexcept {
     return (((e - 1) | (f - 1) | (result - 1) | (result + 2)) & 0x800) == 0;
 }
 
-/// a + b. Fast two-sum: with |big| >= |small| and s a neighbour of the sum, s - big is exact, so the
-/// sign of small - (s - big) is the sign of the exact a + b - s in every rounding mode (it is a
+/// a + b. Fast two-sum: with |big| >= |small| and s a neighbour of the sum, s - big is exact, so
+/// the sign of small - (s - big) is the sign of the exact a + b - s in every rounding mode (it is a
 /// multiple of the least subnormal and cannot round to zero). Infinite or empty operands give NaN
-/// here and move nothing; an overflow gives -inf (+inf) and moves an infinite s back to the greatest
-/// finite number.
+/// here and move nothing; an overflow gives -inf (+inf) and moves an infinite s back to the
+/// greatest finite number.
 template <direction D>
 [[gnu::always_inline]] inline double add(double a, double b) noexcept {
     a = opaque(a);
@@ -208,8 +212,8 @@ template <direction D>
     return static_cast<std::int64_t>(p - q);
 }
 
-/// r moved to the side D of the exact value, `excess` being the sign of |exact| - |r|. Without branches:
-/// the magnitude may grow by one step if excess > 0, or shrink by one if excess < 0.
+/// r moved to the side D of the exact value, `excess` being the sign of |exact| - |r|. Without
+/// branches: the magnitude may grow by one step if excess > 0, or shrink by one if excess < 0.
 template <direction D>
 [[gnu::always_inline]] constexpr double to_side(double r, std::int64_t excess) noexcept {
     auto const negative = static_cast<std::uint64_t>(static_cast<std::int64_t>(bits(r)) >> 63);
@@ -230,7 +234,7 @@ template <direction D>
     if (are_normal(ea, eb, ep)) [[likely]]
         return to_side<D>(p, low_difference(significand(a) * significand(b),
                                             significand(p) << ((ep - ea - eb + 1075) & 63)));
-    if (is_zero(a) || is_zero(b)) return p;               // exact, or 0 * inf = NaN
+    if (is_zero(a) || is_zero(b)) return p; // exact, or 0 * inf = NaN
     return directed_mul<D>(a, b);
 }
 
@@ -240,10 +244,11 @@ template <direction D>
 #if defined(__FMA__)
     return _mm_fmsub_pd(a, b, p);
 #else
-    // Heads of 26 bits, rounded in the integers, and tails of 26 bits with a sign. All products have at
-    // most 52 bits. In units of the last place of a b (a 106-bit number), p - a_h b_h is a multiple of
-    // 2^52 below 2^81, then the sums are multiples of 2^27 below 2^80, at last the residual itself:
-    // every step is exact, but for a last rounding of |residual| > 2^53 that keeps its sign.
+    // Heads of 26 bits, rounded in the integers, and tails of 26 bits with a sign. All products
+    // have at most 52 bits. In units of the last place of a b (a 106-bit number), p - a_h b_h is a
+    // multiple of 2^52 below 2^81, then the sums are multiples of 2^27 below 2^80, at last the
+    // residual itself: every step is exact, but for a last rounding of |residual| > 2^53 that keeps
+    // its sign.
     __m128i const half = _mm_set1_epi64x(1 << 26), head = _mm_set1_epi64x(-(1LL << 27));
     auto const heads = [&](__m128d x) {
         return _mm_castsi128_pd(_mm_and_si128(_mm_add_epi64(_mm_castpd_si128(x), half), head));
@@ -269,12 +274,14 @@ template <direction D>
                                      _mm_cmpord_pd(r, r));
     if (_mm_movemask_pd(usual) == 3) [[likely]] {
         __m128d const zero = _mm_setzero_pd();
-        __m128i const away = _mm_or_si128(_mm_castpd_si128(_mm_cmplt_pd(p, zero)), _mm_set1_epi64x(1));
+        __m128i const away =
+            _mm_or_si128(_mm_castpd_si128(_mm_cmplt_pd(p, zero)), _mm_set1_epi64x(1));
         __m128i const shift = _mm_and_si128(_mm_castpd_si128(_mm_cmpgt_pd(r, zero)), away);
         return _mm_castsi128_pd(_mm_add_epi64(_mm_castpd_si128(p), shift));
     }
     double const a0 = _mm_cvtsd_f64(a), b0 = _mm_cvtsd_f64(b);
-    double const a1 = _mm_cvtsd_f64(_mm_unpackhi_pd(a, a)), b1 = _mm_cvtsd_f64(_mm_unpackhi_pd(b, b));
+    double const a1 = _mm_cvtsd_f64(_mm_unpackhi_pd(a, a)),
+                 b1 = _mm_cvtsd_f64(_mm_unpackhi_pd(b, b));
     double const p0 = is_zero(a0) || is_zero(b0) ? 0.0 : mul<direction::up>(a0, b0);
     double const p1 = is_zero(a1) || is_zero(b1) ? 0.0 : mul<direction::up>(a1, b1);
     return _mm_set_pd(p1, p0);
@@ -330,12 +337,10 @@ template <direction D>
 [[gnu::always_inline]] inline double sqrt_down(double a) noexcept {
     return sqrt<direction::down>(a);
 }
-[[gnu::always_inline]] inline double sqrt_up(double a) noexcept {
-    return sqrt<direction::up>(a);
-}
+[[gnu::always_inline]] inline double sqrt_up(double a) noexcept { return sqrt<direction::up>(a); }
 
-}  // inline namespace
+} // namespace SIVID_ROUNDING_KERNELS
 
-}  // namespace sivid::detail
+} // namespace sivid::detail
 
 #endif

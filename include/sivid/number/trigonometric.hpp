@@ -3,8 +3,8 @@
 #define SIVID_NUMBER_TRIGONOMETRIC_HPP
 
 /// @file
-/// sin, cos, tan of an interval. Values at the ends come from the library; which extrema or poles lie
-/// between them is decided in integers.
+/// sin, cos, tan of an interval. Values at the ends come from the library; which extrema or poles
+/// lie between them is decided in integers.
 
 #include <sivid/number/excess.hpp>
 #include <sivid/number/exponential.hpp>
@@ -27,16 +27,18 @@ inline constexpr wide_integer fixed_one = wide_integer{1} << 64;
 inline constexpr wide_integer turns_error = 64;
 
 /// x 2/pi in fixed point, |result - exact| <= `turns_error`.
-///   2/pi = 0.a2f9836e4e441529 fc2757d1f534ddc0 db... (hexadecimal); its first 128 fractional bits are
-///   A + B 2^-64 in units of 2^-64. With x = m 2^e, m < 2^53: m A + floor(m B 2^-64) is below 2^117
-///   and short by less than 2 (the truncated B and the dropped bits of 2/pi); then shifted by e <= 4.
+///   2/pi = 0.a2f9836e4e441529 fc2757d1f534ddc0 db... (hexadecimal); its first 128 fractional bits
+///   are A + B 2^-64 in units of 2^-64. With x = m 2^e, m < 2^53: m A + floor(m B 2^-64) is below
+///   2^117 and short by less than 2 (the truncated B and the dropped bits of 2/pi); then shifted by
+///   e <= 4.
 /// @given  |x| < 2^57
 inline wide_integer quarter_turns(double x) noexcept {
     constexpr std::uint64_t a = 0xa2f9836e4e441529u, b = 0xfc2757d1f534ddc0u;
     std::uint64_t const raw = bits(x) & ~sign_bit;
     auto const exponent = static_cast<int>(raw >> 52);
     constexpr std::uint64_t hidden = std::uint64_t{1} << 52;
-    wide_integer const m = static_cast<wide_integer>(exponent == 0 ? raw : (raw & (hidden - 1)) | hidden);
+    wide_integer const m =
+        static_cast<wide_integer>(exponent == 0 ? raw : (raw & (hidden - 1)) | hidden);
     wide_integer const turns = m * a + ((m * b) >> 64);
     int const e = (exponent == 0 ? 1 : exponent) - 1075;
     wide_integer const scaled = e >= 0 ? turns << e : e > -128 ? turns >> -e : 0;
@@ -45,7 +47,8 @@ inline wide_integer quarter_turns(double x) noexcept {
 
 /// Whether [lo, hi] may contain k with k = phase modulo period (1, 2 or 4 quarter turns, as a power
 /// of two); true also if the reduction cannot tell.
-inline bool may_contain_turn(wide_integer lo, wide_integer hi, int phase, int log2_period) noexcept {
+inline bool may_contain_turn(wide_integer lo, wide_integer hi, int phase,
+                             int log2_period) noexcept {
     wide_integer const offset = phase * fixed_one;
     int const shift = 64 + log2_period;
     // Arithmetic shifts: floor(hi) and ceil(lo) in periods.
@@ -57,7 +60,7 @@ inline bool may_contain_turn(wide_integer lo, wide_integer hi, int phase, int lo
 /// Where a bounded interval lies on the circle.
 struct arc {
     wide_integer lo, hi;
-    bool everything;   ///< longer than a turn
+    bool everything; ///< longer than a turn
 };
 inline arc arc_of(interval const& x) noexcept {
     // Beyond 2^57 neighbouring doubles are more than a turn apart.
@@ -96,7 +99,7 @@ interval wave(Function const& f, int excess_floats, interval const& x, int phase
     return unchecked_interval(lo, hi);
 }
 
-}  // namespace detail
+} // namespace detail
 
 /// \f$ \{\sin t : t \in x\} \f$.  Max excess: `excess::sin` floats a side; sin(0) = 0 exactly.
 inline interval sin(interval const& x) noexcept {
@@ -104,9 +107,11 @@ inline interval sin(interval const& x) noexcept {
     interval y = detail::wave(detail::library_sin, excess::sin, x, 1);
     // |sin t| <= |t|
     if (x.lower() >= 0.0 && x.upper() <= 1.5)
-        y = detail::unchecked_interval(detail::at_least(y.lower(), 0.0), detail::at_most(y.upper(), x.upper()));
+        y = detail::unchecked_interval(detail::at_least(y.lower(), 0.0),
+                                       detail::at_most(y.upper(), x.upper()));
     else if (x.upper() <= 0.0 && x.lower() >= -1.5)
-        y = detail::unchecked_interval(detail::at_least(y.lower(), x.lower()), detail::at_most(y.upper(), 0.0));
+        y = detail::unchecked_interval(detail::at_least(y.lower(), x.lower()),
+                                       detail::at_most(y.upper(), 0.0));
     return y;
 }
 
@@ -117,8 +122,8 @@ inline interval cos(interval const& x) noexcept {
     return detail::wave(detail::library_cos, excess::cos, x, 0);
 }
 
-/// \f$ \{\tan t : t \in x,\ t \ne (k + 1/2)\pi\} \f$; sets `cut` if a pole may lie in x (no double is
-/// a pole).  Max excess: `excess::tan` floats a side; tan(0) = 0 exactly.
+/// \f$ \{\tan t : t \in x,\ t \ne (k + 1/2)\pi\} \f$; sets `cut` if a pole may lie in x (no double
+/// is a pole).  Max excess: `excess::tan` floats a side; tan(0) = 0 exactly.
 inline interval tan(interval const& x, bool& cut) noexcept {
     if (is_empty(x)) return x;
     if (!is_point(x)) {
@@ -142,6 +147,6 @@ inline interval tan(interval const& x) noexcept {
     return tan(x, cut);
 }
 
-}  // namespace sivid
+} // namespace sivid
 
 #endif

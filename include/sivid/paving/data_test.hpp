@@ -2,10 +2,9 @@
 #ifndef SIVID_PAVING_DATA_TEST_HPP
 #define SIVID_PAVING_DATA_TEST_HPP
 
-#include <sivid/enclosure/observation.hpp>
-#include <sivid/enclosure/trajectory.hpp>
+#include <sivid/paving/experiment_run.hpp>
+#include <sivid/paving/local_response.hpp>
 #include <sivid/paving/problem.hpp>
-#include <sivid/paving/response.hpp>
 #include <sivid/paving/set_test.hpp>
 
 #include <algorithm>
@@ -20,17 +19,19 @@ namespace sivid {
 
 /// How boxes of parameters are tested against the data.
 struct data_test_options {
-    enclosure_options enclosure{
-        .order = 10, .tolerance = 1e-9, .relative_tolerance = 1e-3, .minimum_step = 1e-3};
-    /// Contract boxes by the affine dependence of the outputs on the parameters, and decide parts
-    /// of a box by what was computed for the whole. Without it the test is the report's: enclosure
-    /// against measurement, one integration a box.
+    run_options run;
+    /// How a guessed point is verified: first-order sets with fine steps, which kinks do not stop.
+    run_options witness{.enclosure = {.order = 14,
+                                      .tolerance = 1e-11,
+                                      .relative_tolerance = 1e-3,
+                                      .minimum_step = 1e-6},
+                        .set = carried_set::doubleton};
+    /// Contract boxes by the dependence of the outputs on the parameters, and decide parts of a box
+    /// by what was computed for the whole. Without it the test is the report's: enclosure against
+    /// measurement, one integration a box.
     bool contract = true;
-    /// Leave an experiment when the part of every output that is not affine in the parameters is
-    /// wider than this many times the affine part and the measurement together.
-    double hopeless = 3;
-    /// A part of a box is integrated anew when the non-affine share of an undecided output's width
-    /// exceeds this.
+    /// A part of a box is integrated anew when more than this share of an undecided output's width
+    /// is neither affine in the parameters nor shrinks with the part.
     double sharp_enough = 0.5;
 };
 
@@ -50,13 +51,13 @@ public:
     data_test(identification_problem const& problem, data_test_options const& options)
         : problem_(&problem), options_(options) {
         problem.require_valid();
+        records_.reserve(problem.experiments.size()); // the runs keep references
         for (auto const& e : problem.experiments) {
             flows_.push_back(std::make_shared<flow const>(problem.model, problem.choice, e.inputs));
             records_.push_back(sorted(e.measurements));
             starts_.push_back(e.initial);
             runs_.push_back(
-                std::make_unique<trajectory<interval>>(*flows_.back(), options_.enclosure));
-            observers_.push_back(std::make_unique<observer<interval>>(*flows_.back()));
+                make_run(*flows_.back(), e, records_.back(), problem.prior, options.run));
         }
     }
 
@@ -91,7 +92,6 @@ public:
             }
             if (options_.contract) result.rest = std::move(part);
             add_smear(result, says.smear);
-            if (answer->outputs.size() < answer->measurements) add_growth(result, e);
             if (!is_point(all) && starts_differ(e)) {
                 found->chosen_starts.push_back(says.explained ? answer
                                                               : run(e, starts_[e], result.rest));
@@ -108,9 +108,22 @@ public:
         return result;
     }
 
+    /// One experiment at a point, by the options for witnesses.
+    [[nodiscard]] std::shared_ptr<response const> run_point(std::size_t e,
+                                                            std::vector<double> const& initial,
+                                                            std::vector<double> const& parameters) {
+        ++integrations_;
+        auto const& experiment = problem_->experiments[e];
+        auto const point =
+            make_run(*flows_[e], experiment, records_[e], problem_->prior, options_.witness);
+        return (*point)(point_box(initial), point_box(parameters));
+    }
     /// One experiment over a box of starts and parameters.
     [[nodiscard]] std::shared_ptr<response const> run(std::size_t e, box const& initial,
-                                                      box const& parameters);
+                                                      box const& parameters) {
+        ++integrations_;
+        return (*runs_[e])(initial, parameters);
+    }
 
 private:
     static bool is_point(box const& x) {
@@ -145,7 +158,7 @@ private:
             inside = inside && holds;
             if (!holds) {
                 share = std::max(share, says.sharpness);
-                if (known.all_starts[e]->outputs.size() < known.all_starts[e]->measurements) {
+                if (known.all_starts[e]->outputs() < known.all_starts[e]->measurements) {
                     share = std::numeric_limits<double>::infinity();
                 }
             }
@@ -156,69 +169,14 @@ private:
         return share;
     }
 
-    /// Where the run ended early the parameters that move the states most are to be split.
-    void add_growth(assessment<knowledge>& a, std::size_t e) const {
-        auto const& set = runs_[e]->set();
-        auto const& r = runs_[e]->ensemble().deviation;
-        auto const n = set.centre.size();
-        for (std::size_t j = 0; j < a.smear.size(); ++j) {
-            for (std::size_t k = 0; k < n; ++k) {
-                auto const c =
-                    set.shape(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(n + j));
-                a.smear[j] += std::abs(c) * width(r[n + j]) / problem_->model.about.states[k].limit;
-            }
-        }
-    }
-
     identification_problem const* problem_;
     data_test_options options_;
     std::vector<std::shared_ptr<flow const>> flows_;
     std::vector<record> records_;
     std::vector<box> starts_;
-    std::vector<std::unique_ptr<trajectory<interval>>> runs_;
-    std::vector<std::unique_ptr<observer<interval>>> observers_;
+    std::vector<std::unique_ptr<experiment_run>> runs_;
     std::size_t integrations_ = 0;
 };
-
-inline std::shared_ptr<response const> data_test::run(std::size_t e, box const& initial,
-                                                      box const& parameters) {
-    using traits = interval_traits<interval>;
-    auto& trajectory = *runs_[e];
-    auto& look = *observers_[e];
-    auto const& samples = records_[e];
-    trajectory.begin(problem_->experiments[e].begin, initial, parameters);
-    look.set_ensemble(trajectory.ensemble());
-    ++integrations_;
-    auto answer = std::make_shared<response>();
-    answer->measurements = samples.size();
-    answer->allowed = problem_->experiments[e].outliers;
-    answer->parameter_centre = trajectory.ensemble().parameter_centre;
-    auto const& deviation = trajectory.ensemble().deviation;
-    answer->start_deviation = box(initial.size());
-    for (std::size_t i = 0; i < initial.size(); ++i) answer->start_deviation[i] = deviation[i];
-    std::size_t failed = 0;
-    double start = trajectory.time();
-    for (std::size_t i = 0; i < samples.size();) {
-        double const t = samples[i].time;
-        while (trajectory.time() < t) {
-            start = trajectory.time();
-            if (!trajectory.step(t)) return answer;
-        }
-        auto const outputs = look(trajectory.set(), start);
-        bool hopeless = true;
-        for (; i < samples.size() && samples[i].time == t; ++i) {
-            auto const& y = outputs[samples[i].channel];
-            auto const& bound = samples[i].bound;
-            if (!y.defined) continue;
-            answer->outputs.push_back({y.gradient, y.rest, y.value, bound});
-            if (traits::disjoint(y.value, bound) && ++failed > answer->allowed) return answer;
-            double const affine = std::max(width(y.value) - width(y.rest), 0.0);
-            hopeless = hopeless && width(y.rest) > options_.hopeless * (affine + width(bound));
-        }
-        if (hopeless) return answer;
-    }
-    return answer;
-}
 
 } // namespace sivid
 

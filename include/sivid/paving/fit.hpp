@@ -110,27 +110,30 @@ private:
         return z;
     }
 
-    /// Residuals of all experiments, or nothing when a simulation fails.
+    /// Residuals of one experiment; false when its simulation fails.
+    [[nodiscard]] bool residuals_of(std::size_t e, vector const& z, std::vector<double>& out) {
+        approximate_trajectory run;
+        try {
+            run = simulators_[e](start_of(e, z), parameters(z), problem_->experiments[e].begin,
+                                 times_[e]);
+        } catch (std::exception const&) {
+            return false;
+        }
+        out.clear();
+        std::size_t row = 0;
+        for (auto const& m : records_[e]) {
+            while (times_[e][row] < m.time) ++row;
+            double const size = std::max(rad(m.bound), std::numeric_limits<double>::min());
+            double const r = (run.outputs[row][m.channel] - mid(m.bound)) / size;
+            if (!std::isfinite(r)) return false;
+            out.push_back(r);
+        }
+        return true;
+    }
     [[nodiscard]] bool residuals(vector const& z, std::vector<std::vector<double>>& out) {
-        auto const p = parameters(z);
-        auto const x0 = starts(z);
         out.resize(flows_.size());
-        for (std::size_t s = 0; s < flows_.size(); ++s) {
-            approximate_trajectory run;
-            try {
-                run = simulators_[s](x0[s], p, problem_->experiments[s].begin, times_[s]);
-            } catch (std::exception const&) {
-                return false;
-            }
-            out[s].clear();
-            std::size_t row = 0;
-            for (auto const& m : records_[s]) {
-                while (times_[s][row] < m.time) ++row;
-                double const e = std::max(rad(m.bound), std::numeric_limits<double>::min());
-                double const r = (run.outputs[row][m.channel] - mid(m.bound)) / e;
-                if (!std::isfinite(r)) return false;
-                out[s].push_back(r);
-            }
+        for (std::size_t e = 0; e < flows_.size(); ++e) {
+            if (!residuals_of(e, z, out[e])) return false;
         }
         return true;
     }
@@ -138,13 +141,17 @@ private:
         auto const n = static_cast<Eigen::Index>(problem_->prior.size());
         return {z.data(), z.data() + n};
     }
+    [[nodiscard]] std::vector<double> start_of(std::size_t e, vector const& z) const {
+        auto x0 = mid(problem_->experiments[e].initial);
+        for (std::size_t k = 0; k < free_starts_.size(); ++k) {
+            if (free_starts_[k].experiment != e) continue;
+            x0[free_starts_[k].state] = z[static_cast<Eigen::Index>(problem_->prior.size() + k)];
+        }
+        return x0;
+    }
     [[nodiscard]] std::vector<std::vector<double>> starts(vector const& z) const {
         std::vector<std::vector<double>> x0;
-        for (auto const& s : problem_->experiments) x0.push_back(mid(s.initial));
-        for (std::size_t k = 0; k < free_starts_.size(); ++k) {
-            x0[free_starts_[k].experiment][free_starts_[k].state] =
-                z[static_cast<Eigen::Index>(problem_->prior.size() + k)];
-        }
+        for (std::size_t e = 0; e < flows_.size(); ++e) x0.push_back(start_of(e, z));
         return x0;
     }
     /// The (q+1)-th largest |residual| of a experiment.
@@ -250,8 +257,9 @@ private:
         auto const n = z.size();
         auto const rows = static_cast<Eigen::Index>(w.size());
         Eigen::MatrixXd j = Eigen::MatrixXd::Zero(rows, n);
-        std::vector<std::vector<double>> up;
-        std::vector<std::vector<double>> down;
+        std::vector<double> up;
+        std::vector<double> down;
+        auto const parameters = static_cast<Eigen::Index>(problem_->prior.size());
         for (Eigen::Index c = 0; c < n; ++c) {
             auto const k = static_cast<std::size_t>(c);
             if (!(lower_[k] < upper_[k])) continue;
@@ -260,12 +268,22 @@ private:
             double const d = 1e-5 * unit(k);
             high[c] = std::min(z[c] + d, upper_[k]);
             low[c] = std::max(z[c] - d, lower_[k]);
-            if (!(high[c] > low[c]) || !residuals(high, up) || !residuals(low, down)) return false;
+            if (!(high[c] > low[c])) return false;
             Eigen::Index row = 0;
-            for (std::size_t s = 0; s < up.size(); ++s) {
-                for (std::size_t i = 0; i < up[s].size(); ++i) {
-                    j(row++, c) = (up[s][i] - down[s][i]) / (high[c] - low[c]) * unit(k);
+            for (std::size_t e = 0; e < flows_.size(); ++e) {
+                auto const count = static_cast<Eigen::Index>(records_[e].size());
+                // A start moves its own experiment only.
+                bool const moves =
+                    c < parameters ||
+                    free_starts_[static_cast<std::size_t>(c - parameters)].experiment == e;
+                if (moves) {
+                    if (!residuals_of(e, high, up) || !residuals_of(e, low, down)) return false;
+                    for (Eigen::Index i = 0; i < count; ++i) {
+                        auto const at = static_cast<std::size_t>(i);
+                        j(row + i, c) = (up[at] - down[at]) / (high[c] - low[c]) * unit(k);
+                    }
                 }
+                row += count;
             }
         }
         vector flat(rows);

@@ -79,11 +79,14 @@ verify_witness(data_test& test, identification_problem const& problem,
     if (!contains(problem.prior, parameters)) return std::nullopt;
     for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
         if (!contains(problem.experiments[s].initial, starts[s])) return std::nullopt;
-        auto const answer = test.run(s, point_box(starts[s]), point_box(parameters));
+        auto const answer = test.run_point(s, starts[s], parameters);
         auto point = point_box(parameters);
         if (!assess(*answer, point).explained) return std::nullopt;
         auto& violated = result.violated.emplace_back();
-        for (auto const& y : answer->outputs) violated.push_back(!subset(y.value, y.bound));
+        auto const values = output_ranges(*answer, point);
+        for (std::size_t y = 0; y < values.size(); ++y) {
+            violated.push_back(!subset(values[y], answer->bounds[y]));
+        }
         violated.resize(answer->measurements, true);
     }
     return result;
@@ -98,9 +101,9 @@ find_forced(data_test& test, identification_problem const& problem, box const& h
     for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
         if (problem.experiments[s].outliers == 0) continue;
         auto const answer = test.run(s, problem.experiments[s].initial, hull);
-        for (std::size_t i = 0; i < answer->outputs.size(); ++i) {
-            auto const& y = answer->outputs[i];
-            if (disjoint(y.value, y.bound)) forced.push_back({s, i});
+        auto const values = output_ranges(*answer, hull);
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            if (disjoint(values[i], answer->bounds[i])) forced.push_back({s, i});
         }
     }
     return forced;
@@ -152,7 +155,11 @@ find_forced(data_test& test, identification_problem const& problem, box const& h
         result.verdict = verdict::inconsistent;
     }
     if (result.paving.has_outer()) {
-        auto const structure = find_combinations(test.flow_of(0)->model());
+        std::vector<bound_model const*> models;
+        for (std::size_t e = 0; e < working.experiments.size(); ++e) {
+            models.push_back(&test.flow_of(e)->model());
+        }
+        auto const structure = find_combinations(models);
         result.entangled = structure.entangled;
         for (auto const& c : structure.combinations) {
             auto range = interval_traits<interval>::empty();

@@ -2,6 +2,7 @@
 #ifndef SIVID_PAVING_LINEAR_CONTRACTION_HPP
 #define SIVID_PAVING_LINEAR_CONTRACTION_HPP
 
+#include <sivid/paving/relaxed_intersection.hpp>
 #include <sivid/space/box.hpp>
 
 #include <cstddef>
@@ -55,6 +56,38 @@ struct linear_constraint {
         bool moved = false;
         for (std::size_t j = 0; j < r.size(); ++j) {
             moved = moved || width(r[j]) < 0.98 * width(before[j]);
+        }
+        if (!moved) break;
+    }
+    return true;
+}
+
+/// The same when up to q of the constraints may be violated: each contracts on its own, and what q
+/// + 1 of them exclude is excluded.
+/// @guarantee  keeps every point that violates at most q constraints
+[[nodiscard]] inline bool relaxed_contract(box& r,
+                                           std::vector<linear_constraint> const& constraints,
+                                           std::size_t q, int passes = 3) {
+    if (q == 0) return contract(r, constraints);
+    for (int pass = 0; pass < passes && constraints.size() > q; ++pass) {
+        std::vector<std::vector<interval>> sides(r.size());
+        std::size_t excluded = 0;
+        for (auto const& constraint : constraints) {
+            auto mine = r;
+            if (contract(mine, constraint)) {
+                for (std::size_t j = 0; j < r.size(); ++j) sides[j].push_back(mine[j]);
+            } else {
+                ++excluded;
+            }
+        }
+        if (excluded > q) return false;
+        auto const before = r;
+        bool moved = false;
+        for (std::size_t j = 0; j < r.size(); ++j) {
+            r[j] = interval_traits<interval>::intersect(
+                r[j], relaxed_intersection(sides[j], q - excluded));
+            if (is_empty(r[j])) return false;
+            moved = moved || width(r[j]) < 0.95 * width(before[j]);
         }
         if (!moved) break;
     }

@@ -2,144 +2,108 @@
 #ifndef SIVID_PAVING_RESPONSE_HPP
 #define SIVID_PAVING_RESPONSE_HPP
 
-#include <sivid/paving/linear_contraction.hpp>
-#include <sivid/paving/relaxed_intersection.hpp>
+#include <sivid/enclosure/parametric_set.hpp>
+#include <sivid/number/monomials.hpp>
+#include <sivid/number/taylor_model.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
 namespace sivid {
 
-/// One measured output over a box of parameters and starts, as an affine function of the deviations
-/// from a centre: \f$ y \in gradient \cdot r + rest \f$, and \f$ y \in value \f$.
-struct affine_output {
-    std::vector<double> gradient; ///< by initial state, then by parameter
-    interval rest;
-    interval value;
-    interval bound; ///< the measurement
-};
+/// The monomials of a response: like `monomials<N, D>`, chosen at run time.
+struct monomial_table {
+    std::size_t variables = 0;
+    std::size_t degree = 0;
+    std::vector<std::vector<std::uint8_t>> exponents; ///< in graded order
+    /// lines[v]: chains of monomials in which only the power of variable v grows, from 0 on.
+    std::vector<std::vector<std::vector<std::size_t>>> lines;
 
-/// What one experiment answers, for all parameters in a box: the outputs at the measurements that
-/// were reached. It stays valid, and gets sharper, on every part of the box.
-struct response {
-    box start_deviation; ///< of the initial state from its centre
-    std::vector<double> parameter_centre;
-    std::vector<affine_output> outputs; ///< the measurements that were reached, in their order
-    std::size_t measurements = 0;       ///< all of the experiment
-    std::size_t allowed = 0;            ///< outliers
-
-    /// \f$ r = (x_0, p) - centre \f$ over a box of parameters.
-    [[nodiscard]] box deviation(box const& parameters) const {
-        using traits = interval_traits<interval>;
-        auto const n = start_deviation.size();
-        box r(n + parameters.size());
-        for (std::size_t i = 0; i < n; ++i) r[i] = start_deviation[i];
-        for (std::size_t j = 0; j < parameters.size(); ++j) {
-            r[n + j] = traits::sub(parameters[j], traits::point(parameter_centre[j]));
-        }
-        return r;
-    }
-};
-
-/// Encloses an output over deviations r.
-[[nodiscard]] inline interval over(affine_output const& y, box const& r) {
-    using traits = interval_traits<interval>;
-    auto sum = y.rest;
-    for (std::size_t j = 0; j < r.size(); ++j) {
-        if (y.gradient[j] == 0) continue;
-        sum = traits::add(sum, traits::mul(traits::point(y.gradient[j]), r[j]));
-    }
-    return traits::intersect(sum, y.value);
-}
-
-/// What a response says of a part of its box.
-struct response_verdict {
-    std::size_t held = 0;
-    std::size_t failed = 0;
-    bool refuted = false;      ///< no parameter in the part is feasible
-    bool explained = false;    ///< at least n - q measurements hold for all of the part
-    double sharpness = 0;      ///< largest share of an undecided output's width that is not affine
-    std::vector<double> smear; ///< per parameter
-};
-
-/// Tests a box of parameters on a response, and contracts it.
-/// @guarantee  no feasible parameter is removed: a point that more than q measurements exclude,
-/// each
-///             on its own, is infeasible whatever the start
-[[nodiscard]] inline response_verdict assess(response const& known, box& parameters) {
-    using traits = interval_traits<interval>;
-    response_verdict result;
-    result.smear.assign(parameters.size(), 0.0);
-    auto const n = known.start_deviation.size();
-    auto r = known.deviation(parameters);
-    std::vector<linear_constraint> open;
-    for (auto const& y : known.outputs) {
-        auto const value = over(y, r);
-        if (traits::is_empty(value) || traits::disjoint(value, y.bound)) {
-            if (++result.failed > known.allowed) {
-                result.refuted = true;
-                return result;
+    /// The monomials of N variables up to degree D that use only the first `used` ones.
+    template <std::size_t N, std::size_t D>
+    [[nodiscard]] static monomial_table of(std::size_t used) {
+        monomial_table t;
+        t.variables = used;
+        t.degree = D;
+        for (auto const& e : monomials<N, D>::data.exponents) {
+            if (std::any_of(e.begin() + static_cast<std::ptrdiff_t>(used), e.end(),
+                            [](std::uint8_t x) { return x != 0; })) {
+                continue;
             }
-            continue;
+            t.exponents.emplace_back(e.begin(), e.begin() + static_cast<std::ptrdiff_t>(used));
         }
-        if (traits::subset(value, y.bound)) {
-            ++result.held;
-            continue;
-        }
-        double const total = width(value);
-        if (total > 0) result.sharpness = std::max(result.sharpness, width(y.rest) / total);
-        for (std::size_t j = 0; j < parameters.size(); ++j) {
-            result.smear[j] += std::abs(y.gradient[n + j]) * width(r[n + j]) / width(y.bound);
-        }
-        open.push_back({y.gradient, traits::sub(y.bound, y.rest)});
+        t.find_lines();
+        return t;
     }
-    result.explained = result.held + known.allowed >= known.measurements;
-    if (result.explained || open.empty()) return result;
-    // Measurements that certainly fail have used up a part of the budget.
-    std::size_t const q = known.allowed - result.failed;
-    bool left = true;
-    if (q == 0) {
-        left = contract(r, open);
-    } else {
-        for (int pass = 0; pass < 3 && left && open.size() > q; ++pass) {
-            std::vector<std::vector<interval>> sides(r.size());
-            std::size_t excluded = 0;
-            for (auto const& row : open) {
-                auto mine = r;
-                if (contract(mine, row)) {
-                    for (std::size_t j = 0; j < r.size(); ++j) sides[j].push_back(mine[j]);
-                } else {
-                    ++excluded;
+    [[nodiscard]] std::size_t size() const { return exponents.size(); }
+
+    /// Fills `lines`.
+    void find_lines() {
+        std::map<std::vector<std::uint8_t>, std::size_t> place;
+        for (std::size_t m = 0; m < size(); ++m) place[exponents[m]] = m;
+        lines.resize(variables);
+        for (std::size_t v = 0; v < variables; ++v) {
+            for (std::size_t m = 0; m < size(); ++m) {
+                if (exponents[m][v] != 0) continue;
+                auto& line = lines[v].emplace_back();
+                auto e = exponents[m];
+                for (auto next = place.find(e); next != place.end(); next = place.find(e)) {
+                    line.push_back(next->second);
+                    ++e[v];
                 }
             }
-            left = excluded <= q;
-            auto const before = r;
-            for (std::size_t j = 0; left && j < r.size(); ++j) {
-                r[j] = traits::intersect(r[j], relaxed_intersection(sides[j], q - excluded));
-                left = !traits::is_empty(r[j]);
-            }
-            bool moved = false;
-            for (std::size_t j = 0; j < r.size(); ++j) {
-                moved = moved || width(r[j]) < 0.95 * width(before[j]);
-            }
-            if (!moved) break;
         }
     }
-    if (!left) {
-        result.refuted = true;
-        return result;
+};
+
+/// What one experiment answers for all parameters in a box: each measured output that was reached
+/// as a polynomial in the normalised unknowns, \f$ y \in \sum_\alpha c_\alpha q^\alpha \pm radius
+/// \f$. It stays valid, and gets sharper, on every part of the box.
+struct response {
+    normalised_unknowns unknowns;
+    std::shared_ptr<monomial_table const> table;
+    /// coefficients[m * outputs + y]: one row a monomial, so that all outputs are processed
+    /// together.
+    std::vector<double> coefficients;
+    std::vector<double> radius;
+    std::vector<interval> bounds; ///< the measurements that were reached, in their order
+    std::size_t measurements = 0; ///< all of the experiment
+    std::size_t allowed = 0;      ///< outliers
+
+    [[nodiscard]] std::size_t outputs() const { return bounds.size(); }
+};
+
+/// Collects the outputs of a run, one by one, and lays them out for a response.
+class response_builder {
+public:
+    explicit response_builder(std::size_t terms) : rows_(terms) {}
+
+    template <class Coefficients>
+    void add(Coefficients const& c, double radius, interval const& bound) {
+        for (std::size_t m = 0; m < rows_.size(); ++m) rows_[m].push_back(c(m));
+        radius_.push_back(radius);
+        bounds_.push_back(bound);
     }
-    for (std::size_t j = 0; j < parameters.size(); ++j) {
-        auto const p = traits::add(traits::point(known.parameter_centre[j]), r[n + j]);
-        parameters[j] = traits::intersect(parameters[j], p);
-        result.refuted = result.refuted || traits::is_empty(parameters[j]);
+    void finish(response& r) && {
+        r.coefficients.clear();
+        for (auto const& row : rows_)
+            r.coefficients.insert(r.coefficients.end(), row.begin(), row.end());
+        r.radius = std::move(radius_);
+        r.bounds = std::move(bounds_);
     }
-    return result;
-}
+
+private:
+    std::vector<std::vector<double>> rows_;
+    std::vector<double> radius_;
+    std::vector<interval> bounds_;
+};
 
 } // namespace sivid
 

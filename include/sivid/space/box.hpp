@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <initializer_list>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -104,11 +105,13 @@ template <class I>
 }
 
 /// The two halves of `x` along side `i`, cut at the double `at`; they share the face at the cut.
-/// @given  `at` lies in the side (checked: a cut outside leaves one half empty).
+/// @throws std::invalid_argument when `at` does not lie in the side
 template <class I>
 [[nodiscard]] std::pair<basic_box<I>, basic_box<I>> bisect(basic_box<I> const& x, std::size_t i,
                                                            double at) {
     using traits = interval_traits<I>;
+    if (!traits::contains(x[i], at))
+        throw std::invalid_argument("bisect: the cut is not in the box");
     auto below = x;
     auto above = x;
     below[i] = traits::bounds(traits::lower(x[i]), at);

@@ -43,9 +43,11 @@ template <class I>
             }
             row = traits::add(row, traits::abs(dot));
         }
-        for (std::size_t l = 0; l < traits::lanes; ++l) e = std::max(e, traits::upper(row, l));
+        for (std::size_t l = 0; l < traits::lanes; ++l) {
+            if (!(traits::upper(row, l) < 0.5)) return false; // also for NaN
+            e = std::max(e, traits::upper(row, l));
+        }
     }
-    if (!(e < 0.5)) return false;
     // d = e / (1 - e) <= 2 e, and doubling is exact.
     I const d = traits::bounds(-2 * e, 2 * e);
     inverse = interval_matrix<I>(n, n);

@@ -71,7 +71,7 @@ template <class V>
 /// Extremes of the four products of the ends. 0 * inf is NaN and left out: another product then
 /// yields the 0, except for zero times everything, where all four are NaN.
 template <class V>
-[[nodiscard]] bounds<V> mul(bounds<V> a, bounds<V> b) noexcept {
+[[nodiscard, gnu::always_inline]] inline bounds<V> mul(bounds<V> a, bounds<V> b) noexcept {
     using d = directed<V>;
     V l0, l1, l2, l3, u0, u1, u2, u3;
     d::mul_both(a.lo, b.lo, l0, u0);
@@ -88,7 +88,7 @@ template <class V>
 /// signs of the dividend's ends choose the divisor's end. A divisor's end 0 counts as +0, so that
 /// overflow to infinity has the right sign.
 template <class V>
-[[nodiscard]] bounds<V> div(bounds<V> a, bounds<V> b, mask_of<V>& undefined) noexcept {
+[[nodiscard, gnu::always_inline]] inline bounds<V> div(bounds<V> a, bounds<V> b, mask_of<V>& undefined) noexcept {
     using d = directed<V>;
     V const zero(0.0);
     auto const turned = b.hi <= zero;

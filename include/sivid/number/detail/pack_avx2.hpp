@@ -129,6 +129,17 @@ public:
                              _mm256_and_si256(away, _mm256_castpd_si256(m.raw()))))};
     }
 
+    friend vector_avx2 negate_where(mask m, vector_avx2 a) noexcept {
+        return vector_avx2{_mm256_xor_pd(a.v_, _mm256_and_pd(m.raw(), _mm256_set1_pd(-0.0)))};
+    }
+    /// Where bit I of the integer n is set, for a = n + 1.5 2^52.
+    template <int I>
+    friend mask bit_is_set(vector_avx2 a) noexcept {
+        auto const bit = _mm256_set1_epi64x(1 << I);
+        auto const found = _mm256_and_si256(_mm256_castpd_si256(a.v_), bit);
+        return mask{_mm256_castsi256_pd(_mm256_cmpeq_epi64(found, bit))};
+    }
+
     /// floor(log2 x) and x / 2^floor(log2 x) in [1, 2), for finite normal x > 0.
     friend vector_avx2 exponent(vector_avx2 x) noexcept {
         auto const field = _mm256_srli_epi64(_mm256_castpd_si256(x.v_), 52);

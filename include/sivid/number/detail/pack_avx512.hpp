@@ -19,6 +19,10 @@
 namespace sivid::simd {
 inline namespace SIVID_PACK_TARGET {
 
+/// The mask of the forms with zeroing: the plain forms of g++ 12 warn about an uninitialised operand.
+/// Not a constant, because without optimisation the forms are macros that take a signed char.
+[[nodiscard]] inline __mmask8 all_lanes() noexcept { return 0xFF; }
+
 class mask_avx512 {
 public:
     mask_avx512() = default;
@@ -57,16 +61,16 @@ public:
     [[nodiscard]] __m512d raw() const noexcept { return v_; }
 
     friend vector_avx512 operator+(vector_avx512 a, vector_avx512 b) noexcept {
-        return vector_avx512{_mm512_maskz_add_round_pd(0xFF, a.v_, b.v_, nearest)};
+        return vector_avx512{_mm512_maskz_add_round_pd(all_lanes(), a.v_, b.v_, nearest)};
     }
     friend vector_avx512 operator-(vector_avx512 a, vector_avx512 b) noexcept {
-        return vector_avx512{_mm512_maskz_sub_round_pd(0xFF, a.v_, b.v_, nearest)};
+        return vector_avx512{_mm512_maskz_sub_round_pd(all_lanes(), a.v_, b.v_, nearest)};
     }
     friend vector_avx512 operator*(vector_avx512 a, vector_avx512 b) noexcept {
-        return vector_avx512{_mm512_maskz_mul_round_pd(0xFF, a.v_, b.v_, nearest)};
+        return vector_avx512{_mm512_maskz_mul_round_pd(all_lanes(), a.v_, b.v_, nearest)};
     }
     friend vector_avx512 operator/(vector_avx512 a, vector_avx512 b) noexcept {
-        return vector_avx512{_mm512_maskz_div_round_pd(0xFF, a.v_, b.v_, nearest)};
+        return vector_avx512{_mm512_maskz_div_round_pd(all_lanes(), a.v_, b.v_, nearest)};
     }
     friend vector_avx512 operator-(vector_avx512 a) noexcept {
         return vector_avx512{_mm512_xor_pd(a.v_, _mm512_set1_pd(-0.0))};
@@ -75,7 +79,7 @@ public:
         return vector_avx512{_mm512_fmadd_round_pd(a.v_, b.v_, c.v_, nearest)};
     }
     friend vector_avx512 sqrt(vector_avx512 a) noexcept {
-        return vector_avx512{_mm512_maskz_sqrt_round_pd(0xFF, a.v_, nearest)};
+        return vector_avx512{_mm512_maskz_sqrt_round_pd(all_lanes(), a.v_, nearest)};
     }
     friend vector_avx512 abs(vector_avx512 a) noexcept {
         return vector_avx512{_mm512_andnot_pd(_mm512_set1_pd(-0.0), a.v_)};
@@ -87,17 +91,17 @@ public:
     }
     /// The second operand where one of them is NaN.
     friend vector_avx512 min(vector_avx512 a, vector_avx512 b) noexcept {
-        return vector_avx512{_mm512_maskz_min_round_pd(0xFF, a.v_, b.v_, _MM_FROUND_NO_EXC)};
+        return vector_avx512{_mm512_maskz_min_round_pd(all_lanes(), a.v_, b.v_, _MM_FROUND_NO_EXC)};
     }
     friend vector_avx512 max(vector_avx512 a, vector_avx512 b) noexcept {
-        return vector_avx512{_mm512_maskz_max_round_pd(0xFF, a.v_, b.v_, _MM_FROUND_NO_EXC)};
+        return vector_avx512{_mm512_maskz_max_round_pd(all_lanes(), a.v_, b.v_, _MM_FROUND_NO_EXC)};
     }
     /// The other operand where one of them is NaN.
     friend vector_avx512 min_number(vector_avx512 a, vector_avx512 b) noexcept {
-        return vector_avx512{_mm512_maskz_range_pd(0xFF, a.v_, b.v_, 0x4)};
+        return vector_avx512{_mm512_maskz_range_pd(all_lanes(), a.v_, b.v_, 0x4)};
     }
     friend vector_avx512 max_number(vector_avx512 a, vector_avx512 b) noexcept {
-        return vector_avx512{_mm512_maskz_range_pd(0xFF, a.v_, b.v_, 0x5)};
+        return vector_avx512{_mm512_maskz_range_pd(all_lanes(), a.v_, b.v_, 0x5)};
     }
 
     friend mask operator<(vector_avx512 a, vector_avx512 b) noexcept {
@@ -118,17 +122,26 @@ public:
         return vector_avx512{_mm512_mask_blend_pd(m.raw(), no.v_, yes.v_)};
     }
 
+    friend vector_avx512 negate_where(mask m, vector_avx512 a) noexcept {
+        return vector_avx512{_mm512_mask_xor_pd(a.v_, m.raw(), a.v_, _mm512_set1_pd(-0.0))};
+    }
+    /// Where bit I of the integer n is set, for a = n + 1.5 2^52.
+    template <int I>
+    friend mask bit_is_set(vector_avx512 a) noexcept {
+        return mask{_mm512_test_epi64_mask(_mm512_castpd_si512(a.v_), _mm512_set1_epi64(1 << I))};
+    }
+
     /// floor(log2 x) and x / 2^floor(log2 x) in [1, 2), for finite x > 0, subnormals included.
     friend vector_avx512 exponent(vector_avx512 x) noexcept {
-        return vector_avx512{_mm512_maskz_getexp_pd(0xFF, x.v_)};
+        return vector_avx512{_mm512_maskz_getexp_pd(all_lanes(), x.v_)};
     }
     friend vector_avx512 mantissa(vector_avx512 x) noexcept {
-        return vector_avx512{_mm512_maskz_getmant_pd(0xFF, x.v_, _MM_MANT_NORM_1_2,
+        return vector_avx512{_mm512_maskz_getmant_pd(all_lanes(), x.v_, _MM_MANT_NORM_1_2,
                                                      _MM_MANT_SIGN_src)};
     }
     /// 2^k for integers k in [-1022, 1023].
     friend vector_avx512 power_of_two(vector_avx512 k) noexcept {
-        return vector_avx512{_mm512_maskz_scalef_round_pd(0xFF, _mm512_set1_pd(1.0), k.v_, nearest)};
+        return vector_avx512{_mm512_maskz_scalef_round_pd(all_lanes(), _mm512_set1_pd(1.0), k.v_, nearest)};
     }
 
 private:
@@ -145,35 +158,35 @@ struct directed<vector_avx512> {
     static constexpr int up = _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC;
 
     static V add_down(V a, V b) noexcept {
-        return V{_mm512_maskz_add_round_pd(0xFF, a.raw(), b.raw(), down)};
+        return V{_mm512_maskz_add_round_pd(all_lanes(), a.raw(), b.raw(), down)};
     }
-    static V add_up(V a, V b) noexcept { return V{_mm512_maskz_add_round_pd(0xFF, a.raw(), b.raw(), up)}; }
+    static V add_up(V a, V b) noexcept { return V{_mm512_maskz_add_round_pd(all_lanes(), a.raw(), b.raw(), up)}; }
     static V sub_down(V a, V b) noexcept {
-        return V{_mm512_maskz_sub_round_pd(0xFF, a.raw(), b.raw(), down)};
+        return V{_mm512_maskz_sub_round_pd(all_lanes(), a.raw(), b.raw(), down)};
     }
-    static V sub_up(V a, V b) noexcept { return V{_mm512_maskz_sub_round_pd(0xFF, a.raw(), b.raw(), up)}; }
+    static V sub_up(V a, V b) noexcept { return V{_mm512_maskz_sub_round_pd(all_lanes(), a.raw(), b.raw(), up)}; }
     static V mul_down(V a, V b) noexcept {
-        return V{_mm512_maskz_mul_round_pd(0xFF, a.raw(), b.raw(), down)};
+        return V{_mm512_maskz_mul_round_pd(all_lanes(), a.raw(), b.raw(), down)};
     }
-    static V mul_up(V a, V b) noexcept { return V{_mm512_maskz_mul_round_pd(0xFF, a.raw(), b.raw(), up)}; }
+    static V mul_up(V a, V b) noexcept { return V{_mm512_maskz_mul_round_pd(all_lanes(), a.raw(), b.raw(), up)}; }
     static void mul_both(V a, V b, V& lower, V& upper) noexcept {
         lower = mul_down(a, b);
         upper = mul_up(a, b);
     }
     static V div_down(V a, V b) noexcept {
-        return V{_mm512_maskz_div_round_pd(0xFF, a.raw(), b.raw(), down)};
+        return V{_mm512_maskz_div_round_pd(all_lanes(), a.raw(), b.raw(), down)};
     }
-    static V div_up(V a, V b) noexcept { return V{_mm512_maskz_div_round_pd(0xFF, a.raw(), b.raw(), up)}; }
+    static V div_up(V a, V b) noexcept { return V{_mm512_maskz_div_round_pd(all_lanes(), a.raw(), b.raw(), up)}; }
     static V sqrt_down(V a) noexcept {
-        return V{_mm512_maskz_sqrt_round_pd(0xFF, a.raw(), down)};
+        return V{_mm512_maskz_sqrt_round_pd(all_lanes(), a.raw(), down)};
     }
-    static V sqrt_up(V a) noexcept { return V{_mm512_maskz_sqrt_round_pd(0xFF, a.raw(), up)}; }
+    static V sqrt_up(V a) noexcept { return V{_mm512_maskz_sqrt_round_pd(all_lanes(), a.raw(), up)}; }
     /// a 2^k, k an integer of any size.
     static V scale_down(V a, V k) noexcept {
-        return V{_mm512_maskz_scalef_round_pd(0xFF, a.raw(), k.raw(), down)};
+        return V{_mm512_maskz_scalef_round_pd(all_lanes(), a.raw(), k.raw(), down)};
     }
     static V scale_up(V a, V k) noexcept {
-        return V{_mm512_maskz_scalef_round_pd(0xFF, a.raw(), k.raw(), up)};
+        return V{_mm512_maskz_scalef_round_pd(all_lanes(), a.raw(), k.raw(), up)};
     }
 };
 

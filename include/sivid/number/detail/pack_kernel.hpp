@@ -37,22 +37,17 @@ template <class V, std::size_t N>
     }(std::make_index_sequence<N - 1>{});
 }
 
-/// The nearest integer (|v| < 2^51), and the greatest one below v.
+/// The nearest integer (|v| < 2^51).
 template <class V>
 [[nodiscard]] V nearest_integer(V v) noexcept {
     return (v + V(0x1.8p52)) - V(0x1.8p52);
-}
-template <class V>
-[[nodiscard]] V floor_integer(V v) noexcept {
-    V const n = nearest_integer(v);
-    return select(n > v, n - V(1.0), n);
 }
 
 /// With the signs of head and tail turned where `sign` is negative.
 template <class V>
 [[nodiscard]] expansion<V> with_sign(expansion<V> y, V sign) noexcept {
     auto const negative = sign < V(0.0);
-    return {select(negative, -y.head, y.head), select(negative, -y.tail, y.tail)};
+    return {negate_where(negative, y.head), negate_where(negative, y.tail)};
 }
 
 /// Bounds of head + tail for results that are zero or at least 2^-900.
@@ -69,8 +64,7 @@ template <class V>
 /// and |f(x) - head| < 2^-1074; a head of zero is exact.
 template <class V>
 [[nodiscard]] V margin(V head, double delta) noexcept {
-    V const m = max(V(delta) * abs(head), V(least_double));
-    return select(head == V(0.0), V(0.0), m);
+    return select(head == V(0.0), V(0.0), fma(V(delta), abs(head), V(least_double)));
 }
 template <class V>
 [[nodiscard]] V lower_bound_of_any(expansion<V> y, double delta) noexcept {

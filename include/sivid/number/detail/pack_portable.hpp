@@ -132,6 +132,15 @@ public:
             std::bit_cast<double>(rounded & ~((std::uint64_t{1} << 27) - 1))};
     }
 
+    friend vector_portable negate_where(mask m, vector_portable a) noexcept {
+        return m.bits() != 0 ? -a : a;
+    }
+    /// Where bit I of the integer n is set, for a = n + 1.5 2^52.
+    template <int I>
+    friend mask bit_is_set(vector_portable a) noexcept {
+        return mask{(std::bit_cast<std::uint64_t>(a.v_) >> I & 1u) != 0};
+    }
+
     /// floor(log2 x) and x / 2^floor(log2 x) in [1, 2), for finite normal x > 0.
     friend vector_portable exponent(vector_portable x) noexcept {
         auto const field = std::bit_cast<std::uint64_t>(x.v_) >> 52;

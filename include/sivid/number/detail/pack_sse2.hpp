@@ -149,6 +149,17 @@ public:
             _mm_and_si128(rounded, _mm_set1_epi64x(-(std::int64_t{1} << 27))))};
     }
 
+    friend vector_sse2 negate_where(mask m, vector_sse2 a) noexcept {
+        return vector_sse2{_mm_xor_pd(a.v_, _mm_and_pd(m.raw(), _mm_set1_pd(-0.0)))};
+    }
+    /// Where bit I of the integer n is set, for a = n + 1.5 2^52.
+    template <int I>
+    friend mask bit_is_set(vector_sse2 a) noexcept {
+        auto const bit = _mm_set1_epi64x(1 << I);
+        auto const low = _mm_cmpeq_epi32(_mm_and_si128(_mm_castpd_si128(a.v_), bit), bit);
+        return mask{_mm_castsi128_pd(_mm_shuffle_epi32(low, _MM_SHUFFLE(2, 2, 0, 0)))};
+    }
+
     /// floor(log2 x) and x / 2^floor(log2 x) in [1, 2), for finite normal x > 0.
     friend vector_sse2 exponent(vector_sse2 x) noexcept {
         auto const field = _mm_srli_epi64(_mm_castpd_si128(x.v_), 52);

@@ -20,32 +20,42 @@ inline constexpr double sin_cos = 0.8, tan = 1.5;
 inline constexpr double trigonometric_limit = 0x1p20;
 
 /// pi/2 = p1 + p2 + p3 + p4 + 2^-159.8...; the first three have 33 bits, so that k p1, k p2, k p3 are
-/// exact for |k| <= 2^20.
+/// exact for |k| <= 2^20 (here |k| < 2^19.4).
 inline constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
 inline constexpr std::array<double, 4> half_pi_parts{0x1.921fb54400000p+0, 0x1.0b4611a600000p-34,
                                                      0x1.3198a2e000000p-69, 0x1.b839a252049c1p-104};
 
-/// x = k pi/2 + r + rest, |r| < 0.7854, relative error below 2^-68.
+/// x = k pi/2 + r + rest; turns = k + 1.5 2^52, with k in its low bits. |r| < 0.7854, relative error
+/// below 2^-68; |rest| is at most an ulp of r and 2^-83.
 template <class V>
 struct turn_argument {
-    V k, r, rest;
+    V turns, r, rest;
 };
+/// Every product with k is exact but the last; a, and the pairs (b, b_tail) and (c, c_tail), are exact.
 template <class V>
 [[nodiscard]] turn_argument<V> reduce_turns(V x) noexcept {
-    V const k = nearest_integer(x * V(two_over_pi));
-    V const a = fma(-k, V(half_pi_parts[0]), x);  // exact
-    exact_pair<V> const b = two_sum(a, -(k * V(half_pi_parts[1])));
-    exact_pair<V> const c = two_sum(b.head, -(k * V(half_pi_parts[2])));
-    V const low = (b.tail + c.tail) - k * V(half_pi_parts[3]);
-    exact_pair<V> const r = fast_two_sum(c.head, low);
-    return {k, r.head, r.tail};
+    V const turns = fma(x, V(two_over_pi), V(0x1.8p52));
+    V const k = turns - V(0x1.8p52);
+    V const a = fma(k, V(-half_pi_parts[0]), x);
+    V const b = fma(k, V(-half_pi_parts[1]), a);
+    V const b_tail = fma(k, V(-half_pi_parts[1]), a - b);
+    V const c = fma(k, V(-half_pi_parts[2]), b);
+    V const c_tail = fma(k, V(-half_pi_parts[2]), b - c);
+    return {turns, c, fma(k, V(-half_pi_parts[3]), b_tail + c_tail)};
 }
 
-/// floor(x / (pi/2)): the quadrant, counted on. r is never zero for x != 0, and has the sign of the
-/// exact rest.
+/// floor(x / (pi/2)) + 1.5 2^52. r is never zero for x != 0, and has the sign of the exact rest.
 template <class V>
 [[nodiscard]] V quadrant(turn_argument<V> a) noexcept {
-    return select(a.r < V(0.0), a.k - V(1.0), a.k);
+    return select(a.r < V(0.0), a.turns - V(1.0), a.turns);
+}
+
+/// For quadrant = j + 1.5 2^52: floor((j + more)/2) + 1.5 2^52, more in {1, 2}. Half an integer less a
+/// quarter is never a tie.
+template <class V>
+[[nodiscard]] V half_turn(V quadrant, double more) noexcept {
+    V const j = quadrant - V(0x1.8p52);
+    return fma(j, V(0.5), V(0.5 * more - 0.25)) + V(0x1.8p52);
 }
 
 template <class V>
@@ -66,54 +76,43 @@ template <class V>
         for (std::size_t i = 0; i < 8; ++i) c[i] = even[i + 1];
         return c;
     }();
-    V const r = a.r, z = r * r, half_z = z * V(0.5);
-    V const sin_tail = fma(r * z, horner(z, odd), fma(-half_z, a.rest, a.rest));
-    exact_pair<V> const c = fast_two_sum(V(1.0), -half_z);
-    V const cos_tail = c.tail + fma(z * z, horner(z, from_fourth), -(r * a.rest));
+    V const r = a.r, z = r * r, minus_half_z = z * V(-0.5);
+    V const sin_tail = fma(r * z, horner(z, odd), fma(minus_half_z, a.rest, a.rest));
+    exact_pair<V> const c = fast_two_sum(V(1.0), minus_half_z);
+    V const cos_tail = fma(z * z, horner(z, from_fourth), c.tail - r * a.rest);
     return {{r, sin_tail}, {c.head, cos_tail}};
 }
 
-/// Whether k is odd, and k mod 4 in {0, 1, 2, 3}.
+/// Bounds of sin(x + shift pi/2), shift 0 or 1, and the monotone piece of x: the sine rises on piece p,
+/// from (p - 1/2) pi to (p + 1/2) pi, for even p, and falls for odd p. piece = p + 1.5 2^52.
 template <class V>
-[[nodiscard]] V modulo_four(V k) noexcept {
-    return k - V(4.0) * floor_integer(k * V(0.25));
-}
-
-/// sin(x + shift pi/2) and the quadrant of its argument.
-template <class V>
-struct wave_value {
-    expansion<V> value;
-    V quadrant;
+struct wave_end {
+    V lo, hi, piece;
 };
 template <class V>
-[[nodiscard]] wave_value<V> wave_kernel(V x, double shift) noexcept {
+[[nodiscard]] wave_end<V> wave_kernel(V x, double shift) noexcept {
+    using d = directed<V>;
     turn_argument<V> const a = reduce_turns(x);
     sine_pair<V> const y = sine_kernel(a);
-    V const q = modulo_four(a.k + V(shift));
-    auto const use_cos = (q == V(1.0)) | (q == V(3.0));
-    expansion<V> const e{select(use_cos, y.cos.head, y.sin.head),
-                         select(use_cos, y.cos.tail, y.sin.tail)};
-    return {with_sign(e, V(1.5) - q), quadrant(a) + V(shift)};
+    V const turns = a.turns + V(shift);
+    auto const use_cos = bit_is_set<0>(turns), negative = bit_is_set<1>(turns);
+    V const head = negate_where(negative, select(use_cos, y.cos.head, y.sin.head));
+    V const tail = negate_where(negative, select(use_cos, y.cos.tail, y.sin.tail));
+    V const margin = fma(V(kernel_error::sin_cos * unit_roundoff), abs(head), V(least_double));
+    return {d::add_down(head, tail - margin), d::add_up(head, tail + margin),
+            half_turn(quadrant(a), 1.0 + shift)};
 }
 
-/// The range of sin(t + shift pi/2), shift an integer, both ends within the limit. The sine rises on
-/// piece p, from (p - 1/2) pi to (p + 1/2) pi, for even p, and falls for odd p.
+/// The range of sin(t + shift pi/2), both ends within the limit.
 template <class V>
 [[nodiscard]] bounds<V> wave(bounds<V> x, double shift) noexcept {
-    constexpr double delta = kernel_error::sin_cos * unit_roundoff;
-    wave_value<V> const a = wave_kernel(x.lo, shift), b = wave_kernel(x.hi, shift);
-    V const half(0.5), one(1.0);
-    V const lo = min(lower_bound_of_any(a.value, delta), lower_bound_of_any(b.value, delta));
-    V const hi = max(upper_bound_of_any(a.value, delta), upper_bound_of_any(b.value, delta));
-    V const first = floor_integer((a.quadrant + one) * half);
-    V const last = floor_integer((b.quadrant + one) * half);
-    V const extrema = last - first;
-    auto const falling = first > V(2.0) * floor_integer(first * half);  // odd
-    auto const many = extrema > V(1.5);
-    auto const has_any = extrema > half;
-    auto const has_maximum = many | (has_any & !falling);
-    auto const has_minimum = many | (has_any & falling);
-    return {select(has_minimum, -one, max(-one, lo)), select(has_maximum, one, min(one, hi))};
+    wave_end<V> const a = wave_kernel(x.lo, shift), b = wave_kernel(x.hi, shift);
+    V const one(1.0), extrema = b.piece - a.piece;
+    auto const falling = bit_is_set<0>(a.piece);
+    auto const many = extrema > one, any = extrema > V(0.0);
+    auto const has_maximum = many | (any & !falling), has_minimum = many | (any & falling);
+    return {select(has_minimum, -one, max(-one, min(a.lo, b.lo))),
+            select(has_maximum, one, min(one, max(a.hi, b.hi)))};
 }
 
 template <class V>
@@ -133,8 +132,7 @@ template <class V>
 template <class V>
 [[nodiscard]] expansion<V> tan_kernel(turn_argument<V> a) noexcept {
     sine_pair<V> const y = sine_kernel(a);
-    V const parity = a.k - V(2.0) * floor_integer(a.k * V(0.5));
-    auto const odd = parity > V(0.5);  // -cos/sin
+    auto const odd = bit_is_set<0>(a.turns);  // -cos/sin
     expansion<V> const n{select(odd, -y.cos.head, y.sin.head), select(odd, -y.cos.tail, y.sin.tail)};
     expansion<V> const d{select(odd, y.sin.head, y.cos.head), select(odd, y.sin.tail, y.cos.tail)};
     return quotient(normalized(n), normalized(d));
@@ -146,10 +144,7 @@ template <class V>
 [[nodiscard]] bounds<V> tan_within_limit(bounds<V> x) noexcept {
     constexpr double delta = kernel_error::tan * unit_roundoff;
     turn_argument<V> const a = reduce_turns(x.lo), b = reduce_turns(x.hi);
-    V const half(0.5), one(1.0);
-    V const first = floor_integer((quadrant(a) + one) * half);
-    V const last = floor_integer((quadrant(b) + one) * half);
-    auto const pole = last > first;
+    auto const pole = half_turn(quadrant(a), 1.0) < half_turn(quadrant(b), 1.0);
     V const lo = lower_bound_of_any(tan_kernel(a), delta);
     V const hi = upper_bound_of_any(tan_kernel(b), delta);
     return {select(pole, V(-infinity), lo), select(pole, V(infinity), hi)};

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IO_IDENTIFICATION_CSV_HPP
+#define SIVID_IO_IDENTIFICATION_CSV_HPP
+
+#include <sivid/io/exact_decimal.hpp>
+#include <sivid/io/explaining_motion.hpp>
+#include <sivid/number/decimal_output.hpp>
+#include <sivid/paving/identify.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+namespace io_detail {
+
+/// The decimal that is the double (at most 767 significant digits).
+inline std::string all_digits(double x) {
+    std::array<char, 1200> buffer{};
+    std::snprintf(buffer.data(), buffer.size(), "%.767g", x);
+    return exact_decimal::parse(buffer.data()).value_or(exact_decimal{}).text();
+}
+
+/// Decimals for a side of a box that the proof covers: inward for an inside box (never more than
+/// was proved), outward for the others (nothing that was not excluded is left out).
+inline std::pair<std::string, std::string> side_text(interval const& side, bool inside) {
+    if (!inside) return {to_decimal_lower(side.lower()), to_decimal_upper(side.upper())};
+    auto low = to_decimal_upper(side.lower());
+    auto high = to_decimal_lower(side.upper());
+    // A side of no width, or nearly: inward decimals may pass each other; the doubles' own digits
+    // (written in full) cannot.
+    if (*exact_decimal::parse(high) < *exact_decimal::parse(low)) {
+        low = all_digits(side.lower());
+        high = all_digits(side.upper());
+    }
+    return {std::move(low), std::move(high)};
+}
+
+} // namespace io_detail
+
+/// The text of `boxes.csv`: one row for each inside, undecided or pending box. What no row covers
+/// of the prior is proved infeasible.
+/// @guarantee  as decimals: every point of an `inside` row is feasible, and every feasible point
+/// of the prior lies in some row
+[[nodiscard]] inline std::string boxes_csv(identification_problem const& problem,
+                                           identification const& found) {
+    std::string text = "verdict";
+    for (auto const& name : problem.choice.unknown)
+        text += std::string{","} + name + "_lower," + name + "_upper";
+    text += "\n";
+    for (auto const& b : found.paving.boxes()) {
+        if (b.verdict == box_verdict::outside) continue;
+        text += to_string(b.verdict);
+        for (auto const& side : b.set) {
+            auto const [low, high] = io_detail::side_text(side, b.verdict == box_verdict::inside);
+            text += std::string{","} + low + "," + high;
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+/// The text of `outputs.csv`: each measurement with its bound, and the proven enclosure of the
+/// model's output for the parameters of `motion`; `state` is `forced_outlier` when every feasible
+/// parameter violates it, `witness_outlier` when the witness does, else empty.
+[[nodiscard]] inline std::string outputs_csv(identification_problem const& problem,
+                                             identification const& found,
+                                             explaining_motion const* motion) {
+    auto const& channels = problem.model.about.channels;
+    std::set<std::pair<std::size_t, std::size_t>> forced;
+    for (auto const& f : found.forced) forced.insert({f.experiment, f.measurement});
+    std::string text = "scenario,t,channel,unit,measured_lower,measured_upper,model_lower,"
+                       "model_upper,state\n";
+    auto const decimal = [](double bound, auto const& print) {
+        return std::isfinite(bound) ? print(bound) : std::string{};
+    };
+    auto const no_bound = interval_traits<interval>::entire();
+    for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
+        auto const samples = sorted(problem.experiments[e].measurements);
+        auto const outputs = motion != nullptr ? motion->outputs_of(e, samples)
+                                               : std::vector<interval>(samples.size(), no_bound);
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            auto const& m = samples[i];
+            text += problem.experiments[e].name + "," + exact_decimal::shortest(m.time).text() +
+                    "," + channels[m.channel].name + "," + channels[m.channel].unit + "," +
+                    to_decimal_lower(m.bound.lower()) + "," + to_decimal_upper(m.bound.upper());
+            text += std::string{","} + decimal(outputs[i].lower(), to_decimal_lower) + "," +
+                    decimal(outputs[i].upper(), to_decimal_upper);
+            bool const violated = found.witness && i < found.witness->violated[e].size() &&
+                                  found.witness->violated[e][i];
+            text += forced.count({e, i}) > 0 ? ",forced_outlier"
+                    : violated               ? ",witness_outlier"
+                                             : ",";
+            text += "\n";
+        }
+    }
+    return text;
+}
+
+} // namespace sivid
+
+#endif // SIVID_IO_IDENTIFICATION_CSV_HPP

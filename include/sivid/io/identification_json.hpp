@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IO_IDENTIFICATION_JSON_HPP
+#define SIVID_IO_IDENTIFICATION_JSON_HPP
+
+#include <sivid/io/json_writer.hpp>
+#include <sivid/paving/identify.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace sivid {
+
+/// What a result file says beyond the identification itself.
+struct identification_json_options {
+    std::string dataset;                          ///< the id of the data set
+    std::vector<std::string> further_assumptions; ///< of `assumptions_of`, for instance
+};
+
+/// A share of the prior as an interval within [0, 1].
+[[nodiscard]] inline interval share_of_whole(interval const& volume) {
+    return intersect(volume, interval_traits<interval>::bounds(0, 1));
+}
+
+/// The text of `result.json` in the format sivid-identification-1.
+/// @guarantee  bounds are printed outward; the witness's numbers read back as the very doubles
+/// that were verified
+[[nodiscard]] inline std::string identification_json(identification_problem const& problem,
+                                                     identification const& found,
+                                                     identification_json_options const& options) {
+    using layout = json_writer::layout;
+    auto const& about = problem.model.about;
+    auto const& names = problem.choice.unknown;
+    auto const unit_of = [&](std::string const& name) {
+        return about.constants[index_of(about.constants, name, "constant")].unit;
+    };
+    json_writer json;
+    json.begin_object();
+    json.key("format").string("sivid-identification-1").key("dataset").string(options.dataset);
+    json.key("verdict").string(to_string(found.verdict));
+    json.key("stop_reason").string(to_string(found.reason));
+
+    json.key("parameters").begin_object();
+    for (std::size_t j = 0; j < names.size(); ++j) {
+        json.key(names[j]).begin_object(layout::one_line).key("hull").bounds(found.hull[j]);
+        json.key("unit").string(unit_of(names[j])).end_object();
+    }
+    json.end_object();
+    json.key("combinations").begin_array();
+    for (auto const& c : found.combinations) {
+        json.begin_object(layout::one_line).key("formula").string(c.what.formula);
+        json.key("hull").bounds(c.hull).key("unit").string(c.what.unit).end_object();
+    }
+    json.end_array();
+
+    json.key("volume").begin_object(layout::one_line);
+    json.key("inner").bounds(share_of_whole(found.paving.inner_volume()));
+    json.key("outer").bounds(share_of_whole(found.paving.outer_volume())).end_object();
+
+    json.key("witness");
+    if (found.witness) {
+        json.begin_object().key("parameters").begin_object(layout::one_line);
+        for (std::size_t j = 0; j < names.size(); ++j) {
+            json.key(names[j]).nearest(found.witness->parameters[j]);
+        }
+        json.end_object().key("initial").begin_object();
+        for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
+            json.key(problem.experiments[s].name).begin_object(layout::one_line);
+            for (std::size_t i = 0; i < about.states.size(); ++i) {
+                json.key(about.states[i].name).nearest(found.witness->starts[s][i]);
+            }
+            json.end_object();
+        }
+        json.end_object().end_object();
+    } else {
+        json.null();
+    }
+
+    json.key("assumptions").begin_array();
+    for (auto const& a : found.assumptions) json.string(a);
+    for (auto const& a : options.further_assumptions) json.string(a);
+    json.end_array();
+
+    json.key("outliers").begin_object().key("budget").begin_object(layout::one_line);
+    for (auto const& s : problem.experiments) json.key(s.name).integer(s.outliers);
+    json.end_object().key("forced").begin_array();
+    for (auto const& f : found.forced) {
+        auto const samples = sorted(problem.experiments[f.experiment].measurements);
+        auto const& m = samples[f.measurement];
+        json.begin_object(layout::one_line);
+        json.key("scenario").string(problem.experiments[f.experiment].name);
+        json.key("t").nearest(m.time);
+        json.key("channel").string(about.channels[m.channel].name).end_object();
+    }
+    json.end_array().end_object();
+
+    json.key("boxes").integer(found.boxes).key("integrations").integer(found.integrations);
+    json.key("seconds").nearest(found.seconds).end_object();
+    return json.text();
+}
+
+} // namespace sivid
+
+#endif // SIVID_IO_IDENTIFICATION_JSON_HPP

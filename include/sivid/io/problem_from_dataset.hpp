@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IO_PROBLEM_FROM_DATASET_HPP
+#define SIVID_IO_PROBLEM_FROM_DATASET_HPP
+
+#include <sivid/io/dataset_value.hpp>
+#include <sivid/paving/problem.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// The identification problem that a data set states: its priors, its fixed constants, and one
+/// experiment for each scenario of the role fit. Hold-out scenarios do not enter.
+///   Bounds, priors and fixed constants are the enclosures of the stated decimals; every scenario
+///   begins at t = 0 and may violate `outlier_budget` of its measurements.
+/// @param outliers  a budget for every scenario instead of the data set's own
+/// @given  `data` was read with the names of this model (checked: name and sizes)
+/// @throws std::invalid_argument otherwise
+[[nodiscard]] inline identification_problem
+problem_from_dataset(dataset const& data, recorded_model model,
+                     std::optional<std::size_t> outliers = std::nullopt) {
+    auto const fail = [](std::string const& what) {
+        throw std::invalid_argument(std::string{"problem_from_dataset: "} + what);
+    };
+    if (data.model != model.about.name) {
+        fail(std::string{"the data are of the model '"} + data.model + "', not '" +
+             model.about.name + "'");
+    }
+    identification_problem problem{std::move(model), {}, box(data.parameters.size()), {}};
+    auto const& about = problem.model.about;
+    for (std::size_t j = 0; j < data.parameters.size(); ++j) {
+        problem.choice.unknown.push_back(data.parameters[j].name);
+        problem.prior[j] = data.parameters[j].prior.enclosure;
+    }
+    for (auto const& f : data.fixed) {
+        if (f.constant >= about.constants.size()) fail("a fixed constant that the model lacks");
+        problem.choice.fixed[about.constants[f.constant].name] = f.value;
+    }
+    for (auto const& s : data.scenarios) {
+        if (s.role != scenario_role::fit) continue;
+        if (s.inputs.size() != about.inputs.size() || s.initial.size() != about.states.size()) {
+            fail(std::string{"scenario '"} + s.name +
+                 "' has other inputs or states than the model");
+        }
+        experiment e;
+        e.name = s.name;
+        for (auto const& input : s.inputs) e.inputs.push_back(input.signal);
+        e.initial = box(s.initial.size());
+        for (std::size_t i = 0; i < s.initial.size(); ++i) e.initial[i] = s.initial[i].range;
+        e.measurements = s.measurements;
+        e.outliers = outliers.value_or(data.outlier_budget(s));
+        problem.experiments.push_back(std::move(e));
+    }
+    return problem;
+}
+
+/// What a proof about this problem takes for granted of the data set, beyond what the
+/// identification states itself.
+[[nodiscard]] inline std::vector<std::string> assumptions_of(dataset const& data) {
+    std::vector<std::string> result;
+    for (auto const& s : data.scenarios) {
+        if (s.role != scenario_role::fit || s.inputs_exact()) continue;
+        result.push_back(std::string{"the input errors stated for scenario "} + s.name +
+                         " are not used: its recorded inputs count as exact");
+    }
+    return result;
+}
+
+} // namespace sivid
+
+#endif // SIVID_IO_PROBLEM_FROM_DATASET_HPP

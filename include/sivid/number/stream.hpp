@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_NUMBER_STREAM_HPP
+#define SIVID_NUMBER_STREAM_HPP
+
+/// @file
+/// Intervals and decimals to streams.
+
+#include <sivid/number/decimal.hpp>
+#include <sivid/number/interval.hpp>
+
+#include <ostream>
+
+namespace sivid {
+
+/// Writes "[lo, hi]" outward with the shortest bounds; the width of the stream applies to the whole
+/// text, its precision does not apply (see `to_string(x, digits)`).
+inline std::ostream& operator<<(std::ostream& out, interval const& x) {
+    return out << to_string(x);
+}
+
+/// Writes the decimal as it was written.
+inline std::ostream& operator<<(std::ostream& out, decimal d) {
+    return out << (d.negative ? "-" : "") << d.view();
+}
+
+} // namespace sivid
+
+#endif

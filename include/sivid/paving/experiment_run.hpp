@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_EXPERIMENT_RUN_HPP
+#define SIVID_PAVING_EXPERIMENT_RUN_HPP
+
+#include <sivid/enclosure/observation.hpp>
+#include <sivid/enclosure/parametric_flow.hpp>
+#include <sivid/enclosure/trajectory.hpp>
+#include <sivid/paving/problem.hpp>
+#include <sivid/paving/response.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// Which sets are carried along the trajectories.
+enum class carried_set {
+    taylor_model, ///< polynomials in the unknowns: tight over wide boxes
+    doubleton     ///< first order: Lohner's sets, the readable reference
+};
+
+/// How an experiment is run over a box of parameters and starts.
+struct run_options {
+    enclosure_options enclosure{
+        .order = 12, .tolerance = 1e-7, .relative_tolerance = 1e-4, .minimum_step = 1e-3};
+    carried_set set = carried_set::taylor_model;
+    /// Leave an experiment when the part of every output that is lost to remainders is wider than
+    /// this many times what is known of it and the measurement together.
+    double hopeless = 3;
+};
+
+/// One experiment over boxes of parameters and starts: integrates, stepping onto the measurements,
+/// and keeps the measured outputs as polynomials. Owns its work space; one object per thread.
+class experiment_run {
+public:
+    virtual ~experiment_run() = default;
+    /// @returns the outputs that were reached; fewer than all when the enclosure failed, became
+    ///          hopeless, or more measurements than allowed already fail for the whole box
+    [[nodiscard]] virtual std::shared_ptr<response const> operator()(box const& initial,
+                                                                     box const& parameters) = 0;
+};
+
+namespace paving_detail {
+
+/// Walks through the measurements of a record in time, group by group.
+/// @param reach    (t) -> bool: integrates to t
+/// @param outputs  () -> the outputs at the current time
+/// @param keep     (output of a channel, bound) -> {certainly fails, hopeless}
+struct kept_output {
+    bool fails = false;
+    bool hopeless = false;
+};
+template <class Reach, class Outputs, class Keep>
+void walk(record const& samples, std::size_t allowed, Reach&& reach, Outputs&& outputs,
+          Keep&& keep) {
+    std::size_t failed = 0;
+    for (std::size_t i = 0; i < samples.size();) {
+        double const t = samples[i].time;
+        if (!reach(t)) return;
+        auto const seen = outputs();
+        bool hopeless = true;
+        for (; i < samples.size() && samples[i].time == t; ++i) {
+            auto const verdict = keep(seen[samples[i].channel], samples[i].bound);
+            failed += verdict.fails ? 1 : 0;
+            hopeless = hopeless && verdict.hopeless;
+        }
+        if (failed > allowed || hopeless) return;
+    }
+}
+
+[[nodiscard]] inline std::shared_ptr<response> start_response(experiment const& e,
+                                                              record const& samples,
+                                                              box const& initial,
+                                                              box const& parameters) {
+    return std::make_shared<response>(response{
+        normalised_unknowns(initial, parameters), nullptr, {}, {}, {}, samples.size(), e.outliers});
+}
+
+template <std::size_t N, std::size_t D>
+class taylor_run final : public experiment_run {
+public:
+    taylor_run(flow const& f, experiment const& e, record const& samples,
+               run_options const& options)
+        : experiment_(&e), samples_(&samples), options_(options), flow_(f, options.enclosure) {}
+
+    std::shared_ptr<response const> operator()(box const& initial, box const& parameters) override {
+        using traits = interval_traits<interval>;
+        auto answer = start_response(*experiment_, *samples_, initial, parameters);
+        flow_.begin(experiment_->begin, initial, parameters);
+        auto& table = tables_[answer->unknowns.variables];
+        if (!table) {
+            table = std::make_shared<monomial_table const>(
+                monomial_table::of<N, D>(answer->unknowns.variables));
+        }
+        answer->table = table;
+        // Positions of the used monomials among all.
+        std::vector<std::size_t> place;
+        for (std::size_t m = 0; m < monomials<N, D>::count; ++m) {
+            auto const& exponents = monomials<N, D>::data.exponents[m];
+            if (std::all_of(exponents.begin() + static_cast<std::ptrdiff_t>(table->variables),
+                            exponents.end(), [](std::uint8_t x) { return x == 0; })) {
+                place.push_back(m);
+            }
+        }
+        response_builder collected(place.size());
+        walk(
+            *samples_, answer->allowed,
+            [&](double t) {
+                while (flow_.time() < t) {
+                    if (!flow_.step(t)) return false;
+                }
+                return true;
+            },
+            [&] { return flow_.outputs(); },
+            [&](taylor_model<N, D> const& y, interval const& bound) {
+                collected.add([&](std::size_t m) { return y.c[place[m]]; }, y.r, bound);
+                auto const value = rough_range(y);
+                double const known = 2 * y.spread() + width(bound);
+                return kept_output{traits::disjoint(value, bound),
+                                   !(2 * y.r <= options_.hopeless * known)};
+            });
+        std::move(collected).finish(*answer);
+        return answer;
+    }
+
+private:
+    experiment const* experiment_;
+    record const* samples_;
+    run_options options_;
+    parametric_flow<N, D> flow_;
+    std::map<std::size_t, std::shared_ptr<monomial_table const>> tables_;
+};
+
+class doubleton_run final : public experiment_run {
+public:
+    doubleton_run(flow const& f, experiment const& e, record const& samples,
+                  run_options const& options)
+        : experiment_(&e),
+          samples_(&samples),
+          options_(options),
+          run_(f, options.enclosure),
+          look_(f) {}
+
+    std::shared_ptr<response const> operator()(box const& initial, box const& parameters) override {
+        using traits = interval_traits<interval>;
+        auto answer = start_response(*experiment_, *samples_, initial, parameters);
+        auto const& u = answer->unknowns;
+        run_.begin(experiment_->begin, initial, parameters);
+        look_.set_ensemble(run_.ensemble());
+        answer->table = std::make_shared<monomial_table const>(linear_table(u.variables));
+        response_builder collected(answer->table->size());
+        auto const& deviation = run_.ensemble().deviation;
+        auto const n = initial.size();
+        walk(
+            *samples_, answer->allowed,
+            [&](double t) {
+                while (run_.time() < t) {
+                    if (!run_.step(t)) return false;
+                }
+                return true;
+            },
+            [&] { return look_(run_.set()); },
+            [&](observation<interval> const& y, interval const& bound) {
+                // y = gradient . r + rest, r = radius * q; sides without a variable join the rest.
+                std::vector<double> c(u.variables + 1, 0.0);
+                auto rest = y.defined ? y.rest : traits::entire();
+                double affine = 0;
+                for (std::size_t k = 0; k < y.gradient.size(); ++k) {
+                    auto const& side = k < n ? u.initial[k] : u.parameters[k - n];
+                    auto const g = traits::point(y.gradient[k]);
+                    if (side.radius == 0) {
+                        rest = traits::add(rest, traits::mul(g, deviation[k]));
+                        continue;
+                    }
+                    auto const exact = traits::mul(g, traits::point(side.radius));
+                    c[1 + side.variable] = mid(exact);
+                    affine += std::abs(mid(exact));
+                    auto const lost = rad(exact);
+                    rest = traits::add(rest, traits::bounds(-lost, lost));
+                }
+                c[0] = mid(rest);
+                double const radius = rad(rest);
+                collected.add([&](std::size_t m) { return c[m]; }, radius, bound);
+                bool const fails = y.defined && traits::disjoint(y.value, bound);
+                return kept_output{
+                    fails, !(2 * radius <= options_.hopeless * (2 * affine + width(bound)))};
+            });
+        std::move(collected).finish(*answer);
+        return answer;
+    }
+
+private:
+    static monomial_table linear_table(std::size_t variables) {
+        monomial_table t;
+        t.variables = variables;
+        t.degree = 1;
+        t.exponents.emplace_back(variables, std::uint8_t{0});
+        for (std::size_t v = 0; v < variables; ++v) {
+            t.exponents.emplace_back(variables, std::uint8_t{0});
+            t.exponents.back()[v] = 1;
+        }
+        t.find_lines();
+        return t;
+    }
+
+    experiment const* experiment_;
+    record const* samples_;
+    run_options options_;
+    trajectory<interval> run_;
+    observer<interval> look_;
+};
+
+/// Number of sides of an experiment that have a width.
+[[nodiscard]] inline std::size_t unknown_count(box const& initial, box const& prior) {
+    return normalised_unknowns(initial, prior).variables;
+}
+
+} // namespace paving_detail
+
+/// The kernel that fits the number of unknowns: degree 4 up to three, 3 for four, 2 up to nine;
+/// beyond that the sets are of first order.
+[[nodiscard]] inline std::unique_ptr<experiment_run> make_run(flow const& f, experiment const& e,
+                                                              record const& samples,
+                                                              box const& prior,
+                                                              run_options const& options) {
+    using namespace paving_detail;
+    auto const unknowns = unknown_count(e.initial, prior);
+    if (options.set == carried_set::taylor_model) {
+        if (unknowns <= 2) return std::make_unique<taylor_run<2, 4>>(f, e, samples, options);
+        if (unknowns == 3) return std::make_unique<taylor_run<3, 4>>(f, e, samples, options);
+        if (unknowns == 4) return std::make_unique<taylor_run<4, 3>>(f, e, samples, options);
+        if (unknowns <= 6) return std::make_unique<taylor_run<6, 2>>(f, e, samples, options);
+        if (unknowns <= 9) return std::make_unique<taylor_run<9, 2>>(f, e, samples, options);
+    }
+    return std::make_unique<doubleton_run>(f, e, samples, options);
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_REPORT_IDENTIFICATION_VIEW_HPP
+#define SIVID_REPORT_IDENTIFICATION_VIEW_HPP
+
+#include <sivid/report/page.hpp>
+#include <sivid/report/paving_plot.hpp>
+#include <sivid/report/plane_plot.hpp>
+#include <sivid/report/time_plot.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What the page of an identification shows: strings, numbers and plain vectors only, so that any
+/// result can be described. Whoever fills it answers for the proofs; ranges named hull, volume or
+/// enclosure are taken as proven and printed outward.
+namespace sivid::report {
+
+struct parameter_view {
+    std::string name{};
+    std::string unit{};
+    range prior{};
+    range hull{}; ///< contains every feasible value; empty when there is none
+    std::string meaning{};
+};
+
+/// A function of the parameters that the data fix.
+struct combination_view {
+    std::string formula{};
+    std::string unit{};
+    range hull{};
+    range prior{};      ///< its range over the prior, when known
+    std::string note{}; ///< e.g. what the data cannot tell apart
+};
+
+struct named_value {
+    std::string name{};
+    std::string unit{};
+    double value = 0;
+};
+
+struct witness_view {
+    std::vector<named_value> parameters{};
+    struct start {
+        std::string scenario{};
+        std::vector<named_value> state{};
+    };
+    std::vector<start> initial{};
+};
+
+/// A marked measurement.
+struct outlier_view {
+    std::string scenario{};
+    std::string channel{};
+    double time = 0;
+    bool proved = false; ///< violated by every parameter that explains the data; else by
+                         ///< the witness only
+};
+
+struct scenario_view {
+    std::string name{};
+    std::string role = "fit";
+    std::size_t measurements = 0;
+    std::size_t outlier_budget = 0;
+    std::vector<channel_series> channels{};
+    std::optional<plane_series> plane{};
+};
+
+struct statistics_view {
+    double seconds = 0;
+    std::uint64_t boxes = 0;
+    std::uint64_t integrations = 0;
+    std::string stop_reason{};
+};
+
+/// One way to solve the same problem, for comparison.
+struct comparison_row {
+    std::string name{};
+    std::optional<double> seconds{};
+    std::optional<std::uint64_t> boxes{};
+    std::optional<std::uint64_t> integrations{};
+    range inner_volume{}; ///< share of the prior; empty: not known
+    range outer_volume{};
+    std::string note{};
+    bool chosen = false; ///< the row of this page's result
+};
+
+struct identification_view {
+    std::string dataset{};
+    std::string model{};
+    outcome verdict = outcome::undecided; ///< proved: consistent, refuted: inconsistent
+    std::string sentence{};               ///< one sentence for the banner; empty: a standard one
+    std::vector<parameter_view> parameters{};
+    std::vector<combination_view> combinations{};
+    range volume_inner{}; ///< share of the prior, as proven intervals; empty: not known
+    range volume_outer{};
+    std::optional<witness_view> witness{};
+    std::vector<std::string> proved{}; ///< further statements in plain words
+    std::vector<std::string> assumptions{};
+    std::vector<std::string> warnings{};
+    std::vector<outlier_view> outliers{};
+    statistics_view statistics{};
+    std::vector<scenario_view> scenarios{};
+    std::string tube_meaning{};      ///< what the drawn enclosures enclose
+    std::string reference_meaning{}; ///< what the reference line is
+    std::vector<paving_projection> pavings{};
+    std::vector<comparison_row> comparison{};
+    std::string comparison_note{};
+    std::string version{};
+    std::string date{};
+    std::string machine{};
+    std::string command{};
+};
+
+} // namespace sivid::report
+
+#endif
