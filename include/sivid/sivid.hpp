@@ -75,6 +75,7 @@
 #include <sivid/paving/linear_contraction.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/problem.hpp>
+#include <sivid/paving/reduction.hpp>
 #include <sivid/paving/relaxed_intersection.hpp>
 #include <sivid/paving/response.hpp>
 #include <sivid/paving/set_test.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Exact bounds of functions at doubles, by MPFR: the greatest double <= f and the least double >= f.
-// One value of the oracle serves every interval type: f is in [lo, hi] of doubles exactly if
-// lo <= below and above <= hi.
+// Exact bounds of functions at doubles, by MPFR: the greatest double <= f and the least double >=
+// f. One value of the oracle serves every interval type: f is in [lo, hi] of doubles exactly if lo
+// <= below and above <= hi.
 #ifndef SIVID_TESTS_SUPPORT_ORACLE_HPP
 #define SIVID_TESTS_SUPPORT_ORACLE_HPP
 
@@ -20,8 +20,8 @@ struct value {
     bool in(double lo, double hi) const { return lo <= below && above <= hi; }
 };
 
-/// A number of 53 bits and unbounded exponent: rounding to it and then to double in one direction is
-/// rounding to double in that direction.
+/// A number of 53 bits and unbounded exponent: rounding to it and then to double in one direction
+/// is rounding to double in that direction.
 class number {
 public:
     number() { mpfr_init2(raw_, 53); }
@@ -121,21 +121,29 @@ public:
         constexpr std::int64_t top = 0x7fefffffffffffff;
         if (ordered > top) ordered = top;
         if (ordered < -top) ordered = -top;
-        return ordered < 0
-                   ? -std::bit_cast<double>(static_cast<std::uint64_t>(-ordered))
-                   : std::bit_cast<double>(static_cast<std::uint64_t>(ordered));
+        return ordered < 0 ? -std::bit_cast<double>(static_cast<std::uint64_t>(-ordered))
+                           : std::bit_cast<double>(static_cast<std::uint64_t>(ordered));
     }
     /// A mixture of all of the above, and values around small integers and fractions.
     double mixed() {
         switch (below(8)) {
-        case 0: return any();
-        case 1: return subnormal();
-        case 2: return near_quarter_turn();
-        case 3: return magnitude(-60, 60);
-        case 4: return moved((static_cast<double>(below(65)) - 32.0) * 0.25, static_cast<int>(below(7)) - 3);
-        case 5: return magnitude(-4, 10);
-        case 6: return magnitude(-1070, -960);
-        default: return uniform(-10.0, 10.0);
+        case 0:
+            return any();
+        case 1:
+            return subnormal();
+        case 2:
+            return near_quarter_turn();
+        case 3:
+            return magnitude(-60, 60);
+        case 4:
+            return moved((static_cast<double>(below(65)) - 32.0) * 0.25,
+                         static_cast<int>(below(7)) - 3);
+        case 5:
+            return magnitude(-4, 10);
+        case 6:
+            return magnitude(-1070, -960);
+        default:
+            return uniform(-10.0, 10.0);
         }
     }
 
@@ -143,6 +151,6 @@ private:
     std::mt19937_64 random_;
 };
 
-}  // namespace oracle
+} // namespace oracle
 
 #endif

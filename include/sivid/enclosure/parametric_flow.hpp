@@ -97,6 +97,7 @@ bool parametric_flow<N, D>::useful(enclosure_failure& why) const {
 template <std::size_t N, std::size_t D>
 bool parametric_flow<N, D>::step(double limit) {
     if (failure_) return false;
+    if (!(limit > set_.time)) throw std::invalid_argument("parametric_flow: a step must go forward");
     enclosure_failure why;
     if (steps_ >= options_.maximum_steps) {
         why.reason = failure_reason::step_limit;
@@ -172,6 +173,10 @@ bool parametric_flow<N, D>::try_step(double to, double& shorten, enclosure_failu
     double const h = length.upper();
     std::size_t const K = order_;
     std::size_t const L = flow_order_;
+    if (K > 0 && (centre_.kinked() || derivative_.kinked())) {
+        smooth_ = false;
+        return false;
+    }
     // Time within the step: s = h/2 (1 + tau).
     auto const s = tube_entry::variable(N, 0.5 * h, 0.5 * h);
     auto const times = tube_entry::constant(from) + s;
@@ -206,7 +211,9 @@ bool parametric_flow<N, D>::try_step(double to, double& shorten, enclosure_failu
             smooth_ = false;
             return false;
         }
-        jumps_ = tube_.jumped();
+        // Without series terms x(h) = x(0) + h f(b) holds for every member, jumps or not. With them no
+        // sign varies here (it would be a kink), and V carries the members as usual.
+        jumps_ = tube_.jumped() && K == 0;
         lagrange_.clear();
         std::vector<double> truncation;
         double ratio = 0;
@@ -324,7 +331,7 @@ void parametric_flow<N, D>::accept(double to, interval const& h, Eigen::MatrixXd
             for (std::size_t i = 0; i < n; ++i) {
                 product_sum<N, column_degree> sum;
                 for (std::size_t l = 0; l < n; ++l) {
-                    if (flow_->sensitive(i, l) && g[l].norm() > 0) sum.add(j[i * n + l], g[l]);
+                    if (flow_->sensitive(i, l) && g[l].norm() != 0) sum.add(j[i * n + l], g[l]);
                 }
                 image[i] = sum.result();
                 lost[i] += image[i].r;
@@ -335,6 +342,7 @@ void parametric_flow<N, D>::accept(double to, interval const& h, Eigen::MatrixXd
     }
     for (auto& x : lost) x *= up;
     set_.time = to;
+    swept_ = tube_box_;
     set_.centre = std::move(next);
     set_.append(lost);
     set_.reduce(10 * n);

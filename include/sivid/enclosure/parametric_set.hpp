@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -100,9 +101,10 @@ struct parametric_set {
     /// Adds the box \f$ \prod [-s_i, s_i] \f$ as generators along the axes.
     void append(std::vector<double> const& s) {
         for (std::size_t i = 0; i < s.size(); ++i) {
-            if (!(s[i] > 0)) continue;
+            if (s[i] == 0) continue;
             column g(s.size());
-            g[i] = column_entry::constant(s[i]);
+            bool const known = s[i] > 0; // NaN: nothing is known
+            g[i] = column_entry::constant(known ? s[i] : std::numeric_limits<double>::infinity());
             columns.push_back(std::move(g));
         }
     }
@@ -113,7 +115,7 @@ struct parametric_set {
             for (std::size_t i = 0; i < g.size(); ++i) reach[i] += g[i].norm();
         }
         double const up = 1 + static_cast<double>(columns.size() + 4) * polynomial::unit;
-        for (auto& e : reach) e *= up;
+        for (auto& e : reach) e = e >= 0 ? e * up : std::numeric_limits<double>::infinity();
     }
 
     /// A box that contains the set.
@@ -121,7 +123,9 @@ struct parametric_set {
         using traits = interval_traits<interval>;
         box result(centre.size());
         for (std::size_t i = 0; i < centre.size(); ++i) {
-            result[i] = traits::add(range(centre[i]), traits::bounds(-reach[i], reach[i]));
+            result[i] = std::isfinite(reach[i]) && std::isfinite(centre[i].norm())
+                            ? traits::add(range(centre[i]), traits::bounds(-reach[i], reach[i]))
+                            : traits::entire();
         }
         return result;
     }
@@ -157,7 +161,7 @@ struct parametric_set {
         for (std::size_t i = 0; i < n; ++i) {
             double const s =
                 side[i] * (1 + 4 * static_cast<double>(order.size()) * polynomial::unit);
-            if (!(s > 0)) continue;
+            if (s == 0) continue;
             column g(n);
             for (std::size_t l = 0; l < n; ++l) {
                 auto const q =

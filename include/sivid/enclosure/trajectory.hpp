@@ -50,6 +50,7 @@ public:
     /// @returns false when none could be proved: see `failure()`; what came before stays proved.
     [[nodiscard]] bool step(double limit) {
         if (failure_) return false;
+        if (!(limit > set_.time)) throw std::invalid_argument("trajectory: a step must go forward");
         enclosure_failure why;
         if (steps_ >= options_.maximum_steps) {
             why.time = set_.time;

@@ -102,7 +102,8 @@ private:
                     fail(number, i, "a column without a heading", "name it or remove it");
                 for (std::size_t j = 0; j < i; ++j)
                     if (cells[i] == cells[j])
-                        fail(number, i, "the heading " + in_quotes(cells[i]) + " appears twice",
+                        fail(number, i,
+                             text_of("the heading ", in_quotes(cells[i]), " appears twice"),
                              "keep one of the columns");
             }
             headings_ = std::move(cells);

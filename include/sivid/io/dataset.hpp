@@ -28,13 +28,14 @@ public:
             {"format", "id", "model", "parameters", "fixed", "max_outlier_fraction", "scenarios"});
         // The format first: another version may have other keys, another model other names.
         if (root.at("format").string() != "sivid-dataset-1")
-            root.at("format").fail("unknown format " + in_quotes(root.at("format").string()),
-                                   "this version reads sivid-dataset-1");
+            root.at("format").fail(
+                text_of("unknown format ", in_quotes(root.at("format").string())),
+                "this version reads sivid-dataset-1");
         dataset result;
         result.id = root.at("id").string();
         result.model = root.at("model").string();
         if (result.model != model_.name)
-            root.at("model").fail("unknown model " + in_quotes(result.model),
+            root.at("model").fail(text_of("unknown model ", in_quotes(result.model)),
                                   "known here: " + model_.name);
         read_parameters(root.at("parameters"), result);
         if (auto const* fixed = root.find("fixed")) read_fixed(*fixed, result);
@@ -47,8 +48,8 @@ private:
     [[nodiscard]] std::size_t constant(json_value const& entry, std::string const& name) const {
         auto const index = index_of(model_.constants, name);
         if (!index)
-            entry.fail("unknown constant " + in_quotes(name),
-                       "the model has: " + joined_names(model_.constants));
+            entry.fail(text_of("unknown constant ", in_quotes(name)),
+                       text_of("the model has: ", joined_names(model_.constants)));
         return *index;
     }
 
@@ -61,8 +62,8 @@ private:
             auto const& unit = model_.constants[index].unit;
             if (auto const* stated = entry.find("unit");
                 stated != nullptr && !same_unit(stated->any_string(), unit))
-                stated->fail("the unit " + in_quotes(stated->any_string()) +
-                                 " differs from the model's " + in_quotes(unit),
+                stated->fail(text_of("the unit ", in_quotes(stated->any_string()),
+                                     " differs from the model's ", in_quotes(unit)),
                              "convert the prior and state the model's unit");
             result.parameters.push_back(
                 {index, name, unit, read_range(entry.at("prior"), "prior")});
@@ -90,7 +91,7 @@ private:
         auto const fraction = entry.number();
         auto const one = *exact_decimal::parse("1");
         if (fraction.is_negative() || !(fraction < one))
-            entry.fail("the fraction " + fraction.text() + " is outside [0, 1)",
+            entry.fail(text_of("the fraction ", fraction.text(), " is outside [0, 1)"),
                        "state the share of outliers, such as 0.05");
         result.max_outlier_fraction = fraction;
     }
@@ -100,8 +101,9 @@ private:
             auto next = read_scenario(entry);
             for (auto const& earlier : result.scenarios)
                 if (earlier.name == next.name)
-                    entry.at("name").fail("the scenario " + in_quotes(next.name) + " appears twice",
-                                          "give each its own name");
+                    entry.at("name").fail(
+                        text_of("the scenario ", in_quotes(next.name), " appears twice"),
+                        "give each its own name");
             result.scenarios.push_back(std::move(next));
         }
         auto const is_fit = [](scenario const& s) { return s.role == scenario_role::fit; };
@@ -115,8 +117,9 @@ private:
         scenario result;
         result.name = entry.at("name").string();
         if (result.name.find_first_of("/\\") != std::string::npos || result.name.front() == '.')
-            entry.at("name").fail("the name " + in_quotes(result.name) + " cannot be a file name",
-                                  "use letters, digits, - and _");
+            entry.at("name").fail(
+                text_of("the name ", in_quotes(result.name), " cannot be a file name"),
+                "use letters, digits, - and _");
         result.role = choice(entry.at("role"), {"fit", "holdout"}) == 0 ? scenario_role::fit
                                                                         : scenario_role::holdout;
         auto const duration = entry.at("duration").number();
@@ -131,7 +134,8 @@ private:
             auto const& value = entry.at(key);
             auto const path = path_inside(folder_, value.string(), value.place());
             if (std::error_code fault; !std::filesystem::exists(path, fault))
-                value.fail("there is no file " + in_quotes(value.string()), "check the name");
+                value.fail(text_of("there is no file ", in_quotes(value.string())),
+                           "check the name");
             return path;
         };
         auto const inputs = file("inputs");
@@ -152,8 +156,8 @@ private:
             auto const& entry = list.members()[i];
             auto const index = index_of(model_.states, list.name_of(i));
             if (!index)
-                entry.fail("unknown state " + in_quotes(list.name_of(i)),
-                           "the model has: " + joined_names(model_.states));
+                entry.fail(text_of("unknown state ", in_quotes(list.name_of(i))),
+                           text_of("the model has: ", joined_names(model_.states)));
             auto const range = read_range(entry, "initial value");
             result.initial[*index] = {range.enclosure, range};
         }
@@ -165,7 +169,7 @@ private:
         auto const& text = entry.string();
         if (text == words.first) return 0;
         if (text == words.second) return 1;
-        entry.fail("found " + in_quotes(text),
+        entry.fail(text_of("found ", in_quotes(text)),
                    std::string{"write "} + words.first + " or " + words.second);
     }
 
@@ -179,13 +183,13 @@ private:
     static stated_range read_range(json_value const& entry, std::string const& what) {
         auto const& ends = entry.elements();
         if (ends.size() != 2)
-            entry.fail("the " + what + " has " + std::to_string(ends.size()) +
-                           " numbers instead of 2",
+            entry.fail(text_of("the ", what, " has ", std::to_string(ends.size()),
+                               " numbers instead of 2"),
                        "write [lower, upper]");
         auto const lower = ends[0].number(), upper = ends[1].number();
         if (upper < lower)
-            entry.fail("the " + what + " [" + lower.text() + ", " + upper.text() +
-                           "] is empty: lower is above upper",
+            entry.fail(text_of("the ", what, " [", lower.text(), ", ", upper.text(),
+                               "] is empty: lower is above upper"),
                        "write [lower, upper]");
         return {lower, upper, enclosed(entry, lower, upper)};
     }

@@ -29,9 +29,10 @@ struct quantity_column {
 [[nodiscard]] inline std::vector<quantity_column>
 find_columns(csv_table const& table, std::vector<name_unit> const& names, std::string const& what) {
     if (table.headings().front() != "t")
-        table.fail(table.heading_line(), 0,
-                   "the first column is " + in_quotes(table.headings().front()) + " instead of t",
-                   "begin with the time; cells are separated by commas");
+        table.fail(
+            table.heading_line(), 0,
+            text_of("the first column is ", in_quotes(table.headings().front()), " instead of t"),
+            "begin with the time; cells are separated by commas");
     std::vector<quantity_column> columns;
     for (std::size_t i = 0; i < names.size(); ++i)
         if (auto const value = table.column(names[i].name))
@@ -45,10 +46,10 @@ find_columns(csv_table const& table, std::vector<name_unit> const& names, std::s
         if (heading.size() > suffix.size() && heading.ends_with(suffix) &&
             index_of(names, heading.substr(0, heading.size() - suffix.size())))
             table.fail(table.heading_line(), c,
-                       "there is no column for the values of " + in_quotes(heading),
+                       text_of("there is no column for the values of ", in_quotes(heading)),
                        "add it before this one");
-        table.fail(table.heading_line(), c, "unknown " + what + " " + in_quotes(heading),
-                   "the model has: " + joined_names(names));
+        table.fail(table.heading_line(), c, text_of("unknown ", what, " ", in_quotes(heading)),
+                   text_of("the model has: ", joined_names(names)));
     }
     return columns;
 }
@@ -60,8 +61,8 @@ find_columns(csv_table const& table, std::vector<name_unit> const& names, std::s
         auto const time = *nearest(table.number(row, 0));
         if (!times.empty() && !(times.back() < time))
             table.fail(row.line, 0,
-                       "the time " + in_quotes(row.cells[0]) +
-                           " does not come after the one before it",
+                       text_of("the time ", in_quotes(row.cells[0]),
+                               " does not come after the one before it"),
                        "sort the lines by time and keep each time once");
         times.push_back(time);
     }
@@ -90,7 +91,7 @@ read_inputs(csv_table const& table, model_names const& model, interpolation kind
         for (auto const& q : columns) found = found || q.index == i;
         if (!found)
             table.fail(table.heading_line(),
-                       "the input " + in_quotes(model.inputs[i].name) + " is missing",
+                       text_of("the input ", in_quotes(model.inputs[i].name), " is missing"),
                        "add its column");
     }
     auto const times = read_times(table);
@@ -136,15 +137,16 @@ inline void read_measurements(csv_table const& table, model_names const& model, 
     auto const columns = find_columns(table, model.channels, "channel");
     for (auto const& q : columns)
         if (!q.error)
-            table.fail(table.heading_line(), q.value,
-                       "there is no column " + in_quotes(model.channels[q.index].name + "_err"),
-                       "add the error bounds of this channel");
+            table.fail(
+                table.heading_line(), q.value,
+                text_of("there is no column ", in_quotes(model.channels[q.index].name + "_err")),
+                "add the error bounds of this channel");
     auto const times = read_times(table);
     for (std::size_t r = 0; r < table.rows().size(); ++r) {
         auto const& row = table.rows()[r];
         if (times[r] < 0 || times[r] > result.duration)
             table.fail(row.line, 0,
-                       "the time " + in_quotes(row.cells[0]) + " is outside [0, duration]",
+                       text_of("the time ", in_quotes(row.cells[0]), " is outside [0, duration]"),
                        "remove the line or correct the duration");
         for (auto const& q : columns) {
             if (row.cells[q.value].empty()) {

@@ -36,8 +36,12 @@ namespace sivid {
             auto const& input = s.inputs[i];
             auto& k = next[i];
             bool const here = k < input.signal.times().size() && input.signal.times()[k] == t;
-            text += "," + (here ? exact_decimal::shortest(input.signal.values()[k]).text() : "");
-            if (!input.error.empty()) text += "," + (here ? input.stated_error.at(k).text() : "");
+            text += ",";
+            if (here) text += exact_decimal::shortest(input.signal.values()[k]).text();
+            if (!input.error.empty()) {
+                text += ",";
+                if (here) text += input.stated_error.at(k).text();
+            }
             if (here) ++k;
         }
         text += "\n";
@@ -63,7 +67,7 @@ namespace sivid {
             auto const cell = cells.find(c);
             text += cell == cells.end()
                         ? ",,"
-                        : "," + cell->second->value.text() + "," + cell->second->error.text();
+                        : text_of(",", cell->second->value.text(), ",", cell->second->error.text());
         }
         text += "\n";
     }

@@ -77,8 +77,11 @@ inline std::pair<std::string, std::string> side_text(interval const& side, bool 
     for (auto const& f : found.forced) forced.insert({f.experiment, f.measurement});
     std::string text = "scenario,t,channel,unit,measured_lower,measured_upper,model_lower,"
                        "model_upper,state\n";
-    auto const decimal = [](double bound, auto const& print) {
-        return std::isfinite(bound) ? print(bound) : std::string{};
+    auto const lower_text = [](interval const& x) {
+        return std::isfinite(x.lower()) ? to_decimal_lower(x.lower()) : std::string{};
+    };
+    auto const upper_text = [](interval const& x) {
+        return std::isfinite(x.upper()) ? to_decimal_upper(x.upper()) : std::string{};
     };
     auto const no_bound = interval_traits<interval>::entire();
     for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
@@ -90,8 +93,7 @@ inline std::pair<std::string, std::string> side_text(interval const& side, bool 
             text += problem.experiments[e].name + "," + exact_decimal::shortest(m.time).text() +
                     "," + channels[m.channel].name + "," + channels[m.channel].unit + "," +
                     to_decimal_lower(m.bound.lower()) + "," + to_decimal_upper(m.bound.upper());
-            text += std::string{","} + decimal(outputs[i].lower(), to_decimal_lower) + "," +
-                    decimal(outputs[i].upper(), to_decimal_upper);
+            text += std::string{","} + lower_text(outputs[i]) + "," + upper_text(outputs[i]);
             bool const violated = found.witness && i < found.witness->violated[e].size() &&
                                   found.witness->violated[e][i];
             text += forced.count({e, i}) > 0 ? ",forced_outlier"

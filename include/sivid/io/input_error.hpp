@@ -2,12 +2,23 @@
 #ifndef SIVID_IO_INPUT_ERROR_HPP
 #define SIVID_IO_INPUT_ERROR_HPP
 
+#include <concepts>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace sivid {
+
+/// One text from its parts. (A literal + a temporary string draws a false alarm, -Wrestrict, from
+/// g++ 12.)
+template <std::convertible_to<std::string_view>... Parts>
+[[nodiscard]] std::string text_of(Parts const&... parts) {
+    std::string text;
+    (text.append(std::string_view{parts}), ...);
+    return text;
+}
 
 /// Where in the input something is wrong. A table has line and column, a JSON file has a pointer.
 struct input_place {
@@ -39,9 +50,10 @@ private:
     static std::string message(input_place const& place, std::string const& problem,
                                std::string const& remedy) {
         std::string text = place.file;
-        if (place.is_json) text += ": " + (place.pointer.empty() ? "(document)" : place.pointer);
-        if (place.line > 0) text += ": line " + std::to_string(place.line);
-        if (place.column > 0) text += ", column " + std::to_string(place.column);
+        if (place.is_json)
+            text += text_of(": ", place.pointer.empty() ? "(document)" : place.pointer);
+        if (place.line > 0) text += text_of(": line ", std::to_string(place.line));
+        if (place.column > 0) text += text_of(", column ", std::to_string(place.column));
         if (!place.heading.empty()) text += " (" + place.heading + ")";
         text += ": " + problem;
         if (!remedy.empty()) text += "; " + remedy;

@@ -43,7 +43,7 @@ public:
             return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
         };
         if (std::any_of(text_.begin(), text_.end(), is_control))
-            fail("the text " + in_quotes(text_) + " holds a control character", "remove it");
+            fail(text_of("the text ", in_quotes(text_), " holds a control character"), "remove it");
         return text_;
     }
 
@@ -82,7 +82,8 @@ public:
     }
     [[nodiscard]] json_value const& at(std::string_view name) const {
         auto const* found = find(name);
-        if (found == nullptr) fail("the key '" + std::string{name} + "' is missing", "add it");
+        if (found == nullptr)
+            fail(text_of("the key '", std::string{name}, "' is missing"), "add it");
         return *found;
     }
 
@@ -91,8 +92,9 @@ public:
         for (std::size_t i = 0; i < members().size(); ++i) {
             if (std::find(keys.begin(), keys.end(), names_[i]) != keys.end()) continue;
             std::string known;
-            for (auto key : keys) known += (known.empty() ? "" : ", ") + std::string{key};
-            children_[i].fail("unknown key " + in_quotes(names_[i]), "known here: " + known);
+            for (auto key : keys) known += text_of(known.empty() ? "" : ", ", key);
+            children_[i].fail(text_of("unknown key ", in_quotes(names_[i])),
+                              "known here: " + known);
         }
     }
 
@@ -161,7 +163,7 @@ public:
     bool key(std::string const& name) {
         auto& object = *path_.back();
         if (std::find(object.names_.begin(), object.names_.end(), name) != object.names_.end())
-            object.fail("the key " + in_quotes(name) + " appears twice", "keep one of them");
+            object.fail(text_of("the key ", in_quotes(name), " appears twice"), "keep one of them");
         object.names_.push_back(name);
         return true;
     }
@@ -191,7 +193,7 @@ private:
             .heading = "",
             .pointer = next_pointer(),
             .is_json = true};
-        throw input_error{place, "malformed JSON near " + in_quotes(token) + ": " + what,
+        throw input_error{place, text_of("malformed JSON near ", in_quotes(token), ": ", what),
                           "correct the syntax"};
     }
 

@@ -54,7 +54,8 @@ inline void write_atomically(std::filesystem::path const& file, std::string_view
     }
     std::random_device random;
     auto temporary = file;
-    temporary += ".part" + std::to_string(random());
+    temporary += ".part";
+    temporary += std::to_string(random());
     {
         std::ofstream out{temporary, std::ios::binary | std::ios::trunc};
         out.write(text.data(), static_cast<std::streamsize>(text.size()));

@@ -54,7 +54,7 @@ inline std::string layout(digit_string d) {
         return d.digits.substr(0, whole) + '.' + d.digits.substr(whole);
     }
     if (d.point <= 0 && d.point > -4)
-        return "0." + std::string(static_cast<std::size_t>(-d.point), '0') + d.digits;
+        return d.digits.insert(0, static_cast<std::size_t>(-d.point), '0').insert(0, "0.");
     std::string text = d.digits.substr(0, 1);
     if (n > 1) text += '.' + d.digits.substr(1);
     return text + 'e' + std::to_string(d.point - 1);
@@ -90,6 +90,11 @@ inline std::string shortest_magnitude(double x, bool up) {
     return layout(shortened(all, 17, up));
 }
 
+inline std::string in_brackets(std::string const& lo, std::string const& hi) {
+    std::string text(1, '[');
+    return text.append(lo).append(", ").append(hi).append(1, ']');
+}
+
 /// `digits` significant digits, or as many as the shortest text needs if that is 0.
 inline std::string to_decimal(double x, bool up, int digits = 0) {
     if (is_nan(x)) return "nan";
@@ -100,7 +105,9 @@ inline std::string to_decimal(double x, bool up, int digits = 0) {
                    ? layout(shortened(exact_digits(m), static_cast<std::size_t>(digits), away))
                    : shortest_magnitude(m, away);
     };
-    return x > 0.0 ? magnitude(x, up) : '-' + magnitude(-x, !up);
+    if (x > 0.0) return magnitude(x, up);
+    std::string text(1, '-');
+    return text.append(magnitude(-x, !up));
 }
 
 } // namespace detail
@@ -125,14 +132,14 @@ inline std::string to_decimal_upper(double x, int digits) {
 /// "[lo, hi]" with bounds rounded outward, or "[empty]".
 inline std::string to_string(interval const& x) {
     if (is_empty(x)) return "[empty]";
-    return '[' + to_decimal_lower(x.lower()) + ", " + to_decimal_upper(x.upper()) + ']';
+    return detail::in_brackets(to_decimal_lower(x.lower()), to_decimal_upper(x.upper()));
 }
 
 /// The same with at most `digits` significant digits in each bound, rounded outward.
 inline std::string to_string(interval const& x, int digits) {
     if (is_empty(x)) return "[empty]";
-    return '[' + to_decimal_lower(x.lower(), digits) + ", " + to_decimal_upper(x.upper(), digits) +
-           ']';
+    return detail::in_brackets(to_decimal_lower(x.lower(), digits),
+                               to_decimal_upper(x.upper(), digits));
 }
 
 /// Exact hexadecimal text, for instance "-0x1.8p+1"; "inf", "-inf", "nan".

@@ -6,17 +6,17 @@
 /// The engine's number: W intervals side by side in vector registers, lower bounds and upper bounds
 /// apart, every operation on all of them at once and without branches on data.
 ///
-/// | compiled with             | W            | back end                                               |
+/// | compiled with             | W            | back end |
 /// |---------------------------|--------------|--------------------------------------------------------|
-/// | AVX-512 F and DQ          | 8, 16, ...   | embedded rounding                                      |
-/// | AVX2 and FMA              | 4, 12, ... (8, 16 without AVX-512) | nearest and exact residuals      |
-/// | every x86-64              | 2, 6, ...    | nearest and exact residuals, 2 lanes at a time         |
-/// | every x86-64              | odd          | the same in plain C++                                  |
+/// | AVX-512 F and DQ          | 8, 16, ...   | embedded rounding | | AVX2 and FMA              |
+/// 4, 12, ... (8, 16 without AVX-512) | nearest and exact residuals      | | every x86-64 | 2, 6,
+/// ...    | nearest and exact residuals, 2 lanes at a time         | | every x86-64              |
+/// odd          | the same in plain C++                                  |
 ///
-/// No operation sets the rounding mode. Arithmetic proves its bounds in whichever mode the thread is.
-/// Elementary functions do so with embedded rounding; elsewhere they need round-to-nearest, look at
-/// the mode, and take the slow way through the vocabulary type in any other. FTZ and DAZ must be off:
-/// `require_sound_environment` rejects both conditions at the entry of a solver.
+/// No operation sets the rounding mode. Arithmetic proves its bounds in whichever mode the thread
+/// is. Elementary functions do so with embedded rounding; elsewhere they need round-to-nearest,
+/// look at the mode, and take the slow way through the vocabulary type in any other. FTZ and DAZ
+/// must be off: `require_sound_environment` rejects both conditions at the entry of a solver.
 
 #include <sivid/number/detail/pack_avx2.hpp>
 #include <sivid/number/detail/pack_avx512.hpp>
@@ -46,18 +46,22 @@ struct chosen {
 template <std::size_t W>
 [[nodiscard]] constexpr auto choose() noexcept {
 #if SIVID_PACK_AVX512
-    if constexpr (W % 8 == 0) return chosen<simd::vector_avx512>{};
+    if constexpr (W % 8 == 0)
+        return chosen<simd::vector_avx512>{};
     else
 #endif
 #if SIVID_PACK_AVX2
-        if constexpr (W % 4 == 0) return chosen<simd::vector_avx2>{};
+        if constexpr (W % 4 == 0)
+        return chosen<simd::vector_avx2>{};
     else
 #endif
-        if constexpr (W % 2 == 0) return chosen<simd::vector_sse2>{};
-    else return chosen<simd::vector_portable>{};
+        if constexpr (W % 2 == 0)
+        return chosen<simd::vector_sse2>{};
+    else
+        return chosen<simd::vector_portable>{};
 }
 
-}  // namespace simd_choice
+} // namespace simd_choice
 
 /// W intervals. Empty lanes have NaN bounds. A default-made pack holds W times [0, 0].
 /// @guarantee  trivially copyable; no allocation; all operations noexcept and thread safe
@@ -80,7 +84,8 @@ public:
     /// Lanes lo[0], ..., lo[W-1]; NaN or lo > hi gives an empty lane.
     [[nodiscard]] static pack load(double const* lo, double const* hi) noexcept {
         return make([&](std::size_t p) {
-            part const x{vector::load(lo + p * vector::lanes), vector::load(hi + p * vector::lanes)};
+            part const x{vector::load(lo + p * vector::lanes),
+                         vector::load(hi + p * vector::lanes)};
             return empty_where(unordered(x.lo, x.hi) | (x.hi < x.lo), x);
         });
     }
@@ -117,9 +122,8 @@ public:
     template <class F>
     [[nodiscard]] static pack make(F const& f) noexcept {
         pack result;
-        [&]<std::size_t... P>(std::index_sequence<P...>) {
-            ((result.parts_[P] = f(P)), ...);
-        }(std::make_index_sequence<parts>{});
+        [&]<std::size_t... P>(std::index_sequence<P...>) { ((result.parts_[P] = f(P)), ...); }
+        (std::make_index_sequence<parts>{});
         return result;
     }
     [[nodiscard]] part const& operator()(std::size_t p) const noexcept { return parts_[p]; }
@@ -130,7 +134,8 @@ private:
 
 static_assert(std::is_trivially_copyable_v<pack<8>> && std::is_trivially_copyable_v<pack<1>>);
 
-/// @throws  unsound_environment if the machine lacks the instructions that packs were compiled for, or
+/// @throws  unsound_environment if the machine lacks the instructions that packs were compiled for,
+/// or
 ///          if their directed rounding has no effect.
 inline void require_pack_support() {
     if (!pack_supported())
@@ -147,8 +152,8 @@ inline void require_pack_support() {
         throw unsound_environment{"directed rounding of packs has no effect"};
 }
 
-}  // namespace SIVID_PACK_TARGET
+} // namespace SIVID_PACK_TARGET
 
-}  // namespace sivid
+} // namespace sivid
 
 #endif

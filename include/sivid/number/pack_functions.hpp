@@ -3,8 +3,8 @@
 #define SIVID_NUMBER_PACK_FUNCTIONS_HPP
 
 /// @file
-/// Operators and functions of packs as in formulas: the 1788 value in every lane, a cut of the domain
-/// silent; with `mask& cut` as last argument the lanes that were cut are set in it.
+/// Operators and functions of packs as in formulas: the 1788 value in every lane, a cut of the
+/// domain silent; with `mask& cut` as last argument the lanes that were cut are set in it.
 
 #include <sivid/number/pack.hpp>
 #include <sivid/number/pack_traits.hpp>
@@ -18,10 +18,10 @@ inline namespace SIVID_PACK_TARGET {
 /// One bit for each lane.
 using lane_mask = std::uint64_t;
 
-/// The derived error bounds of the pack's own kernels, in units of 2^-53 relative to the value, before
-/// the one directed rounding of each bound. A bound is therefore within
-/// ceil(2 error) + 2 floats of the value. Arguments of sin, cos, tan beyond 2^20, pow, atan2 and the
-/// inverse hyperbolic functions have the vocabulary type's `excess`.
+/// The derived error bounds of the pack's own kernels, in units of 2^-53 relative to the value,
+/// before the one directed rounding of each bound. A bound is therefore within ceil(2 error) + 2
+/// floats of the value. Arguments of sin, cos, tan beyond 2^20, pow, atan2 and the inverse
+/// hyperbolic functions have the vocabulary type's `excess`.
 namespace pack_error = simd::kernel_error;
 
 template <std::size_t W>
@@ -244,7 +244,7 @@ template <std::size_t W>
     return pack_traits<W>::pown(a, n, cut);
 }
 
-}  // namespace SIVID_PACK_TARGET
-}  // namespace sivid
+} // namespace SIVID_PACK_TARGET
+} // namespace sivid
 
 #endif

@@ -3,8 +3,8 @@
 #define SIVID_NUMBER_PACK_TRAITS_HPP
 
 /// @file
-/// `interval_traits` of packs: those of the vocabulary type in every lane. Masks and relations have one
-/// bit for each lane, lane 0 the lowest.
+/// `interval_traits` of packs: those of the vocabulary type in every lane. Masks and relations have
+/// one bit for each lane, lane 0 the lowest.
 
 #include <sivid/number/detail/pack_elementary.hpp>
 #include <sivid/number/interval_traits.hpp>
@@ -48,7 +48,9 @@ struct pack_traits {
     static double upper(I const& a, std::size_t lane = 0) noexcept { return a.upper(lane); }
     static double mid(I const& a, std::size_t lane = 0) noexcept { return scalar::mid(a[lane]); }
     static double rad(I const& a, std::size_t lane = 0) noexcept { return scalar::rad(a[lane]); }
-    static double width(I const& a, std::size_t lane = 0) noexcept { return scalar::width(a[lane]); }
+    static double width(I const& a, std::size_t lane = 0) noexcept {
+        return scalar::width(a[lane]);
+    }
     static double mag(I const& a, std::size_t lane = 0) noexcept { return scalar::mag(a[lane]); }
     static double mig(I const& a, std::size_t lane = 0) noexcept { return scalar::mig(a[lane]); }
 
@@ -65,10 +67,8 @@ struct pack_traits {
     }
     static mask subset(I const& a, I const& b) noexcept {
         return ask(
-            [](part x, part y) {
-                return simd::is_empty(x) | ((y.lo <= x.lo) & (x.hi <= y.hi));
-            },
-            a, b);
+            [](part x, part y) { return simd::is_empty(x) | ((y.lo <= x.lo) & (x.hi <= y.hi)); }, a,
+            b);
     }
     static mask interior(I const& a, I const& b) noexcept {
         return ask(
@@ -81,9 +81,7 @@ struct pack_traits {
     }
     static mask disjoint(I const& a, I const& b) noexcept {
         return ask(
-            [](part x, part y) {
-                return simd::either_empty(x, y) | (x.hi < y.lo) | (y.hi < x.lo);
-            },
+            [](part x, part y) { return simd::either_empty(x, y) | (x.hi < y.lo) | (y.hi < x.lo); },
             a, b);
     }
     static I hull(I const& a, I const& b) noexcept {
@@ -231,13 +229,13 @@ private:
     }
 };
 
-}  // namespace SIVID_PACK_TARGET
+} // namespace SIVID_PACK_TARGET
 
 template <std::size_t W>
 struct interval_traits<pack<W>> : pack_traits<W> {};
 
 static_assert(interval_scalar<pack<1>> && interval_scalar<pack<8>>);
 
-}  // namespace sivid
+} // namespace sivid
 
 #endif

@@ -11,6 +11,8 @@
 #include <sivid/number/rounding.hpp>
 
 #include <cmath>
+#include <concepts>
+#include <utility>
 
 namespace sivid {
 
@@ -179,8 +181,29 @@ inline interval pow(interval const& x, interval const& y) noexcept {
     bool cut = false;
     return pow(x, y, cut);
 }
+/// Whole exponents mean integer powers, on negative numbers too. Beyond the range of int: what is
+/// known from the parity alone.
 /// @see pown
 inline interval pow(interval const& x, int n) noexcept { return pown(x, n); }
+template <std::integral N>
+    requires(!std::same_as<N, int>)
+interval pow(interval const& x, N n)
+noexcept {
+    if (std::in_range<int>(n)) return pown(x, static_cast<int>(n));
+    if (is_empty(x)) return x;
+    return n % 2 == 0 ? detail::unchecked_interval(0.0, detail::infinity)
+                      : detail::entire_interval();
+}
+/// A real power; without this form a fraction would be cut off to an integer.
+template <std::floating_point T>
+interval pow(interval const& x, T y) noexcept {
+    return pow(x, interval{static_cast<double>(y)});
+}
+// pow(x, 0.5) is meant.
+template <std::floating_point T>
+interval pown(interval const&, T) = delete;
+template <std::floating_point T>
+interval pown(interval const&, T, bool&) = delete;
 
 } // namespace sivid
 

@@ -61,6 +61,7 @@ struct taylor_model {
         taylor_model result;
         result.c[0] = v;
         result.norms[0] = std::abs(v);
+        if (!std::isfinite(v)) result.r = std::numeric_limits<double>::infinity();
         return result;
     }
     [[nodiscard]] static taylor_model constant(interval const& v) {
@@ -185,6 +186,7 @@ template <std::size_t N, std::size_t D>
     for (auto& c : a.c) c *= m;
     a.r = (a.r * (size + rho) + norm * (rho + model::unit * size)) * model::up + model::tiny;
     a.finish();
+    if (!std::isfinite(a.polynomial_norm())) a.r = std::numeric_limits<double>::infinity();
     return a;
 }
 template <std::size_t N, std::size_t D>
@@ -204,7 +206,7 @@ template <std::size_t N, std::size_t D>
 [[nodiscard]] interval rough_range(taylor_model<N, D> const& a) {
     using traits = interval_traits<interval>;
     double const w = (a.spread() + a.r) * taylor_model<N, D>::up;
-    if (!std::isfinite(w)) return traits::entire();
+    if (!std::isfinite(w) || !std::isfinite(a.c[0])) return traits::entire();
     return traits::add(traits::point(a.c[0]), traits::bounds(-w, w));
 }
 

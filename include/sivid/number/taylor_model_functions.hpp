@@ -104,8 +104,11 @@ template <std::size_t N, std::size_t D>
     bool ignored = false;
     double const smallest =
         interval_traits<interval>::sqrt(interval_traits<interval>::point(least), ignored).lower();
-    double const least_w = std::max(0.0, rough_range(w).lower());
-    w.r = residual.norm() / (smallest + least_w) * model::up + model::tiny;
+    double const below = smallest + rough_range(w).lower(); // of sqrt(s) + w
+    if (!(below > 0)) {
+        return model::constant(interval_traits<interval>::sqrt(bounds, ignored));
+    }
+    w.r = residual.norm() / below * model::up + model::tiny;
     return w;
 }
 

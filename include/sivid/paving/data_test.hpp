@@ -42,8 +42,9 @@ struct data_test_options {
 /// The outlier rule is the consistent reading of the report's Algorithm 2.
 class data_test {
 public:
-    /// Responses of the experiments over a box: for all starts, and for the chosen ones.
+    /// Responses of the experiments over a region: for all starts, and for the chosen ones.
     struct knowledge {
+        box region;
         std::vector<std::shared_ptr<response const>> all_starts;
         std::vector<std::shared_ptr<response const>> chosen_starts;
     };
@@ -80,10 +81,15 @@ public:
             }
         }
         auto found = std::make_shared<knowledge>();
+        found->region = parameters;
         result.smear.assign(parameters.size(), 0.0);
         for (std::size_t e = 0; e < flows_.size(); ++e) {
             auto const& all = problem_->experiments[e].initial;
-            auto answer = run(e, all, result.rest);
+            // What earlier experiments cut off need not be integrated, if it is worth the narrower use.
+            if (relative_volume(result.rest, found->region).upper() < 0.5) {
+                found->region = result.rest;
+            }
+            auto answer = run(e, all, found->region);
             auto part = result.rest;
             auto const says = assess(*answer, part);
             if (says.refuted) {
@@ -93,8 +99,10 @@ public:
             if (options_.contract) result.rest = std::move(part);
             add_smear(result, says.smear);
             if (!is_point(all) && starts_differ(e)) {
-                found->chosen_starts.push_back(says.explained ? answer
-                                                              : run(e, starts_[e], result.rest));
+                // Not worth a run where the parameters alone spread the outputs too far.
+                bool const hopeless = says.explained || !says.may_hold;
+                found->chosen_starts.push_back(hopeless ? answer
+                                                        : run(e, starts_[e], found->region));
             } else {
                 found->chosen_starts.push_back(answer);
             }

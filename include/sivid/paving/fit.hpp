@@ -63,6 +63,8 @@ public:
     [[nodiscard]] approximate_fit operator()() {
         approximate_fit best;
         for (std::size_t k = 0; k < 8 && best.inflation > 0.98; ++k) {
+            // Two descents that end far away from an explanation say that there is none.
+            if (k >= 2 && best.inflation > hopeless_inflation) break;
             auto fit = from(start_point(k));
             if (fit.inflation < best.inflation) best = std::move(fit);
         }
@@ -83,6 +85,8 @@ private:
         std::size_t experiment, state;
     };
     using vector = Eigen::VectorXd;
+
+    static constexpr double hopeless_inflation = 4;
 
     void add_variable(interval const& side) {
         double const lo = side.lower();

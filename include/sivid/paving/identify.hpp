@@ -7,6 +7,7 @@
 #include <sivid/paving/fit.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/problem.hpp>
+#include <sivid/paving/reduction.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -92,6 +93,17 @@ verify_witness(data_test& test, identification_problem const& problem,
     return result;
 }
 
+/// How the equations of all experiments depend on the unknown parameters.
+[[nodiscard]] inline dependence_structure dependence_of(identification_problem const& problem) {
+    std::vector<bound_model> bound;
+    for (auto const& e : problem.experiments) {
+        bound.push_back(bind(problem.model, problem.choice, e.inputs));
+    }
+    std::vector<bound_model const*> models;
+    for (auto const& m : bound) models.push_back(&m);
+    return find_combinations(models);
+}
+
 namespace paving_detail {
 
 /// Measurements that fail for every parameter that is left.
@@ -131,20 +143,32 @@ find_forced(data_test& test, identification_problem const& problem, box const& h
     data_test test(working, options.test);
     identification result(problem.prior);
     result.assumptions.push_back("inputs exact");
+    std::vector<box> starts;
     if (options.algorithm == algorithm::contracting) {
         fitter fit(working);
         auto guess = fit();
         if (!guess.parameters.empty()) {
             result.witness = verify_witness(test, working, guess.parameters, guess.starts);
-            std::vector<box> starts;
             for (auto const& x0 : guess.starts) starts.push_back(point_box(x0));
-            test.set_starts(std::move(starts));
+            test.set_starts(starts);
             result.guess = std::move(guess);
         }
     }
     auto const spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin);
     options.search.seconds = std::max(0.0, options.search.seconds - spent.count());
-    auto found = invert(test, problem.prior, options.search);
+    auto const structure = dependence_of(working);
+    auto const spared = options.algorithm == algorithm::contracting
+                            ? reduction::find(working, structure)
+                            : std::nullopt;
+    auto found = [&] {
+        if (!spared) return invert(test, problem.prior, options.search);
+        data_test small(spared->problem(), options.test);
+        if (result.guess) small.set_starts(starts);
+        reduced_test<data_test> mapped(small, *spared);
+        auto inversion = invert(mapped, problem.prior, options.search);
+        result.integrations += small.integrations();
+        return inversion;
+    }();
     result.paving = std::move(found.paving);
     result.reason = found.reason;
     result.boxes = found.tested;
@@ -155,11 +179,6 @@ find_forced(data_test& test, identification_problem const& problem, box const& h
         result.verdict = verdict::inconsistent;
     }
     if (result.paving.has_outer()) {
-        std::vector<bound_model const*> models;
-        for (std::size_t e = 0; e < working.experiments.size(); ++e) {
-            models.push_back(&test.flow_of(e)->model());
-        }
-        auto const structure = find_combinations(models);
         result.entangled = structure.entangled;
         for (auto const& c : structure.combinations) {
             auto range = interval_traits<interval>::empty();
@@ -170,7 +189,7 @@ find_forced(data_test& test, identification_problem const& problem, box const& h
         }
         result.forced = paving_detail::find_forced(test, working, result.hull);
     }
-    result.integrations = test.integrations();
+    result.integrations += test.integrations();
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return result;

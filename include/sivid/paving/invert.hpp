@@ -37,9 +37,9 @@ enum class search_order {
 
 struct inversion_options {
     /// A box is left undecided when no side is wider than this fraction of the prior's side.
-    double accuracy = 1.0 / 64;
+    double accuracy = 1e-3;
     /// Stop when the inner volume reaches this fraction of the outer one (1: never).
-    double sufficient_ratio = 1;
+    double sufficient_ratio = 0.5;
     double seconds = 60;
     std::size_t boxes = 10'000'000;
     search_order order = search_order::largest_first;

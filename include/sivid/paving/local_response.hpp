@@ -159,7 +159,9 @@ struct response_verdict {
     /// For better starts so many could hold: the parameters alone do not spread them over the
     /// bounds.
     bool may_hold = false;
-    double sharpness = 0;      ///< largest share of an undecided output's width that is not affine
+    /// Largest share of an undecided output's width that does not shrink with the part, among those
+    /// where it matters against the measurement.
+    double sharpness = 0;
     std::vector<double> smear; ///< per parameter
 };
 
@@ -201,7 +203,10 @@ struct response_verdict {
             result.sharpness = 1;
             continue;
         }
-        result.sharpness = std::max(result.sharpness, known.radius[y] / spread);
+        // A radius that is small against the measurement leaves only a thin undecided rim.
+        if (known.radius[y] > 0.05 * rad(bound)) {
+            result.sharpness = std::max(result.sharpness, known.radius[y] / spread);
+        }
         double const scale = 1 / std::max(rad(bound), 1e-300);
         linear_constraint row;
         row.gradient.resize(n);

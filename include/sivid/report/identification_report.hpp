@@ -30,6 +30,16 @@ struct identification_report_options {
 
 namespace detail {
 
+/// A share of the prior, widened a little where its bounds agree to many digits, so that it reads
+/// well; still an enclosure.
+inline range shown_share(interval const& volume) {
+    range const r = shown(share_of_whole(volume));
+    double const more = 2e-4 * r.hi;
+    return r.lo == r.hi || r.hi - r.lo > more
+               ? r
+               : range{std::max(0.0, r.lo - more), std::min(1.0, r.hi + more)};
+}
+
 inline std::string joined(std::vector<std::string> const& all) {
     std::string text;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -73,8 +83,8 @@ private:
         view_.verdict = found_.verdict == verdict::consistent     ? outcome::proved
                         : found_.verdict == verdict::inconsistent ? outcome::refuted
                                                                   : outcome::undecided;
-        view_.volume_inner = shown(share_of_whole(found_.paving.inner_volume()));
-        view_.volume_outer = shown(share_of_whole(found_.paving.outer_volume()));
+        view_.volume_inner = shown_share(found_.paving.inner_volume());
+        view_.volume_outer = shown_share(found_.paving.outer_volume());
         for (std::string const& a : found_.assumptions) {
             view_.assumptions.push_back(a == "inputs exact"
                                             ? "The recorded inputs are exact, at their samples and "
@@ -287,8 +297,8 @@ private:
             found.seconds,
             found.boxes,
             found.integrations,
-            detail::shown(share_of_whole(found.paving.inner_volume())),
-            detail::shown(share_of_whole(found.paving.outer_volume())),
+            detail::shown_share(found.paving.inner_volume()),
+            detail::shown_share(found.paving.outer_volume()),
             std::move(note),
             chosen};
 }

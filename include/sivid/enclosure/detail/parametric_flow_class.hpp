@@ -62,6 +62,9 @@ public:
     /// @given  the unknowns have at most N variables (checked)
     void begin(double time, box const& initial, box const& parameters) {
         require_sound_environment();
+        if (initial.size() != flow_->states() || parameters.size() != flow_->parameters()) {
+            throw std::invalid_argument("parametric_flow: the boxes do not have the model's sizes");
+        }
         for (auto const* x : {&initial, &parameters}) {
             for (auto const& side : *x) {
                 if (!std::isfinite(mag(side))) {
@@ -77,6 +80,7 @@ public:
         tube_.set_parameters(unknowns_->template parameter_models<N + 1, tube_degree>());
         observe_.set_parameters(unknowns_->template parameter_models<N, D>());
         set_ = set_type::start(time, *unknowns_);
+        swept_.clear();
         failure_.reset();
         steps_ = 0;
         order_ = std::min<std::size_t>(options_.order, 6);
@@ -85,6 +89,7 @@ public:
     }
 
     /// One proved step, at most to `limit`.
+    /// @throws std::invalid_argument when `limit` is not later than `time()`
     [[nodiscard]] bool step(double limit);
 
     [[nodiscard]] double time() const { return set_.time; }
@@ -112,10 +117,10 @@ public:
         return result;
     }
 
-    /// A box that contains all states during the last step.
+    /// A box that contains all states during the last proved step; without sides before the first.
     [[nodiscard]] box swept() const {
-        box result(tube_box_.size());
-        for (std::size_t i = 0; i < result.size(); ++i) result[i] = range(tube_box_[i]);
+        box result(swept_.size());
+        for (std::size_t i = 0; i < result.size(); ++i) result[i] = range(swept_[i]);
         return result;
     }
 
@@ -150,7 +155,7 @@ private:
     expansion<column_entry> derivative_;
     expansion<tube_entry> tube_;
     series<polynomial> observe_;
-    std::vector<tube_entry> tube_box_, lagrange_;
+    std::vector<tube_entry> tube_box_, lagrange_, swept_;
     bool smooth_ = true;
     bool jumps_ = false;
     std::size_t order_ = 6;      ///< K

@@ -62,7 +62,7 @@ template <class V>
 
     exact_pair<V> const cx = two_product(c, x.head), cy = two_product(c, y.head);
     exact_pair<V> const sum = two_sum(x.head, cy.head);
-    expansion<V> n{y.head - cx.head,  // exact: cx is near y, or zero
+    expansion<V> n{y.head - cx.head, // exact: cx is near y, or zero
                    y.tail - (cx.tail + c * x.tail)};
     expansion<V> d{sum.head, sum.tail + (cy.tail + (x.tail + c * y.tail))};
     n = {select(is_steep, -x.head, n.head), select(is_steep, -x.tail, n.tail)};
@@ -83,11 +83,13 @@ template <class V>
 }
 template <class V>
 [[nodiscard]] V atan_lower(V x) noexcept {
-    return lower_if_within(x, lower_bound_of_any(atan_kernel(x), kernel_error::atan * unit_roundoff));
+    return lower_if_within(x,
+                           lower_bound_of_any(atan_kernel(x), kernel_error::atan * unit_roundoff));
 }
 template <class V>
 [[nodiscard]] V atan_upper(V x) noexcept {
-    return upper_if_within(x, upper_bound_of_any(atan_kernel(x), kernel_error::atan * unit_roundoff));
+    return upper_if_within(x,
+                           upper_bound_of_any(atan_kernel(x), kernel_error::atan * unit_roundoff));
 }
 
 /// sqrt(1 - a^2) for 0 <= a <= 1, relative error below 2^-98.
@@ -110,11 +112,13 @@ template <class V>
 /// For -1 <= x <= 1.
 template <class V>
 [[nodiscard]] V asin_lower(V x) noexcept {
-    return lower_if_beyond(x, lower_bound_of_any(asin_kernel(x), kernel_error::asin * unit_roundoff));
+    return lower_if_beyond(x,
+                           lower_bound_of_any(asin_kernel(x), kernel_error::asin * unit_roundoff));
 }
 template <class V>
 [[nodiscard]] V asin_upper(V x) noexcept {
-    return upper_if_beyond(x, upper_bound_of_any(asin_kernel(x), kernel_error::asin * unit_roundoff));
+    return upper_if_beyond(x,
+                           upper_bound_of_any(asin_kernel(x), kernel_error::asin * unit_roundoff));
 }
 
 /// arccos x, for x < 0 as pi - arccos |x|.
@@ -136,7 +140,7 @@ template <class V>
     return upper_bound_of_any(acos_kernel(x), kernel_error::acos * unit_roundoff);
 }
 
-}  // namespace SIVID_PACK_TARGET
-}  // namespace sivid::simd
+} // namespace SIVID_PACK_TARGET
+} // namespace sivid::simd
 
 #endif

@@ -3,8 +3,8 @@
 #define SIVID_NUMBER_DETAIL_PACK_ARITHMETIC_HPP
 
 /// @file
-/// Interval operations on vectors of lower and upper bounds, without branches on data. Meanings as in
-/// IEEE 1788: bounds NaN = empty, 0 * inf = 0, quotients over the non-zero part of the divisor.
+/// Interval operations on vectors of lower and upper bounds, without branches on data. Meanings as
+/// in IEEE 1788: bounds NaN = empty, 0 * inf = 0, quotients over the non-zero part of the divisor.
 /// All tight. Masks are set where the function is not defined on the whole argument.
 
 #include <sivid/number/detail/pack_directed.hpp>
@@ -84,17 +84,18 @@ template <class V>
     return {select(zero, V(0.0), lo), select(zero, V(0.0), hi)};
 }
 
-/// Two divisions: a divisor below zero is turned, together with the dividend, to one above; then the
-/// signs of the dividend's ends choose the divisor's end. A divisor's end 0 counts as +0, so that
-/// overflow to infinity has the right sign.
+/// Two divisions: a divisor below zero is turned, together with the dividend, to one above; then
+/// the signs of the dividend's ends choose the divisor's end. A divisor's end 0 counts as +0, so
+/// that overflow to infinity has the right sign.
 template <class V>
-[[nodiscard, gnu::always_inline]] inline bounds<V> div(bounds<V> a, bounds<V> b, mask_of<V>& undefined) noexcept {
+[[nodiscard, gnu::always_inline]] inline bounds<V> div(bounds<V> a, bounds<V> b,
+                                                       mask_of<V>& undefined) noexcept {
     using d = directed<V>;
     V const zero(0.0);
     auto const turned = b.hi <= zero;
     bounds<V> const n = select(turned, neg(a), a);
     bounds<V> const y = select(turned, neg(b), b);
-    V const least = abs(y.lo);  // where y.lo < 0 the result is replaced below
+    V const least = abs(y.lo); // where y.lo < 0 the result is replaced below
     bounds<V> q{d::div_down(n.lo, select(n.lo >= zero, y.hi, least)),
                 d::div_up(n.hi, select(n.hi > zero, least, y.hi))};
 
@@ -169,14 +170,14 @@ template <class V>
     return min(max(a, lo), hi);
 }
 
-/// \f$ \{\max(t - w, 0) + \min(t + w, 0)\} \f$ over widths w >= 0: increasing in t, nearer to zero the
-/// wider the band.
+/// \f$ \{\max(t - w, 0) + \min(t + w, 0)\} \f$ over widths w >= 0: increasing in t, nearer to zero
+/// the wider the band.
 template <class V>
 [[nodiscard]] bounds<V> deadband(bounds<V> a, bounds<V> half_width) noexcept {
     using d = directed<V>;
     V const zero(0.0);
     V const least = max(zero, half_width.lo), most = half_width.hi;
-    auto const clipped = [&](V t, V positive, V negative) {  // NaN from inf - inf becomes 0
+    auto const clipped = [&](V t, V positive, V negative) { // NaN from inf - inf becomes 0
         return select(t > zero, max(positive, zero), min(negative, zero));
     };
     bounds<V> const y{clipped(a.lo, d::sub_down(a.lo, most), d::add_down(a.lo, least)),
@@ -208,19 +209,20 @@ template <class V>
     } else if (magnitude % 2 == 0) {
         y = {even_power(mig(a), magnitude).lo, even_power(mag(a), magnitude).hi};
     } else {
-        bounds<V> const p = even_power(abs(a.lo), magnitude - 1), q = even_power(abs(a.hi), magnitude - 1);
+        bounds<V> const p = even_power(abs(a.lo), magnitude - 1),
+                        q = even_power(abs(a.hi), magnitude - 1);
         y = {d::mul_down(a.lo, select(a.lo < zero, p.hi, p.lo)),
              d::mul_up(a.hi, select(a.hi < zero, q.lo, q.hi))};
     }
     if (n > 0) return y;
     auto const has_zero = contains_zero(a);
     undefined = undefined | has_zero;
-    auto ignored = has_zero;  // a power that underflows to zero is not one
+    auto ignored = has_zero; // a power that underflows to zero is not one
     return div(bounds<V>{one, one}, y, ignored);
 }
 
-/// \f$ \{\sqrt{s^2 + t^2}\} \f$; at most 2 floats a side, scaled by a power of two in each lane where
-/// squares would over- or underflow.
+/// \f$ \{\sqrt{s^2 + t^2}\} \f$; at most 2 floats a side, scaled by a power of two in each lane
+/// where squares would over- or underflow.
 template <class V>
 [[nodiscard]] bounds<V> hypot(bounds<V> a, bounds<V> b) noexcept {
     using d = directed<V>;
@@ -238,13 +240,12 @@ template <class V>
     V const lo = d::sqrt_down(d::add_down(d::mul_down(p, p), d::mul_down(q, q)));
     V const hi = d::sqrt_up(d::add_up(d::mul_up(r, r), d::mul_up(s, s)));
     // A zero term leaves the other one exact; never below the larger.
-    return empty_where(either_empty(a, b),
-                       bounds<V>{max(low, d::mul_down(lo, inverse_of(low))),
-                                 select(min(high_a, high_b) == V(0.0), high,
-                                        d::mul_up(hi, inverse_of(high)))});
+    return empty_where(either_empty(a, b), bounds<V>{max(low, d::mul_down(lo, inverse_of(low))),
+                                                     select(min(high_a, high_b) == V(0.0), high,
+                                                            d::mul_up(hi, inverse_of(high)))});
 }
 
-}  // namespace SIVID_PACK_TARGET
-}  // namespace sivid::simd
+} // namespace SIVID_PACK_TARGET
+} // namespace sivid::simd
 
 #endif

@@ -32,8 +32,7 @@ public:
         return mask_avx2{_mm256_or_pd(a.m_, b.m_)};
     }
     friend mask_avx2 operator!(mask_avx2 a) noexcept {
-        return mask_avx2{
-            _mm256_xor_pd(a.m_, _mm256_castsi256_pd(_mm256_set1_epi64x(-1)))};
+        return mask_avx2{_mm256_xor_pd(a.m_, _mm256_castsi256_pd(_mm256_set1_epi64x(-1)))};
     }
 
 private:
@@ -122,7 +121,7 @@ public:
     friend vector_avx2 step_up(vector_avx2 s, mask m) noexcept {
         auto const zero = _mm256_setzero_pd();
         auto const positive_zero = _mm256_andnot_pd(_mm256_cmp_pd(s.v_, zero, _CMP_EQ_OQ), s.v_);
-        auto const away = _mm256_or_si256(                    // -1 below zero, else +1
+        auto const away = _mm256_or_si256( // -1 below zero, else +1
             _mm256_castpd_si256(_mm256_cmp_pd(s.v_, zero, _CMP_LT_OQ)), _mm256_set1_epi64x(1));
         return vector_avx2{_mm256_castsi256_pd(
             _mm256_add_epi64(_mm256_castpd_si256(positive_zero),
@@ -155,7 +154,7 @@ public:
     }
     /// 2^k for integers k in [-1022, 1023].
     friend vector_avx2 power_of_two(vector_avx2 k) noexcept {
-        auto const sum = _mm256_add_pd(k.v_, _mm256_set1_pd(0x1.8p52));  // k in the low bits
+        auto const sum = _mm256_add_pd(k.v_, _mm256_set1_pd(0x1.8p52)); // k in the low bits
         auto const biased = _mm256_add_epi64(_mm256_castpd_si256(sum), _mm256_set1_epi64x(1023));
         return vector_avx2{_mm256_castsi256_pd(_mm256_slli_epi64(biased, 52))};
     }
@@ -164,8 +163,8 @@ private:
     __m256d v_ = {};
 };
 
-}  // namespace SIVID_PACK_TARGET
-}  // namespace sivid::simd
+} // namespace SIVID_PACK_TARGET
+} // namespace sivid::simd
 
 #endif
 #endif

@@ -4,11 +4,11 @@
 
 /// @file
 /// Eight doubles in a 512-bit register. Every instruction carries its rounding in its encoding
-/// (embedded rounding), round-to-nearest included: results do not depend on the rounding mode of the
-/// thread, and compilers can neither fold, share nor contract them.
+/// (embedded rounding), round-to-nearest included: results do not depend on the rounding mode of
+/// the thread, and compilers can neither fold, share nor contract them.
 
-#include <sivid/number/detail/pack_target.hpp>
 #include <sivid/number/detail/pack_directed.hpp>
+#include <sivid/number/detail/pack_target.hpp>
 
 #if SIVID_PACK_AVX512
 
@@ -19,8 +19,9 @@
 namespace sivid::simd {
 inline namespace SIVID_PACK_TARGET {
 
-/// The mask of the forms with zeroing: the plain forms of g++ 12 warn about an uninitialised operand.
-/// Not a constant, because without optimisation the forms are macros that take a signed char.
+/// The mask of the forms with zeroing: the plain forms of g++ 12 warn about an uninitialised
+/// operand. Not a constant, because without optimisation the forms are macros that take a signed
+/// char.
 [[nodiscard]] inline __mmask8 all_lanes() noexcept { return 0xFF; }
 
 class mask_avx512 {
@@ -47,9 +48,9 @@ class vector_avx512 {
 public:
     using mask = mask_avx512;
     static constexpr std::size_t lanes = 8;
-    static constexpr bool fused = true;           // fma() rounds once
-    static constexpr bool keeps_own_mode = true;  // results do not depend on MXCSR's rounding field
-    static constexpr bool reads_subnormals = true;  // exponent() and mantissa()
+    static constexpr bool fused = true;          // fma() rounds once
+    static constexpr bool keeps_own_mode = true; // results do not depend on MXCSR's rounding field
+    static constexpr bool reads_subnormals = true; // exponent() and mantissa()
 
     vector_avx512() = default;
     explicit vector_avx512(__m512d v) noexcept : v_{v} {}
@@ -136,12 +137,13 @@ public:
         return vector_avx512{_mm512_maskz_getexp_pd(all_lanes(), x.v_)};
     }
     friend vector_avx512 mantissa(vector_avx512 x) noexcept {
-        return vector_avx512{_mm512_maskz_getmant_pd(all_lanes(), x.v_, _MM_MANT_NORM_1_2,
-                                                     _MM_MANT_SIGN_src)};
+        return vector_avx512{
+            _mm512_maskz_getmant_pd(all_lanes(), x.v_, _MM_MANT_NORM_1_2, _MM_MANT_SIGN_src)};
     }
     /// 2^k for integers k in [-1022, 1023].
     friend vector_avx512 power_of_two(vector_avx512 k) noexcept {
-        return vector_avx512{_mm512_maskz_scalef_round_pd(all_lanes(), _mm512_set1_pd(1.0), k.v_, nearest)};
+        return vector_avx512{
+            _mm512_maskz_scalef_round_pd(all_lanes(), _mm512_set1_pd(1.0), k.v_, nearest)};
     }
 
 private:
@@ -160,15 +162,21 @@ struct directed<vector_avx512> {
     static V add_down(V a, V b) noexcept {
         return V{_mm512_maskz_add_round_pd(all_lanes(), a.raw(), b.raw(), down)};
     }
-    static V add_up(V a, V b) noexcept { return V{_mm512_maskz_add_round_pd(all_lanes(), a.raw(), b.raw(), up)}; }
+    static V add_up(V a, V b) noexcept {
+        return V{_mm512_maskz_add_round_pd(all_lanes(), a.raw(), b.raw(), up)};
+    }
     static V sub_down(V a, V b) noexcept {
         return V{_mm512_maskz_sub_round_pd(all_lanes(), a.raw(), b.raw(), down)};
     }
-    static V sub_up(V a, V b) noexcept { return V{_mm512_maskz_sub_round_pd(all_lanes(), a.raw(), b.raw(), up)}; }
+    static V sub_up(V a, V b) noexcept {
+        return V{_mm512_maskz_sub_round_pd(all_lanes(), a.raw(), b.raw(), up)};
+    }
     static V mul_down(V a, V b) noexcept {
         return V{_mm512_maskz_mul_round_pd(all_lanes(), a.raw(), b.raw(), down)};
     }
-    static V mul_up(V a, V b) noexcept { return V{_mm512_maskz_mul_round_pd(all_lanes(), a.raw(), b.raw(), up)}; }
+    static V mul_up(V a, V b) noexcept {
+        return V{_mm512_maskz_mul_round_pd(all_lanes(), a.raw(), b.raw(), up)};
+    }
     static void mul_both(V a, V b, V& lower, V& upper) noexcept {
         lower = mul_down(a, b);
         upper = mul_up(a, b);
@@ -176,11 +184,15 @@ struct directed<vector_avx512> {
     static V div_down(V a, V b) noexcept {
         return V{_mm512_maskz_div_round_pd(all_lanes(), a.raw(), b.raw(), down)};
     }
-    static V div_up(V a, V b) noexcept { return V{_mm512_maskz_div_round_pd(all_lanes(), a.raw(), b.raw(), up)}; }
+    static V div_up(V a, V b) noexcept {
+        return V{_mm512_maskz_div_round_pd(all_lanes(), a.raw(), b.raw(), up)};
+    }
     static V sqrt_down(V a) noexcept {
         return V{_mm512_maskz_sqrt_round_pd(all_lanes(), a.raw(), down)};
     }
-    static V sqrt_up(V a) noexcept { return V{_mm512_maskz_sqrt_round_pd(all_lanes(), a.raw(), up)}; }
+    static V sqrt_up(V a) noexcept {
+        return V{_mm512_maskz_sqrt_round_pd(all_lanes(), a.raw(), up)};
+    }
     /// a 2^k, k an integer of any size.
     static V scale_down(V a, V k) noexcept {
         return V{_mm512_maskz_scalef_round_pd(all_lanes(), a.raw(), k.raw(), down)};
@@ -190,8 +202,8 @@ struct directed<vector_avx512> {
     }
 };
 
-}  // namespace SIVID_PACK_TARGET
-}  // namespace sivid::simd
+} // namespace SIVID_PACK_TARGET
+} // namespace sivid::simd
 
 #endif
 #endif

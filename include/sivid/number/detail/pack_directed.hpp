@@ -6,9 +6,9 @@
 /// Directed operations without directed rounding: the sign of the exact residual says on which side
 /// of the exact value the rounded one lies; where it lies on the wrong side, one step outward.
 ///
-/// Proven for *faithful* rounding (the result is one of the two neighbours of the exact value), hence
-/// in every mode of MXCSR, and even if a compiler folds or moves operations across a change of the
-/// mode. Assumed: FTZ and DAZ off. Bounds are the tightest when the mode is the nearest.
+/// Proven for *faithful* rounding (the result is one of the two neighbours of the exact value),
+/// hence in every mode of MXCSR, and even if a compiler folds or moves operations across a change
+/// of the mode. Assumed: FTZ and DAZ off. Bounds are the tightest when the mode is the nearest.
 
 #include <sivid/number/detail/pack_target.hpp>
 
@@ -66,8 +66,10 @@ template <class V>
 template <class V>
 [[nodiscard]] exact_pair<V> two_product(V a, V b) noexcept {
     V const p = a * b;
-    if constexpr (V::fused) return {p, fma(a, b, -p)};
-    else return {p, dekker_residual(a, b, p)};
+    if constexpr (V::fused)
+        return {p, fma(a, b, -p)};
+    else
+        return {p, dekker_residual(a, b, p)};
 }
 
 template <class V>
@@ -102,6 +104,7 @@ struct directed {
         return step_up(p, product_residual(a, b, p) > V(0.0));
     }
 
+    /// Given b >= 0, an infinite quotient by b = 0 having its sign from +0.
     static V div_down(V a, V b) noexcept {
         V const q = a / b;
         return step_down(q, quotient_residual(a, b, q) < V(0.0));
@@ -120,8 +123,8 @@ struct directed {
         return step_up(s, root_residual(a, s) > V(0.0));
     }
 
-    /// a 2^k for an integer k in [-1200, 1200], |a| below 2^400, and above 2^-400 or k in {-1, 0}: the
-    /// first factor is exact.
+    /// a 2^k for an integer k in [-1200, 1200], |a| below 2^400, and above 2^-400 or k in {-1, 0}:
+    /// the first factor is exact.
     static V scale_down(V a, V k) noexcept {
         V const half = halve(k);
         return mul_down(a * power_of_two(half), power_of_two(k - half));
@@ -135,8 +138,8 @@ private:
     /// An integer near k/2; 0 for k = 0, 0 or -1 for k = -1.
     static V halve(V k) noexcept { return (k * V(0.5) + V(0x1.8p52)) - V(0x1.8p52); }
 
-    /// Sign of a + b - s. With |big| >= |small|, s - big is exact for every faithful s (Sterbenz, or
-    /// s = a + b exactly), and the difference of two doubles rounds to zero only if it is zero.
+    /// Sign of a + b - s. With |big| >= |small|, s - big is exact for every faithful s (Sterbenz,
+    /// or s = a + b exactly), and the difference of two doubles rounds to zero only if it is zero.
     /// Overflow gives infinities of the right sign, infinite terms give NaN: no step.
     static V sum_residual(V a, V b, V s) noexcept {
         auto const swapped = abs(a) < abs(b);
@@ -151,8 +154,10 @@ private:
         auto const tiny = (abs(p) < V(0x1p-900)) & (min(abs(a), abs(b)) > zero);
         if (tiny.bits() != 0) [[unlikely]] {
             // The residual may underflow: compare (a 2^i)(b 2^j) with p 2^(i+j), exact scalings.
-            V const x = a * select(abs(a) < one, scale, one), y = b * select(abs(b) < one, scale, one);
-            V const scaled = (p * select(abs(a) < one, scale, one)) * select(abs(b) < one, scale, one);
+            V const x = a * select(abs(a) < one, scale, one),
+                    y = b * select(abs(b) < one, scale, one);
+            V const scaled =
+                (p * select(abs(a) < one, scale, one)) * select(abs(b) < one, scale, one);
             r = select(tiny, V::fused ? fma(x, y, -scaled) : fused_by_lanes(x, y, -scaled), r);
         }
         return r;
@@ -164,16 +169,16 @@ private:
         } else {
             V const r = dekker_residual(a, b, p);
             auto const huge = (max(abs(a), abs(b)) > V(0x1p990)) | (abs(p) > V(0x1p1000));
-            if (huge.bits() == 0) [[likely]] return r;
+            if (huge.bits() == 0) [[likely]]
+                return r;
             return select(huge, fused_by_lanes(a, b, -p), r);
         }
     }
 
-    /// Sign of a / b - q: of a - q b, turned by the sign of b. Scaled up where a is tiny.
+    /// Sign of a / b - q for b > 0: of a - q b, scaled up where a is tiny.
     static V quotient_residual(V a, V b, V q) noexcept {
         V const scale = select(abs(a) < V(0x1p-900), V(0x1p512), V(1.0));
-        V const r = remainder(a * scale, b, q * scale);
-        return select(b < V(0.0), -r, r);
+        return remainder(a * scale, b, q * scale);
     }
 
     /// Sign of a - q b for a faithful q = a / b.
@@ -181,10 +186,11 @@ private:
         if constexpr (V::fused) {
             return -fma(q, b, -a);
         } else {
-            V const p = q * b;  // within a few ulp of a: a - p is exact
+            V const p = q * b; // within a few ulp of a: a - p is exact
             V const r = (a - p) - dekker_residual(q, b, p);
             auto const huge = (max(abs(q), abs(b)) > V(0x1p990)) | (abs(a) > V(0x1p990));
-            if (huge.bits() == 0) [[likely]] return r;
+            if (huge.bits() == 0) [[likely]]
+                return r;
             return select(huge, -fused_by_lanes(q, b, -a), r);
         }
     }
@@ -198,7 +204,7 @@ private:
     }
 };
 
-}  // namespace SIVID_PACK_TARGET
-}  // namespace sivid::simd
+} // namespace SIVID_PACK_TARGET
+} // namespace sivid::simd
 
 #endif

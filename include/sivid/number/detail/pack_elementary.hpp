@@ -3,9 +3,9 @@
 #define SIVID_NUMBER_DETAIL_PACK_ELEMENTARY_HPP
 
 /// @file
-/// Elementary functions of vectors of intervals: kernels at the ends, domains cut, empty lanes kept.
-/// Lanes that a kernel does not serve (|x| > 2^20 of sin, cos, tan), and pow, atan2 and the inverse
-/// hyperbolic functions, go one by one through the vocabulary type, with its excess.
+/// Elementary functions of vectors of intervals: kernels at the ends, domains cut, empty lanes
+/// kept. Lanes that a kernel does not serve (|x| > 2^20 of sin, cos, tan), and pow, atan2 and the
+/// inverse hyperbolic functions, go one by one through the vocabulary type, with its excess.
 
 #include <sivid/number/detail/pack_arctangent.hpp>
 #include <sivid/number/detail/pack_logarithm.hpp>
@@ -27,8 +27,8 @@ template <class V>
 
 /// y with f(x...) in the lanes of `which`; f sets its last argument where it is not defined.
 template <class V, class F, class... X>
-[[nodiscard]] bounds<V> replace_lanes(bounds<V> y, unsigned which, mask_of<V>& undefined, F const& f,
-                                      X... x) noexcept {
+[[nodiscard]] bounds<V> replace_lanes(bounds<V> y, unsigned which, mask_of<V>& undefined,
+                                      F const& f, X... x) noexcept {
     std::array<double, V::lanes> lo, hi, flag{};
     y.lo.store(lo.data());
     y.hi.store(hi.data());
@@ -39,8 +39,10 @@ template <class V, class F, class... X>
         if ((which >> i & 1u) == 0) continue;
         bool cut = false;
         interval z;
-        if constexpr (sizeof...(X) == 1) z = f(lane_of<V>(in[0][0], in[0][1], i), cut);
-        else z = f(lane_of<V>(in[0][0], in[0][1], i), lane_of<V>(in[1][0], in[1][1], i), cut);
+        if constexpr (sizeof...(X) == 1)
+            z = f(lane_of<V>(in[0][0], in[0][1], i), cut);
+        else
+            z = f(lane_of<V>(in[0][0], in[0][1], i), lane_of<V>(in[1][0], in[1][1], i), cut);
         lo[i] = z.lower();
         hi[i] = z.upper();
         flag[i] = cut ? 1.0 : 0.0;
@@ -86,13 +88,19 @@ template <class V, class Kernel, class F>
 template <class V>
 [[nodiscard]] bounds<V> exp(bounds<V> x) noexcept {
     return evaluate(
-        x, [](bounds<V> t) { return bounds<V>{exp_lower(t.lo), exp_upper(t.hi)}; },
+        x,
+        [](bounds<V> t) {
+            return bounds<V>{exp_lower(t.lo), exp_upper(t.hi)};
+        },
         [](interval const& t) { return sivid::exp(t); });
 }
 template <class V>
 [[nodiscard]] bounds<V> expm1(bounds<V> x) noexcept {
     return evaluate(
-        x, [](bounds<V> t) { return bounds<V>{expm1_lower(t.lo), expm1_upper(t.hi)}; },
+        x,
+        [](bounds<V> t) {
+            return bounds<V>{expm1_lower(t.lo), expm1_upper(t.hi)};
+        },
         [](interval const& t) { return sivid::expm1(t); });
 }
 template <class V>
@@ -124,20 +132,24 @@ template <class V>
 template <class V>
 [[nodiscard]] bounds<V> sin(bounds<V> x) noexcept {
     auto const f = [](interval const& t) { return sivid::sin(t); };
-    bounds<V> y = evaluate(x, [](bounds<V> t) { return sin_within_limit(t); }, f);
+    bounds<V> y = evaluate(
+        x, [](bounds<V> t) { return sin_within_limit(t); }, f);
     if (unsigned const far = beyond_limit(x); far != 0) [[unlikely]] {
         mask_of<V> ignored{};
-        y = replace_lanes(y, far, ignored, [](interval const& t, bool&) { return sivid::sin(t); }, x);
+        y = replace_lanes(
+            y, far, ignored, [](interval const& t, bool&) { return sivid::sin(t); }, x);
     }
     return y;
 }
 template <class V>
 [[nodiscard]] bounds<V> cos(bounds<V> x) noexcept {
     auto const f = [](interval const& t) { return sivid::cos(t); };
-    bounds<V> y = evaluate(x, [](bounds<V> t) { return cos_within_limit(t); }, f);
+    bounds<V> y = evaluate(
+        x, [](bounds<V> t) { return cos_within_limit(t); }, f);
     if (unsigned const far = beyond_limit(x); far != 0) [[unlikely]] {
         mask_of<V> ignored{};
-        y = replace_lanes(y, far, ignored, [](interval const& t, bool&) { return sivid::cos(t); }, x);
+        y = replace_lanes(
+            y, far, ignored, [](interval const& t, bool&) { return sivid::cos(t); }, x);
     }
     return y;
 }
@@ -149,14 +161,18 @@ template <class V>
         x, ignored, [](bounds<V> t) { return tan_within_limit(t); }, f);
     auto const far = mag(x) > V(trigonometric_limit);
     undefined = undefined | ((y.lo == V(-infinity)) & !far);
-    if (far.bits() != 0) [[unlikely]] y = replace_lanes(y, far.bits(), undefined, f, x);
+    if (far.bits() != 0) [[unlikely]]
+        y = replace_lanes(y, far.bits(), undefined, f, x);
     return y;
 }
 
 template <class V>
 [[nodiscard]] bounds<V> atan(bounds<V> x) noexcept {
     return evaluate(
-        x, [](bounds<V> t) { return bounds<V>{atan_lower(t.lo), atan_upper(t.hi)}; },
+        x,
+        [](bounds<V> t) {
+            return bounds<V>{atan_lower(t.lo), atan_upper(t.hi)};
+        },
         [](interval const& t) { return sivid::atan(t); });
 }
 
@@ -197,26 +213,36 @@ template <class V>
 template <class V>
 [[nodiscard]] bounds<V> sinh(bounds<V> x) noexcept {
     return evaluate(
-        x, [](bounds<V> t) { return bounds<V>{sinh_lower(t.lo), sinh_upper(t.hi)}; },
+        x,
+        [](bounds<V> t) {
+            return bounds<V>{sinh_lower(t.lo), sinh_upper(t.hi)};
+        },
         [](interval const& t) { return sivid::sinh(t); });
 }
 template <class V>
 [[nodiscard]] bounds<V> cosh(bounds<V> x) noexcept {
     return evaluate(
-        x, [](bounds<V> t) { return bounds<V>{cosh_lower(mig(t)), cosh_upper(mag(t))}; },
+        x,
+        [](bounds<V> t) {
+            return bounds<V>{cosh_lower(mig(t)), cosh_upper(mag(t))};
+        },
         [](interval const& t) { return sivid::cosh(t); });
 }
 template <class V>
 [[nodiscard]] bounds<V> tanh(bounds<V> x) noexcept {
     return evaluate(
-        x, [](bounds<V> t) { return bounds<V>{tanh_lower(t.lo), tanh_upper(t.hi)}; },
+        x,
+        [](bounds<V> t) {
+            return bounds<V>{tanh_lower(t.lo), tanh_upper(t.hi)};
+        },
         [](interval const& t) { return sivid::tanh(t); });
 }
 
 template <class V>
 [[nodiscard]] bounds<V> asinh(bounds<V> x) noexcept {
     mask_of<V> ignored{};
-    return lane_by_lane<V>(ignored, [](interval const& t, bool&) { return sivid::asinh(t); }, x);
+    return lane_by_lane<V>(
+        ignored, [](interval const& t, bool&) { return sivid::asinh(t); }, x);
 }
 template <class V>
 [[nodiscard]] bounds<V> acosh(bounds<V> x, mask_of<V>& undefined) noexcept {
@@ -232,16 +258,18 @@ template <class V>
 [[nodiscard]] bounds<V> pow(bounds<V> x, bounds<V> y, mask_of<V>& undefined) noexcept {
     return lane_by_lane<V>(
         undefined,
-        [](interval const& s, interval const& t, bool& cut) { return sivid::pow(s, t, cut); }, x, y);
+        [](interval const& s, interval const& t, bool& cut) { return sivid::pow(s, t, cut); }, x,
+        y);
 }
 template <class V>
 [[nodiscard]] bounds<V> atan2(bounds<V> y, bounds<V> x, mask_of<V>& undefined) noexcept {
     return lane_by_lane<V>(
         undefined,
-        [](interval const& s, interval const& t, bool& cut) { return sivid::atan2(s, t, cut); }, y, x);
+        [](interval const& s, interval const& t, bool& cut) { return sivid::atan2(s, t, cut); }, y,
+        x);
 }
 
-}  // namespace SIVID_PACK_TARGET
-}  // namespace sivid::simd
+} // namespace SIVID_PACK_TARGET
+} // namespace sivid::simd
 
 #endif

@@ -31,7 +31,8 @@ template <std::size_t N>
 }
 
 inline constexpr double log2_e = 0x1.71547652b82fep+0;
-/// ln 2 = high + low + 2^-102.0...; high is a multiple of 2^-41, so that k high is exact for |k| < 2^12.
+/// ln 2 = high + low + 2^-102.0...; high is a multiple of 2^-41, so that k high is exact for |k| <
+/// 2^12.
 inline constexpr double ln2_high = 0x1.62e42fefa3000p-1, ln2_low = 0x1.3de6af278ece6p-42;
 
 /// x = k ln 2 + r + rest, |r| <= 0.34658, for |x| <= 1100.
@@ -42,7 +43,7 @@ struct exp_argument {
 template <class V>
 [[nodiscard]] exp_argument<V> reduce_exp(V x) noexcept {
     V const k = nearest_integer(x * V(log2_e));
-    V const head = fma(-k, V(ln2_high), x);  // exact
+    V const head = fma(-k, V(ln2_high), x); // exact
     V const low = k * V(ln2_low);
     V const r = head - low;
     return {k, r, (head - r) - low};
@@ -81,17 +82,16 @@ template <class V>
 [[nodiscard]] expansion<V> expm1_kernel(exp_argument<V> a) noexcept {
     V const tail = exp_tail(a.r, a.rest);
     exact_pair<V> const one_plus_r = fast_two_sum(V(1.0), a.r);
-    V const one = power_of_two(-min(V(1000.0), a.k));  // 2^-k; above k = 1000 without effect
+    V const one = power_of_two(-min(V(1000.0), a.k)); // 2^-k; above k = 1000 without effect
     exact_pair<V> const d = two_sum(one_plus_r.head, -one);
     auto const small = a.k == V(0.0);
-    return {select(small, a.r, d.head),
-            select(small, tail, d.tail + (one_plus_r.tail + tail))};
+    return {select(small, a.r, d.head), select(small, tail, d.tail + (one_plus_r.tail + tail))};
 }
 template <class V>
 [[nodiscard]] V expm1_lower(V x) noexcept {
     auto const a = reduce_exp(min(V(710.0), max(V(-42.0), x)));
     V const y = lower_bound_of_any(expm1_kernel(a), kernel_error::expm1 * unit_roundoff);
-    return max(max(V(-1.0), x), directed<V>::scale_down(y, a.k));  // e^x - 1 >= x
+    return max(max(V(-1.0), x), directed<V>::scale_down(y, a.k)); // e^x - 1 >= x
 }
 template <class V>
 [[nodiscard]] V expm1_upper(V x) noexcept {
@@ -113,19 +113,18 @@ template <class V>
     static constexpr auto odd = reciprocal_factorials<7>(3, 2);
     auto const a = reduce_exp(x);
     V const r = a.r, z = r * r;
-    V const e = fma(z * z, horner(z, even), z * V(0.5));  // cosh r - 1
-    V const o = (r * z) * horner(z, odd);                 // sinh r - r
+    V const e = fma(z * z, horner(z, even), z * V(0.5)); // cosh r - 1
+    V const o = (r * z) * horner(z, odd);                // sinh r - r
     exact_pair<V> const plus = fast_two_sum(V(1.0), r), minus = fast_two_sum(V(1.0), -r);
     V const plus_tail = plus.tail + ((e + o) + fma(a.rest, r, a.rest));
     V const minus_tail = minus.tail + ((e - o) + fma(a.rest, r, -a.rest));
-    V const m = power_of_two(V(-2.0) * min(V(500.0), a.k));  // 2^-2k
-    V const minus_head = minus.head * m;                       // exact
+    V const m = power_of_two(V(-2.0) * min(V(500.0), a.k)); // 2^-2k
+    V const minus_head = minus.head * m;                    // exact
     exact_pair<V> const s = two_sum(plus.head, -minus_head), c = two_sum(plus.head, minus_head);
     V const m_tail = minus_tail * m;
     auto const small = a.k == V(0.0);
     return {a.k,
-            {select(small, r + r, s.head),
-             select(small, o + o, s.tail + (plus_tail - m_tail))},
+            {select(small, r + r, s.head), select(small, o + o, s.tail + (plus_tail - m_tail))},
             {c.head, c.tail + (plus_tail + m_tail)}};
 }
 
@@ -171,7 +170,7 @@ template <class V>
     return upper_if_within(x, min(V(1.0), b));
 }
 
-}  // namespace SIVID_PACK_TARGET
-}  // namespace sivid::simd
+} // namespace SIVID_PACK_TARGET
+} // namespace sivid::simd
 
 #endif

@@ -34,7 +34,8 @@ template <class V, std::size_t N>
         V y(c[N - 1]);
         ((y = fma(y, x, V(c[N - 2 - I]))), ...);
         return y;
-    }(std::make_index_sequence<N - 1>{});
+    }
+    (std::make_index_sequence<N - 1>{});
 }
 
 /// The nearest integer (|v| < 2^51).
@@ -60,8 +61,8 @@ template <class V>
     return directed<V>::add_up(y.head, y.tail + V(delta) * abs(y.head));
 }
 
-/// The margin for results of any size. Where delta |head| is below the least double, the tail is zero
-/// and |f(x) - head| < 2^-1074; a head of zero is exact.
+/// The margin for results of any size. Where delta |head| is below the least double, the tail is
+/// zero and |f(x) - head| < 2^-1074; a head of zero is exact.
 template <class V>
 [[nodiscard]] V margin(V head, double delta) noexcept {
     return select(head == V(0.0), V(0.0), fma(V(delta), abs(head), V(least_double)));
@@ -110,7 +111,7 @@ template <class V>
     return {q, (rest + (n.tail - q * d.tail)) / d.head};
 }
 
-}  // namespace SIVID_PACK_TARGET
-}  // namespace sivid::simd
+} // namespace SIVID_PACK_TARGET
+} // namespace sivid::simd
 
 #endif

@@ -26,7 +26,8 @@ template <std::size_t N>
 }
 
 /// ln(1 + f) - f for sqrt(1/2) - 1 <= f <= sqrt(2) - 1, to the precision of that difference:
-///   with s = f/(2+f):  ln(1+f) = 2 artanh s = f - (f^2/2 - s (f^2/2 + R)),  R = 2 s^2/3 + 2 s^4/5 + ...
+///   with s = f/(2+f):  ln(1+f) = 2 artanh s = f - (f^2/2 - s (f^2/2 + R)),  R = 2 s^2/3 + 2 s^4/5
+///   + ...
 template <class V>
 [[nodiscard]] V log_tail(V f) noexcept {
     static constexpr auto c = area_tangent_series<11>();
@@ -50,7 +51,7 @@ template <class V>
         x = select(tiny, x * V(0x1p54), x);
     }
     V const m = mantissa(x);
-    auto const upper_half = m > V(0x1.6a09e667f3bcdp+0);  // sqrt 2
+    auto const upper_half = m > V(0x1.6a09e667f3bcdp+0); // sqrt 2
     return {e + (exponent(x) + select(upper_half, V(1.0), V(0.0))),
             select(upper_half, m * V(0.5), m) - V(1.0)};
 }
@@ -78,8 +79,8 @@ template <class V>
     return log_special(x, upper_bound(y, kernel_error::log * unit_roundoff));
 }
 
-/// ln(1 + x): of the rounded 1 + x, with its rounding error c as the term c/(1 + x); where 1 + x lies
-/// between sqrt(1/2) and sqrt 2 the argument f is x itself.
+/// ln(1 + x): of the rounded 1 + x, with its rounding error c as the term c/(1 + x); where 1 + x
+/// lies between sqrt(1/2) and sqrt 2 the argument f is x itself.
 template <class V>
 [[nodiscard]] expansion<V> log1p_kernel(V x) noexcept {
     exact_pair<V> const w = two_sum(V(1.0), x);
@@ -100,7 +101,7 @@ template <class V>
     return select(x == V(infinity), x, select(x <= V(-1.0), V(-infinity), min(x, y)));
 }
 
-}  // namespace SIVID_PACK_TARGET
-}  // namespace sivid::simd
+} // namespace SIVID_PACK_TARGET
+} // namespace sivid::simd
 
 #endif

@@ -40,7 +40,7 @@ public:
 #if defined(__FMA__)
     static constexpr bool fused = true;
 #else
-    static constexpr bool fused = false;  // fma() rounds twice
+    static constexpr bool fused = false; // fma() rounds twice
 #endif
     static constexpr bool keeps_own_mode = false;
     static constexpr bool reads_subnormals = false;
@@ -128,8 +128,7 @@ public:
     /// Each a rounded to 26 bits, ties away: the rest has 26 bits as well (|a| < 2^1000).
     friend vector_portable leading_half(vector_portable a) noexcept {
         auto const rounded = std::bit_cast<std::uint64_t>(a.v_) + (std::uint64_t{1} << 26);
-        return vector_portable{
-            std::bit_cast<double>(rounded & ~((std::uint64_t{1} << 27) - 1))};
+        return vector_portable{std::bit_cast<double>(rounded & ~((std::uint64_t{1} << 27) - 1))};
     }
 
     friend vector_portable negate_where(mask m, vector_portable a) noexcept {
@@ -152,7 +151,7 @@ public:
     }
     /// 2^k for integers k in [-1022, 1023].
     friend vector_portable power_of_two(vector_portable k) noexcept {
-        auto const sum = std::bit_cast<std::uint64_t>(k.v_ + 0x1.8p52);  // k in the low bits
+        auto const sum = std::bit_cast<std::uint64_t>(k.v_ + 0x1.8p52); // k in the low bits
         return vector_portable{std::bit_cast<double>((sum + 1023) << 52)};
     }
 
@@ -160,7 +159,7 @@ private:
     double v_ = 0.0;
 };
 
-}  // namespace SIVID_PACK_TARGET
-}  // namespace sivid::simd
+} // namespace SIVID_PACK_TARGET
+} // namespace sivid::simd
 
 #endif

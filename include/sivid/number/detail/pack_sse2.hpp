@@ -35,8 +35,7 @@ public:
         return mask_sse2{_mm_or_pd(a.m_, b.m_)};
     }
     friend mask_sse2 operator!(mask_sse2 a) noexcept {
-        return mask_sse2{
-            _mm_xor_pd(a.m_, _mm_castsi128_pd(_mm_set1_epi64x(-1)))};
+        return mask_sse2{_mm_xor_pd(a.m_, _mm_castsi128_pd(_mm_set1_epi64x(-1)))};
     }
 
 private:
@@ -50,7 +49,7 @@ public:
 #if defined(__FMA__)
     static constexpr bool fused = true;
 #else
-    static constexpr bool fused = false;  // fma() rounds twice
+    static constexpr bool fused = false; // fma() rounds twice
 #endif
     static constexpr bool keeps_own_mode = false;
     static constexpr bool reads_subnormals = false;
@@ -126,27 +125,25 @@ public:
         return mask{_mm_cmpunord_pd(a.v_, b.v_)};
     }
     friend vector_sse2 select(mask m, vector_sse2 yes, vector_sse2 no) noexcept {
-        return vector_sse2{
-            _mm_or_pd(_mm_and_pd(m.raw(), yes.v_), _mm_andnot_pd(m.raw(), no.v_))};
+        return vector_sse2{_mm_or_pd(_mm_and_pd(m.raw(), yes.v_), _mm_andnot_pd(m.raw(), no.v_))};
     }
 
     /// The next double above s where m is set (s not NaN and not +inf there).
     friend vector_sse2 step_up(vector_sse2 s, mask m) noexcept {
         auto const zero = _mm_setzero_pd();
         auto const positive_zero = _mm_andnot_pd(_mm_cmpeq_pd(s.v_, zero), s.v_);
-        auto const away = _mm_or_si128(                    // -1 below zero, else +1
+        auto const away = _mm_or_si128( // -1 below zero, else +1
             _mm_castpd_si128(_mm_cmplt_pd(s.v_, zero)), _mm_set1_epi64x(1));
-        return vector_sse2{_mm_castsi128_pd(
-            _mm_add_epi64(_mm_castpd_si128(positive_zero),
-                             _mm_and_si128(away, _mm_castpd_si128(m.raw()))))};
+        return vector_sse2{_mm_castsi128_pd(_mm_add_epi64(
+            _mm_castpd_si128(positive_zero), _mm_and_si128(away, _mm_castpd_si128(m.raw()))))};
     }
 
     /// Each a rounded to 26 bits, ties away: the rest has 26 bits as well (|a| < 2^1000).
     friend vector_sse2 leading_half(vector_sse2 a) noexcept {
         auto const rounded =
             _mm_add_epi64(_mm_castpd_si128(a.v_), _mm_set1_epi64x(std::int64_t{1} << 26));
-        return vector_sse2{_mm_castsi128_pd(
-            _mm_and_si128(rounded, _mm_set1_epi64x(-(std::int64_t{1} << 27))))};
+        return vector_sse2{
+            _mm_castsi128_pd(_mm_and_si128(rounded, _mm_set1_epi64x(-(std::int64_t{1} << 27))))};
     }
 
     friend vector_sse2 negate_where(mask m, vector_sse2 a) noexcept {
@@ -170,12 +167,12 @@ public:
     friend vector_sse2 mantissa(vector_sse2 x) noexcept {
         auto const field = _mm_set1_epi64x(0x000FFFFFFFFFFFFF);
         auto const one = _mm_castpd_si128(_mm_set1_pd(1.0));
-        return vector_sse2{_mm_castsi128_pd(
-            _mm_or_si128(_mm_and_si128(_mm_castpd_si128(x.v_), field), one))};
+        return vector_sse2{
+            _mm_castsi128_pd(_mm_or_si128(_mm_and_si128(_mm_castpd_si128(x.v_), field), one))};
     }
     /// 2^k for integers k in [-1022, 1023].
     friend vector_sse2 power_of_two(vector_sse2 k) noexcept {
-        auto const sum = _mm_add_pd(k.v_, _mm_set1_pd(0x1.8p52));  // k in the low bits
+        auto const sum = _mm_add_pd(k.v_, _mm_set1_pd(0x1.8p52)); // k in the low bits
         auto const biased = _mm_add_epi64(_mm_castpd_si128(sum), _mm_set1_epi64x(1023));
         return vector_sse2{_mm_castsi128_pd(_mm_slli_epi64(biased, 52))};
     }
@@ -184,7 +181,7 @@ private:
     __m128d v_ = {};
 };
 
-}  // namespace SIVID_PACK_TARGET
-}  // namespace sivid::simd
+} // namespace SIVID_PACK_TARGET
+} // namespace sivid::simd
 
 #endif

@@ -41,8 +41,8 @@ inline namespace SIVID_PACK_TARGET {
     return SIVID_PACK_AVX512 ? "avx512" : SIVID_PACK_AVX2 ? "avx2" : "sse2";
 }
 
-/// Whether this machine and its operating system have the instructions that packs were compiled for.
-/// Guards ask it before the first pack is touched; without them the program dies of SIGILL.
+/// Whether this machine and its operating system have the instructions that packs were compiled
+/// for. Guards ask it before the first pack is touched; without them the program dies of SIGILL.
 [[nodiscard]] inline bool pack_supported() noexcept {
 #if SIVID_PACK_AVX512
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
@@ -52,11 +52,11 @@ inline namespace SIVID_PACK_TARGET {
 #elif defined(__FMA__)
     return __builtin_cpu_supports("fma");
 #else
-    return true;  // SSE2 is part of x86-64
+    return true; // SSE2 is part of x86-64
 #endif
 }
 
-}  // namespace SIVID_PACK_TARGET
-}  // namespace sivid
+} // namespace SIVID_PACK_TARGET
+} // namespace sivid
 
 #endif

@@ -19,19 +19,20 @@ inline constexpr double sin_cos = 0.8, tan = 1.5;
 
 inline constexpr double trigonometric_limit = 0x1p20;
 
-/// pi/2 = p1 + p2 + p3 + p4 + 2^-159.8...; the first three have 33 bits, so that k p1, k p2, k p3 are
-/// exact for |k| <= 2^20 (here |k| < 2^19.4).
+/// pi/2 = p1 + p2 + p3 + p4 + 2^-159.8...; the first three have 33 bits, so that k p1, k p2, k p3
+/// are exact for |k| <= 2^20 (here |k| < 2^19.4).
 inline constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
 inline constexpr std::array<double, 4> half_pi_parts{0x1.921fb54400000p+0, 0x1.0b4611a600000p-34,
                                                      0x1.3198a2e000000p-69, 0x1.b839a252049c1p-104};
 
-/// x = k pi/2 + r + rest; turns = k + 1.5 2^52, with k in its low bits. |r| < 0.7854, relative error
-/// below 2^-68; |rest| is at most an ulp of r and 2^-83.
+/// x = k pi/2 + r + rest; turns = k + 1.5 2^52, with k in its low bits. |r| < 0.7854, relative
+/// error below 2^-68; |rest| is at most an ulp of r and 2^-83.
 template <class V>
 struct turn_argument {
     V turns, r, rest;
 };
-/// Every product with k is exact but the last; a, and the pairs (b, b_tail) and (c, c_tail), are exact.
+/// Every product with k is exact but the last; a, and the pairs (b, b_tail) and (c, c_tail), are
+/// exact.
 template <class V>
 [[nodiscard]] turn_argument<V> reduce_turns(V x) noexcept {
     V const turns = fma(x, V(two_over_pi), V(0x1.8p52));
@@ -50,8 +51,8 @@ template <class V>
     return select(a.r < V(0.0), a.turns - V(1.0), a.turns);
 }
 
-/// For quadrant = j + 1.5 2^52: floor((j + more)/2) + 1.5 2^52, more in {1, 2}. Half an integer less a
-/// quarter is never a tie.
+/// For quadrant = j + 1.5 2^52: floor((j + more)/2) + 1.5 2^52, more in {1, 2}. Half an integer
+/// less a quarter is never a tie.
 template <class V>
 [[nodiscard]] V half_turn(V quadrant, double more) noexcept {
     V const j = quadrant - V(0x1.8p52);
@@ -65,12 +66,12 @@ struct sine_pair {
 /// sin and cos of r + rest.
 template <class V>
 [[nodiscard]] sine_pair<V> sine_kernel(turn_argument<V> a) noexcept {
-    static constexpr auto signs = [](auto c) {  // alternate
+    static constexpr auto signs = [](auto c) { // alternate
         for (std::size_t i = 0; i < c.size(); i += 2) c[i] = -c[i];
         return c;
     };
-    static constexpr auto odd = signs(reciprocal_factorials<8>(3, 2));    // -1/3!, 1/5!, ...
-    static constexpr auto even = signs(reciprocal_factorials<9>(2, 2));   // -1/2!, 1/4!, ...
+    static constexpr auto odd = signs(reciprocal_factorials<8>(3, 2));  // -1/3!, 1/5!, ...
+    static constexpr auto even = signs(reciprocal_factorials<9>(2, 2)); // -1/2!, 1/4!, ...
     static constexpr auto from_fourth = [] {
         std::array<double, 8> c{};
         for (std::size_t i = 0; i < 8; ++i) c[i] = even[i + 1];
@@ -83,8 +84,9 @@ template <class V>
     return {{r, sin_tail}, {c.head, cos_tail}};
 }
 
-/// Bounds of sin(x + shift pi/2), shift 0 or 1, and the monotone piece of x: the sine rises on piece p,
-/// from (p - 1/2) pi to (p + 1/2) pi, for even p, and falls for odd p. piece = p + 1.5 2^52.
+/// Bounds of sin(x + shift pi/2), shift 0 or 1, and the monotone piece of x: the sine rises on
+/// piece p, from (p - 1/2) pi to (p + 1/2) pi, for even p, and falls for odd p. piece = p + 1.5
+/// 2^52.
 template <class V>
 struct wave_end {
     V lo, hi, piece;
@@ -132,14 +134,15 @@ template <class V>
 template <class V>
 [[nodiscard]] expansion<V> tan_kernel(turn_argument<V> a) noexcept {
     sine_pair<V> const y = sine_kernel(a);
-    auto const odd = bit_is_set<0>(a.turns);  // -cos/sin
-    expansion<V> const n{select(odd, -y.cos.head, y.sin.head), select(odd, -y.cos.tail, y.sin.tail)};
+    auto const odd = bit_is_set<0>(a.turns); // -cos/sin
+    expansion<V> const n{select(odd, -y.cos.head, y.sin.head),
+                         select(odd, -y.cos.tail, y.sin.tail)};
     expansion<V> const d{select(odd, y.sin.head, y.cos.head), select(odd, y.sin.tail, y.cos.tail)};
     return quotient(normalized(n), normalized(d));
 }
 
-/// Rising between poles; everything if a pole lies between the ends. No other result has an infinite
-/// bound.
+/// Rising between poles; everything if a pole lies between the ends. No other result has an
+/// infinite bound.
 template <class V>
 [[nodiscard]] bounds<V> tan_within_limit(bounds<V> x) noexcept {
     constexpr double delta = kernel_error::tan * unit_roundoff;
@@ -150,7 +153,7 @@ template <class V>
     return {select(pole, V(-infinity), lo), select(pole, V(infinity), hi)};
 }
 
-}  // namespace SIVID_PACK_TARGET
-}  // namespace sivid::simd
+} // namespace SIVID_PACK_TARGET
+} // namespace sivid::simd
 
 #endif

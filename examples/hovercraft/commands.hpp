@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#ifndef HOVERCRAFT_COMMANDS_HPP
+#define HOVERCRAFT_COMMANDS_HPP
+
+#include "generate.hpp"
+#include "model.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The commands of the program `hovercraft`, one value of options each. Every command returns the
+/// exit code; it throws sivid::input_error, bad_request or sivid::output_error.
+namespace hovercraft_example {
+
+/// Exit codes of sivid's programs.
+enum exit_code {
+    consistent = 0,
+    bad_input = 2,
+    undecided = 3,
+    inconsistent = 4,
+    internal_error = 70
+};
+
+struct identify_command {
+    hovercraft craft;
+    std::filesystem::path dataset, out;
+    std::string algorithm = "contracting"; ///< or report-1, report-2
+    std::optional<double> accuracy;
+    double budget = 50; ///< [s]
+    std::optional<std::size_t> boxes;
+    std::optional<std::size_t> outliers;
+    bool compare = false;
+    bool quiet = false;
+    std::string command_line; ///< for the report's footer
+};
+[[nodiscard]] int run(identify_command const& command);
+
+struct generate_command {
+    hovercraft craft;
+    std::string scenario;
+    std::filesystem::path out;
+    generate_options options;
+    std::string command_line;
+};
+[[nodiscard]] int run(generate_command const& command);
+
+struct simulate_command {
+    hovercraft craft;
+    std::string scenario;
+    std::filesystem::path out;
+    std::map<std::string, sivid::exact_decimal> set;
+    double rate = 100;
+    std::optional<double> input_rate; ///< of sampled inputs; without it the shapes are exact
+    bool validated = false;
+    std::string command_line;
+};
+[[nodiscard]] int run(simulate_command const& command);
+
+struct rank_command {
+    hovercraft craft;
+    std::filesystem::path out;
+    std::string command_line;
+};
+[[nodiscard]] int run(rank_command const& command);
+
+/// Creates the folder for results.
+/// @throws bad_request when that is impossible
+inline void prepare_folder(std::filesystem::path const& folder) {
+    std::error_code fault;
+    std::filesystem::create_directories(folder, fault);
+    if (fault || !std::filesystem::is_directory(folder))
+        throw bad_request(std::string{"the folder "} + folder.string() + " cannot be created" +
+                          (fault ? std::string{": "} + fault.message() : ""));
+}
+
+/// What the constants mean: Table 2.1 of the report.
+[[nodiscard]] inline std::map<std::string, std::string> constant_meanings() {
+    return {{"m", "mass"},
+            {"Iz", "moment of inertia about the vertical axis"},
+            {"rho", "density of the air"},
+            {"Cd", "air resistance coefficient"},
+            {"CL", "rudder lift coefficient"},
+            {"Cdelta", "propulsion coefficient"},
+            {"D", "propeller diameter"},
+            {"Su", "front area"},
+            {"Sv", "side area"},
+            {"Sg", "rudder area"},
+            {"A", "area swept by the propeller"},
+            {"L", "distance between centre of gravity and rudder"},
+            {"Ff", "dry friction force"},
+            {"eps", "speed below which the dry friction fades"},
+            {"D11", "linear damping in surge"},
+            {"D22", "linear damping in sway"},
+            {"D33", "linear damping in yaw"}};
+}
+
+/// Today, as 2024-11-20.
+[[nodiscard]] std::string today();
+/// Compiler and number of threads used.
+[[nodiscard]] std::string machine_text();
+
+} // namespace hovercraft_example
+
+#endif

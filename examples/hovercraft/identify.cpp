@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "commands.hpp"
+
+#include <sivid/io/dataset.hpp>
+#include <sivid/io/identification_csv.hpp>
+#include <sivid/io/identification_json.hpp>
+#include <sivid/io/problem_from_dataset.hpp>
+#include <sivid/report/identification_page.hpp>
+#include <sivid/report/identification_report.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <ctime>
+#include <iostream>
+
+#include <unistd.h>
+
+namespace hovercraft_example {
+
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+/// The first Ctrl-C asks for the result so far, the second one ends the program.
+extern "C" void on_interrupt(int) {
+    interrupted = 1;
+    std::signal(SIGINT, SIG_DFL);
+}
+
+/// One line of progress: rewritten in place on a terminal, else a new line now and then.
+class progress_line {
+public:
+    explicit progress_line(bool quiet)
+        : quiet_{quiet}, terminal_{::isatty(STDERR_FILENO) != 0}, begin_{clock::now()} {}
+
+    void note(std::string const& text) {
+        if (quiet_) return;
+        finish();
+        std::fprintf(stderr, "%s\n", text.c_str());
+    }
+    bool operator()(sivid::paving_progress const& p) {
+        auto const now = clock::now();
+        double const pause = terminal_ ? 0.1 : 1.0;
+        if (!quiet_ && (!shown_ || std::chrono::duration<double>(now - last_).count() >= pause)) {
+            last_ = now;
+            shown_ = true;
+            double const time = std::chrono::duration<double>(now - begin_).count();
+            std::fprintf(stderr,
+                         "%s%7.1f s  %8zu boxes  %6zu waiting  inside %9.3g %%  not excluded "
+                         "%9.3g %% of the prior%s",
+                         terminal_ ? "\r" : "", time, p.tested, p.pending, 100 * p.inner,
+                         100 * p.outer, terminal_ ? "" : "\n");
+            std::fflush(stderr);
+        }
+        return interrupted == 0;
+    }
+    void finish() {
+        if (shown_ && terminal_) std::fputc('\n', stderr);
+        shown_ = false;
+    }
+
+private:
+    using clock = std::chrono::steady_clock;
+    bool quiet_, terminal_, shown_ = false;
+    clock::time_point begin_, last_;
+};
+
+sivid::algorithm algorithm_of(std::string const& name) {
+    if (name == "report-1") return sivid::algorithm::report_1;
+    if (name == "report-2") return sivid::algorithm::report_2;
+    return sivid::algorithm::contracting;
+}
+
+std::string words_of(std::string const& algorithm) {
+    if (algorithm == "report-1") return "Algorithm 1 of the report";
+    if (algorithm == "report-2") return "Algorithm 2 of the report";
+    return "contraction (default)";
+}
+
+void print_summary(sivid::identification_problem const& problem, sivid::identification const& found,
+                   std::string const& id, std::filesystem::path const& out) {
+    namespace report = sivid::report;
+    auto const view = report::view_of(problem, found, nullptr, {.dataset = id});
+    std::cout << id << ": " << to_string(found.verdict) << " (" << to_string(found.reason) << ")\n";
+    for (auto const& p : view.parameters) {
+        std::cout << "  " << p.name << " in " << report::outward_text_within(p.hull, p.prior) << " "
+                  << p.unit;
+        if (!report::is_empty(p.hull) && report::share_of_prior(p) > 0.999)
+            std::cout << "  (nothing excluded)";
+        std::cout << "\n";
+    }
+    for (auto const& c : view.combinations)
+        std::cout << "  " << c.formula << " in " << report::outward_text(c.hull) << " " << c.unit
+                  << "\n";
+    if (!found.entangled.empty()) {
+        std::vector<std::string> names;
+        for (auto const j : found.entangled) names.push_back(problem.choice.unknown[j]);
+        std::cout << "  " << report::detail::joined(names)
+                  << " are only known through such combinations on these data\n";
+    }
+    std::cout << "  of the prior's volume: inside at least "
+              << report::at_least_percent(view.volume_inner.lo) << ", not excluded at most "
+              << report::at_most_percent(view.volume_outer.hi) << "\n";
+    if (found.witness) {
+        std::cout << "  verified witness:";
+        for (std::size_t j = 0; j < problem.choice.unknown.size(); ++j)
+            std::cout << " " << problem.choice.unknown[j] << "="
+                      << report::exact_text(found.witness->parameters[j]);
+        std::cout << "\n";
+    }
+    if (!found.forced.empty()) std::cout << "  proved outliers: " << found.forced.size() << "\n";
+    std::cout << "  " << report::duration_text(found.seconds) << ", " << found.boxes << " boxes, "
+              << found.integrations << " validated integrations\n"
+              << "  written: " << (out / "report.html").string()
+              << " and result.json, boxes.csv, outputs.csv beside it\n";
+}
+
+int exit_code_of(sivid::verdict v) {
+    switch (v) {
+    case sivid::verdict::consistent:
+        return exit_code::consistent;
+    case sivid::verdict::inconsistent:
+        return exit_code::inconsistent;
+    case sivid::verdict::undecided:
+        break;
+    }
+    return exit_code::undecided;
+}
+
+} // namespace
+
+std::string today() {
+    auto const now = std::time(nullptr);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%d", std::localtime(&now));
+    return text;
+}
+
+std::string machine_text() {
+#if defined(__clang__)
+    std::string const compiler = std::string{"clang "} + __clang_version__;
+#else
+    std::string const compiler = std::string{"g++ "} + __VERSION__;
+#endif
+    return std::string{"one thread, "} + compiler.substr(0, compiler.find(" ("));
+}
+
+int run(identify_command const& c) {
+    namespace report = sivid::report;
+    auto const model = sivid::record_model(c.craft);
+    auto const data = sivid::read_dataset(c.dataset, sivid::names_of(model.about));
+    auto const problem = sivid::problem_from_dataset(data, model, c.outliers);
+    auto const further = sivid::assumptions_of(data);
+    prepare_folder(c.out);
+
+    interrupted = 0;
+    std::signal(SIGINT, on_interrupt);
+    progress_line progress(c.quiet);
+    sivid::identify_options options;
+    options.algorithm = algorithm_of(c.algorithm);
+    if (c.accuracy) options.search.accuracy = *c.accuracy;
+    if (c.boxes) options.search.boxes = *c.boxes;
+    options.search.seconds = c.compare ? 0.6 * c.budget : c.budget;
+    options.search.progress = [&](sivid::paving_progress const& p) { return progress(p); };
+    progress.note(std::string{"identifying "} + data.id + " (" + words_of(c.algorithm) +
+                  ", at most " + report::duration_text(options.search.seconds) +
+                  "; Ctrl-C stops early)");
+    auto const found = sivid::identify(problem, options);
+    progress.finish();
+
+    std::optional<sivid::identification> baseline;
+    if (c.compare && interrupted == 0) {
+        auto other = options;
+        other.algorithm = sivid::algorithm::report_1;
+        other.search.seconds = c.budget - options.search.seconds;
+        progress.note("the same by Algorithm 1 of the report, for comparison");
+        baseline = sivid::identify(problem, other);
+        progress.finish();
+    }
+    std::signal(SIGINT, SIG_DFL);
+
+    auto const motion = sivid::find_explaining_motion(problem, found);
+    report::identification_report_options about{.dataset = data.id,
+                                                .meanings = constant_meanings(),
+                                                .further_assumptions = further,
+                                                .plane = report::plane_channels{"x", "y", "psi"},
+                                                .date = today(),
+                                                .machine = machine_text(),
+                                                .command = c.command_line};
+    auto view = report::view_of(problem, found, motion ? &*motion : nullptr, about);
+    if (baseline) {
+        view.comparison = {
+            report::comparison_of(words_of(c.algorithm), found, true),
+            report::comparison_of(words_of("report-1"), *baseline, false,
+                                  std::string{"bisection alone, no outlier allowed; stopped: "} +
+                                      std::string{to_string(baseline->reason)})};
+        view.comparison_note = "Both volumes are proved; the smaller the outer one, the more was "
+                               "excluded. Same machine, same problem, one after the other.";
+    }
+    sivid::write_atomically(c.out / "boxes.csv", sivid::boxes_csv(problem, found));
+    sivid::write_atomically(c.out / "outputs.csv",
+                            sivid::outputs_csv(problem, found, motion ? &*motion : nullptr));
+    sivid::write_atomically(c.out / "report.html", report::identification_page(view).str());
+    sivid::write_atomically(
+        c.out / "result.json",
+        sivid::identification_json(problem, found,
+                                   {.dataset = data.id, .further_assumptions = further}));
+    print_summary(problem, found, data.id, c.out);
+    return exit_code_of(found.verdict);
+}
+
+} // namespace hovercraft_example

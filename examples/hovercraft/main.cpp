@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+// hovercraft identify | generate | simulate | rank: the reference example on the command line.
+#include "commands.hpp"
+
+#include <sivid/io/text_file.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <exception>
+#include <functional>
+#include <iostream>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace hovercraft_example;
+using sivid::exact_decimal;
+
+exact_decimal decimal(std::string const& text, std::string const& what) {
+    auto const value = exact_decimal::parse(text);
+    if (!value || !sivid::enclose(*value))
+        throw bad_request(what + ": " + sivid::in_quotes(text) + " is not a decimal number");
+    return *value;
+}
+
+/// "name=value" as a pair.
+std::pair<std::string, std::string> assignment(std::string const& text, std::string const& what) {
+    auto const equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+        throw bad_request(what + ": write name=value, not " + sivid::in_quotes(text));
+    return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+std::map<std::string, exact_decimal> constants_from(std::vector<std::string> const& list) {
+    std::map<std::string, exact_decimal> result;
+    for (auto const& text : list) {
+        auto const [name, value] = assignment(text, "--set");
+        if (!result.emplace(name, decimal(value, std::string{"--set "} + name)).second)
+            throw bad_request(std::string{"--set "} + name + " is given twice");
+    }
+    return result;
+}
+
+/// tenths * nominal / 10, exactly.
+exact_decimal tenths(exact_decimal const& nominal, std::size_t n) {
+    return *exact_decimal::parse(nominal.times(n).text() + "e-1");
+}
+
+/// The prior of an unknown constant: the report's, or 10 % about the nominal value.
+unknown_parameter default_prior(std::string const& name) {
+    if (name == "Sv") return {name, decimal("0.20", name), decimal("0.25", name)};
+    if (name == "Sg") return {name, decimal("0.0042", name), decimal("0.0754", name)};
+    if (name == "L") return {name, decimal("0.25", name), decimal("0.35", name)};
+    for (auto const& c : hovercraft::constants) {
+        if (c.name != name) continue;
+        auto const nominal = exact_decimal::shortest(sivid::nearest(c.nominal));
+        if (nominal.is_zero())
+            throw bad_request(std::string{"--unknown "} + name +
+                              ": its nominal value is 0, give a prior as " + name + "=lower:upper");
+        return {name, tenths(nominal, 9), tenths(nominal, 11)};
+    }
+    std::string known;
+    for (auto const& c : hovercraft::constants)
+        known += (known.empty() ? "" : ", ") + std::string{c.name};
+    throw bad_request(std::string{"unknown constant "} + sivid::in_quotes(name) +
+                      "; the model has: " + known);
+}
+
+std::vector<unknown_parameter> unknown_from(std::vector<std::string> const& list) {
+    std::vector<unknown_parameter> result;
+    for (auto const& text : list) {
+        if (text.find('=') == std::string::npos) {
+            result.push_back(default_prior(text));
+            continue;
+        }
+        auto const [name, range] = assignment(text, "--unknown");
+        auto const colon = range.find(':');
+        if (colon == std::string::npos)
+            throw bad_request(std::string{"--unknown "} + name +
+                              ": write the prior as lower:upper");
+        result.push_back({name, decimal(range.substr(0, colon), std::string{"--unknown "} + name),
+                          decimal(range.substr(colon + 1), std::string{"--unknown "} + name)});
+    }
+    return result;
+}
+
+/// The options that several commands share.
+struct shared_text {
+    std::string lift = "as-printed", friction = "unit-vector";
+    std::vector<std::string> set;
+
+    [[nodiscard]] hovercraft craft() const {
+        hovercraft result;
+        if (lift == "rudder") result.lift = hovercraft::lift_area::rudder;
+        if (friction == "as-printed") result.friction = hovercraft::friction_law::as_printed;
+        return result;
+    }
+};
+
+void add_variants(CLI::App& command, shared_text& shared) {
+    command.add_option("--lift", shared.lift, "area in the rudder's lift of equation (2.2b)")
+        ->check(CLI::IsMember({"as-printed", "rudder"}))
+        ->capture_default_str();
+    command.add_option("--friction", shared.friction, "direction of the dry friction")
+        ->check(CLI::IsMember({"unit-vector", "as-printed"}))
+        ->capture_default_str();
+}
+
+/// The program: what is parsed, then run by `action`.
+class program {
+public:
+    explicit program(std::string command_line) : line_{std::move(command_line)} {
+        app_.require_subcommand(1);
+        add_identify();
+        add_generate();
+        add_simulate();
+        add_rank();
+    }
+
+    int operator()(int argc, char** argv) {
+        try {
+            app_.parse(argc, argv);
+        } catch (CLI::ParseError const& e) {
+            return app_.exit(e) == 0 ? 0 : static_cast<int>(exit_code::bad_input);
+        }
+        return action_();
+    }
+
+private:
+    void add_identify() {
+        auto* const s = app_.add_subcommand(
+            "identify", "which parameters can explain a recorded campaign, with proof");
+        auto& c = identify_;
+        s->add_option("dataset", c.dataset, "folder with dataset.json")->required();
+        s->add_option("--out", c.out, "folder for report.html, result.json and tables")->required();
+        s->add_option("--algorithm", c.algorithm, "contracting, or the report's Algorithm 1 or 2")
+            ->check(CLI::IsMember({"contracting", "report-1", "report-2"}))
+            ->capture_default_str();
+        s->add_option("--accuracy", c.accuracy,
+                      "leave boxes undecided when no side is wider than this share of the prior")
+            ->check(CLI::Range(1e-15, 1.0));
+        s->add_option("--budget", c.budget, "seconds")
+            ->check(CLI::Range(0.0, 1e9))
+            ->capture_default_str();
+        s->add_option("--boxes", c.boxes, "test at most so many boxes");
+        s->add_option("--outliers", c.outliers,
+                      "outliers allowed in each scenario, instead of the data set's own fraction");
+        s->add_flag("--compare", c.compare,
+                    "spend 40 % of the budget on the report's Algorithm 1 and show both");
+        s->add_flag("--quiet", c.quiet, "no progress");
+        add_variants(*s, shared_);
+        s->callback([this] {
+            action_ = [this] {
+                identify_.craft = shared_.craft();
+                identify_.command_line = line_;
+                return run(identify_);
+            };
+        });
+    }
+
+    void add_generate() {
+        auto* const s = app_.add_subcommand(
+            "generate", "a data set from the validated motion of known parameters (section 3.3)");
+        auto& c = generate_;
+        auto& o = c.options;
+        add_scenario(*s, c.scenario, c.out);
+        s->add_option("--id", o.id, "name of the data set")->capture_default_str();
+        s->add_option("--seed", o.seed, "of the noise and the outliers")->capture_default_str();
+        s->add_option("--rate", o.rate, "measurements a second")->capture_default_str();
+        s->add_option("--input-rate", o.input_rate, "input samples a second")
+            ->capture_default_str();
+        s->add_flag("--hold", hold_, "inputs hold between samples instead of going straight");
+        s->add_option("--relative", relative_, "bound as a share of the value");
+        s->add_option("--absolute", absolute_,
+                      "bound in the channel's unit: one for all, or one each for u v r x y psi")
+            ->expected(1, 6);
+        s->add_flag("--combined", combined_, "the sum of the relative and the absolute bound");
+        s->add_option("--noise", o.noise, "largest noise as a share of the bound, 0 to 1")
+            ->check(CLI::Range(0.0, 1.0))
+            ->capture_default_str();
+        s->add_option("--outliers", o.outliers, "samples spoilt on purpose in each scenario");
+        s->add_option("--outlier-size", o.outlier_size, "their distance from the truth, in bounds")
+            ->check(CLI::Range(1.0, 1e9))
+            ->capture_default_str();
+        s->add_option("--set", shared_.set, "true values, such as Sg=0.05");
+        s->add_option("--unknown", unknown_, "what is to be identified: Sv,Sg,L or m=1.2:1.4")
+            ->delimiter(',');
+        add_variants(*s, shared_);
+        s->callback([this] { action_ = [this] { return run_generate(); }; });
+    }
+
+    int run_generate() {
+        auto& o = generate_.options;
+        generate_.craft = shared_.craft();
+        generate_.command_line = line_;
+        if (!relative_.empty() && !absolute_.empty() && !combined_)
+            throw bad_request("--relative and --absolute together need --combined");
+        if (combined_ && (relative_.empty() || absolute_.empty()))
+            throw bad_request("--combined needs --relative and --absolute");
+        if (!relative_.empty()) {
+            o.relative = decimal(relative_, "--relative");
+            if (!o.relative->is_positive() || !(*o.relative < decimal("1", "")))
+                throw bad_request("--relative must be above 0 and below 1");
+        }
+        for (auto const& text : absolute_) {
+            o.absolute.push_back(decimal(text, "--absolute"));
+            if (!o.absolute.back().is_positive()) throw bad_request("--absolute must be above 0");
+        }
+        if (o.absolute.size() == 1) o.absolute.resize(hovercraft::channels.size(), o.absolute[0]);
+        o.interpolation = hold_ ? sivid::interpolation::hold : sivid::interpolation::linear;
+        o.set = constants_from(shared_.set);
+        o.unknown = unknown_from(unknown_);
+        return run(generate_);
+    }
+
+    void add_simulate() {
+        auto* const s =
+            app_.add_subcommand("simulate", "trajectories by Boost.Odeint, as CSV and pictures");
+        auto& c = simulate_;
+        add_scenario(*s, c.scenario, c.out);
+        s->add_option("--set", shared_.set, "values of constants, such as Sg=0.05");
+        s->add_option("--rate", c.rate, "rows of the CSV a second")->capture_default_str();
+        s->add_option("--input-rate", c.input_rate,
+                      "sample the inputs so often, as `generate` does; else their exact shapes")
+            ->check(CLI::PositiveNumber);
+        s->add_flag("--validated", c.validated, "the proven tube beside it");
+        add_variants(*s, shared_);
+        s->callback([this] {
+            action_ = [this] {
+                simulate_.craft = shared_.craft();
+                simulate_.set = constants_from(shared_.set);
+                simulate_.command_line = line_;
+                return run(simulate_);
+            };
+        });
+    }
+
+    void add_rank() {
+        auto* const s = app_.add_subcommand(
+            "rank", "the influence of each constant on each state equation, within proved bounds");
+        s->add_option("--out", rank_.out, "folder for ranking.html and ranking.csv")->required();
+        add_variants(*s, shared_);
+        s->callback([this] {
+            action_ = [this] {
+                rank_.craft = shared_.craft();
+                rank_.command_line = line_;
+                return run(rank_);
+            };
+        });
+    }
+
+    static void add_scenario(CLI::App& s, std::string& scenario, std::filesystem::path& out) {
+        std::string names = "all (S1, S2, S3), a JSON file, or one of:";
+        for (auto const& b : built_in_scenarios()) names += std::string{" "} + std::string{b.name};
+        s.add_option("--scenario", scenario, names)->required();
+        s.add_option("--out", out, "folder for the result")->required();
+    }
+
+    CLI::App app_{"Validated identification of a hovercraft"};
+    std::string line_;
+    shared_text shared_;
+    identify_command identify_;
+    generate_command generate_;
+    simulate_command simulate_;
+    rank_command rank_;
+    std::string relative_;
+    std::vector<std::string> absolute_, unknown_{"Sv", "Sg", "L"};
+    bool combined_ = false, hold_ = false;
+    std::function<int()> action_;
+};
+
+std::string command_line_of(int argc, char** argv) {
+    std::string text = "hovercraft";
+    for (int i = 1; i < argc; ++i) text += std::string{" "} + argv[i];
+    return text;
+}
+
+int refuse(std::exception const& e) {
+    std::cerr << "hovercraft: " << e.what() << "\n";
+    return exit_code::bad_input;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return program(command_line_of(argc, argv))(argc, argv);
+    } catch (sivid::input_error const& e) {
+        return refuse(e);
+    } catch (bad_request const& e) {
+        return refuse(e);
+    } catch (std::invalid_argument const& e) { // an unknown constant, for instance
+        return refuse(e);
+    } catch (std::exception const& e) {
+        std::cerr << "hovercraft: internal error: " << e.what() << "\n";
+        return exit_code::internal_error;
+    }
+}

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "commands.hpp"
+
+#include <sivid/enclosure/simulate.hpp>
+#include <sivid/enclosure/tube.hpp>
+#include <sivid/io/text_file.hpp>
+#include <sivid/number/decimal_output.hpp>
+#include <sivid/report/page.hpp>
+#include <sivid/report/plane_plot.hpp>
+#include <sivid/report/time_plot.hpp>
+#include <sivid/version.hpp>
+
+#include <cmath>
+#include <iostream>
+
+namespace hovercraft_example {
+
+namespace {
+
+namespace report = sivid::report;
+
+std::string shortest(double x) { return sivid::exact_decimal::shortest(x).text(); }
+
+/// One scenario, simulated and, on request, enclosed.
+class simulated_scenario {
+public:
+    simulated_scenario(sivid::recorded_model const& model, scenario_description const& s,
+                       simulate_command const& c)
+        : about_{model.about}, scenario_{s} {
+        sivid::parameter_choice constants;
+        for (auto const& [name, value] : c.set) constants.fixed[name] = *sivid::enclose(value);
+        auto const recorded = c.input_rate
+                                  ? record_inputs(s, *c.input_rate, 6, sivid::interpolation::linear)
+                                  : std::vector<sivid::dataset_input>{};
+        std::vector<sivid::signal> inputs;
+        for (std::size_t i = 0; i < s.inputs.size(); ++i) {
+            inputs.push_back(c.input_rate ? sivid::signal{recorded[i].signal}
+                                          : exact_signal(s.inputs[i], s.duration));
+        }
+        inputs_ = inputs;
+        flow_ = std::make_shared<sivid::flow const>(model, constants, inputs);
+        sivid::box start(s.initial.size());
+        std::vector<double> middle;
+        for (std::size_t i = 0; i < s.initial.size(); ++i) {
+            start[i] = s.initial[i].enclosure;
+            middle.push_back(mid(start[i]));
+        }
+        auto times = sample_times(s.duration, c.rate, 6, true);
+        if (times.back() < s.duration) times.push_back(s.duration);
+        line_ = sivid::approximate_simulator(*flow_)(middle, {}, 0, times, 1e-10);
+        if (!c.validated) return;
+        sivid::enclosure_options options;
+        options.maximum_step = s.duration / 300;
+        tube_ = std::make_unique<sivid::tube<sivid::interval>>(
+            sivid::integrate<sivid::interval>(flow_, start, sivid::box{}, 0, s.duration, options));
+    }
+
+    [[nodiscard]] std::string trajectory_csv() const {
+        std::string text = "t";
+        for (auto const& i : about_.inputs) text += std::string{","} + i.name;
+        for (auto const& c : about_.channels) text += std::string{","} + c.name;
+        text += "\n";
+        for (std::size_t k = 0; k < line_.times.size(); ++k) {
+            text += shortest(line_.times[k]);
+            for (std::size_t i = 0; i < inputs_.size(); ++i)
+                text += std::string{","} + shortest(input(i, line_.times[k]));
+            for (double const y : line_.outputs[k]) text += std::string{","} + shortest(y);
+            text += "\n";
+        }
+        return text;
+    }
+
+    [[nodiscard]] bool validated() const { return tube_ != nullptr; }
+    [[nodiscard]] bool complete() const { return !tube_ || tube_->complete(); }
+    [[nodiscard]] std::string failure() const {
+        auto const& why = *tube_->failure();
+        return why.message(about_.states[why.component].name);
+    }
+
+    [[nodiscard]] std::string tube_csv() const {
+        std::string text = "from,to";
+        for (auto const& s : about_.states)
+            text += std::string{","} + s.name + "_lower," + s.name + "_upper";
+        text += "\n";
+        for (auto const& step : tube_->steps()) {
+            text += shortest(step.from) + "," + shortest(step.to);
+            for (auto const& side : step.swept)
+                text += std::string{","} + sivid::to_decimal_lower(side.lower()) + "," +
+                        sivid::to_decimal_upper(side.upper());
+            text += "\n";
+        }
+        return text;
+    }
+
+    [[nodiscard]] std::string summary() const {
+        std::string text = scenario_.name + " at t = " + shortest(line_.times.back()) + " s:";
+        for (std::size_t c = 0; c < about_.channels.size(); ++c) {
+            double const y = line_.outputs.back()[c];
+            text += std::string{" "} + about_.channels[c].name + " = " +
+                    report::rounded_text(y, report::rounding::nearest, {.significant = 4});
+        }
+        if (tube_ && tube_->complete())
+            text += std::string{"\n  proved, width of the widest state: "} +
+                    report::rounded_text(width(tube_->at(tube_->end_time())), report::rounding::up,
+                                         {.significant = 2});
+        return text;
+    }
+
+    void add_to(report::page& page) const {
+        page.section(scenario_.name);
+        page.prose(scenario_.about);
+        // The states are the channels of this model, so that a step's box shows both.
+        std::vector<report::channel_series> all;
+        for (std::size_t i = 0; i < about_.states.size(); ++i) {
+            report::channel_series c{.name = about_.states[i].name, .unit = about_.states[i].unit};
+            for (std::size_t k = 0; k < line_.times.size(); ++k)
+                c.reference.push_back({line_.times[k], line_.states[k][i]});
+            if (tube_)
+                for (auto const& step : tube_->steps())
+                    c.tube.push_back(
+                        {step.from, step.to, {step.swept[i].lower(), step.swept[i].upper()}});
+            all.push_back(std::move(c));
+        }
+        std::string const tube =
+            tube_ ? " The band is proved: every exact solution runs within it at every instant. "
+                    "Where "
+                    "a state stays zero the band shows rounding errors only; see the power of ten "
+                    "at its axis."
+                  : "";
+        report::figure inputs{
+            .panels = {}, .title = "Inputs.", .caption = "What the craft was given."};
+        for (std::size_t i = 0; i < inputs_.size(); ++i) {
+            report::channel_series c{.name = about_.inputs[i].name, .unit = about_.inputs[i].unit};
+            for (double const t : line_.times) c.reference.push_back({t, input(i, t)});
+            inputs.panels.push_back(report::draw_time_plot(c, {.title = c.name}));
+        }
+        page.add(inputs);
+        report::figure states{.panels = {},
+                              .legend = report::time_plot_legend(all),
+                              .title = "States.",
+                              .caption =
+                                  std::string{"The dashed line is simulated in floating point by "
+                                              "Boost.Odeint and proves nothing."} +
+                                  tube};
+        for (auto const& c : all)
+            states.panels.push_back(report::draw_time_plot(c, {.title = c.name}));
+        page.add(states);
+
+        report::plane_series plane;
+        for (std::size_t k = 0; k < line_.states.size(); ++k) {
+            auto const& x = line_.states[k];
+            plane.reference.push_back({x[3], x[4]});
+            auto const every = std::max<std::size_t>(line_.states.size() / 10, 1);
+            if (k % every == every / 2) plane.poses.push_back({x[3], x[4], x[5]});
+        }
+        if (tube_)
+            for (auto const& step : tube_->steps())
+                plane.tube.push_back({{step.swept[3].lower(), step.swept[3].upper()},
+                                      {step.swept[4].lower(), step.swept[4].upper()}});
+        page.add(report::figure{
+            .panels = {report::draw_plane_plot(plane, {.width = 1000, .height = 330})},
+            .legend = report::plane_plot_legend(plane),
+            .title = "The motion seen from above.",
+            .caption =
+                std::string{
+                    "Equal scales on both axes; the arrowheads show where the craft points."} +
+                tube,
+            .layout = report::panel_layout::wide});
+    }
+
+private:
+    /// An input for tables and pictures.
+    [[nodiscard]] double input(std::size_t i, double t) const {
+        auto const* recorded = std::get_if<sivid::sampled_signal>(&inputs_[i]);
+        return recorded != nullptr ? recorded->approximate(t) : scenario_.inputs[i](t);
+    }
+
+    sivid::model_description const& about_;
+    scenario_description const& scenario_;
+    std::vector<sivid::signal> inputs_;
+    std::shared_ptr<sivid::flow const> flow_;
+    sivid::approximate_trajectory line_;
+    std::unique_ptr<sivid::tube<sivid::interval>> tube_;
+};
+
+} // namespace
+
+int run(simulate_command const& c) {
+    auto const model = sivid::record_model(c.craft);
+    auto const scenarios = find_scenarios(c.scenario, sivid::names_of(model.about));
+    std::vector<std::unique_ptr<simulated_scenario>> all;
+    for (auto const& s : scenarios)
+        all.push_back(std::make_unique<simulated_scenario>(model, s, c));
+    prepare_folder(c.out);
+    report::page page{{.kind = "Simulation",
+                       .title = c.scenario == "all" ? "Scenarios of Table 2.4" : scenarios[0].name,
+                       .lead = c.validated ? "The hovercraft, simulated and enclosed."
+                                           : "The hovercraft, simulated in floating point."}};
+    std::vector<std::string> warnings;
+    for (auto const& s : all)
+        if (!s->complete()) warnings.push_back(s->failure());
+    page.warnings(warnings);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        auto const& name = scenarios[k].name;
+        sivid::write_atomically(c.out / (name + ".trajectory.csv"), all[k]->trajectory_csv());
+        if (all[k]->validated())
+            sivid::write_atomically(c.out / (name + ".tube.csv"), all[k]->tube_csv());
+        all[k]->add_to(page);
+        std::cout << all[k]->summary() << "\n";
+        if (!all[k]->complete()) std::cout << "  " << all[k]->failure() << "\n";
+    }
+    page.footer({std::string{"sivid "} + std::string{sivid::version}, today(), machine_text(),
+                 c.command_line});
+    sivid::write_atomically(c.out / "simulation.html", page.str());
+    std::cout << "written: " << (c.out / "simulation.html").string() << "\n";
+    return 0;
+}
+
+} // namespace hovercraft_example

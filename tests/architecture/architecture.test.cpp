@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "architecture/rules.hpp"
+
+#include "support/catch.hpp"
+
+#include <unistd.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A small well-formed tree in a temporary folder, in which breaches are planted.
+class planted_tree {
+public:
+    planted_tree()
+        : root_{fs::temp_directory_path() /
+                std::string{"sivid_architecture_"}.append(std::to_string(::getpid()))} {
+        fs::remove_all(root_);
+        header("number/low.hpp", "#include <boost/numeric/interval.hpp>\n#include <vector>\n");
+        header("space/high.hpp", "#include <sivid/number/low.hpp>\n#include <Eigen/Core>\n");
+        write("include/sivid/sivid.hpp",
+              wrapped("sivid/sivid.hpp", "#include <sivid/number/low.hpp>\n"
+                                         "#include <sivid/space/high.hpp>\n"));
+        write("tests/sivid.test.cpp", "#include <sivid/sivid.hpp>\n");
+    }
+    ~planted_tree() { fs::remove_all(root_); }
+    planted_tree(planted_tree const&) = delete;
+    planted_tree& operator=(planted_tree const&) = delete;
+
+    void write(fs::path const& file, std::string const& text) const {
+        fs::create_directories((root_ / file).parent_path());
+        std::ofstream{root_ / file} << text;
+    }
+    static std::string wrapped(fs::path const& name, std::string const& body) {
+        auto const guard = architecture::guard_of(name);
+        return "// SPDX-License-Identifier: MIT\n#ifndef " + guard + "\n#define " + guard + "\n" +
+               body + "#endif\n";
+    }
+    /// A header in good form with its test.
+    void header(std::string const& name, std::string const& body) const {
+        write("include/sivid/" + name, wrapped("sivid/" + name, body));
+        write(fs::path{"tests/" + name}.replace_extension(".test.cpp"),
+              "// a comment\n#include <sivid/" + name + ">\n");
+    }
+    void remove(fs::path const& file) const { fs::remove(root_ / file); }
+
+    std::string findings() const {
+        std::string text;
+        for (auto const& f : architecture::check(root_))
+            text += f.rule + ": " + f.file + ": " + f.what + "\n";
+        return text;
+    }
+
+private:
+    fs::path root_;
+};
+
+} // namespace
+
+TEST_CASE("the tree keeps its rules") {
+    std::string text;
+    for (auto const& f : architecture::check(SIVID_SOURCE_DIR))
+        text += f.rule + ": " + f.file + ": " + f.what + "\n";
+    CHECK(text == "");
+}
+
+TEST_CASE("a tree in good form has no finding") { CHECK(planted_tree{}.findings() == ""); }
+
+TEST_CASE("planted breaches are found") {
+    planted_tree const tree;
+    SECTION("upward include") {
+        tree.header("number/low.hpp", "#  include <sivid/space/high.hpp>\n");
+        CHECK_THAT(tree.findings(),
+                   ContainsSubstring(
+                       "upward: include/sivid/number/low.hpp: includes <sivid/space/high.hpp>"));
+        CHECK_THAT(tree.findings(), ContainsSubstring("cycle: "));
+    }
+    SECTION("the umbrella counts as upward") {
+        tree.header("number/low.hpp", "#include <sivid/sivid.hpp>\n");
+        CHECK_THAT(tree.findings(), ContainsSubstring("upward: include/sivid/number/low.hpp"));
+    }
+    SECTION("a cycle on one floor") {
+        tree.header("number/low.hpp", "#include <sivid/number/lower.hpp>\n");
+        tree.header("number/lower.hpp", "#include <sivid/number/low.hpp>\n");
+        CHECK_THAT(tree.findings(), ContainsSubstring("cycle: "));
+    }
+    SECTION("quoted include") {
+        tree.header("space/high.hpp", "#include \"../number/low.hpp\"\n");
+        CHECK_THAT(tree.findings(),
+                   ContainsSubstring("include form: include/sivid/space/high.hpp"));
+    }
+    SECTION("include of nothing") {
+        tree.header("space/high.hpp", "#include <sivid/number/gone.hpp>\n");
+        CHECK_THAT(tree.findings(), ContainsSubstring("missing: include/sivid/space/high.hpp"));
+    }
+    SECTION("length") {
+        std::string longer;
+        for (int i = 0; i < 396; ++i) longer += "\n"; // 400 lines with the four of the wrapping
+        tree.header("number/low.hpp", longer);
+        CHECK(tree.findings() == "");
+        tree.header("number/low.hpp", longer + "\n");
+        CHECK_THAT(tree.findings(),
+                   ContainsSubstring("size: include/sivid/number/low.hpp: 401 lines"));
+    }
+    SECTION("no test") {
+        tree.remove("tests/space/high.test.cpp");
+        CHECK_THAT(
+            tree.findings(),
+            ContainsSubstring("test: include/sivid/space/high.hpp: no tests/space/high.test.cpp"));
+    }
+    SECTION("a test of something else") {
+        tree.write("tests/space/high.test.cpp", "#include <sivid/number/low.hpp>\n");
+        CHECK_THAT(tree.findings(),
+                   ContainsSubstring("test: include/sivid/space/high.hpp: its test"));
+    }
+    SECTION("internal headers need no test") {
+        tree.header("space/detail/inner.hpp", "");
+        tree.remove("tests/space/detail/inner.test.cpp");
+        CHECK(tree.findings() == "");
+    }
+    SECTION("licence line") {
+        tree.write("include/sivid/number/low.hpp",
+                   std::string{"\n"}.append(planted_tree::wrapped("sivid/number/low.hpp", "")));
+        CHECK_THAT(tree.findings(), ContainsSubstring("licence: include/sivid/number/low.hpp"));
+    }
+    SECTION("guard") {
+        tree.write("include/sivid/number/low.hpp",
+                   planted_tree::wrapped("sivid/number/lo.hpp", ""));
+        CHECK_THAT(tree.findings(),
+                   ContainsSubstring(
+                       "guard: include/sivid/number/low.hpp: no guard SIVID_NUMBER_LOW_HPP"));
+    }
+    SECTION("unknown floor") {
+        tree.header("attic/old.hpp", "");
+        CHECK_THAT(tree.findings(), ContainsSubstring("floor: include/sivid/attic/old.hpp"));
+    }
+    SECTION("absent from the umbrella") {
+        tree.header("paving/fresh.hpp", "");
+        CHECK_THAT(tree.findings(), ContainsSubstring("umbrella: include/sivid/paving/fresh.hpp"));
+    }
+    SECTION("printing") {
+        tree.header("number/low.hpp", "inline void f() { std::cerr << 1; }\n");
+        CHECK_THAT(tree.findings(), ContainsSubstring("silence: include/sivid/number/low.hpp"));
+    }
+}
+
+TEST_CASE("packages are kept to the floors that may use them") {
+    using architecture::package_allowed;
+    for (auto name : {"nlohmann/json.hpp", "fmt/format.h", "CLI/CLI.hpp", "tbb/parallel_for.h",
+                      "mpfr.h", "gmp.h", "boost/multiprecision/mpfi.hpp", "boost/filesystem.hpp",
+                      "benchmark/benchmark.h", "unistd.h"}) {
+        CAPTURE(name);
+        CHECK_FALSE(package_allowed(name, "number", "interval.hpp"));
+        CHECK_FALSE(package_allowed(name, "diagnosis", "gap.hpp"));
+    }
+    for (auto name : {"vector", "boost/numeric/odeint.hpp", "Eigen/Core", "immintrin.h",
+                      "sivid/number/interval.hpp"}) {
+        CAPTURE(name);
+        CHECK(package_allowed(name, "number", "interval.hpp"));
+    }
+    CHECK(package_allowed("nlohmann/json.hpp", "io", "json.hpp"));
+    CHECK(package_allowed("mpfr.h", "number", "mpfr_oracle.hpp"));
+    CHECK(package_allowed("fmt/format.h", "number", "format.hpp"));
+    CHECK(package_allowed("tbb/parallel_for.h", "parallel", "threads.hpp"));
+    CHECK_FALSE(package_allowed("tbb/parallel_for.h", "io", "json.hpp"));
+    CHECK_FALSE(package_allowed("CLI/CLI.hpp", "io", "json.hpp"));
+}

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+// The rules of the source tree, as a function from a tree to a list of findings.
+#ifndef SIVID_TESTS_ARCHITECTURE_RULES_HPP
+#define SIVID_TESTS_ARCHITECTURE_RULES_HPP
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace architecture {
+
+namespace fs = std::filesystem;
+
+inline constexpr std::array<std::string_view, 10> floors{
+    "number", "space",     "measurement", "model",  "enclosure",
+    "paving", "diagnosis", "io",          "report", "parallel"};
+inline constexpr std::size_t core_floors = 7;
+inline constexpr std::size_t hard_line_limit = 400;
+
+/// One breach: which rule, in which file (relative to the tree), and what.
+struct finding {
+    std::string rule, file, what;
+};
+
+inline std::size_t rank_of(std::string_view floor) {
+    auto const found = std::find(floors.begin(), floors.end(), floor);
+    return static_cast<std::size_t>(found - floors.begin()); // floors.size() when unknown
+}
+
+inline std::vector<std::string> lines_of(fs::path const& file) {
+    std::ifstream in{file};
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    return lines;
+}
+
+/// The name between <> or "" of an include line, with its opening character in front; "" otherwise.
+inline std::string included(std::string const& line) {
+    std::string_view rest = line;
+    auto const skip_space = [&] {
+        while (!rest.empty() && (rest.front() == ' ' || rest.front() == '\t'))
+            rest.remove_prefix(1);
+    };
+    auto const skip = [&](std::string_view word) {
+        if (rest.substr(0, word.size()) != word) return false;
+        rest.remove_prefix(word.size());
+        skip_space();
+        return true;
+    };
+    skip_space();
+    if (!skip("#") || !skip("include") || rest.empty()) return {};
+    char const close = rest.front() == '<' ? '>' : '"';
+    auto const end = rest.find(close, 1);
+    return end == std::string_view::npos ? std::string{} : std::string{rest.substr(0, end)};
+}
+
+inline std::string guard_of(fs::path const& relative_to_include) {
+    std::string guard;
+    for (char c : relative_to_include.generic_string())
+        guard += std::isalnum(static_cast<unsigned char>(c))
+                     ? static_cast<char>(std::toupper(static_cast<unsigned char>(c)))
+                     : '_';
+    return guard;
+}
+
+inline bool starts_with(std::string_view text, std::string_view head) {
+    return text.substr(0, head.size()) == head;
+}
+
+/// Whether `name` (as in <name>) may be included from this floor's header called `file`.
+inline bool package_allowed(std::string_view name, std::string_view floor, std::string_view file) {
+    bool const multiprecision =
+        floor == "number" && (starts_with(file, "mp_") || starts_with(file, "mpfr_"));
+    auto const one_of = [&](std::initializer_list<std::string_view> heads) {
+        return std::any_of(heads.begin(), heads.end(),
+                           [&](auto head) { return starts_with(name, head); });
+    };
+    if (one_of({"mpfr.h", "mpfi.h", "gmp.h", "gmpxx.h", "boost/multiprecision/mpfr",
+                "boost/multiprecision/mpfi", "boost/multiprecision/gmp"}))
+        return multiprecision;
+    if (one_of({"boost/mpi", "boost/serialization"})) return floor == "parallel";
+    if (one_of({"boost/filesystem", "boost/program_options", "boost/regex", "boost/thread",
+                "boost/iostreams", "boost/log"}))
+        return false; // these need compiled libraries
+    if (one_of({"sivid/", "boost/", "Eigen/"})) return true;
+    if (one_of({"nlohmann/"})) return floor == "io" || floor == "report";
+    if (one_of({"fmt/"})) return floor == "number" && file == "format.hpp";
+    if (one_of({"tbb/", "oneapi/", "mpi.h"})) return floor == "parallel";
+    if (name.find('/') != std::string_view::npos)
+        return one_of({"sys/"}) && (floor == "io" || floor == "parallel");
+    if (name.find('.') == std::string_view::npos) return true; // the standard library
+    if (one_of({"unistd.h", "fcntl.h"})) return floor == "io" || floor == "parallel";
+    static std::set<std::string_view> const processor{"immintrin.h", "emmintrin.h", "xmmintrin.h"};
+    return processor.count(name) > 0;
+}
+
+/// All breaches of the rules in the tree that holds include/sivid and tests.
+inline std::vector<finding> check(fs::path const& tree) {
+    std::vector<finding> findings;
+    auto const include = tree / "include";
+    std::map<std::string, std::vector<std::string>> graph; // header -> headers included
+    std::set<std::string> umbrella_members, core_headers;
+
+    for (auto const& entry : fs::recursive_directory_iterator{include / "sivid"}) {
+        if (!entry.is_regular_file()) continue;
+        auto const path = entry.path();
+        auto const relative = fs::relative(path, include);
+        auto const name = relative.generic_string();
+        auto const report = [&](std::string rule, std::string what) {
+            findings.push_back({std::move(rule), "include/" + name, std::move(what)});
+        };
+        if (path.extension() != ".hpp") {
+            report("extension", "only .hpp files belong here");
+            continue;
+        }
+
+        auto part = std::next(relative.begin());
+        bool const at_root = std::next(part) == relative.end();
+        std::string const floor = at_root ? "" : part->string();
+        auto const rank = rank_of(floor);
+        if (!at_root && rank == floors.size()) {
+            report("floor", "unknown floor '" + floor + "'");
+            continue;
+        }
+        bool const internal = name.find("/detail/") != std::string::npos;
+        auto const file = path.filename().string();
+        bool const optional =
+            floor == "number" &&
+            (starts_with(file, "mp_") || starts_with(file, "mpfr_") || file == "format.hpp");
+        if (!at_root && !internal && !optional && rank < core_floors) core_headers.insert(name);
+
+        auto const lines = lines_of(path);
+        if (lines.size() > hard_line_limit) report("size", std::to_string(lines.size()) + " lines");
+        if (lines.empty() || lines.front() != "// SPDX-License-Identifier: MIT")
+            report("licence", "the first line is not the SPDX line");
+
+        auto const guard = guard_of(relative);
+        auto const opened = std::find(lines.begin(), lines.end(), "#ifndef " + guard);
+        if (opened == lines.end() || std::next(opened) == lines.end() ||
+            *std::next(opened) != "#define " + guard)
+            report("guard", "no guard " + guard);
+
+        for (auto const& line : lines) {
+            for (std::string_view word :
+                 {"std::cout", "std::cerr", "std::clog", "printf(", "std::exit", "std::abort"})
+                if (line.find(word) != std::string::npos &&
+                    line.find(std::string{"n"} + "printf(") == std::string::npos)
+                    report("silence", std::string{"uses "}.append(word));
+            auto const target = included(line);
+            if (target.empty()) continue;
+            std::string const other = target.substr(1);
+            if (target.front() == '"')
+                report("include form", "\"" + other + "\" instead of <sivid/floor/file.hpp>");
+            if (!package_allowed(other, floor, file)) report("package", "includes <" + other + ">");
+            if (!starts_with(other, "sivid/")) continue;
+            graph[name].push_back(other);
+            if (name == "sivid/sivid.hpp") umbrella_members.insert(other);
+            if (!fs::exists(include / other))
+                report("missing", "includes <" + other + ">, which does not exist");
+            auto const slash = other.find('/', 6);
+            if (slash == std::string::npos) {
+                if (!at_root && other != "sivid/version.hpp")
+                    report("upward", "includes <" + other + ">");
+            } else if (!at_root && rank_of(other.substr(6, slash - 6)) > rank) {
+                report("upward", "includes <" + other + ">");
+            }
+        }
+
+        if (!internal) {
+            auto const test = tree / "tests" / floor / (path.stem().string() + ".test.cpp");
+            if (!fs::exists(test)) {
+                report("test",
+                       std::string{"no "}.append(fs::relative(test, tree).generic_string()));
+            } else {
+                auto const text = lines_of(test);
+                bool const named = std::any_of(text.begin(), text.end(), [&](auto const& line) {
+                    return included(line) == "<" + name;
+                });
+                if (!named) report("test", "its test does not include it");
+            }
+        }
+    }
+
+    for (auto const& header : core_headers)
+        if (!umbrella_members.empty() && umbrella_members.count(header) == 0)
+            findings.push_back(
+                {"umbrella", "include/" + header, "not in sivid.hpp (scripts/update-umbrella)"});
+
+    // Cycles, which the guards would hide: depth-first search with the usual three colours.
+    std::map<std::string, int> colour;
+    std::function<void(std::string const&)> const visit = [&](std::string const& header) {
+        colour[header] = 1;
+        for (auto const& next : graph[header]) {
+            if (colour[next] == 1)
+                findings.push_back(
+                    {"cycle", "include/" + header, "and " + next + " include each other"});
+            if (colour[next] == 0) visit(next);
+        }
+        colour[header] = 2;
+    };
+    std::vector<std::string> headers;
+    for (auto const& [header, list] : graph) headers.push_back(header);
+    for (auto const& header : headers)
+        if (colour[header] == 0) visit(header);
+    return findings;
+}
+
+} // namespace architecture
+
+#endif // SIVID_TESTS_ARCHITECTURE_RULES_HPP

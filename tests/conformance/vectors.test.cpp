@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "conformance/vectors.hpp"
+#include "support/catch.hpp"
+
+#include <sivid/number/interval_traits.hpp>
+#include <sivid/number/relations.hpp>
+
+#include <functional>
+#include <iostream>
+#include <map>
+#include <string>
+
+namespace {
+
+using conformance::vector_line;
+using sivid::interval;
+
+#if defined(SIVID_SHARED_DIR)
+std::string const vector_folder = SIVID_SHARED_DIR "/vectors/";
+#else
+std::string const vector_folder;
+#endif
+
+/// Both files together; says so when they are not there.
+std::vector<vector_line> all_vectors() {
+    std::vector<vector_line> lines;
+    for (char const* name : {"itf1788.txt", "mpfi_elem.txt"}) {
+        auto const more = conformance::read_vectors(vector_folder + name);
+        if (more.empty())
+            std::cout << "skipped: no vectors in '" << vector_folder << name
+                      << "' (they are not part of the repository)\n";
+        lines.insert(lines.end(), more.begin(), more.end());
+    }
+    return lines;
+}
+
+void require_clean(conformance::report const& r) {
+    for (auto const& line : r.unsound) UNSCOPED_INFO("unsound: " << line);
+    for (auto const& line : r.loose) UNSCOPED_INFO("not tight: " << line);
+    CHECK(r.unsound.empty());
+    CHECK(r.loose.empty());
+}
+
+bool same(double a, double b) { return a == b || (a != a && b != b); }
+
+} // namespace
+
+TEST_CASE("vectors: every interval function contains, arithmetic is tight") {
+    auto const lines = all_vectors();
+    if (lines.empty()) return;
+    conformance::report r;
+    conformance::run_vectors<interval>(lines, true, r);
+    require_clean(r);
+    CHECK(r.run > 5900);
+}
+
+TEST_CASE("vectors: numbers and relations of intervals") {
+    auto const lines = all_vectors();
+    if (lines.empty()) return;
+    using tr = sivid::interval_traits<interval>;
+    std::map<std::string, std::function<double(interval)>> const numbers{
+        {"inf", [](interval x) { return sivid::is_empty(x) ? conformance::inf : lower(x); }},
+        {"sup", [](interval x) { return sivid::is_empty(x) ? -conformance::inf : upper(x); }},
+        {"width", [](interval x) { return sivid::width(x); }},
+        {"mid", [](interval x) { return sivid::mid(x); }},
+        {"rad", [](interval x) { return sivid::rad(x); }},
+        {"mag", [](interval x) { return sivid::mag(x); }},
+        {"mig", [](interval x) { return sivid::mig(x); }}};
+    std::map<std::string, std::function<bool(interval, interval)>> const relations{
+        {"subset", [](interval a, interval b) { return sivid::subset(a, b); }},
+        {"interior", [](interval a, interval b) { return sivid::interior(a, b); }},
+        {"equal", [](interval a, interval b) { return sivid::equal(a, b); }},
+        {"less", [](interval a, interval b) { return sivid::less(a, b); }},
+        {"strictless", [](interval a, interval b) { return sivid::strict_less(a, b); }},
+        {"precedes", [](interval a, interval b) { return sivid::precedes(a, b); }},
+        {"strictprecedes", [](interval a, interval b) { return sivid::strict_precedes(a, b); }},
+        {"disjoint", [](interval a, interval b) { return sivid::disjoint(a, b); }}};
+    std::map<std::string, std::function<bool(interval)>> const predicates{
+        {"isempty", [](interval x) { return sivid::is_empty(x); }},
+        {"isentire", [](interval x) { return sivid::is_entire(x); }},
+        {"issingleton", [](interval x) { return sivid::is_point(x); }},
+        {"iscommon", [](interval x) { return sivid::is_bounded(x); }}};
+    std::size_t run = 0;
+    for (auto const& line : lines) {
+        INFO(line.text);
+        if (auto const f = numbers.find(line.operation); f != numbers.end()) {
+            CHECK(same(f->second(tr::bounds(line.argument(0), line.argument(1))), line.result(0)));
+        } else if (auto const g = relations.find(line.operation); g != relations.end()) {
+            bool const got = g->second(tr::bounds(line.argument(0), line.argument(1)),
+                                       tr::bounds(line.argument(2), line.argument(3)));
+            CHECK(got == (line.results.at(0) == "true"));
+        } else if (auto const h = predicates.find(line.operation); h != predicates.end()) {
+            CHECK(h->second(tr::bounds(line.argument(0), line.argument(1))) ==
+                  (line.results.at(0) == "true"));
+        } else if (line.operation == "ismember") {
+            CHECK(sivid::contains(tr::bounds(line.argument(1), line.argument(2)),
+                                  line.argument(0)) == (line.results.at(0) == "true"));
+        } else {
+            continue;
+        }
+        ++run;
+    }
+    CHECK(run > 200);
+}
+
+TEST_CASE("vectors: the operators of the vocabulary type contain") {
+    auto const lines = all_vectors();
+    if (lines.empty()) return;
+    std::map<std::string, std::function<interval(interval, interval)>> const operators{
+        {"add", [](interval a, interval b) { return a + b; }},
+        {"sub", [](interval a, interval b) { return a - b; }},
+        {"mul", [](interval a, interval b) { return a * b; }},
+        {"div", [](interval a, interval b) { return a / b; }}};
+    conformance::report r;
+    for (auto const& line : lines) {
+        auto const f = operators.find(line.operation);
+        if (f == operators.end()) continue;
+        using tr = sivid::interval_traits<interval>;
+        r.result(line.text.c_str(),
+                 f->second(tr::bounds(line.argument(0), line.argument(1)),
+                           tr::bounds(line.argument(2), line.argument(3))),
+                 line.result(0), line.result(1), line.operation != "div");
+    }
+    require_clean(r);
+    CHECK(r.run > 900);
+}

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/io/csv_table.hpp>
+
+#include "io/support.hpp"
+#include "support/catch.hpp"
+
+using namespace sivid;
+
+TEST_CASE("comments, blank lines, CRLF, spaces and a missing last line end are accepted") {
+    csv_table const table{
+        "a.csv",
+        "# made by hand\r\nt, u ,u_err\r\n\r\n0,1,0.1\r\n# between\r\n 1 ,, \t\r\n2,3,0.1"};
+    CHECK(table.headings() == std::vector<std::string>{"t", "u", "u_err"});
+    CHECK(table.heading_line() == 2);
+    REQUIRE(table.rows().size() == 3);
+    CHECK(table.rows()[0].line == 4);
+    CHECK(table.rows()[1].line == 6);
+    CHECK(table.rows()[1].cells == std::vector<std::string>{"1", "", ""});
+    CHECK(table.rows()[2].cells == std::vector<std::string>{"2", "3", "0.1"});
+    CHECK(table.number(table.rows()[2], 2) == *exact_decimal::parse("0.1"));
+    CHECK(table.column("u_err") == 2u);
+    CHECK_FALSE(table.column("v"));
+}
+
+TEST_CASE("a table may have no rows") { CHECK(csv_table{"a.csv", "t,u"}.rows().empty()); }
+
+TEST_CASE("a byte-order mark is accepted in a file") {
+    io_support::temporary_folder const folder;
+    folder.write("a.csv", "\xEF\xBB\xBFt,u\n0,1\n");
+    CHECK(csv_table::read(folder.path() / "a.csv").headings().front() == "t");
+}
+
+TEST_CASE("every defect of a table is one error with line and column") {
+    struct defect {
+        std::string text;
+        std::size_t line, column;
+        std::string message;
+    };
+    for (auto const& d :
+         std::vector<defect>{{"", 0, 0, "no heading line"},
+                             {"# only a comment\n\n", 0, 0, "no heading line"},
+                             {"t,u,u\n", 1, 3, "appears twice"},
+                             {"t,,u\n", 1, 2, "without a heading"},
+                             {"t,u\n0,1\n1\n", 3, 2, "1 cells in a table of 2 columns"},
+                             {"t,u\n0,1,2\n", 2, 3, "3 cells in a table of 2 columns"},
+                             {"t,u\n0,\"1\"\n", 2, 2, "quotation mark"}}) {
+        CAPTURE(d.text);
+        try {
+            csv_table const table{"a.csv", d.text};
+            FAIL_CHECK("was accepted");
+        } catch (input_error const& e) {
+            CHECK(e.place().file == "a.csv");
+            CHECK(e.place().line == d.line);
+            CHECK(e.place().column == d.column);
+            CHECK_THAT(e.what(), ContainsSubstring(d.message));
+        }
+    }
+}
+
+TEST_CASE("a cell that is no finite number is an error") {
+    for (auto const& cell : {"", "x", "nan", "NaN", "inf", "-inf", "infinity", "0x10", "1;5",
+                             "1.5.2", "1e", "1e999", "-1e400", "1e999999999999"}) {
+        CAPTURE(cell);
+        csv_table const table{"a.csv", "t,u\n0," + std::string{cell} + "\n"};
+        try {
+            (void)table.number(table.rows()[0], 1);
+            FAIL_CHECK("was accepted");
+        } catch (input_error const& e) {
+            CHECK(e.place().line == 2);
+            CHECK(e.place().column == 2);
+            CHECK(e.place().heading == "u");
+        }
+    }
+}

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/measurement/signal.hpp>
+
+#include "support/catch.hpp"
+#include "support/models.hpp"
+#include "support/power_series.hpp"
+#include "support/random.hpp"
+
+#include <cmath>
+#include <limits>
+
+using namespace sivid;
+using support::between;
+using support::draws;
+using support::encloses;
+using support::mp;
+
+namespace {
+
+/// The line of piece k in 50 digits.
+mp on_piece(sampled_signal const& s, std::size_t k, mp const& t) {
+    auto const& times = s.times();
+    auto const& values = s.values();
+    if (s.kind() == interpolation::hold || times.size() == 1) return values[k];
+    mp const slope = (mp(values[k + 1]) - mp(values[k])) / (mp(times[k + 1]) - mp(times[k]));
+    return mp(values[k]) + slope * (t - mp(times[k]));
+}
+
+} // namespace
+
+TEST_CASE("pieces and knots of a sampled signal") {
+    sampled_signal const line({0, 1, 3}, {0, 2, 1}, interpolation::linear);
+    CHECK(line.piece(-5) == 0);
+    CHECK(line.piece(0) == 0);
+    CHECK(line.piece(0.5) == 0);
+    CHECK(line.piece(1) == 1);
+    CHECK(line.piece(3) == 1); // the last piece goes on to the right
+    CHECK(line.piece(9) == 1);
+    CHECK(line.next_knot(-1) == 0);
+    CHECK(line.next_knot(0) == 1);
+    CHECK(line.next_knot(2.5) == 3);
+    CHECK(line.next_knot(3) == HUGE_VAL);
+    CHECK(line.approximate(0.5) == 1);
+    CHECK(line.approximate(2) == 1.5);
+    sampled_signal const step({0, 1, 3}, {0, 2, 1}, interpolation::hold);
+    CHECK(step.piece(0.999) == 0);
+    CHECK(step.piece(1) == 1);
+    CHECK(step.piece(3) == 2);
+    CHECK(step.approximate(0.5) == 0);
+    CHECK(step.approximate(1) == 2);
+    CHECK(step.approximate(7) == 1);
+    sampled_signal const single({2}, {5}, interpolation::linear);
+    CHECK(single.piece(0) == 0);
+    CHECK(single.approximate(9) == 5);
+    CHECK(single.value<interval>(0, interval(9.0)).lower() == 5);
+    CHECK(single.slope<interval>(0).upper() == 0);
+}
+
+TEST_CASE("values and slopes of pieces are enclosed") {
+    draws d(41);
+    for (int round = 0; round < 200; ++round) {
+        std::vector<double> times{d.uniform(-1, 1)};
+        std::vector<double> values{d.uniform(-3, 3)};
+        for (std::size_t i = 0; i < 4; ++i) {
+            times.push_back(times.back() + d.uniform(0.01, 1));
+            values.push_back(d.coin() ? d.uniform(-3, 3) : values.back());
+        }
+        auto const kind = d.coin() ? interpolation::linear : interpolation::hold;
+        sampled_signal const s(times, values, kind);
+        for (std::size_t k = 0; k < 4; ++k) {
+            interval const over = between(times[k], times[k + 1]);
+            double const t = d.in(over);
+            auto const exact = on_piece(s, k, t);
+            CHECK(encloses(s.value<interval>(k, interval(t)), exact));
+            CHECK(encloses(s.value<interval>(k, over), exact));
+            CHECK(std::abs(s.approximate_on(k, t) - static_cast<double>(exact)) < 1e-13);
+            auto const slope = s.slope<interval>(k);
+            mp const run = mp(times[k + 1]) - mp(times[k]);
+            mp const rise = kind == interpolation::hold ? mp(0) : mp(values[k + 1]) - mp(values[k]);
+            CHECK(encloses(slope, rise / run));
+            CHECK(width(slope) < 1e-11);
+            // Beyond its piece a polynomial goes on.
+            CHECK(encloses(s.value<interval>(k, interval(times[k + 1] + 1)),
+                           on_piece(s, k, mp(times[k + 1] + 1))));
+        }
+    }
+}
+
+TEST_CASE("a signal refuses what it cannot mean") {
+    using s = sampled_signal;
+    auto const kind = interpolation::linear;
+    double const nan = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THROWS_AS(s({}, {}, kind), std::invalid_argument);
+    CHECK_THROWS_AS(s({0, 1}, {0}, kind), std::invalid_argument);
+    CHECK_THROWS_AS(s({0, 0}, {0, 1}, kind), std::invalid_argument);
+    CHECK_THROWS_AS(s({1, 0}, {0, 1}, kind), std::invalid_argument);
+    CHECK_THROWS_AS(s({0, nan}, {0, 1}, kind), std::invalid_argument);
+    CHECK_THROWS_AS(s({0, 1}, {nan, 1}, kind), std::invalid_argument);
+    CHECK_THROWS_AS(s({0, HUGE_VAL}, {0, 1}, kind), std::invalid_argument);
+    CHECK_THROWS_AS(s({0, 1}, {0, HUGE_VAL}, kind), std::invalid_argument);
+    CHECK_THROWS_WITH(s({0, 0}, {0, 1}, kind), ContainsSubstring("increase strictly"));
+}

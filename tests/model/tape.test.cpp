@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/model/tape.hpp>
+
+#include "support/catch.hpp"
+#include "support/formulas.hpp"
+
+using namespace sivid;
+
+TEST_CASE("a tape separates literals, parameters and what varies") {
+    graph g;
+    expression const x(g, g.leaf(operation::state, 0));
+    expression const p(g, g.leaf(operation::constant, 0));
+    (void)exp(expression(g, g.leaf(operation::state, 5))); // not needed
+    tape const program(g, {(exp(p) * 2.5 * sin(x)).in(g), sqr(p).in(g)});
+    CHECK(program.literals().size() == 1);
+    CHECK(program.literals()[0].nearest == 2.5);
+    CHECK(program.constant().size() == 4); // p, exp p, times 2.5, p^2
+    CHECK(program.varying().size() == 4);  // x, sin x, its companion cos x, the product
+    CHECK(program.slots() == 9);
+    CHECK(program.output_varies(0));
+    CHECK_FALSE(program.output_varies(1));
+    CHECK_FALSE(program.has_kinks());
+    for (auto const& i : program.varying()) {
+        if (i.op == operation::mul) CHECK(i.a_varies != i.b_varies);
+    }
+    CHECK(tape(g, {abs(x).in(g)}).has_kinks());
+}
+
+TEST_CASE("operands are computed before they are used") {
+    support::draws d(141);
+    for (int round = 0; round < 200; ++round) {
+        auto const f = support::random_formula(d, 12, false);
+        graph g;
+        node_id root = 0;
+        try {
+            root = support::recorded(f, g);
+        } catch (std::domain_error const&) {
+            continue;
+        }
+        tape const program(g, {root});
+        std::vector<bool> known(program.slots(), false);
+        for (auto const s : program.literal_slots()) known[s] = true;
+        bool ordered = true;
+        auto const run = [&](std::vector<instruction> const& part) {
+            for (auto const& i : part) {
+                if (!is_leaf(i.op)) ordered = ordered && known[i.a];
+                if (is_binary(i.op)) ordered = ordered && known[i.b];
+                known[i.target] = true;
+            }
+        };
+        run(program.constant());
+        run(program.varying());
+        CHECK(ordered);
+        CHECK(known[program.output(0)]);
+    }
+}

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "support/catch.hpp"
+#include "support/taylor_models.hpp"
+
+#include <sivid/number/bernstein.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+using namespace sivid;
+using support::draws;
+using support::random_model;
+using support::rational;
+
+namespace {
+
+bool contains_exactly(interval const& x, rational const& v) {
+    return rational(x.lower()) <= v && v <= rational(x.upper());
+}
+
+template <std::size_t N, std::size_t D>
+void check_samples(std::uint64_t seed, int trials) {
+    draws d(seed);
+    for (int trial = 0; trial < trials; ++trial) {
+        auto const a = random_model<N, D>(d, 1, 1, 0.1);
+        auto const values = range(a);
+        REQUIRE(subset(values, rough_range(a)));
+        for (int sample = 0; sample < 60; ++sample) {
+            auto const q = support::short_point(d, N);
+            CAPTURE(N, D, trial, sample);
+            REQUIRE(contains_exactly(values, support::member<rational>(d, a, q)));
+        }
+    }
+}
+
+} // namespace
+
+TEST_CASE("the Bernstein basis: coefficients of powers by exact conversion") {
+    // sum_k m[e][k] binomial(D,k) s^k (1-s)^(D-k) is (2s-1)^e: compared at D+1 points.
+    constexpr std::size_t degree = 5;
+    auto const& m = number_detail::bernstein_of_power<degree>;
+    for (std::size_t e = 0; e <= degree; ++e) {
+        for (std::size_t point = 0; point <= degree; ++point) {
+            double const s = static_cast<double>(point) / degree;
+            double sum = 0;
+            for (std::size_t k = 0; k <= degree; ++k) {
+                REQUIRE(std::abs(m[e][k]) <= 1);
+                sum += m[e][k] * static_cast<double>(binomial(degree, k)) *
+                       std::pow(s, static_cast<double>(k)) *
+                       std::pow(1 - s, static_cast<double>(degree - k));
+            }
+            REQUIRE(std::abs(sum - std::pow(2 * s - 1, static_cast<double>(e))) <= 1e-13);
+        }
+    }
+}
+
+TEST_CASE("ranges contain all values") {
+    check_samples<1, 0>(1, 5);
+    check_samples<1, 6>(2, 30);
+    check_samples<2, 4>(3, 30);
+    check_samples<3, 2>(4, 20);
+    check_samples<4, 3>(5, 10);
+}
+
+TEST_CASE("ranges are exact where an extremum lies at a corner") {
+    draws d(6);
+    for (int trial = 0; trial < 50; ++trial) {
+        // all coefficients positive: the maximum is at (1, 1)
+        auto a = random_model<2, 4>(d, 1, 1, 0);
+        a.r = 0;
+        double sum = 0;
+        for (auto& c : a.c) sum += c = std::abs(c);
+        a.finish();
+        REQUIRE(range(a).upper() <= sum * (1 + 1e-12));
+        REQUIRE(range(a).upper() >= sum * (1 - 1e-12));
+        // multi-affine: all extrema at corners
+        using model = taylor_model<2, 2>;
+        auto b = model::variable(0, d.uniform(-1, 1), d.uniform(-1, 1)) *
+                 model::variable(1, d.uniform(-1, 1), d.uniform(-1, 1));
+        double lo = HUGE_VAL, hi = -HUGE_VAL;
+        for (double const x : {-1.0, 1.0}) {
+            for (double const y : {-1.0, 1.0}) {
+                double const v = support::value<double>(b, {x, y});
+                lo = std::min(lo, v);
+                hi = std::max(hi, v);
+            }
+        }
+        REQUIRE(range(b).lower() >= lo - 1e-13);
+        REQUIRE(range(b).upper() <= hi + 1e-13);
+    }
+}
+
+TEST_CASE("ranges see cancellation that the norms do not") {
+    // (q - 1)^4 on [-1, 1] is within [0, 16]; its norm is 16 about 1.
+    using model = taylor_model<1, 4>;
+    auto const x = model::variable(0, -1, 1);
+    auto const y = x * x * x * x;
+    REQUIRE(rough_range(y).lower() < -13);
+    REQUIRE(range(y).lower() > -1e-12);
+    REQUIRE(range(y).lower() <= 0);
+}
+
+TEST_CASE("ranges fall back to the norms where there are too many coefficients") {
+    draws d(7);
+    auto const a = random_model<9, 2>(d, 1, 1, 0);
+    auto const values = range(a);
+    REQUIRE(values.lower() == rough_range(a).lower());
+    for (int sample = 0; sample < 50; ++sample) {
+        auto const q = support::short_point(d, 9);
+        REQUIRE(contains_exactly(values, support::value<rational>(a, q)));
+    }
+}
+
+TEST_CASE("ranges of tiny and huge models") {
+    draws d(8);
+    for (double const size : {5e-324, 1e-310, 1e-290, 1e150, 1e300}) {
+        for (int trial = 0; trial < 10; ++trial) {
+            auto const a = random_model<2, 3>(d, size, 1, size);
+            auto const values = range(a);
+            for (int sample = 0; sample < 10; ++sample) {
+                auto const q = support::short_point(d, 2);
+                CAPTURE(size, trial);
+                REQUIRE(contains_exactly(values, support::member<rational>(d, a, q)));
+            }
+        }
+    }
+}

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/space/box.hpp>
+
+#include "support/catch.hpp"
+#include "support/models.hpp"
+#include "support/power_series.hpp"
+#include "support/random.hpp"
+
+#include <cmath>
+#include <vector>
+
+using namespace sivid;
+using support::between;
+using support::draws;
+using support::mp;
+
+namespace {
+
+using traits = interval_traits<interval>;
+
+/// Corners are multiples of 2^-20, so that 50 digits hold a volume exactly.
+box random_box(draws& d, std::size_t n, double size) {
+    auto const corner = [&] { return std::ldexp(std::round(std::ldexp(d.uniform(-size, size), 20)), -20); };
+    std::vector<interval> sides;
+    for (std::size_t i = 0; i < n; ++i) {
+        double const a = corner();
+        double const b = corner();
+        sides.push_back(between(std::min(a, b), std::max(a, b)));
+    }
+    return box(std::move(sides));
+}
+
+/// Exact volume: products of exact differences.
+mp volume(box const& x) {
+    mp v = 1;
+    for (auto const& s : x) v *= mp(s.upper()) - mp(s.lower());
+    return v;
+}
+
+bool interiors_meet(box const& a, box const& b) {
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        if (!(std::max(a[i].lower(), b[i].lower()) < std::min(a[i].upper(), b[i].upper()))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+} // namespace
+
+TEST_CASE("a box is empty when one side is") {
+    CHECK_FALSE(is_empty(box{between(0, 1), between(2, 2)}));
+    CHECK(is_empty(box{between(0, 1), traits::empty()}));
+    CHECK_FALSE(is_empty(box(3)));
+    CHECK(box(3).size() == 3);
+    CHECK(contains(box(2), {0, 0}));
+}
+
+TEST_CASE("hull, intersection, subset and containment of boxes agree on points") {
+    draws d(11);
+    for (int round = 0; round < 500; ++round) {
+        auto const a = random_box(d, 3, 4);
+        auto const b = random_box(d, 3, 4);
+        auto const both = intersect(a, b);
+        auto const around = hull(a, b);
+        CHECK(subset(a, around));
+        CHECK(subset(b, around));
+        CHECK(subset(both, a));
+        CHECK(subset(both, b));
+        CHECK(subset(a, b) == (!is_empty(both) && contains(b, {a[0].lower(), a[1].lower(), a[2].lower()}) &&
+                               contains(b, {a[0].upper(), a[1].upper(), a[2].upper()})));
+        auto const x = d.in(around);
+        CHECK(contains(around, x));
+        CHECK((contains(a, x) && contains(b, x)) == (!is_empty(both) && contains(both, x)));
+    }
+    box const none{between(0, 1), traits::empty()};
+    box const some{between(2, 3), between(4, 5)};
+    CHECK(subset(none, some));
+    CHECK(subset(hull(none, some), some));
+    CHECK(subset(hull(some, none), some));
+    CHECK(is_empty(intersect(none, some)));
+}
+
+TEST_CASE("the middle of a box is in the box, finite even when a side is unbounded") {
+    box const x{between(1, 3), traits::entire(), between(0, HUGE_VAL)};
+    auto const m = mid(x);
+    CHECK(m[0] == 2);
+    for (double const v : m) CHECK(std::isfinite(v));
+    CHECK(contains(x, m));
+    CHECK(width(x) == HUGE_VAL);
+    CHECK(width(box{between(1, 3), between(0, 5)}) == 5);
+}
+
+TEST_CASE("bisection covers the box and shares the face") {
+    draws d(12);
+    for (int round = 0; round < 200; ++round) {
+        auto const x = random_box(d, 3, 4);
+        auto const i = d.below(3);
+        double const at = d.in(x[i]);
+        auto const [low, high] = bisect(x, i, at);
+        CHECK(subset(low, x));
+        CHECK(subset(high, x));
+        CHECK(low[i].lower() == x[i].lower());
+        CHECK(low[i].upper() == at);
+        CHECK(high[i].lower() == at);
+        CHECK(high[i].upper() == x[i].upper());
+        for (std::size_t j = 0; j < 3; ++j) {
+            if (j == i) continue;
+            CHECK(low[j].lower() == x[j].lower());
+            CHECK(high[j].upper() == x[j].upper());
+        }
+    }
+}
+
+TEST_CASE("the difference of boxes covers, without the removed interior and without overlap") {
+    draws d(13);
+    for (int round = 0; round < 500; ++round) {
+        auto const n = 1 + d.below(4);
+        auto const outer = random_box(d, n, 4);
+        auto inner = random_box(d, n, 4);
+        if (d.coin()) inner = intersect(inner, outer);
+        auto const pieces = difference(outer, inner);
+        CHECK(pieces.size() <= 2 * n);
+        auto const common = intersect(outer, inner);
+        mp sum = is_empty(common) ? mp(0) : volume(common);
+        for (std::size_t k = 0; k < pieces.size(); ++k) {
+            CHECK(subset(pieces[k], outer));
+            CHECK_FALSE(is_empty(pieces[k]));
+            if (!is_empty(inner)) CHECK_FALSE(interiors_meet(pieces[k], inner));
+            for (std::size_t l = 0; l < k; ++l) CHECK_FALSE(interiors_meet(pieces[k], pieces[l]));
+            sum += volume(pieces[k]);
+        }
+        CHECK(sum == volume(outer)); // exactly
+        for (int sample = 0; sample < 20; ++sample) {
+            auto const x = d.in(outer);
+            bool covered = !is_empty(inner) && contains(inner, x);
+            for (auto const& piece : pieces) covered = covered || contains(piece, x);
+            CHECK(covered);
+        }
+    }
+}
+
+TEST_CASE("the difference with nothing, with all, and of nothing") {
+    box const x{between(0, 1), between(0, 1)};
+    box const none{between(0, 1), traits::empty()};
+    REQUIRE(difference(x, none).size() == 1);
+    CHECK(subset(x, difference(x, none)[0]));
+    CHECK(difference(x, x).empty());
+    CHECK(difference(none, x).empty());
+    CHECK(difference(x, box{between(5, 6), between(0, 1)}).size() == 1);
+    // A slice of zero width is removed only up to its closure.
+    auto const halves = difference(x, box{between(0.5, 0.5), between(0, 1)});
+    REQUIRE(halves.size() == 2);
+    CHECK(halves[0][0].upper() == 0.5);
+    CHECK(halves[1][0].lower() == 0.5);
+}
+
+TEST_CASE("relative volumes enclose the exact quotient") {
+    draws d(14);
+    for (int round = 0; round < 300; ++round) {
+        auto const whole = random_box(d, 3, 4);
+        auto const part = intersect(whole, random_box(d, 3, 4));
+        auto const v = relative_volume(part, whole);
+        mp const exact = is_empty(part) ? mp(0) : volume(part) / volume(whole);
+        CHECK(mp(v.lower()) <= exact);
+        CHECK(exact <= mp(v.upper()));
+        CHECK(width(v) <= 1e-14);
+    }
+    box const flat{between(0, 2), between(3, 3)};
+    CHECK(relative_volume(box{between(0, 1), between(3, 3)}, flat).upper() == 0.5);
+    CHECK(relative_volume(flat, flat).lower() == 1);
+}
