@@ -159,7 +159,7 @@ int run(identify_command const& c) {
     progress_line progress(c.quiet);
     sivid::identify_options options;
     options.algorithm = algorithm_of(c.algorithm);
-    if (c.accuracy) options.search.accuracy = *c.accuracy;
+    options.search.accuracy = c.accuracy;
     if (c.boxes) options.search.boxes = *c.boxes;
     options.search.seconds = c.compare ? 0.6 * c.budget : c.budget;
     options.search.progress = [&](sivid::paving_progress const& p) { return progress(p); };

@@ -141,7 +141,8 @@ private:
             ->capture_default_str();
         s->add_option("--accuracy", c.accuracy,
                       "leave boxes undecided when no side is wider than this share of the prior")
-            ->check(CLI::Range(1e-15, 1.0));
+            ->check(CLI::Range(1e-15, 1.0))
+            ->capture_default_str();
         s->add_option("--budget", c.budget, "seconds")
             ->check(CLI::Range(0.0, 1e9))
             ->capture_default_str();

@@ -184,8 +184,8 @@ TEST_CASE("reduce keeps every member") {
 }
 
 TEST_CASE("reduce: the argument, step by step") {
-    // All columns of the reduced set that are new are constant: the frame's axes times sides, and the
-    // axes' box. Exactly: Q^-1 (sum of the dropped columns) lies within the sides.
+    // All columns of the reduced set that are new are constant: the frame's axes times sides, and
+    // the axes' box. Exactly: Q^-1 (sum of the dropped columns) lies within the sides.
     draws d(4);
     for (int trial = 0; trial < 10; ++trial) {
         std::size_t const n = 3;

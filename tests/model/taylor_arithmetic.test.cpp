@@ -84,16 +84,16 @@ int check_formula(draws& d, double spread) {
         }
         reference exact;
         try {
-            exact = support::values<reference>(
-                        f,
-                        [&](operation op, std::size_t i) {
-                            return op == operation::time ? t : op == operation::state ? x[i] : p[i];
-                        },
-                        [](support::formula::term const& n, reference const& a,
-                           reference const& b) {
-                            support::require_defined(n, a.c[0], b.c[0], true);
-                        })
-                        .back();
+            exact =
+                support::values<reference>(
+                    f,
+                    [&](operation op, std::size_t i) {
+                        return op == operation::time ? t : op == operation::state ? x[i] : p[i];
+                    },
+                    [](support::formula::term const& n, reference const& a, reference const& b) {
+                        support::require_defined(n, a.c[0], b.c[0], true);
+                    })
+                    .back();
         } catch (support::not_defined const&) {
             continue;
         } catch (support::too_large const&) {
@@ -111,7 +111,6 @@ int check_formula(draws& d, double spread) {
     }
     return 1;
 }
-
 
 } // namespace
 

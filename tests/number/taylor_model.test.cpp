@@ -277,9 +277,7 @@ TEST_CASE("Taylor models: forgetting the last variable keeps all its values") {
 
 TEST_CASE("Taylor models: overflow is never a finite radius with a wrong polynomial") {
     using model = taylor_model<1, 2>;
-    auto const hidden = [](model const& a) {
-        return std::isfinite(a.r) && !all_finite(a);
-    };
+    auto const hidden = [](model const& a) { return std::isfinite(a.r) && !all_finite(a); };
     double const big = 1e155;
     REQUIRE_FALSE(hidden(scaled(model::constant(big), big)));
     REQUIRE_FALSE(hidden(model::variable(0, big, big) * model::variable(0, big, 1)));

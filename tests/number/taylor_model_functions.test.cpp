@@ -63,7 +63,7 @@ std::vector<function> const functions = {
 
 template <std::size_t N, std::size_t D>
 taylor_model<N, D> image(int which, taylor_model<N, D> const& s, bool& undefined) {
-    constexpr univariate by_series[] = {univariate::exp, univariate::log,  univariate::sin,
+    constexpr univariate by_series[] = {univariate::exp, univariate::log, univariate::sin,
                                         univariate::cos, univariate::tan, univariate::atan,
                                         univariate::tanh};
     if (which == 0) return reciprocal(s, undefined);
@@ -139,8 +139,7 @@ TEST_CASE("arguments at or beyond the end of a domain are reported") {
     using model = taylor_model<1, 2>;
     auto const reports = [](int which, double centre, double slope, double radius) {
         bool undefined = false;
-        auto const y =
-            image(which, widened(model::variable(0, centre, slope), radius), undefined);
+        auto const y = image(which, widened(model::variable(0, centre, slope), radius), undefined);
         return undefined && !std::isfinite(y.r);
     };
     for (int const which : {0, 1, 3}) { // 1/s, sqrt, log

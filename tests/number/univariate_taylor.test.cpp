@@ -20,9 +20,9 @@ namespace {
 constexpr std::size_t order = 9;
 
 using table = std::vector<std::pair<univariate, std::string>>;
-table const functions = {{univariate::exp, "exp"},   {univariate::log, "log"},
-                         {univariate::sin, "sin"},   {univariate::cos, "cos"},
-                         {univariate::tan, "tan"},   {univariate::atan, "atan"},
+table const functions = {{univariate::exp, "exp"},  {univariate::log, "log"},
+                         {univariate::sin, "sin"},  {univariate::cos, "cos"},
+                         {univariate::tan, "tan"},  {univariate::atan, "atan"},
                          {univariate::tanh, "tanh"}};
 
 /// \f$ f^{(k)}(x)/k! \f$, k = 0 .. order, each by a formula of its own (not a recurrence in k).
@@ -35,7 +35,9 @@ std::vector<mp> exact_coefficients(univariate f, mp const& x) {
     for (std::size_t k = 0; k <= order; ++k) {
         if (k > 0) factorial *= static_cast<unsigned>(k);
         switch (f) {
-        case univariate::exp: y.push_back(exp(x) / factorial); break;
+        case univariate::exp:
+            y.push_back(exp(x) / factorial);
+            break;
         case univariate::log:
             y.push_back(k == 0 ? mp(log(x))
                                : mp((k % 2 == 1 ? 1 : -1) /
@@ -70,7 +72,8 @@ std::vector<mp> exact_coefficients(univariate f, mp const& x) {
             }
             mp const angle = atan2(mp(1), x);
             mp const size = pow(sqrt(1 + x * x), static_cast<int>(k));
-            mp const value = sin(static_cast<unsigned>(k) * angle) / (static_cast<unsigned>(k) * size);
+            mp const value =
+                sin(static_cast<unsigned>(k) * angle) / (static_cast<unsigned>(k) * size);
             y.push_back(k % 2 == 1 ? value : mp(-value));
             break;
         }
@@ -147,8 +150,8 @@ TEST_CASE("Taylor coefficients report where a function is not smooth") {
     REQUIRE(reports(univariate::tan, 1.5, 1.6));
     REQUIRE(reports(univariate::tan, -4.0, 4.0));
     REQUIRE_FALSE(reports(univariate::tan, -1.57, 1.57));
-    for (auto const f : {univariate::exp, univariate::sin, univariate::cos, univariate::atan,
-                         univariate::tanh}) {
+    for (auto const f :
+         {univariate::exp, univariate::sin, univariate::cos, univariate::atan, univariate::tanh}) {
         REQUIRE_FALSE(reports(f, -1e300, 1e300));
     }
 }

@@ -19,8 +19,8 @@
 
 namespace support {
 
-using rational = multiprecision::number<multiprecision::cpp_rational_backend,
-                                        multiprecision::et_off>;
+using rational =
+    multiprecision::number<multiprecision::cpp_rational_backend, multiprecision::et_off>;
 
 /// The tables of a model's monomials.
 template <std::size_t N, std::size_t D>
@@ -65,8 +65,8 @@ rational size(exact_polynomial<N> const& a) {
     for (auto const& term : a) s += multiprecision::abs(term.second);
     return s;
 }
-/// Whether the radius covers the difference of all coefficients: of what was rounded and of what was
-/// cut off.
+/// Whether the radius covers the difference of all coefficients: of what was rounded and of what
+/// was cut off.
 template <std::size_t N, std::size_t D>
 bool covers(sivid::taylor_model<N, D> const& a, exact_polynomial<N> const& p) {
     return size(sum(exact(a), p, rational(-1))) <= rational(a.r);

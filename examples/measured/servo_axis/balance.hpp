@@ -55,6 +55,7 @@ public:
         for (double r = 0.25; r < 10; r *= 1.15) rates_.push_back(r);
         for (auto const& w : windows) {
             auto& all = windows_.emplace_back();
+            all.position = w.position[0];
             all.velocity = w.velocity;
             // What is left over at the end of a window is not used.
             for (std::size_t k = 0; k + knots < w.times.size(); k += knots) {
@@ -87,7 +88,8 @@ private:
 
     struct slice {
         interval length, elapsed; ///< elapsed: [0, length]
-        interval push;            ///< impulse of the force over the slice
+        interval push;            ///< impulse of the force over the slice: int F
+        interval travel;          ///< iint F
         interval pushes;          ///< the same over all parts that begin with the slice
         interval force;           ///< its range
     };
@@ -103,7 +105,8 @@ private:
     };
     /// What does not depend on the parameters, at the end of a block.
     struct relation {
-        interval a;       ///< A
+        interval position; ///< measured
+        interval a;        ///< A
         interval e;       ///< E, without what the curvature between samples adds
         interval weight;  ///< int w
         interval impulse; ///< int w F
@@ -111,7 +114,7 @@ private:
         std::array<memory, levels> level;
     };
     struct prepared {
-        interval velocity;
+        interval position, velocity; ///< of the start
         std::vector<block> blocks;
         std::vector<std::vector<relation>> relations; ///< by lambda
     };
@@ -138,6 +141,7 @@ private:
             s.length = h / n;
             s.force = sivid::hull(begin, end);
             s.push = s.length * (begin + end) / 2.0;
+            s.travel = sqr(s.length) * (begin * 2.0 + end) / 6.0;
             s.elapsed = sivid::hull(interval(0.0), s.length);
             s.pushes = s.elapsed * s.force;
             if (i % parts == 0) result.bend += h * sqr(h) / 12.0;
@@ -150,6 +154,7 @@ private:
             s.elapsed = sivid::hull(interval(0.0), s.length);
             s.force = sivid::hull(left.force, right.force);
             s.push = left.push + right.push;
+            s.travel = left.travel + left.push * right.length + right.travel;
             s.pushes = sivid::hull(left.pushes, left.push + right.pushes);
         }
         return result;
@@ -185,6 +190,7 @@ private:
             }
             auto const tau = span(w, 0, to);
             relation r;
+            r.position = w.position[to];
             r.a = lambda * (w.position[to] - w.position[0]) -
                   (1.0 - sivid::exp(-lambda * tau)) * w.velocity;
             r.e = e;
@@ -221,7 +227,7 @@ private:
 
     /// All trajectories that start a slice at the point v: where they are during it and at its end.
     struct motion {
-        interval over, end;
+        interval over, end, way; ///< way: by how far the position changes
     };
     [[nodiscard]] bool follow(box const& p, slice const& s, double v, motion& out) const {
         interval const start(v);
@@ -241,6 +247,12 @@ private:
                 out.end = traits::add(
                     start,
                     traits::div(traits::sub(s.push, traits::mul(s.length, force)), p[0], undefined));
+                out.way = traits::add(
+                    traits::mul(s.length, start),
+                    traits::div(traits::sub(s.travel,
+                                            traits::mul(traits::mul(traits::sqr(s.length), force),
+                                                        interval(0.5))),
+                                p[0], undefined));
                 return true;
             }
             double const room = 0.15 * sivid::width(image) + 1e-9;
@@ -262,7 +274,7 @@ private:
 
     /// Where a window has got to.
     struct progress {
-        interval velocity;
+        interval position, velocity;
         interval once = interval(0.0);     ///< int s
         interval weighted = interval(0.0); ///< int w s
         interval over;                     ///< velocities of the last block
@@ -288,6 +300,7 @@ private:
         if (!followed) return false;
         auto const& m = c.level[level];
         now.velocity = interval(low.end.lower(), high.end.upper());
+        now.position = traits::add(now.position, interval(low.way.lower(), high.way.upper()));
         now.over = sivid::is_empty(now.over) ? over : sivid::hull(now.over, over);
         now.weighted = traits::add(
             traits::add(traits::mul(m.decay, now.weighted), traits::mul(m.grown, now.once)),
@@ -301,6 +314,7 @@ private:
         auto const rate = nearest_rate(p);
         interval const lambda(rates_[rate]);
         progress now;
+        now.position = w.position;
         now.velocity = w.velocity;
         interval bent(0.0);
         for (std::size_t k = 0; k < w.blocks.size(); ++k) {
@@ -308,6 +322,8 @@ private:
             auto const& c = w.relations[rate][k];
             now.over = traits::empty();
             if (!pass(p, b, c, 0, 0, now)) return true;
+            now.position = traits::intersect(now.position, c.position);
+            if (sivid::is_empty(now.position)) return false;
             // Between samples q leaves its chord by -(u (h - u)/2) v', under the integral h^3/12.
             bool undefined = false;
             auto const brake = traits::add(

@@ -27,6 +27,14 @@ inline std::string all_digits(double x) {
     return exact_decimal::parse(buffer.data()).value_or(exact_decimal{}).text();
 }
 
+/// A text as a cell: in quotes where a comma or a quote would break the row.
+inline std::string cell(std::string const& text) {
+    if (text.find_first_of(",\"") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (char const c : text) quoted += c == '"' ? std::string{"\"\""} : std::string(1, c);
+    return quoted + "\"";
+}
+
 /// Decimals for a side of a box that the proof covers: inward for an inside box (never more than
 /// was proved), outward for the others (nothing that was not excluded is left out).
 inline std::pair<std::string, std::string> side_text(interval const& side, bool inside) {
@@ -90,9 +98,10 @@ inline std::pair<std::string, std::string> side_text(interval const& side, bool 
                                                : std::vector<interval>(samples.size(), no_bound);
         for (std::size_t i = 0; i < samples.size(); ++i) {
             auto const& m = samples[i];
-            text += problem.experiments[e].name + "," + exact_decimal::shortest(m.time).text() +
-                    "," + channels[m.channel].name + "," + channels[m.channel].unit + "," +
-                    to_decimal_lower(m.bound.lower()) + "," + to_decimal_upper(m.bound.upper());
+            text += io_detail::cell(problem.experiments[e].name) + "," +
+                    exact_decimal::shortest(m.time).text() + "," + channels[m.channel].name + "," +
+                    channels[m.channel].unit + "," + to_decimal_lower(m.bound.lower()) + "," +
+                    to_decimal_upper(m.bound.upper());
             text += std::string{","} + lower_text(outputs[i]) + "," + upper_text(outputs[i]);
             bool const violated = found.witness && i < found.witness->violated[e].size() &&
                                   found.witness->violated[e][i];

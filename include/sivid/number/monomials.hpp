@@ -15,10 +15,11 @@ namespace sivid {
     return result;
 }
 
-/// The monomials \f$ q^\alpha \f$, \f$ |\alpha| \le D \f$, of N variables in graded order, with
-/// their multiplication table; all of it is computed at compile time.
+namespace number_detail {
+
+/// Builds the tables of `monomials`.
 template <std::size_t N, std::size_t D>
-struct monomials {
+struct monomial_builder {
     static constexpr std::size_t count = binomial(N + D, D);
     /// Pairs (i, j) whose product has degree at most D.
     static constexpr std::size_t products = binomial(2 * N + D, D);
@@ -95,8 +96,6 @@ struct monomials {
         return t;
     }
 
-    static const table data;
-
 private:
     /// Index of the product of monomials i and j: the rank of its exponents within its degree.
     static constexpr std::size_t find(table const& t, std::size_t i, std::size_t j) {
@@ -120,8 +119,14 @@ private:
     }
 };
 
+} // namespace number_detail
+
+/// The monomials \f$ q^\alpha \f$, \f$ |\alpha| \le D \f$, of N variables in graded order, with
+/// their multiplication table; all of it is computed at compile time.
 template <std::size_t N, std::size_t D>
-inline constexpr typename monomials<N, D>::table monomials<N, D>::data = monomials<N, D>::make();
+struct monomials : number_detail::monomial_builder<N, D> {
+    static constexpr auto data = number_detail::monomial_builder<N, D>::make();
+};
 
 } // namespace sivid
 

@@ -184,7 +184,8 @@ template <std::size_t N, std::size_t D>
     double const norm = a.polynomial_norm();
     double const size = std::abs(m);
     for (auto& c : a.c) c *= m;
-    a.r = (a.r * (size + rho) + norm * (rho + model::unit * size)) * model::up + model::tiny;
+    // norm * size first: the unit times a tiny factor would underflow.
+    a.r = (a.r * (size + rho) + norm * rho + norm * size * model::unit) * model::up + model::tiny;
     a.finish();
     if (!std::isfinite(a.polynomial_norm())) a.r = std::numeric_limits<double>::infinity();
     return a;

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+// The program as a user runs it: exit codes, files, messages, Ctrl-C.
+#include "io/support.hpp"
+#include "support/catch.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+using io_support::temporary_folder;
+
+namespace {
+
+/// A running program whose outputs go to files.
+class child {
+public:
+    child(std::vector<std::string> arguments, fs::path const& folder)
+        : out_{folder / "stdout.txt"}, err_{folder / "stderr.txt"} {
+        arguments.insert(arguments.begin(), HOVERCRAFT_PROGRAM);
+        id_ = ::fork();
+        if (id_ == 0) {
+            redirect(out_, STDOUT_FILENO);
+            redirect(err_, STDERR_FILENO);
+            std::vector<char*> argv;
+            for (auto& a : arguments) argv.push_back(a.data());
+            argv.push_back(nullptr);
+            ::execv(HOVERCRAFT_PROGRAM, argv.data());
+            ::_exit(127);
+        }
+    }
+    void signal(int number) const { ::kill(id_, number); }
+    /// The exit code, or 1000 + the signal that ended it.
+    int wait() const {
+        int status = 0;
+        ::waitpid(id_, &status, 0);
+        return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+    }
+    std::string out() const { return text(out_); }
+    std::string err() const { return text(err_); }
+
+private:
+    static void redirect(fs::path const& file, int to) {
+        int const handle = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        ::dup2(handle, to);
+        ::close(handle);
+    }
+    static std::string text(fs::path const& file) {
+        std::ifstream in{file, std::ios::binary};
+        return {std::istreambuf_iterator<char>{in}, {}};
+    }
+    fs::path out_, err_;
+    ::pid_t id_ = 0;
+};
+
+struct finished {
+    int code;
+    std::string out, err;
+};
+
+finished run(std::vector<std::string> const& arguments) {
+    temporary_folder const folder;
+    child const c(arguments, folder.path());
+    int const code = c.wait();
+    return {code, c.out(), c.err()};
+}
+
+nlohmann::json json_of(fs::path const& file) {
+    std::ifstream in{file};
+    return nlohmann::json::parse(in);
+}
+
+std::string const h3 = std::string{SIVID_SOURCE_DIR} + "/examples/hovercraft/data/h3";
+
+/// Rows of a table, with the number of cells of each checked.
+std::size_t rows(fs::path const& file) {
+    std::ifstream in{file};
+    std::size_t count = 0, commas = 0;
+    for (std::string line; std::getline(in, line); ++count) {
+        auto const here = static_cast<std::size_t>(std::count(line.begin(), line.end(), ','));
+        if (count == 0) commas = here;
+        CHECK(here == commas);
+    }
+    return count;
+}
+
+} // namespace
+
+TEST_CASE("identify writes a report, a result and two tables, and says 0 when consistent") {
+    temporary_folder const folder;
+    auto const out = folder.path() / "deep" / "out";
+    auto const r = run({"identify", h3, "--out", out.string(), "--boxes", "60"});
+    CHECK(r.code == 0);
+    auto const result = json_of(out / "result.json");
+    CHECK(result["format"] == "sivid-identification-1");
+    CHECK(result["dataset"] == "h3");
+    CHECK(result["verdict"] == "consistent");
+    CHECK(result["stop_reason"] == "box budget spent");
+    CHECK(result["combinations"][0]["formula"] == "Sg*L");
+    CHECK(rows(out / "boxes.csv") > 1);
+    CHECK(rows(out / "outputs.csv") == 181);
+    std::ifstream page{out / "report.html"};
+    std::string const text{std::istreambuf_iterator<char>{page}, {}};
+    CHECK_THAT(text, StartsWith("<!DOCTYPE html>") && ContainsSubstring("</html>"));
+    CHECK_THAT(text, ContainsSubstring("known only through"));
+    CHECK_THAT(text, !ContainsSubstring("<script") && !ContainsSubstring("src=\"http"));
+    CHECK_THAT(r.out, ContainsSubstring("h3: consistent") && ContainsSubstring("Sv in [") &&
+                          ContainsSubstring("report.html"));
+    CHECK_THAT(r.err, ContainsSubstring("boxes") && ContainsSubstring("of the prior"));
+    for (auto const& entry : fs::directory_iterator{out})
+        CHECK_THAT(entry.path().filename().string(), !ContainsSubstring(".part"));
+}
+
+TEST_CASE("--quiet says nothing on stderr; 3 when undecided, 4 when inconsistent") {
+    temporary_folder const folder;
+    auto const data = (folder.path() / "data").string(), out = (folder.path() / "out").string();
+    REQUIRE(run({"generate", "--scenario", "S1", "--out", data, "--absolute", "0.05", "--outliers",
+                 "2", "--seed", "3"})
+                .code == 0);
+    CHECK(json_of(data + "/truth.json")["outliers"].size() == 2);
+    // The data set allows the outliers that were planted.
+    auto r = run({"identify", data, "--out", out, "--quiet", "--boxes", "20"});
+    CHECK(r.code == 0);
+    CHECK(r.err.empty());
+    CHECK(json_of(out + "/result.json")["outliers"]["forced"].size() == 2);
+    r = run({"identify", data, "--out", out, "--quiet", "--outliers", "0"});
+    CHECK(r.code == 4);
+    CHECK(json_of(out + "/result.json")["verdict"] == "inconsistent");
+    CHECK_THAT(r.out, ContainsSubstring("inconsistent"));
+    r = run({"identify", h3, "--out", out, "--quiet", "--algorithm", "report-1", "--boxes", "3"});
+    CHECK(r.code == 3);
+    CHECK(json_of(out + "/result.json")["verdict"] == "undecided");
+    r = run(
+        {"identify", data, "--out", out, "--quiet", "--algorithm", "report-2", "--outliers", "3"});
+    CHECK(r.code == 0);
+}
+
+TEST_CASE("--compare shows Algorithm 1 beside") {
+    temporary_folder const folder;
+    auto const out = folder.path() / "out";
+    auto const r =
+        run({"identify", h3, "--out", out.string(), "--quiet", "--compare", "--boxes", "20"});
+    CHECK(r.code == 0);
+    std::ifstream page{out / "report.html"};
+    std::string const text{std::istreambuf_iterator<char>{page}, {}};
+    CHECK_THAT(text, ContainsSubstring("Algorithm 1 of the report"));
+}
+
+TEST_CASE("bad input or usage: one message, exit code 2, nothing written") {
+    temporary_folder const folder;
+    auto const data = folder.path() / "data";
+    auto const out = folder.path() / "out";
+    REQUIRE(
+        run({"generate", "--scenario", "S1", "--out", data.string(), "--absolute", "0.05"}).code ==
+        0);
+    auto const refused = [&](std::vector<std::string> const& arguments,
+                             std::string const& message) {
+        INFO(message);
+        auto const r = run(arguments);
+        CHECK(r.code == 2);
+        CHECK_THAT(r.err, ContainsSubstring(message));
+        CHECK(r.out.empty());
+        CHECK_FALSE(fs::exists(out));
+    };
+    auto const o = out.string();
+    refused({"identify", (folder.path() / "nothing").string(), "--out", o}, "no such folder");
+    refused({"identify", h3}, "--out");
+    refused({"identify", h3, "--out", o, "--algorithm", "guess"}, "guess");
+    refused({"identify", h3, "--out", o, "--accuracy", "2"}, "--accuracy");
+    refused({"identify", h3, "--out", o, "--lift", "wing"}, "wing");
+    refused({"fly"}, "");
+    refused({"generate", "--scenario", "S7", "--out", o, "--absolute", "0.1"}, "S7");
+    refused({"generate", "--scenario", "S1", "--out", o}, "no error bound");
+    refused({"generate", "--scenario", "S1", "--out", o, "--relative", "0.1", "--absolute", "0.1"},
+            "--combined");
+    refused({"generate", "--scenario", "S1", "--out", o, "--relative", "abc"}, "'abc'");
+    refused({"generate", "--scenario", "S1", "--out", o, "--absolute", "0.1", "--set", "Q=1"},
+            "unknown constant 'Q'");
+    refused({"generate", "--scenario", "S1", "--out", o, "--absolute", "0.1", "--unknown", "D11"},
+            "nominal value is 0");
+    refused(
+        {"generate", "--scenario", "S1", "--out", o, "--absolute", "0.1", "--unknown", "m=1:1.2"},
+        "outside its prior");
+    refused({"simulate", "--scenario", "S1", "--out", o, "--set", "m"}, "name=value");
+
+    // A defect deep in a data set: file, line and column.
+    std::ofstream{data / "S1.measurements.csv", std::ios::app} << "0.95,1,0.05\n";
+    refused({"identify", data.string(), "--out", o}, "S1.measurements.csv: line ");
+    // A folder that cannot be made.
+    std::ofstream{folder.path() / "file"} << "x";
+    auto const r = run({"identify", h3, "--out", (folder.path() / "file" / "out").string()});
+    CHECK(r.code == 2);
+    CHECK_THAT(r.err, ContainsSubstring("cannot be created"));
+}
+
+TEST_CASE("help is no error") {
+    CHECK(run({"--help"}).code == 0);
+    auto const r = run({"generate", "--help"});
+    CHECK(r.code == 0);
+    CHECK_THAT(r.out, ContainsSubstring("--relative") && ContainsSubstring("S3"));
+}
+
+TEST_CASE("Ctrl-C stops with what is proved until then; a second one ends the program") {
+    using namespace std::chrono_literals;
+    temporary_folder const folder;
+    auto const out = folder.path() / "out";
+    auto const wait_for_progress = [](child const& c) {
+        for (int k = 0; k < 1200 && c.err().find("waiting") == std::string::npos; ++k)
+            std::this_thread::sleep_for(50ms);
+        CHECK_THAT(c.err(), ContainsSubstring("waiting"));
+    };
+    {
+        child const c(
+            {"identify", h3, "--out", out.string(), "--budget", "600", "--accuracy", "1e-9"},
+            folder.path());
+        wait_for_progress(c);
+        c.signal(SIGINT);
+        CHECK(c.wait() == 0);
+        auto const result = json_of(out / "result.json");
+        CHECK(result["stop_reason"] == "cancelled");
+        CHECK(result["verdict"] == "consistent");
+        CHECK(result["seconds"].get<double>() < 500);
+        CHECK(rows(out / "boxes.csv") > 1);
+    }
+    {
+        child const c({"identify", h3, "--out", (folder.path() / "other").string(), "--budget",
+                       "600", "--accuracy", "1e-9"},
+                      folder.path());
+        wait_for_progress(c);
+        c.signal(SIGINT);
+        c.signal(SIGINT);
+        std::this_thread::sleep_for(1ms);
+        c.signal(SIGINT);
+        int const code = c.wait();
+        // Two signals may arrive as one: then the program stops as after the first.
+        CHECK((code == 1000 + SIGINT || code == 0));
+    }
+}
+
+TEST_CASE("simulate and rank write their tables and pages") {
+    temporary_folder const folder;
+    auto const out = folder.path() / "out";
+    auto const r = run({"simulate", "--scenario", "all", "--validated", "--out", out.string()});
+    CHECK(r.code == 0);
+    CHECK_THAT(r.out, ContainsSubstring("u = 7.311") && ContainsSubstring("x = 4.420") &&
+                          ContainsSubstring("v = 1.463"));
+    for (std::string const s : {"S1", "S2", "S3"}) {
+        CHECK(rows(out / (s + ".trajectory.csv")) > 100);
+        CHECK(rows(out / (s + ".tube.csv")) > 100);
+    }
+    CHECK(fs::exists(out / "simulation.html"));
+    CHECK(run({"simulate", "--scenario",
+               std::string{SIVID_SOURCE_DIR} + "/examples/hovercraft/scenarios/dock.json", "--out",
+               (folder.path() / "dock").string(), "--input-rate", "50", "--set", "Sg=0.05"})
+              .code == 0);
+    auto const k = run({"rank", "--out", (folder.path() / "rank").string()});
+    CHECK(k.code == 0);
+    CHECK_THAT(k.out, ContainsSubstring("Sv important for u', but it does not occur in u'"));
+    CHECK_THAT(k.out, ContainsSubstring("D22 negligible for r', but it does not occur in r'"));
+    CHECK(rows(folder.path() / "rank" / "ranking.csv") > 20);
+}

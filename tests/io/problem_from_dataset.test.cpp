@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/io/problem_from_dataset.hpp>
+
+#include "io/small_identification.hpp"
+#include "support/catch.hpp"
+
+using namespace sivid;
+
+namespace {
+
+exact_decimal dec(char const* text) { return exact_decimal::parse(text).value(); }
+
+stated_range range(char const* low, char const* high) {
+    return {dec(low), dec(high), *enclose(dec(low), dec(high))};
+}
+
+/// Two scenarios of io_support::two_rates: the second is held out.
+dataset two_scenarios() {
+    dataset data;
+    data.id = "small";
+    data.model = "two rates";
+    data.parameters.push_back({1, "b", "1", range("0.1", "0.9")});
+    data.fixed.push_back({0, dec("1.1"), *enclose(dec("1.1"))});
+    data.max_outlier_fraction = dec("0.29");
+    for (auto const role : {scenario_role::fit, scenario_role::holdout}) {
+        scenario s;
+        s.name = role == scenario_role::fit ? "F" : "H";
+        s.role = role;
+        s.duration = 100;
+        s.initial.push_back({range("1.9", "2.1").enclosure, range("1.9", "2.1")});
+        for (int k = 1; k <= 100; ++k) {
+            s.measurements.push_back({1.0 * k, 0, interval(0.0, 2.0)});
+            s.stated.push_back({dec("1"), dec("1")});
+        }
+        data.scenarios.push_back(s);
+    }
+    return data;
+}
+
+} // namespace
+
+TEST_CASE("a problem holds the fit scenarios, priors, fixed constants and outlier budgets") {
+    auto const problem =
+        problem_from_dataset(two_scenarios(), record_model<io_support::two_rates>());
+    CHECK_NOTHROW(problem.require_valid());
+    CHECK(problem.choice.unknown == std::vector<std::string>{"b"});
+    CHECK(problem.prior[0].lower() <= 0.1);
+    CHECK(problem.prior[0].upper() >= 0.9);
+    CHECK(contains(problem.choice.fixed.at("a"), 1.1));
+    REQUIRE(problem.experiments.size() == 1);
+    auto const& e = problem.experiments[0];
+    CHECK(e.name == "F");
+    CHECK(e.begin == 0);
+    CHECK(e.measurements.size() == 100);
+    CHECK(e.outliers == 29); // 0.29 * 100 exactly, though the double 0.29 is below
+    CHECK(contains(e.initial[0], 1.9));
+}
+
+TEST_CASE("a budget of the caller replaces the data set's own") {
+    auto const problem =
+        problem_from_dataset(two_scenarios(), record_model<io_support::two_rates>(), 3);
+    CHECK(problem.experiments[0].outliers == 3);
+}
+
+TEST_CASE("data of another model are refused") {
+    auto data = two_scenarios();
+    data.model = "hovercraft";
+    CHECK_THROWS_WITH(problem_from_dataset(data, record_model<io_support::two_rates>()),
+                      ContainsSubstring("hovercraft"));
+    data = two_scenarios();
+    data.scenarios[0].initial.clear();
+    CHECK_THROWS_WITH(problem_from_dataset(data, record_model<io_support::two_rates>()),
+                      ContainsSubstring("scenario 'F'"));
+}
+
+TEST_CASE("input errors that are not used are an assumption") {
+    auto data = two_scenarios();
+    CHECK(assumptions_of(data).empty());
+    dataset_input input{sampled_signal({0}, {1}, interpolation::hold), {0.1}, {dec("0.1")}};
+    data.scenarios[1].inputs.push_back(input);
+    CHECK(assumptions_of(data).empty()); // held out
+    data.scenarios[0].inputs.push_back(input);
+    REQUIRE(assumptions_of(data).size() == 1);
+    CHECK_THAT(assumptions_of(data)[0], ContainsSubstring("scenario F"));
+}
