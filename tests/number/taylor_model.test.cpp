@@ -147,7 +147,7 @@ TEST_CASE("Taylor models: the radius covers each coefficient's error in every ro
 
 TEST_CASE("Taylor models: one rounding bound for hundreds of products") {
     using model = taylor_model<2, 3>;
-    for (std::size_t const addends : {1, 20, 400}) {
+    for (std::size_t const addends : {1U, 20U, 400U}) {
         for (int const mode : modes) {
             draws d(addends);
             std::vector<model> a, b;

@@ -29,7 +29,7 @@ TEST_CASE("the run-time table of monomials agrees with the compile-time one") {
 }
 
 TEST_CASE("lines: each monomial once per variable, with powers that grow by one") {
-    for (std::size_t const used : {1, 2, 3}) {
+    for (std::size_t const used : {1U, 2U, 3U}) {
         auto const t = monomial_table::of<3, 3>(used);
         REQUIRE(t.lines.size() == used);
         for (std::size_t v = 0; v < used; ++v) {

@@ -2,6 +2,7 @@
 #ifndef SERVO_AXIS_BALANCE_HPP
 #define SERVO_AXIS_BALANCE_HPP
 
+#include "balance_tables.hpp"
 #include "polytope.hpp"
 
 #include <sivid/number/elementary.hpp>
@@ -21,17 +22,6 @@
 namespace servo {
 
 using sivid::box;
-using sivid::interval;
-
-/// One window of the record, as the proofs use it.
-struct window {
-    std::string name;
-    std::vector<double> times;      ///< knots; the first is the start
-    std::vector<double> force;      ///< at the knots, linear in between
-    std::vector<interval> position; ///< at the knots; the first is the start's interval
-    interval velocity;              ///< of the start
-};
-
 /// Contracts boxes of (M, F_v, F_c, offset) by the equation of motion, multiplied by a weight
 /// w(sigma) = 1 - exp(-lambda (tau - sigma)) and integrated from the start of a window to a sample,
 /// tau later. Two integrations by parts leave no derivative of q but the start's velocity:
@@ -62,160 +52,40 @@ public:
                 all.blocks.push_back(cut(w, k));
             }
             for (double const rate : rates_) all.relations.push_back(relate(w, rate));
+            order_.push_back(order_.size());
         }
     }
 
-    [[nodiscard]] sivid::assessment<> operator()(box const& parameters) const {
+    [[nodiscard]] sivid::assessment<> operator()(box const& parameters) {
         sivid::assessment<> result{.rest = parameters};
         result.smear.assign(4, 0.0);
         std::vector<linear_relation<4>> relations;
-        bool left = true;
-        for (auto const& w : windows_) {
-            left = left && contract(w, result.rest, result.smear, relations);
+        for (std::size_t i = 0; i < order_.size(); ++i) {
+            if (contract(windows_[order_[i]], result.rest, result.smear, relations)) continue;
+            // What refutes one box often refutes its neighbours: asked earlier next time.
+            if (i > 0) std::swap(order_[i], order_[i / 2]);
+            result.verdict = sivid::box_verdict::outside;
+            return result;
         }
-        if (!left || !polytope<4>(result.rest, relations).contract(result.rest)) {
+        if (!polytope<4>(result.rest, relations).contract(result.rest)) {
             result.verdict = sivid::box_verdict::outside;
         }
         return result;
     }
 
 private:
-    /// A block of samples is halved where the velocity comes near zero.
-    static constexpr std::size_t knots = 4;
-    static constexpr std::size_t parts = 4; ///< of the time between two samples
-    static constexpr std::size_t levels = 5;
-    static_assert(knots * parts == std::size_t{1} << (levels - 1));
-
-    struct slice {
-        interval length, elapsed; ///< elapsed: [0, length]
-        interval push;            ///< impulse of the force over the slice: int F
-        interval travel;          ///< iint F
-        interval pushes;          ///< the same over all parts that begin with the slice
-        interval force;           ///< its range
-    };
-    struct block {
-        std::array<slice, (std::size_t{1} << levels) - 1> nodes; ///< halves of i: 2i + 1, 2i + 2
-        interval bend;                                           ///< sum of h^3/12
-    };
-    /// Factors for a slice of length h.
-    struct memory {
-        interval decay;  ///< exp(-lambda h)
-        interval grown;  ///< 1 - decay
-        interval gained; ///< int (1 - exp(-lambda u)) du over [0, h]
-    };
-    /// What does not depend on the parameters, at the end of a block.
-    struct relation {
-        interval position; ///< measured
-        interval a;        ///< A
-        interval e;       ///< E, without what the curvature between samples adds
-        interval weight;  ///< int w
-        interval impulse; ///< int w F
-        interval bend;    ///< - lambda [decay, 1] sum of h^3/12
-        std::array<memory, levels> level;
-    };
     struct prepared {
         interval position, velocity; ///< of the start
         std::vector<block> blocks;
         std::vector<std::vector<relation>> relations; ///< by lambda
     };
 
-    static interval span(window const& w, std::size_t from, std::size_t to) {
-        return interval(w.times[to]) - interval(w.times[from]);
-    }
-
-    static block cut(window const& w, std::size_t from) {
-        block result;
-        result.bend = interval(0.0);
-        auto& nodes = result.nodes;
-        auto const leaves = nodes.size() / 2;
-        for (std::size_t i = 0; i < knots * parts; ++i) {
-            auto const k = from + i / parts;
-            auto const h = span(w, k, k + 1);
-            interval const f0(w.force[k]);
-            auto const rise = interval(w.force[k + 1]) - f0;
-            auto const part = static_cast<double>(i % parts);
-            auto const n = static_cast<double>(parts);
-            auto const begin = f0 + rise * (part / n);
-            auto const end = f0 + rise * ((part + 1) / n);
-            auto& s = nodes[leaves + i];
-            s.length = h / n;
-            s.force = sivid::hull(begin, end);
-            s.push = s.length * (begin + end) / 2.0;
-            s.travel = sqr(s.length) * (begin * 2.0 + end) / 6.0;
-            s.elapsed = sivid::hull(interval(0.0), s.length);
-            s.pushes = s.elapsed * s.force;
-            if (i % parts == 0) result.bend += h * sqr(h) / 12.0;
-        }
-        for (std::size_t i = leaves; i-- > 0;) {
-            auto const& left = nodes[2 * i + 1];
-            auto const& right = nodes[2 * i + 2];
-            auto& s = nodes[i];
-            s.length = left.length + right.length;
-            s.elapsed = sivid::hull(interval(0.0), s.length);
-            s.force = sivid::hull(left.force, right.force);
-            s.push = left.push + right.push;
-            s.travel = left.travel + left.push * right.length + right.travel;
-            s.pushes = sivid::hull(left.pushes, left.push + right.pushes);
-        }
-        return result;
-    }
-
-    static std::vector<relation> relate(window const& w, double rate) {
-        std::vector<relation> result;
-        interval const lambda(rate);
-        interval e(0.0), weight(0.0), impulse(0.0), time(0.0), force_once(0.0);
-        for (std::size_t from = 0; from + knots < w.times.size(); from += knots) {
-            auto const to = from + knots;
-            interval bend(0.0);
-            auto shortest = span(w, from, from + 1);
-            for (auto k = from + 1; k <= to; ++k) {
-                auto const h = span(w, k - 1, k);
-                shortest = sivid::hull(shortest, h);
-                auto const decay = sivid::exp(-lambda * h);
-                // int exp(-lambda u) du over [0, h], and the same with (1 - u/h).
-                auto const whole = (1.0 - decay) / lambda;
-                auto const late = (h - whole) / (lambda * h);
-                auto const early = whole - late;
-                auto const q0 = w.position[k - 1] - w.position[0];
-                auto const q1 = w.position[k] - w.position[0];
-                interval const f0(w.force[k - 1]);
-                interval const f1(w.force[k]);
-                e = decay * e + lambda * (early * q0 + late * q1);
-                impulse = decay * impulse + (1.0 - decay) * force_once + f0 * (h / 2.0 - early) +
-                          f1 * (h / 2.0 - late);
-                weight = decay * weight + (1.0 - decay) * time + (h - whole);
-                force_once += h * (f0 + f1) / 2.0;
-                time += h;
-                bend += h * sqr(h) / 12.0;
-            }
-            auto const tau = span(w, 0, to);
-            relation r;
-            r.position = w.position[to];
-            r.a = lambda * (w.position[to] - w.position[0]) -
-                  (1.0 - sivid::exp(-lambda * tau)) * w.velocity;
-            r.e = e;
-            r.weight = weight;
-            r.impulse = impulse;
-            // All slices of a level have the same length, but for the rounding of the times.
-            for (std::size_t l = 0; l < levels; ++l) {
-                auto const length = shortest * static_cast<double>(knots) / std::exp2(l);
-                auto& m = r.level[l];
-                m.decay = sivid::exp(-lambda * length);
-                m.grown = 1.0 - m.decay;
-                m.gained = length - m.grown / lambda;
-            }
-            r.bend = -lambda * sivid::hull(r.level[0].decay, interval(1.0)) * bend;
-            result.push_back(r);
-        }
-        return result;
-    }
-
     /// s at a point. Far from zero 1 - eps^2/(2 v^2) <= |s| <= 1.
     [[nodiscard]] interval direction(double v) const {
         interval const x(v);
         bool cut = false;
-        return traits::div(
-            x, traits::sqrt(traits::add(traits::sqr(x), traits::sqr(epsilon_)), cut), cut);
+        return traits::div(x, traits::sqrt(traits::add(traits::sqr(x), traits::sqr(epsilon_)), cut),
+                           cut);
     }
     /// s over a range: it increases.
     [[nodiscard]] interval direction(interval const& v) const {
@@ -239,20 +109,20 @@ private:
         auto guess = start;
         for (int round = 0; round < 8; ++round) {
             auto const force = brake(guess);
-            auto const image = traits::add(
-                start, traits::div(traits::sub(s.pushes, traits::mul(s.elapsed, force)), p[0],
-                                   undefined));
+            auto const image =
+                traits::add(start, traits::div(traits::sub(s.pushes, traits::mul(s.elapsed, force)),
+                                               p[0], undefined));
             if (round > 0 && sivid::subset(image, guess)) {
                 out.over = image;
-                out.end = traits::add(
-                    start,
-                    traits::div(traits::sub(s.push, traits::mul(s.length, force)), p[0], undefined));
+                out.end = traits::add(start,
+                                      traits::div(traits::sub(s.push, traits::mul(s.length, force)),
+                                                  p[0], undefined));
                 out.way = traits::add(
                     traits::mul(s.length, start),
-                    traits::div(traits::sub(s.travel,
-                                            traits::mul(traits::mul(traits::sqr(s.length), force),
-                                                        interval(0.5))),
-                                p[0], undefined));
+                    traits::div(
+                        traits::sub(s.travel, traits::mul(traits::mul(traits::sqr(s.length), force),
+                                                          interval(0.5))),
+                        p[0], undefined));
                 return true;
             }
             double const room = 0.15 * sivid::width(image) + 1e-9;
@@ -265,7 +135,8 @@ private:
         double const wanted = sivid::mid(p[1]) / sivid::mid(p[0]);
         std::size_t best = 0;
         for (std::size_t i = 1; i < rates_.size(); ++i) {
-            if (std::abs(std::log(rates_[i] / wanted)) < std::abs(std::log(rates_[best] / wanted))) {
+            if (std::abs(std::log(rates_[i] / wanted)) <
+                std::abs(std::log(rates_[best] / wanted))) {
                 best = i;
             }
         }
@@ -343,9 +214,8 @@ private:
     static linear_relation<4> reduce(box const& p, std::array<interval, 4> factor,
                                      interval const& lambda, interval const& e, interval target) {
         interval const middle(sivid::mid(e));
-        target = traits::sub(target,
-                             traits::mul(traits::sub(e, middle),
-                                         traits::sub(p[1], traits::mul(lambda, p[0]))));
+        target = traits::sub(target, traits::mul(traits::sub(e, middle),
+                                                 traits::sub(p[1], traits::mul(lambda, p[0]))));
         factor[0] = traits::sub(factor[0], traits::mul(lambda, middle));
         factor[1] = middle;
         return {factor, target};
@@ -380,6 +250,7 @@ private:
 
     std::vector<double> rates_; ///< the choices of lambda [1/s]: F_v/M of the prior is 0.25 to 10
     std::vector<prepared> windows_;
+    std::vector<std::size_t> order_; ///< in which the windows are asked
     interval epsilon_;
 };
 

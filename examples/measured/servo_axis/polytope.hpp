@@ -54,9 +54,8 @@ public:
                 auto const most = maximum(j, sign);
                 if (!most) return false;
                 auto const limit = traits::add(interval(centre_[j]), interval(sign * *most));
-                p[j] = traits::intersect(p[j], sign > 0
-                                                   ? traits::bounds(-HUGE_VAL, limit.upper())
-                                                   : traits::bounds(limit.lower(), HUGE_VAL));
+                p[j] = traits::intersect(p[j], sign > 0 ? traits::bounds(-HUGE_VAL, limit.upper())
+                                                        : traits::bounds(limit.lower(), HUGE_VAL));
                 if (sivid::is_empty(p[j])) return false;
             }
         }
@@ -84,8 +83,8 @@ private:
         for (std::size_t j = 0; j < N; ++j) {
             a[j] = sivid::mid(r.factor[j]);
             rest = traits::sub(rest, traits::mul(r.factor[j], interval(centre_[j])));
-            rest = traits::sub(rest,
-                               traits::mul(traits::sub(r.factor[j], interval(a[j])), deviation_[j]));
+            rest = traits::sub(
+                rest, traits::mul(traits::sub(r.factor[j], interval(a[j])), deviation_[j]));
         }
         add_row(a, rest.upper());
         for (auto& x : a) x = -x;
@@ -158,7 +157,8 @@ private:
             basis[static_cast<std::size_t>(leaves)] = *worst;
         }
         std::vector<weighted_row> proof;
-        for (std::size_t k = 0; k < N; ++k) collect(proof, basis[k], y[static_cast<Eigen::Index>(k)]);
+        for (std::size_t k = 0; k < N; ++k)
+            collect(proof, basis[k], y[static_cast<Eigen::Index>(k)]);
         std::array<double, N> objective{};
         objective[side] = sign;
         return bound(objective, proof, scale_[static_cast<Eigen::Index>(side)]);
