@@ -29,7 +29,7 @@ struct identify_command {
     std::filesystem::path dataset, out;
     std::string algorithm = "contracting"; ///< or report-1, report-2
     double accuracy = 0.003; ///< least width of a box that is split, as a share of the prior
-    double budget = 50; ///< [s]
+    double budget = 50;      ///< [s]
     std::optional<std::size_t> boxes;
     std::optional<std::size_t> outliers;
     bool compare = false;

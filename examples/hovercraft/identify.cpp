@@ -83,11 +83,14 @@ void print_summary(sivid::identification_problem const& problem, sivid::identifi
     namespace report = sivid::report;
     auto const view = report::view_of(problem, found, nullptr, {.dataset = id});
     std::cout << id << ": " << to_string(found.verdict) << " (" << to_string(found.reason) << ")\n";
+    if (found.verdict == sivid::verdict::inconsistent)
+        std::cout
+            << "  no parameter in the prior explains the data: all of it is excluded by proof\n";
     for (auto const& p : view.parameters) {
+        if (report::is_empty(p.hull)) continue;
         std::cout << "  " << p.name << " in " << report::outward_text_within(p.hull, p.prior) << " "
                   << p.unit;
-        if (!report::is_empty(p.hull) && report::share_of_prior(p) > 0.999)
-            std::cout << "  (nothing excluded)";
+        if (report::share_of_prior(p) > 0.999) std::cout << "  (nothing excluded)";
         std::cout << "\n";
     }
     for (auto const& c : view.combinations)

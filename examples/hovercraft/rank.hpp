@@ -45,7 +45,8 @@ struct ranking_ranges {
     sivid::interval rudder = sivid::hull(sivid::interval(0.0), 0.5236); ///< delta [rad]
 };
 
-/// Ranges around what scenario 3 visits over the priors of S_v, S_g and L (simulated, then widened).
+/// Ranges around what scenario 3 visits over the priors of S_v, S_g and L (simulated, then
+/// widened).
 [[nodiscard]] inline ranking_ranges default_ranges() {
     return {.states = {{-3, 3}, {-2, 4}, {-3, 1}, {-1, 9}, {-1, 5}, {-6, 1}}};
 }

@@ -55,7 +55,7 @@ void sweep(std::uint64_t seed, int problems) {
         for (int depth = 0; depth < 5; ++depth) {
             auto const a = test(current, d.below(5) == 0 ? nullptr : known);
             bool const kept = a.verdict != box_verdict::outside && contains(a.rest, planted.truth);
-            if (!kept) CAPTURE(depth);
+            CAPTURE(depth);
             CHECK(kept);
             CHECK(subset(a.rest, current));
             if (!kept || a.verdict == box_verdict::inside) break;

@@ -40,7 +40,7 @@ TEST_CASE("measurements, tube and reference line of an experiment") {
     REQUIRE(found.witness);
     auto const& w = found.witness->parameters;
     for (auto const& r : c.reference) {
-        CHECK(r.y == Approx(2 * std::exp(-w[0] * w[1] * r.x)).margin(1e-6));
+        CHECK_THAT(r.y, WithinAbs(2 * std::exp(-w[0] * w[1] * r.x), 1e-6));
     }
     CHECK_FALSE(s.plane);
 }

@@ -18,7 +18,7 @@ double parametric_flow<N, D>::propose(double rest) const {
         }
     }
     if (h >= rest) return rest;
-    return h > 0.5 * rest ? 0.5 * rest : h;
+    return h > 0.5 * rest ? std::max(0.5 * rest, std::min(h, options_.minimum_step)) : h;
 }
 
 /// One order more where the tolerance limits the step, one less where the end of an interval does.
@@ -50,7 +50,7 @@ Eigen::MatrixXd parametric_flow<N, D>::sizes(double h, std::size_t from) const {
                 sum = sum * h + derivative_.variation(i, c, k).norm();
             }
             for (std::size_t k = 0; k < from; ++k) sum *= h;
-            result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) = sum * up;
+            result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) = sum * up + polynomial::tiny;
         }
     }
     return result;
@@ -186,7 +186,9 @@ bool parametric_flow<N, D>::try_step(double to, double& shorten, enclosure_failu
     Eigen::VectorXd const carried = sizes(h, 0) * reach;
     std::vector<tube_entry> path;
     std::vector<double> room;
-    double const power = std::pow(h, static_cast<double>(K + 1));
+    bool never = false;
+    double const power = traits::pown(length, static_cast<int>(K + 1), never).upper();
+    double const flow_power = traits::pown(length, static_cast<int>(L), never).upper();
     for (std::size_t i = 0; i < n; ++i) {
         auto b = converted<N + 1, tube_degree>(centre_.state(i, K));
         for (std::size_t k = K; k-- > 0;) {
@@ -249,7 +251,7 @@ bool parametric_flow<N, D>::try_step(double to, double& shorten, enclosure_failu
                 for (std::size_t c = 0; c < n; ++c) {
                     if (!flow_->sensitive(i, c)) continue;
                     last(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) =
-                        tube_.variation(i, c, L).norm() * std::pow(h, static_cast<double>(L)) * up;
+                        tube_.variation(i, c, L).norm() * flow_power * up;
                 }
             }
             if (!bound_flow(h, last, w)) {

@@ -14,8 +14,8 @@ namespace sivid {
 
 /// What a result file says beyond the identification itself.
 struct identification_json_options {
-    std::string dataset;                          ///< the id of the data set
-    std::vector<std::string> further_assumptions; ///< of `assumptions_of`, for instance
+    std::string dataset{};                          ///< the id of the data set
+    std::vector<std::string> further_assumptions{}; ///< of `assumptions_of`, for instance
 };
 
 /// A share of the prior as an interval within [0, 1].

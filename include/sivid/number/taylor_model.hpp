@@ -37,6 +37,14 @@ struct taylor_model {
     double r = 0;
     std::array<double, D + 1> norms{}; ///< upper bounds of \f$ \sum_{|\alpha|=k} |c_\alpha| \f$
 
+    /// Values beyond this are given up: near the overflow, what happens depends on the rounding mode.
+    static constexpr double largest = 1e300;
+
+    /// Forgets everything when an operation on values of size `mass` may have overflowed.
+    void give_up_when_huge(double mass) {
+        if (!(mass < largest) || !(r < largest)) r = std::numeric_limits<double>::infinity();
+    }
+
     /// Recomputes `norms`; to be called after `c` was written.
     void finish() {
         auto const& first = basis::data.first;
@@ -61,7 +69,7 @@ struct taylor_model {
         taylor_model result;
         result.c[0] = v;
         result.norms[0] = std::abs(v);
-        if (!std::isfinite(v)) result.r = std::numeric_limits<double>::infinity();
+        result.give_up_when_huge(std::abs(v));
         return result;
     }
     [[nodiscard]] static taylor_model constant(interval const& v) {
@@ -114,6 +122,7 @@ public:
         double const rounding = (additions_ + 2) * model::unit * mass_;
         m.r = (radius_ + rounding) * (model::up + 8 * additions_ * model::unit) + model::tiny;
         m.finish();
+        m.give_up_when_huge(mass_);
         return m;
     }
 
@@ -155,6 +164,7 @@ taylor_model<N, D> sum(taylor_model<N, D> const& a, taylor_model<N, D> const& b)
     double const rounding = model::unit * (a.polynomial_norm() + b.polynomial_norm());
     result.r = (a.r + b.r + rounding) * model::up;
     result.finish();
+    result.give_up_when_huge(a.polynomial_norm() + b.polynomial_norm());
     return result;
 }
 } // namespace number_detail
@@ -187,7 +197,7 @@ template <std::size_t N, std::size_t D>
     // norm * size first: the unit times a tiny factor would underflow.
     a.r = (a.r * (size + rho) + norm * rho + norm * size * model::unit) * model::up + model::tiny;
     a.finish();
-    if (!std::isfinite(a.polynomial_norm())) a.r = std::numeric_limits<double>::infinity();
+    a.give_up_when_huge(norm * (size + rho));
     return a;
 }
 template <std::size_t N, std::size_t D>
@@ -199,6 +209,7 @@ template <std::size_t N, std::size_t D>
 template <std::size_t N, std::size_t D>
 [[nodiscard]] taylor_model<N, D> widened(taylor_model<N, D> a, double w) {
     a.r = (a.r + w) * taylor_model<N, D>::up;
+    a.give_up_when_huge(0);
     return a;
 }
 

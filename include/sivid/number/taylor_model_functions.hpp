@@ -72,8 +72,8 @@ template <std::size_t N, std::size_t D>
 }
 
 /// \f$ \sqrt{s} \f$, defined where the range of s is positive.
-///   A polynomial w is found by Newton's iteration; \f$ |\sqrt s - w| \le \|s - w^2\| /
-///   (\sqrt{\min s} + \min w) \f$ with min w replaced by 0 where it is not positive.
+///   A polynomial w is found by the binomial series; \f$ |\sqrt s - w| \le \|s - w^2\| /
+///   (\sqrt{\min s} + \min w) \f$ where that is positive; else the range is the answer.
 template <std::size_t N, std::size_t D>
 [[nodiscard]] taylor_model<N, D> sqrt(taylor_model<N, D> const& s, bool& undefined) {
     using model = taylor_model<N, D>;
@@ -128,10 +128,11 @@ template <std::size_t N, std::size_t D>
     t.finish();
     auto result = model::constant(at_centre[D]);
     for (std::size_t k = D; k-- > 0;) result = result * t + model::constant(at_centre[k]);
-    double rho = 1;
+    // The derivative first: a power of a tiny size alone could underflow.
+    double rest = mag(on_range[D + 1]);
     double const size = t.norm();
-    for (std::size_t k = 0; k <= D; ++k) rho *= size * model::up;
-    return widened(result, mag(on_range[D + 1]) * rho * model::up + model::tiny);
+    for (std::size_t k = 0; k <= D; ++k) rest *= size * model::up;
+    return widened(result, rest * model::up + model::tiny);
 }
 
 /// Encloses a function of bounded range by its range alone.

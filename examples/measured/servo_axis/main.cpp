@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// servo_axis FOLDER --out DIR: identifies a real servo axis (EMPS) from windows of its record.
+#include "command.hpp"
+
+#include <sivid/io/text_file.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <exception>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+
+namespace {
+
+using sivid::exact_decimal;
+
+exact_decimal positive(std::string const& text, std::string const& what) {
+    auto const value = exact_decimal::parse(text);
+    if (!value || !sivid::enclose(*value) || !value->is_positive())
+        throw std::invalid_argument(what + ": " + sivid::in_quotes(text) +
+                                    " is not a decimal number above 0");
+    return *value;
+}
+
+int refuse(std::exception const& e) {
+    std::cerr << "servo_axis: " << e.what() << "\n";
+    return servo::bad_input;
+}
+
+int parse_and_run(int argc, char** argv) {
+    servo::command c;
+    c.command_line = "servo_axis";
+    for (int i = 1; i < argc; ++i) c.command_line += std::string{" "} + argv[i];
+    auto bound = c.bounds.model_error.text();
+    auto start_position = c.bounds.start_position.text();
+    auto start_velocity = c.bounds.start_velocity.text();
+
+    CLI::App app{"Validated identification of a real servo axis (EMPS)"};
+    app.add_option("folder", c.folder, "folder with the record")->required();
+    app.add_option("--out", c.out, "folder for report.html, result.json and tables")->required();
+    app.add_option("--file", c.file, "the record: a table with t_s, force_N and position_m")
+        ->capture_default_str();
+    app.add_option("--bound", bound, "of the position: it stands for the model error [m]")
+        ->capture_default_str();
+    app.add_option("--start-position", start_position, "bound of a start's position [m]")
+        ->capture_default_str();
+    app.add_option("--start-velocity", start_velocity,
+                   "bound of a start's velocity about the filter's [m/s]")
+        ->capture_default_str();
+    app.add_option("--window", c.windows.length, "length of a window [s]")
+        ->check(CLI::Range(0.05, 1000.0))
+        ->capture_default_str();
+    app.add_option("--first", c.windows.first, "start of the first window [s]")
+        ->check(CLI::Range(0.0, 1e6))
+        ->capture_default_str();
+    app.add_option("--every", c.windows.every, "from the start of a window to the next one's [s]")
+        ->check(CLI::Range(0.05, 1e6))
+        ->capture_default_str();
+    app.add_option("--accuracy", c.accuracy,
+                   "leave boxes undecided when no side is wider than this share of the prior")
+        ->check(CLI::Range(1e-6, 1.0))
+        ->capture_default_str();
+    app.add_option("--budget", c.budget, "seconds for the fit and the search")
+        ->check(CLI::Range(0.0, 1e9))
+        ->capture_default_str();
+    app.add_flag("--quiet", c.quiet, "no progress");
+    try {
+        app.parse(argc, argv);
+    } catch (CLI::ParseError const& e) {
+        return app.exit(e) == 0 ? 0 : static_cast<int>(servo::bad_input);
+    }
+    c.bounds = {positive(bound, "--bound"), positive(start_position, "--start-position"),
+                positive(start_velocity, "--start-velocity")};
+    return servo::run(c);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return parse_and_run(argc, argv);
+    } catch (sivid::input_error const& e) {
+        return refuse(e);
+    } catch (sivid::output_error const& e) {
+        return refuse(e);
+    } catch (std::invalid_argument const& e) {
+        return refuse(e);
+    } catch (std::exception const& e) {
+        std::cerr << "servo_axis: internal error: " << e.what() << "\n";
+        return servo::internal_error;
+    }
+}

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: MIT
+#include "command.hpp"
+
+#include <sivid/io/explaining_motion.hpp>
+#include <sivid/io/identification_csv.hpp>
+#include <sivid/io/identification_json.hpp>
+#include <sivid/report/identification_page.hpp>
+#include <sivid/report/identification_report.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <ctime>
+#include <iostream>
+#include <map>
+#include <system_error>
+
+#include <unistd.h>
+
+namespace servo {
+
+namespace {
+
+namespace report = sivid::report;
+
+volatile std::sig_atomic_t interrupted = 0;
+
+/// The first Ctrl-C asks for the result so far, the second one ends the program.
+extern "C" void on_interrupt(int) {
+    interrupted = 1;
+    std::signal(SIGINT, SIG_DFL);
+}
+
+/// Progress on stderr: one line in place on a terminal, else a new one each second.
+class progress_line {
+public:
+    explicit progress_line(bool quiet)
+        : quiet_{quiet}, terminal_{::isatty(STDERR_FILENO) != 0}, begin_{clock::now()} {}
+
+    void note(std::string const& text) {
+        if (quiet_) return;
+        finish();
+        std::fprintf(stderr, "%7.1f s  %s\n", elapsed(), text.c_str());
+    }
+    bool operator()(sivid::paving_progress const& p) {
+        auto const now = clock::now();
+        double const pause = terminal_ ? 0.1 : 1.0;
+        if (!quiet_ && (!shown_ || std::chrono::duration<double>(now - last_).count() >= pause)) {
+            last_ = now;
+            shown_ = true;
+            std::fprintf(
+                stderr, "%s%7.1f s  %6zu boxes  %6zu waiting  not excluded %9.3g %% of the prior%s",
+                terminal_ ? "\r" : "", elapsed(), p.tested, p.pending, 100 * p.outer,
+                terminal_ ? "" : "\n");
+            std::fflush(stderr);
+        }
+        return interrupted == 0;
+    }
+    void finish() {
+        if (shown_ && terminal_) std::fputc('\n', stderr);
+        shown_ = false;
+    }
+
+private:
+    using clock = std::chrono::steady_clock;
+    [[nodiscard]] double elapsed() const {
+        return std::chrono::duration<double>(clock::now() - begin_).count();
+    }
+    bool quiet_, terminal_, shown_ = false;
+    clock::time_point begin_, last_;
+};
+
+std::string text_of(char const* format, double value) {
+    char buffer[64];
+    std::snprintf(buffer, sizeof buffer, format, value);
+    return buffer;
+}
+
+/// What the proofs rest on beside "inputs exact".
+std::vector<std::string> assumptions_of(posed_problem const& posed, command const& c) {
+    std::vector<std::string> all;
+    all.emplace_back("force linear between samples");
+    all.push_back("position bound " + c.bounds.model_error.text() +
+                  " m stands for the model error: every sample of a window lies so near to the "
+                  "model's position");
+    all.push_back("each window starts within " + c.bounds.start_position.text() +
+                  " m of the measured position and within " + c.bounds.start_velocity.text() +
+                  " m/s of the velocity from a zero-phase low-pass filter (cubic over " +
+                  std::to_string(2 * c.windows.filter_half + 1) +
+                  " samples); a parameter is feasible when for every window some such start "
+                  "explains the window's samples");
+    all.emplace_back("dry friction F_c v/sqrt(v^2 + eps^2) with eps = 0.001 m/s");
+    all.push_back(std::to_string(posed.used.size()) + " windows of " +
+                  text_of("%g", c.windows.length) + " s are used, all samples of each; " +
+                  std::to_string(posed.kept_back.size()) + " windows of the record are kept back");
+    return all;
+}
+
+std::map<std::string, std::string> meanings() {
+    return {{"M", "moving mass, with the motor's inertia"},
+            {"F_v", "viscous friction"},
+            {"F_c", "dry (Coulomb) friction"},
+            {"offset", "constant force: drive offset and asymmetry of the friction"}};
+}
+
+struct summary_of_misfits {
+    double largest = 0, at = 0, root_mean_square = 0;
+    std::size_t over = 0; ///< windows beyond the bound
+};
+summary_of_misfits summarise(std::vector<misfit> const& all, double bound) {
+    summary_of_misfits s;
+    double sum = 0;
+    std::size_t samples = 0;
+    for (auto const& m : all) {
+        if (m.largest > s.largest) {
+            s.largest = m.largest;
+            s.at = m.start;
+        }
+        s.over += m.largest > bound ? 1 : 0;
+        sum += m.mean_square * static_cast<double>(m.samples);
+        samples += m.samples;
+    }
+    s.root_mean_square = samples > 0 ? std::sqrt(sum / static_cast<double>(samples)) : 0;
+    return s;
+}
+
+/// All that was found, for page and console.
+struct outcome_of_run {
+    sivid::identification found;
+    bool literature_refuted = false;
+    std::vector<misfit> witness_used, witness_kept, literature_used;
+};
+
+std::string millimetres(double metres) { return text_of("%.2f mm", 1e3 * metres); }
+
+std::string literature_words(outcome_of_run const& o) {
+    auto const lit = summarise(o.literature_used, HUGE_VAL);
+    return std::string{"Taken together, the literature's values "} +
+           (o.literature_refuted
+                ? "are proved not to explain these windows within the stated bounds"
+                : "are not excluded by this contraction") +
+           ": simulated from the filter's starts they miss by up to " + millimetres(lit.largest) +
+           " (window at " + text_of("%g", lit.at) +
+           " s). That is the known model error; each value "
+           "for itself is compared with the hull above.";
+}
+
+void add_literature(report::page& page, posed_problem const& posed, outcome_of_run const& o) {
+    page.section("Beside the literature");
+    report::table t{.columns = {{"parameter", report::column_kind::symbol},
+                                {"unit"},
+                                {"prior", report::column_kind::number},
+                                {"hull (proved)", report::column_kind::number},
+                                {"literature", report::column_kind::number},
+                                {"in the hull", report::column_kind::text}},
+                    .rows = {},
+                    .caption =
+                        "Literature: A. Janot, M. Gautier, M. Brunot, Data Set and Reference "
+                        "Models of EMPS, 2019. " +
+                        literature_words(o)};
+    auto const values = literature();
+    auto const& problem = posed.problem;
+    for (std::size_t j = 0; j < values.size(); ++j) {
+        auto const& name = problem.choice.unknown[j];
+        auto const k = sivid::index_of(problem.model.about.constants, name, "constant");
+        auto const prior = report::detail::shown(problem.prior[j]);
+        auto const hull = report::detail::shown(o.found.hull[j]);
+        t.rows.push_back({name, problem.model.about.constants[k].unit, report::given_text(prior),
+                          report::outward_text_within(hull, prior), text_of("%.7g", values[j]),
+                          contains(o.found.hull[j], values[j]) ? "yes" : "no"});
+    }
+    page.add(t);
+}
+
+void add_windows(report::page& page, posed_problem const& posed, outcome_of_run const& o,
+                 command const& c) {
+    if (o.witness_used.empty()) return;
+    page.section("Window by window (plain simulation, not proved)");
+    double const bound = *nearest(c.bounds.model_error);
+    auto const kept = summarise(o.witness_kept, bound);
+    auto const used = summarise(o.witness_used, bound);
+    page.prose("The " + std::string{o.found.witness ? "witness" : "best fit"} +
+               ", simulated from the measured position and the filter's velocity. Windows in use: "
+               "root mean square " +
+               millimetres(used.root_mean_square) + ", at most " + millimetres(used.largest) +
+               ". Windows kept back: root mean square " + millimetres(kept.root_mean_square) +
+               ", at most " + millimetres(kept.largest) + " (window at " + text_of("%g", kept.at) +
+               " s), " + std::to_string(kept.over) + " of " +
+               std::to_string(o.witness_kept.size()) + " beyond the bound.");
+    report::table t{.columns = {{"window starts at [s]", report::column_kind::number},
+                                {"role", report::column_kind::text},
+                                {"largest misfit [mm]", report::column_kind::number},
+                                {"RMS misfit [mm]", report::column_kind::number}},
+                    .rows = {}};
+    std::vector<std::pair<misfit, std::string>> all;
+    for (auto const& m : o.witness_used) all.emplace_back(m, "used");
+    for (auto const& m : o.witness_kept) all.emplace_back(m, "kept back");
+    std::sort(all.begin(), all.end(),
+              [](auto const& a, auto const& b) { return a.first.start < b.first.start; });
+    for (auto const& [m, role] : all) {
+        t.rows.push_back({text_of("%g", m.start), role, text_of("%.2f", 1e3 * m.largest),
+                          text_of("%.2f", 1e3 * std::sqrt(m.mean_square))});
+    }
+    page.add(t);
+    page.prose("At the starts the velocity filter differs by at most " +
+               text_of("%.2f", 1e3 * posed.filter_difference) +
+               " mm/s from one with 3/5 of its width; the stated bound is " +
+               c.bounds.start_velocity.text() + " m/s.");
+}
+
+std::string today() {
+    auto const now = std::time(nullptr);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%d", std::localtime(&now));
+    return text;
+}
+
+std::string machine_text() {
+#if defined(__clang__)
+    std::string const compiler = std::string{"clang "} + __clang_version__;
+#else
+    std::string const compiler = std::string{"g++ "} + __VERSION__;
+#endif
+    return std::string{"one thread, "} + compiler.substr(0, compiler.find(" ("));
+}
+
+void print_summary(posed_problem const& posed, outcome_of_run const& o, command const& c) {
+    auto const& found = o.found;
+    std::cout << "servo axis: " << to_string(found.verdict) << " (" << to_string(found.reason)
+              << ")\n";
+    auto const view = report::view_of(posed.problem, found, nullptr, {.dataset = "servo axis"});
+    auto const values = literature();
+    for (std::size_t j = 0; j < values.size(); ++j) {
+        auto const& p = view.parameters[j];
+        std::cout << "  " << p.name << " in " << report::outward_text_within(p.hull, p.prior) << " "
+                  << p.unit << "  (prior " << report::given_text(p.prior) << ", literature "
+                  << text_of("%.7g", values[j]) << ")\n";
+    }
+    std::cout << "  not excluded: at most " << report::at_most_percent(view.volume_outer.hi)
+              << " of the prior's volume\n";
+    if (found.witness) {
+        std::cout << "  verified witness:";
+        for (std::size_t j = 0; j < values.size(); ++j) {
+            std::cout << " " << posed.problem.choice.unknown[j] << "="
+                      << report::exact_text(found.witness->parameters[j]);
+        }
+        std::cout << "\n";
+    }
+    double const bound = *nearest(c.bounds.model_error);
+    auto const kept = summarise(o.witness_kept, bound);
+    if (!o.witness_kept.empty()) {
+        std::cout << "  windows kept back (plain simulation): misfit RMS "
+                  << millimetres(kept.root_mean_square) << ", at most " << millimetres(kept.largest)
+                  << "\n";
+    }
+    std::cout << "  assumed:";
+    for (auto const& a : found.assumptions) std::cout << " " << a << ";";
+    std::cout << "\n";
+    for (auto const& a : assumptions_of(posed, c)) std::cout << "    " << a << "\n";
+    std::cout << "  " << report::duration_text(found.seconds) << ", " << found.boxes << " boxes, "
+              << found.integrations
+              << " validated integrations\n  written: " << (c.out / "report.html").string()
+              << " and result.json, boxes.csv, outputs.csv beside it\n";
+}
+
+/// @throws sivid::output_error
+void prepare_folder(std::filesystem::path const& folder) {
+    std::error_code fault;
+    std::filesystem::create_directories(folder, fault);
+    if (fault || !std::filesystem::is_directory(folder))
+        throw sivid::output_error("the folder " + folder.string() + " cannot be created");
+}
+
+int exit_code_of(sivid::verdict v) {
+    if (v == sivid::verdict::consistent) return exit_code::consistent;
+    return v == sivid::verdict::inconsistent ? exit_code::inconsistent : exit_code::undecided;
+}
+
+} // namespace
+
+int run(command const& c) {
+    auto const record = read_recording(c.folder / c.file);
+    auto const posed = pose(record, c);
+    prepare_folder(c.out);
+
+    interrupted = 0;
+    std::signal(SIGINT, on_interrupt);
+    progress_line progress(c.quiet);
+    progress.note("identifying M, F_v, F_c and the offset from " +
+                  std::to_string(posed.used.size()) + " windows; Ctrl-C stops early");
+    outcome_of_run o{identify_axis(
+        posed, c.accuracy, c.budget, [&](std::string const& text) { progress.note(text); },
+        [&](sivid::paving_progress const& p) { return progress(p); })};
+    progress.finish();
+    std::signal(SIGINT, SIG_DFL);
+
+    progress.note("writing the report");
+    o.literature_refuted = refutes(posed, literature());
+    o.literature_used = approximate_misfits(posed, record, posed.used, literature());
+    if (o.found.guess && !o.found.guess->parameters.empty()) {
+        auto const& p = o.found.guess->parameters;
+        o.witness_used = approximate_misfits(posed, record, posed.used, p);
+        o.witness_kept = approximate_misfits(posed, record, posed.kept_back, p);
+    }
+    auto const further = assumptions_of(posed, c);
+    auto const motion = sivid::find_explaining_motion(posed.problem, o.found);
+    auto const view = report::view_of(posed.problem, o.found, motion ? &*motion : nullptr,
+                                      {.dataset = "EMPS servo axis, " + c.file,
+                                       .meanings = meanings(),
+                                       .further_assumptions = further,
+                                       .date = today(),
+                                       .machine = machine_text(),
+                                       .command = c.command_line});
+    auto page = report::identification_page(view);
+    add_literature(page, posed, o);
+    add_windows(page, posed, o, c);
+    sivid::write_atomically(c.out / "boxes.csv", sivid::boxes_csv(posed.problem, o.found));
+    sivid::write_atomically(c.out / "outputs.csv", sivid::outputs_csv(posed.problem, o.found,
+                                                                      motion ? &*motion : nullptr));
+    sivid::write_atomically(c.out / "report.html", page.str());
+    sivid::write_atomically(
+        c.out / "result.json",
+        sivid::identification_json(posed.problem, o.found,
+                                   {.dataset = c.file, .further_assumptions = further}));
+    print_summary(posed, o, c);
+    return exit_code_of(o.found.verdict);
+}
+
+} // namespace servo
