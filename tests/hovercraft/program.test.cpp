@@ -236,9 +236,10 @@ TEST_CASE("Ctrl-C stops with what is proved until then; a second one ends the pr
         CHECK(rows(out / "boxes.csv") > 1);
     }
     {
-        child const c({"identify", h3, "--out", (folder.path() / "other").string(), "--budget",
-                       "600", "--accuracy", "1e-9"},
-                      folder.path());
+        temporary_folder const second; // its own, so that the progress seen is its own
+        child const c({"identify", h3, "--out", (second.path() / "out").string(), "--budget", "600",
+                       "--accuracy", "1e-9"},
+                      second.path());
         wait_for_progress(c);
         c.signal(SIGINT);
         c.signal(SIGINT);

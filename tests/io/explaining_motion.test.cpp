@@ -60,5 +60,6 @@ TEST_CASE("beyond the end of a tube nothing is claimed") {
     REQUIRE(motion);
     auto const outputs = motion->outputs_of(0, {{3.0, 0, interval(0.0)}, {9.0, 0, interval(0.0)}});
     CHECK(std::isfinite(width(outputs[0])));
-    CHECK(outputs[1] == interval_traits<interval>::entire());
+    CHECK(outputs[1].lower() == -HUGE_VAL);
+    CHECK(outputs[1].upper() == HUGE_VAL);
 }

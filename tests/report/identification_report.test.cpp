@@ -37,7 +37,8 @@ TEST_CASE("the view says what the identification proved, and no more") {
     CHECK(v.pavings[0].x.label == "a");
     CHECK_THAT(v.tube_meaning, ContainsSubstring("proved to explain the data"));
     CHECK(v.warnings.empty());
-    CHECK(sivid_tests::markup_error(identification_page(v).str()) == "");
+    auto const page = identification_page(v).str();
+    CHECK(sivid_tests::markup_error(sivid_tests::body_of(page)) == "");
 }
 
 TEST_CASE("a forced outlier is marked as proved, and its budget shown") {
@@ -60,7 +61,8 @@ TEST_CASE("an inconsistent result has empty hulls and an honest line") {
     CHECK(v.verdict == outcome::refuted);
     CHECK(is_empty(v.parameters[0].hull));
     if (motion) CHECK_THAT(v.tube_meaning, ContainsSubstring("not proved to explain"));
-    CHECK(sivid_tests::markup_error(identification_page(v).str()) == "");
+    auto const page = identification_page(v).str();
+    CHECK(sivid_tests::markup_error(sivid_tests::body_of(page)) == "");
 }
 
 TEST_CASE("volumes that agree to many digits are widened outward, never beyond the whole") {

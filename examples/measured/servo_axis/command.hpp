@@ -47,6 +47,8 @@ struct posed_problem {
     sivid::identification_problem problem;
     std::vector<sample_range> used;
     std::vector<sample_range> kept_back; ///< windows of the same length in the gaps
+    std::size_t filter_half = 5;         ///< of the velocity filter, in samples
+    double share_used = 0;               ///< of the record's time
     /// Largest difference of the velocity filter from one 3/5 as wide, at the starts [m/s].
     double filter_difference = 0;
 };

@@ -157,6 +157,10 @@ posed_problem pose(recording const& r, command const& c) {
     posed_problem posed;
     auto const file = c.folder / c.file;
     posed.used = cut_windows(r, c.windows, file);
+    posed.filter_half = c.windows.filter_half;
+    for (auto const& w : posed.used) {
+        posed.share_used += (r.time[w.to] - r.time[w.from]) / (r.time.back() - r.time.front());
+    }
     auto& problem = posed.problem;
     problem.model = sivid::record_model(servo_axis{});
     problem.prior = box(prior_sides.size());
@@ -198,7 +202,7 @@ std::vector<misfit> approximate_misfits(posed_problem const& posed, recording co
         std::vector<double> times;
         for (auto k = w.from + 1; k <= w.to; ++k) times.push_back(r.time[k]);
         std::vector<double> const start{r.nearest_position[w.from],
-                                        approximate_velocity(r, w.from, 5)};
+                                        approximate_velocity(r, w.from, posed.filter_half)};
         auto const line = simulate(start, parameters, r.time[w.from], times);
         misfit m{.start = r.time[w.from]};
         for (std::size_t i = 0; i < times.size(); ++i) {

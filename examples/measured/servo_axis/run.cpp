@@ -6,6 +6,7 @@
 #include <sivid/io/identification_json.hpp>
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
+#include <sivid/report/residual_plot.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -78,23 +79,31 @@ std::string text_of(char const* format, double value) {
     return buffer;
 }
 
+/// A length given in m, in mm.
+std::string in_millimetres(sivid::exact_decimal const& metres) {
+    return metres.times(1000).text() + " mm";
+}
+
 /// What the proofs rest on beside "inputs exact".
 std::vector<std::string> assumptions_of(posed_problem const& posed, command const& c) {
     std::vector<std::string> all;
     all.emplace_back("force linear between samples");
-    all.push_back("position bound " + c.bounds.model_error.text() +
-                  " m stands for the model error: every sample of a window lies so near to the "
-                  "model's position");
-    all.push_back("each window starts within " + c.bounds.start_position.text() +
-                  " m of the measured position and within " + c.bounds.start_velocity.text() +
-                  " m/s of the velocity from a zero-phase low-pass filter (cubic over " +
+    all.push_back("position bound " + in_millimetres(c.bounds.model_error) +
+                  " stands for the model error: in each window used, every sample lies so near to "
+                  "the model's position");
+    all.push_back("each window starts within " + in_millimetres(c.bounds.start_position) +
+                  " of the measured position and within " +
+                  in_millimetres(c.bounds.start_velocity) +
+                  "/s of the velocity from a zero-phase low-pass filter (cubic over " +
                   std::to_string(2 * c.windows.filter_half + 1) +
                   " samples); a parameter is feasible when for every window some such start "
                   "explains the window's samples");
-    all.emplace_back("dry friction F_c v/sqrt(v^2 + eps^2) with eps = 0.001 m/s");
+    all.emplace_back("dry friction is F_c v/sqrt(v^2 + eps^2) with eps = 0.001 m/s");
     all.push_back(std::to_string(posed.used.size()) + " windows of " +
-                  text_of("%g", c.windows.length) + " s are used, all samples of each; " +
-                  std::to_string(posed.kept_back.size()) + " windows of the record are kept back");
+                  text_of("%g", c.windows.length) + " s are used (" +
+                  text_of("%.0f", 100 * posed.share_used) +
+                  " % of the record), with all samples of each; " +
+                  std::to_string(posed.kept_back.size()) + " are kept back");
     return all;
 }
 
@@ -130,7 +139,7 @@ summary_of_misfits summarise(std::vector<misfit> const& all, double bound) {
 struct outcome_of_run {
     sivid::identification found;
     bool literature_refuted = false;
-    std::vector<misfit> witness_used, witness_kept, literature_used;
+    std::vector<misfit> witness_used{}, witness_kept{}, literature_used{};
 };
 
 std::string millimetres(double metres) { return text_of("%.2f mm", 1e3 * metres); }
@@ -140,11 +149,70 @@ std::string literature_words(outcome_of_run const& o) {
     return std::string{"Taken together, the literature's values "} +
            (o.literature_refuted
                 ? "are proved not to explain these windows within the stated bounds"
-                : "are not excluded by this contraction") +
+                : "are not excluded by the contraction") +
            ": simulated from the filter's starts they miss by up to " + millimetres(lit.largest) +
-           " (window at " + text_of("%g", lit.at) +
-           " s). That is the known model error; each value "
-           "for itself is compared with the hull above.";
+           " (window at " + text_of("%g", lit.at) + " s). Each value for itself is compared here.";
+}
+
+/// Says what the page's standard sentences cannot know.
+void complete(report::identification_view& view, posed_problem const& posed,
+              outcome_of_run const& o, command const& c) {
+    auto const& names = posed.problem.choice.unknown;
+    auto const count = std::to_string(posed.used.size());
+    if (o.found.verdict == sivid::verdict::consistent) {
+        view.sentence = "A parameter vector explains every sample of " + count + " windows of " +
+                        text_of("%g", c.windows.length) + " s (" +
+                        text_of("%.0f", 100 * posed.share_used) + " % of the record) within " +
+                        in_millimetres(c.bounds.model_error) + "; all that do are enclosed below.";
+    }
+    if (o.found.verdict != sivid::verdict::inconsistent) {
+        std::string within, without;
+        auto const values = literature();
+        for (std::size_t j = 0; j < names.size(); ++j) {
+            auto& list = contains(o.found.hull[j], values[j]) ? within : without;
+            list += (list.empty() ? "" : ", ") + names[j] + " = " + text_of("%.7g", values[j]);
+        }
+        view.proved.push_back("Of the literature's values " + (within.empty() ? "none" : within) +
+                              (within.empty() ? " lies" : " lie") + " within the hulls" +
+                              (without.empty() ? "." : "; " + without + " do not."));
+    }
+    if (!o.witness_kept.empty()) {
+        auto const kept = summarise(o.witness_kept, *nearest(c.bounds.model_error));
+        view.warnings.push_back(
+            "The windows kept back are no part of the proof. Simulated there (not proved), the " +
+            std::string{o.found.witness ? "witness" : "best fit"} + " misses by up to " +
+            millimetres(kept.largest) + ", in " + std::to_string(kept.over) + " of " +
+            std::to_string(o.witness_kept.size()) +
+            " windows by more than the bound: dry friction and an offset are not all that acts "
+            "on this axis.");
+    }
+    if (posed.filter_difference > *nearest(c.bounds.start_velocity)) {
+        view.warnings.push_back("The velocity filter differs from a narrower one by " +
+                                text_of("%.2f", 1e3 * posed.filter_difference) +
+                                " mm/s, more than the stated bound of a start's velocity.");
+    }
+}
+
+/// The windows side by side: where the witness lies within the bound.
+void add_pictures(report::page& page, report::identification_view const& view,
+                  outcome_of_run const& o, command const& c) {
+    report::figure f{.panels = {},
+                     .title = std::string{"The "} + (o.found.witness ? "witness" : "best fit") +
+                              " within each measured interval, window by window.",
+                     .caption = "Zero is the measured position, +1 and \xE2\x88\x92"
+                                "1 are the ends of the bound of " +
+                                in_millimetres(c.bounds.model_error) +
+                                ". The line is a proven enclosure of the model's position: between "
+                                "the ends it meets the sample for certain."};
+    for (auto const& s : view.scenarios) {
+        for (auto const& channel : s.channels) {
+            f.panels.push_back(report::draw_residual_plot(
+                channel, {.height = 200, .title = "window at " + s.name}));
+        }
+    }
+    if (f.panels.empty()) return;
+    page.section("Measurements and model");
+    page.add(f);
 }
 
 void add_literature(report::page& page, posed_problem const& posed, outcome_of_run const& o) {
@@ -207,7 +275,7 @@ void add_windows(report::page& page, posed_problem const& posed, outcome_of_run 
     page.prose("At the starts the velocity filter differs by at most " +
                text_of("%.2f", 1e3 * posed.filter_difference) +
                " mm/s from one with 3/5 of its width; the stated bound is " +
-               c.bounds.start_velocity.text() + " m/s.");
+               in_millimetres(c.bounds.start_velocity) + "/s.");
 }
 
 std::string today() {
@@ -306,15 +374,20 @@ int run(command const& c) {
     }
     auto const further = assumptions_of(posed, c);
     auto const motion = sivid::find_explaining_motion(posed.problem, o.found);
-    auto const view = report::view_of(posed.problem, o.found, motion ? &*motion : nullptr,
-                                      {.dataset = "EMPS servo axis, " + c.file,
-                                       .meanings = meanings(),
-                                       .further_assumptions = further,
-                                       .date = today(),
-                                       .machine = machine_text(),
-                                       .command = c.command_line});
-    auto page = report::identification_page(view);
+    auto view = report::view_of(posed.problem, o.found, motion ? &*motion : nullptr,
+                                {.dataset = "EMPS servo axis, " + c.file,
+                                 .meanings = meanings(),
+                                 .further_assumptions = further,
+                                 .date = today(),
+                                 .machine = machine_text(),
+                                 .command = c.command_line});
+    complete(view, posed, o, c);
+    // A figure of all windows says more than two for each.
+    auto short_view = view;
+    for (auto& s : short_view.scenarios) s.channels.clear();
+    auto page = report::identification_page(short_view);
     add_literature(page, posed, o);
+    add_pictures(page, view, o, c);
     add_windows(page, posed, o, c);
     sivid::write_atomically(c.out / "boxes.csv", sivid::boxes_csv(posed.problem, o.found));
     sivid::write_atomically(c.out / "outputs.csv", sivid::outputs_csv(posed.problem, o.found,

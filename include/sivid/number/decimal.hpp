@@ -182,6 +182,4 @@ I operator/(decimal d, I const& x) {
 
 } // namespace sivid
 
-#include <sivid/number/decimal_output.hpp>
-
 #endif

@@ -8,6 +8,7 @@
 /// ("{:>30.4}").
 
 #include <sivid/number/decimal.hpp>
+#include <sivid/number/decimal_output.hpp>
 #include <sivid/number/interval.hpp>
 
 #include <fmt/format.h>

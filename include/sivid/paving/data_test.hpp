@@ -73,7 +73,7 @@ public:
     [[nodiscard]] assessment<knowledge> operator()(box const& parameters,
                                                    std::shared_ptr<knowledge const> const& known) {
         assessment<knowledge> result{.rest = parameters};
-        if (known && options_.contract) {
+        if (known && options_.contract && subset(parameters, known->region)) {
             double const share = judge(*known, result);
             if (result.verdict != box_verdict::undecided || share <= options_.sharp_enough) {
                 result.knowledge = known;
@@ -85,7 +85,8 @@ public:
         result.smear.assign(parameters.size(), 0.0);
         for (std::size_t e = 0; e < flows_.size(); ++e) {
             auto const& all = problem_->experiments[e].initial;
-            // What earlier experiments cut off need not be integrated, if it is worth the narrower use.
+            // What earlier experiments cut off need not be integrated, if it is worth the narrower
+            // use.
             if (relative_volume(result.rest, found->region).upper() < 0.5) {
                 found->region = result.rest;
             }

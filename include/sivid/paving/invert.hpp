@@ -113,7 +113,9 @@ side_to_split(box const& x, box const& prior, std::vector<double> const& smear, 
         double const middle = mid(x[i]);
         bool const splits = x[i].lower() < middle && middle < x[i].upper();
         if (!(share > accuracy) || !splits) continue;
-        double const rank = smear.empty() ? share : smear[i];
+        double const rank = smear.empty()   ? share
+                            : smear[i] >= 0 ? smear[i]
+                                            : 0; // NaN says nothing
         if (rank > best_rank ||
             (rank == best_rank && share > width(x[*best]) / width(prior[*best]))) {
             best = i;

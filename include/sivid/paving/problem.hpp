@@ -6,6 +6,8 @@
 #include <sivid/model/bound_model.hpp>
 #include <sivid/space/box.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -39,7 +41,12 @@ struct identification_problem {
         };
         if (choice.unknown.empty()) fail("no unknown parameter");
         if (choice.unknown.size() != prior.size()) fail("the prior needs one side per parameter");
+        auto const bounded = [](box const& x) {
+            return std::all_of(x.begin(), x.end(),
+                               [](interval const& side) { return std::isfinite(mag(side)); });
+        };
         if (is_empty(prior)) fail("the prior is empty");
+        if (!bounded(prior)) fail("the prior must be bounded");
         if (experiments.empty()) fail("no experiment");
         for (auto const& s : experiments) {
             auto const where = "experiment '" + s.name + "': ";
@@ -47,10 +54,13 @@ struct identification_problem {
                 fail(where + "the initial box needs one side per state");
             }
             if (is_empty(s.initial)) fail(where + "the initial box is empty");
+            if (!bounded(s.initial)) fail(where + "the initial box must be bounded");
             if (s.measurements.empty()) fail(where + "no measurement");
             for (auto const& m : s.measurements) {
                 if (m.channel >= model.about.channels.size()) fail(where + "unknown channel");
-                if (!(m.time >= s.begin)) fail(where + "a measurement before the begin");
+                if (!(m.time >= s.begin) || !std::isfinite(m.time)) {
+                    fail(where + "a measurement before the begin, or at no finite time");
+                }
                 if (is_empty(m.bound)) fail(where + "an empty measurement");
             }
         }

@@ -18,8 +18,9 @@
 namespace sivid {
 
 /// A problem with fewer parameters that has the same trajectories.
-///   Where parameters enter the equations only through products c, the others can be set to 1 and one
-///   parameter of each product takes the value of c: for the hovercraft S_g = 1 and L = (L S_g).
+///   Where parameters enter the equations only through products c, the others can be set to 1 and
+///   one parameter of each product takes the value of c: for the hovercraft S_g = 1 and L = (L
+///   S_g).
 class reduction {
 public:
     /// A side of the reduced prior: a parameter of the original problem, or a product of several.
@@ -85,8 +86,8 @@ public:
         return intersect(r, problem_.prior);
     }
 
-    /// Removes from p what maps outside r: \f$ p_j \leftarrow p_j \cap [c] / \prod_{l \ne j} p_l^{e_l} \f$
-    /// for the factors of power one.
+    /// Removes from p what maps outside r: \f$ p_j \leftarrow p_j \cap [c] / \prod_{l \ne j}
+    /// p_l^{e_l} \f$ for the factors of power one.
     [[nodiscard]] box backward(box p, box const& r) const {
         using traits = interval_traits<interval>;
         for (std::size_t k = 0; k < sides_.size(); ++k) {
@@ -134,8 +135,8 @@ private:
     std::vector<side> sides_;
 };
 
-/// Tests boxes of the original parameters by a test of the reduced ones, and shares what was computed
-/// among all boxes that map into the same region.
+/// Tests boxes of the original parameters by a test of the reduced ones, and shares what was
+/// computed among all boxes that map into the same region.
 template <learning_set_test Inner>
 class reduced_test {
 public:
@@ -151,7 +152,8 @@ public:
             result.verdict = box_verdict::outside;
             return result;
         }
-        auto known = given;
+        // The way back keeps a little more than the region that `given` speaks of.
+        auto known = given && subset(r, given->region) ? given : nullptr;
         double least = HUGE_VAL;
         for (auto const& [size, what] : shared_) { // the smallest region around r knows best
             if (size < least && subset(r, what->region)) {
@@ -169,7 +171,8 @@ public:
         result.knowledge = std::move(found.knowledge);
         if (found.verdict == box_verdict::outside) return result;
         result.smear = map_->smear(p, r, found.smear);
-        // Inside holds for the contracted part only, and the map back keeps a little more than that.
+        // Inside holds for the contracted part only, and the map back keeps a little more than
+        // that.
         result.rest = map_->backward(p, found.rest);
         if (is_empty(result.rest)) {
             result.verdict = box_verdict::outside;

@@ -44,16 +44,19 @@ struct monomial_table {
     }
     [[nodiscard]] std::size_t size() const { return exponents.size(); }
 
+    [[nodiscard]] std::vector<unsigned> powers(std::size_t m) const {
+        return {exponents[m].begin(), exponents[m].end()};
+    }
     /// Fills `lines`.
     void find_lines() {
-        std::map<std::vector<std::uint8_t>, std::size_t> place;
-        for (std::size_t m = 0; m < size(); ++m) place[exponents[m]] = m;
+        std::map<std::vector<unsigned>, std::size_t> place;
+        for (std::size_t m = 0; m < size(); ++m) place[powers(m)] = m;
         lines.resize(variables);
         for (std::size_t v = 0; v < variables; ++v) {
             for (std::size_t m = 0; m < size(); ++m) {
                 if (exponents[m][v] != 0) continue;
                 auto& line = lines[v].emplace_back();
-                auto e = exponents[m];
+                auto e = powers(m);
                 for (auto next = place.find(e); next != place.end(); next = place.find(e)) {
                     line.push_back(next->second);
                     ++e[v];

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// Problems with fewer parameters: the same trajectories, and maps of boxes that lose nothing.
+#include <sivid/paving/reduction.hpp>
+
+#include "support/catch.hpp"
+#include "support/problems.hpp"
+
+#include <sivid/enclosure/tube.hpp>
+#include <sivid/paving/identify.hpp>
+
+using namespace sivid;
+using support::between;
+using support::draws;
+using support::mp;
+
+namespace {
+
+struct sample {
+    identification_problem problem;
+    dependence_structure structure;
+};
+template <class Rate>
+sample make(std::size_t constants, Rate const& rate, box const& prior) {
+    sample s;
+    s.problem.model = support::model_of({1, constants}, rate);
+    s.problem.choice.unknown = support::all_constants(constants);
+    s.problem.prior = prior;
+    experiment e;
+    e.name = "E";
+    e.initial = box{interval(1.0)};
+    e.measurements = {{1, 0, between(-100, 100)}};
+    s.problem.experiments = {e};
+    s.structure = dependence_of(s.problem);
+    return s;
+}
+/// x' = p3 - p0 p1 x / p2^2 + ...
+sample products() {
+    return make(
+        4,
+        [](auto const&, auto const& x, auto const& p, auto const&) {
+            return std::vector{p[3] - p[0] * p[1] * x[0]  + p[0] * p[1] / p[2] * 0.25};
+        },
+        box{between(0.5, 2), between(0.5, 1.5), between(1, 3), between(-1, 1)});
+}
+
+} // namespace
+
+TEST_CASE("a reduced problem has the trajectories of the original one") {
+    draws d(371);
+    auto const s = products();
+    auto const map = reduction::find(s.problem, s.structure);
+    REQUIRE(map);
+    auto const& small = map->problem();
+    CHECK(small.prior.size() < s.problem.prior.size());
+    CHECK(small.choice.unknown.size() == small.prior.size());
+    CHECK_NOTHROW(small.require_valid());
+    auto const original = std::make_shared<flow const>(s.problem.model, s.problem.choice,
+                                                       std::vector<signal>{});
+    auto const reduced =
+        std::make_shared<flow const>(small.model, small.choice, std::vector<signal>{});
+    for (int round = 0; round < 60; ++round) {
+        auto const p = point_box(d.in(s.problem.prior));
+        auto const r = map->forward(p);
+        REQUIRE_FALSE(is_empty(r));
+        CHECK(subset(r, small.prior));
+        auto const a = integrate<interval>(original, box{interval(1.0)}, p, 0, 2);
+        auto const b = integrate<interval>(reduced, box{interval(1.0)}, r, 0, 2);
+        REQUIRE((a.complete() && b.complete()));
+        CHECK_FALSE(disjoint(a.at(2)[0], b.at(2)[0]));
+        CHECK(width(b.at(2)[0]) < 1e-10);
+    }
+}
+
+TEST_CASE("forward keeps the image of each point, backward each point that maps into the box") {
+    draws d(372);
+    auto const s = products();
+    auto const map = reduction::find(s.problem, s.structure);
+    REQUIRE(map);
+    int kept = 0;
+    int contracted = 0;
+    for (int round = 0; round < 400; ++round) {
+        box p(4);
+        for (std::size_t j = 0; j < 4; ++j) {
+            auto const& side = s.problem.prior[j];
+            double const a = d.in(side);
+            double const b = d.in(side);
+            p[j] = between(std::min(a, b), std::max(a, b));
+        }
+        auto const whole = map->forward(p);
+        auto part = whole;
+        for (std::size_t k = 0; k < part.size(); ++k) {
+            double const a = d.in(whole[k]);
+            double const b = d.in(whole[k]);
+            part[k] = between(std::min(a, b), std::max(a, b));
+        }
+        auto const back = map->backward(p, part);
+        if (!is_empty(back)) {
+            CHECK(subset(back, p));
+            contracted += width(back) < 0.9 * width(p) ? 1 : 0;
+        }
+        for (int member = 0; member < 10; ++member) {
+            auto const x = d.in(p);
+            auto const image = map->forward(point_box(x));
+            CHECK(subset(image, whole));
+            if (!subset(image, part)) continue;
+            ++kept;
+            CHECK((!is_empty(back) && contains(back, x)));
+        }
+    }
+    CHECK(kept > 50);
+    CHECK(contracted > 50);
+}
+
+TEST_CASE("nothing is reduced where no product can stand for its factors") {
+    auto const alone = make(
+        2,
+        [](auto const&, auto const& x, auto const& p, auto const&) {
+            return std::vector{p[0] * x[0] + p[1]};
+        },
+        box{between(0, 1), between(0, 1)});
+    CHECK_FALSE(reduction::find(alone.problem, alone.structure));
+    auto const squares = make( // only p0^2 p1^2: the product's sign is open
+        2,
+        [](auto const&, auto const& x, auto const& p, auto const&) {
+            return std::vector{sqr(p[0] * p[1]) * x[0]};
+        },
+        box{between(-1, 1), between(-1, 1)});
+    if (auto const map = reduction::find(squares.problem, squares.structure)) {
+        // If one is offered it must be true for either sign.
+        auto const r = map->forward(box{interval(-0.5), interval(1.0)});
+        CHECK_FALSE(is_empty(r));
+    }
+    auto const pole = make( // p0/p1 with 0 among the divisors is unbounded
+        2,
+        [](auto const&, auto const& x, auto const& p, auto const&) {
+            return std::vector{p[0] / p[1] * x[0]};
+        },
+        box{between(0.5, 1), between(-1, 1)});
+    CHECK_FALSE(reduction::find(pole.problem, pole.structure));
+}
+
+TEST_CASE("identification through a reduction contains the truth and claims nothing false") {
+    draws d(373);
+    int inside = 0;
+    for (int round = 0; round < 8; ++round) {
+        auto const planted = support::plant(
+            d, 2,
+            {.experiments = 2, .samples = 8, .outliers = d.below(2), .noise = d.uniform(0.03, 0.2)});
+        auto const allowed = planted.problem.experiments[0].outliers;
+        identify_options options;
+        options.search.accuracy = 1.0 / 32;
+        options.search.boxes = 400;
+        options.search.sufficient_ratio = 1;
+        auto const found = identify(planted.problem, options);
+        CHECK(contains(found.hull, planted.truth));
+        for (auto const& b : found.paving.boxes()) {
+            if (b.verdict == box_verdict::outside) CHECK_FALSE(contains(b.set, planted.truth));
+            if (b.verdict != box_verdict::inside || d.below(8) != 0) continue;
+            ++inside;
+            auto const p = d.in(b.set);
+            for (std::size_t e = 0; e < 2; ++e) {
+                CHECK(planted.violated(e, p, planted.starts[e], 1e-10) <= allowed);
+            }
+        }
+    }
+    CHECK(inside > 10);
+}
