@@ -124,7 +124,7 @@ TEST_CASE("identify writes a report, a result and two tables, and says 0 when co
         CHECK_THAT(entry.path().filename().string(), !ContainsSubstring(".part"));
 }
 
-TEST_CASE("--quiet says nothing on stderr; 3 when undecided, 4 when inconsistent") {
+TEST_CASE("a quiet run says nothing on stderr, 3 when undecided, 4 when inconsistent") {
     temporary_folder const folder;
     auto const data = (folder.path() / "data").string(), out = (folder.path() / "out").string();
     REQUIRE(run({"generate", "--scenario", "S1", "--out", data, "--absolute", "0.05", "--outliers",
@@ -148,7 +148,7 @@ TEST_CASE("--quiet says nothing on stderr; 3 when undecided, 4 when inconsistent
     CHECK(r.code == 0);
 }
 
-TEST_CASE("--compare shows Algorithm 1 beside") {
+TEST_CASE("a comparison shows Algorithm 1 beside") {
     temporary_folder const folder;
     auto const out = folder.path() / "out";
     auto const r =
@@ -213,7 +213,7 @@ TEST_CASE("help is no error") {
     CHECK_THAT(r.out, ContainsSubstring("--relative") && ContainsSubstring("S3"));
 }
 
-TEST_CASE("Ctrl-C stops with what is proved until then; a second one ends the program") {
+TEST_CASE("Ctrl-C stops with what is proved until then and a second one ends the program") {
     using namespace std::chrono_literals;
     temporary_folder const folder;
     auto const out = folder.path() / "out";

@@ -172,7 +172,7 @@ TEST_CASE("the facts that fix the readings of the report") {
     CHECK_THAT(end.states[0][0], WithinAbs(2.0, 0.002));
 }
 
-TEST_CASE("scenarios 1 and 2 say nothing about S_v, S_g or L; scenario 3 knows L S_g only") {
+TEST_CASE("scenarios 1 and 2 say nothing about S_v, S_g or L, and scenario 3 knows L S_g only") {
     for (auto const* name : {"S1", "S2"}) {
         auto const a = run(name).simulated(1);
         auto const b = run(name, {{"Sv", 0.25}, {"Sg", 0.07}, {"L", 0.26}}).simulated(1);

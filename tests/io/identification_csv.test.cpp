@@ -30,7 +30,7 @@ std::vector<std::vector<std::string>> rows_of(std::string const& text) {
 
 } // namespace
 
-TEST_CASE("every box but the outside ones is a row; inside rows are rounded inward") {
+TEST_CASE("every box but the outside ones is a row, inside rows are rounded inward") {
     auto const problem = two_rates_problem();
     auto const found = two_rates_result(problem);
     auto const rows = rows_of(boxes_csv(problem, found));

@@ -33,12 +33,12 @@ sample make(std::size_t constants, Rate const& rate, box const& prior) {
     s.structure = dependence_of(s.problem);
     return s;
 }
-/// x' = p3 - p0 p1 x / p2^2 + ...
+/// x' = p3 - p0 p1 x + p2/4: p0 and p1 act through their product only.
 sample products() {
     return make(
         4,
         [](auto const&, auto const& x, auto const& p, auto const&) {
-            return std::vector{p[3] - p[0] * p[1] * x[0]  + p[0] * p[1] / p[2] * 0.25};
+            return std::vector{p[3] - p[0] * p[1] * x[0] + p[2] * 0.25};
         },
         box{between(0.5, 2), between(0.5, 1.5), between(1, 3), between(-1, 1)});
 }
@@ -141,7 +141,6 @@ TEST_CASE("nothing is reduced where no product can stand for its factors") {
 
 TEST_CASE("identification through a reduction contains the truth and claims nothing false") {
     draws d(373);
-    int inside = 0;
     for (int round = 0; round < 8; ++round) {
         auto const planted = support::plant(
             d, 2,
@@ -153,15 +152,14 @@ TEST_CASE("identification through a reduction contains the truth and claims noth
         options.search.sufficient_ratio = 1;
         auto const found = identify(planted.problem, options);
         CHECK(contains(found.hull, planted.truth));
+        CHECK(found.verdict != verdict::inconsistent);
         for (auto const& b : found.paving.boxes()) {
             if (b.verdict == box_verdict::outside) CHECK_FALSE(contains(b.set, planted.truth));
             if (b.verdict != box_verdict::inside || d.below(8) != 0) continue;
-            ++inside;
             auto const p = d.in(b.set);
             for (std::size_t e = 0; e < 2; ++e) {
                 CHECK(planted.violated(e, p, planted.starts[e], 1e-10) <= allowed);
             }
         }
     }
-    CHECK(inside > 10);
 }

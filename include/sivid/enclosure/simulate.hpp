@@ -58,6 +58,8 @@ public:
             while (t < target) {
                 piece_start = t;
                 double const to = std::min(target, flow_->next_knot(t));
+                // The method keeps its last derivative, which a knot may have changed.
+                method.reset();
                 step = std::min(step, to - t);
                 advance(method, rhs, x, t, to, step);
             }
