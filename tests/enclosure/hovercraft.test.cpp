@@ -8,6 +8,7 @@
 
 #include "../../examples/hovercraft/model.hpp"
 
+#include <sivid/enclosure/parametric_flow.hpp>
 #include <sivid/enclosure/simulate.hpp>
 #include <sivid/enclosure/tube.hpp>
 
@@ -208,8 +209,14 @@ TEST_CASE("parameter boxes stay within twice the true range") {
             double const c = static_cast<double>(exact_truth[j]);
             p[j] = support::around(c, 0.5 * relative * c);
         }
-        auto const tube = integrate<interval>(f, start_of(s), p, 0, 3);
-        REQUIRE(tube.complete());
+        // First-order sets for the narrow box, Taylor models in the parameters for the wider one.
+        auto const states = [&] {
+            if (relative < 0.005) return integrate<interval>(f, start_of(s), p, 0, 3).at(3);
+            parametric_flow<3, 3> run(*f, {.order = 12, .tolerance = 1e-9});
+            run.begin(0, start_of(s), p);
+            while (run.time() < 3) REQUIRE(run.step(3));
+            return run.set().hull();
+        }();
         box seen(6);
         for (int corner = 0; corner < 27; ++corner) {
             extended_state q;
@@ -225,8 +232,8 @@ TEST_CASE("parameter boxes stay within twice the true range") {
             }
         }
         for (std::size_t i = 0; i < 6; ++i) {
-            CAPTURE(relative, i, width(tube.at(3)[i]), width(seen[i]));
-            CHECK(width(tube.at(3)[i]) <= factor * width(seen[i]));
+            CAPTURE(relative, i, width(states[i]), width(seen[i]));
+            CHECK(width(states[i]) <= factor * width(seen[i]));
         }
     }
 }
