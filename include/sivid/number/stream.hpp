@@ -5,7 +5,7 @@
 /// @file
 /// Intervals and decimals to streams.
 
-#include <sivid/number/decimal.hpp>
+#include <sivid/number/decimal_output.hpp>
 #include <sivid/number/interval.hpp>
 
 #include <ostream>
