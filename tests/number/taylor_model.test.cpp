@@ -68,6 +68,7 @@ void check_rounding(std::uint64_t seed, int trials) {
         auto const a = wild_model<N, D>(d);
         auto const b = wild_model<N, D>(d);
         double const m = wild_model<N, D>(d).c[0];
+        if (!all_finite(a) || !all_finite(b) || !std::isfinite(m)) continue;
         auto const p = exact(a);
         auto const s = exact(b);
         for (int const mode : modes) {
