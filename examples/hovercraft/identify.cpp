@@ -193,11 +193,10 @@ int run(identify_command const& c) {
                                                 .command = c.command_line};
     auto view = report::view_of(problem, found, motion ? &*motion : nullptr, about);
     if (baseline) {
-        view.comparison = {
-            report::comparison_of(words_of(c.algorithm), found, true),
-            report::comparison_of(words_of("report-1"), *baseline, false,
-                                  std::string{"bisection alone, no outlier allowed; stopped: "} +
-                                      std::string{to_string(baseline->reason)})};
+        view.comparison = {report::comparison_of(words_of(c.algorithm), found, true),
+                           report::comparison_of(words_of("report-1"), *baseline, false,
+                                                 std::string{"bisection alone; "} +
+                                                     std::string{to_string(baseline->reason)})};
         view.comparison_note = "Both volumes are proved; the smaller the outer one, the more was "
                                "excluded. Same machine, same problem, one after the other.";
     }

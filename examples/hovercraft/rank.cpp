@@ -59,8 +59,8 @@ std::string judge(std::vector<ranked_equation> const& ranking, std::string const
         for (auto const& other : e.effects) rank += other.effect.lower() > p.effect.upper() ? 1 : 0;
     }
     return std::string{"effect in "} +
-           report::outward_text(readable(p.effect), {.significant = 2}) + " " + p.unit + ": rank " +
-           std::to_string(rank) + " or lower, at most " +
+           report::outward_text(readable(p.effect), {.significant = 2}) + " " +
+           report::unit_text(p.unit) + ": at best rank " + std::to_string(rank) + ", at most " +
            report::rounded_text(100 * (p.effect.upper() / most), report::rounding::up,
                                 {.significant = 2}) +
            " % of the strongest one's bound";

@@ -194,7 +194,7 @@ TEST_CASE("scenarios 1 and 2 say nothing about S_v, S_g or L, and scenario 3 kno
     CHECK_THAT(spread("L", 0.25, 0.35), WithinAbs(1.2, 0.1));
 }
 
-TEST_CASE("random truths lie in the tube of their parameters' box at random times", "[.long]") {
+TEST_CASE("random truths lie in the tube of their parameters' box at random times") {
     auto const model = sivid::record_model(hovercraft{});
     run const r("S3");
     std::vector<sivid::signal> inputs;

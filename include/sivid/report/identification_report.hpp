@@ -34,7 +34,7 @@ namespace detail {
 /// well; still an enclosure.
 inline range shown_share(interval const& volume) {
     range const r = shown(share_of_whole(volume));
-    double const more = 2e-4 * r.hi;
+    double const more = 5e-4 * r.hi;
     return r.lo == r.hi || r.hi - r.lo > more
                ? r
                : range{std::max(0.0, r.lo - more), std::min(1.0, r.hi + more)};
