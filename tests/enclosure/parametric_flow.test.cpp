@@ -57,6 +57,77 @@ std::vector<extended> at(std::vector<normalised_unknowns::side> const& sides,
     return x;
 }
 
+/// The set and the tube of one lane after a step against an exact solution.
+template <class Flow>
+void check_step(Flow const& run, std::size_t lane, double from, draws& d, int samples,
+                exact_solution const& exact, extended slack) {
+    auto const set = lane_of(run.set(), lane);
+    auto const swept = run.swept(lane);
+    auto const hull = run.set().hull(lane);
+    for (int sample = 0; sample < samples; ++sample) {
+        auto const q = support::short_point(d, Flow::polynomial::variables);
+        auto const start = at(run.unknowns(lane).initial, q);
+        auto const parameters = at(run.unknowns(lane).parameters, q);
+        auto const x = exact(set.time, start, parameters);
+        CAPTURE(set.time, sample, lane);
+        REQUIRE(encloses_at(set, q, x, slack));
+        auto const within = static_cast<extended>(std::clamp(d.uniform(-0.1, 1.1), 0.0, 1.0));
+        auto const between_steps =
+            exact(from + within * (static_cast<extended>(set.time) - from), start, parameters);
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            REQUIRE(support::encloses_reference(hull[i], x[i], 1e-16));
+            REQUIRE(support::encloses_reference(swept[i], between_steps[i], 1e-16));
+        }
+    }
+}
+
+box part_of(box const& whole, draws& d) {
+    box part = whole;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+        auto const& side = whole[i];
+        if (width(side) == 0) continue;
+        double const a = d.uniform(lower(side), upper(side));
+        double const b = d.coin() ? upper(side) : d.uniform(lower(side), upper(side));
+        part[i] = interval(std::min(a, b), std::max(a, b));
+    }
+    return part;
+}
+
+/// Ten parts of the boxes in eight lanes, begun one after the other, two of them in a lane that has
+/// become free: each at its own time with its own steps.
+template <std::size_t N, std::size_t D>
+void check_lanes(flow const& f, enclosure_options const& options, box const& x0, box const& p,
+                 double end, exact_solution const& exact, std::uint64_t seed, extended slack) {
+    using C = lanes<8>;
+    draws d(seed + 77);
+    parametric_flow<N, D, C> run(f, options);
+    std::size_t begun = 0;
+    std::size_t finished = 0;
+    while (finished < 10) {
+        for (std::size_t l = 0; l < 8; ++l) {
+            if (run.running()[l] && !(run.time(l) < end)) {
+                run.end(l);
+                ++finished;
+            }
+            REQUIRE_FALSE(run.failure(l));
+            if (!run.running()[l] && begun < 10 && (begun == 0 || d.coin())) {
+                ++begun;
+                run.begin(l, 0, part_of(x0, d), part_of(p, d));
+            }
+        }
+        auto const before = run.set().time;
+        auto const moved = run.advance(C(end));
+        for (std::size_t l = 0; l < 8; ++l) {
+            if (moved[l]) {
+                REQUIRE(run.time(l) > before[l]);
+                check_step(run, l, before[l], d, 3, exact, slack);
+            } else {
+                REQUIRE(run.time(l) == before[l]);
+            }
+        }
+    }
+}
+
 /// What a run does to be tested: every step's set and tube against an exact solution.
 template <std::size_t N, std::size_t D>
 std::size_t check_run(flow const& f, enclosure_options const& options, box const& x0, box const& p,
@@ -70,24 +141,9 @@ std::size_t check_run(flow const& f, enclosure_options const& options, box const
         bool const done = run.step(end);
         CAPTURE(from, run.steps());
         REQUIRE(done);
-        auto const swept = run.swept();
-        auto const hull = run.set().hull();
-        for (int sample = 0; sample < 12; ++sample) {
-            auto const q = support::short_point(d, N);
-            auto const start = at(run.unknowns().initial, q);
-            auto const parameters = at(run.unknowns().parameters, q);
-            auto const x = exact(run.time(), start, parameters);
-            CAPTURE(run.time(), sample, N, D);
-            REQUIRE(encloses_at(run.set(), q, x, slack));
-            auto const within = static_cast<extended>(std::clamp(d.uniform(-0.1, 1.1), 0.0, 1.0));
-            auto const between_steps = exact(
-                from + within * (static_cast<extended>(run.time()) - from), start, parameters);
-            for (std::size_t i = 0; i < x.size(); ++i) {
-                REQUIRE(support::encloses_reference(hull[i], x[i], 1e-16));
-                REQUIRE(support::encloses_reference(swept[i], between_steps[i], 1e-16));
-            }
-        }
+        check_step(run, 0, from, d, 12, exact, slack);
     }
+    check_lanes<N, D>(f, options, x0, p, end, exact, seed, slack);
     return run.steps();
 }
 

@@ -109,7 +109,8 @@ TEST_CASE("unknowns: sides with a width get a variable, the others a rest") {
         rational const reach = rational(s.radius) + rational(s.rest);
         REQUIRE(rational(s.centre) - reach <= rational(side.lower()));
         REQUIRE(rational(side.upper()) <= rational(s.centre) + reach);
-        auto const set = parametric_set<1, 2>::start(0, one);
+        parametric_set<1, 2> set(1);
+        set.begin(0, 0, one);
         REQUIRE(subset(side, set.hull()[0]));
         REQUIRE(set.centre[0].r == 0);
     }

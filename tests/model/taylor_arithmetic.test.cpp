@@ -133,7 +133,7 @@ TEST_CASE("kinks and jumps of Taylor models are sets") {
         auto const sign = arithmetic::sign(a);
         auto const least = arithmetic::min(a, b);
         auto const most = arithmetic::max(a, b);
-        int const side = arithmetic::branch(a);
+        auto const side = arithmetic::sign_of(a);
         for (int sample = 0; sample < 20; ++sample) {
             auto const q = support::short_point(d, variables);
             auto const x = support::member<mp>(d, a, q);
@@ -142,14 +142,16 @@ TEST_CASE("kinks and jumps of Taylor models are sets") {
             REQUIRE(support::holds(sign, q, support::real::sign(x), 1e-40));
             REQUIRE(support::holds(least, q, support::real::min(x, y), 1e-40));
             REQUIRE(support::holds(most, q, support::real::max(x, y), 1e-40));
-            if (side != 0) REQUIRE(x * side > 0);
+            if (side.positive) REQUIRE(x > 0);
+            if (side.negative) REQUIRE(x < 0);
+            REQUIRE(side.neither == (!side.positive && !side.negative));
         }
     }
     // An argument that touches zero at one point only: both ends of [-1, 1].
     auto const touching = arithmetic::sign(model::variable(0, 1, 1));
     REQUIRE(support::holds(touching, {-1, 0}, mp(-1)));
     REQUIRE(support::holds(touching, {-1, 0}, mp(1)));
-    REQUIRE(arithmetic::branch(model::variable(0, 1, 1)) == 0);
+    REQUIRE(arithmetic::sign_of(model::variable(0, 1, 1)).neither);
 }
 
 TEST_CASE("products with constants, powers and quotients contain those of members") {
@@ -198,5 +200,5 @@ TEST_CASE("functions of bounded range stay bounded where nothing is known") {
     bool undefined = false;
     (void)arithmetic::div(model::constant(1), unknown, undefined);
     REQUIRE(undefined);
-    REQUIRE(arithmetic::branch(unknown) == 0);
+    REQUIRE(arithmetic::sign_of(unknown).neither);
 }

@@ -4,11 +4,13 @@
 
 #include <sivid/enclosure/flow.hpp>
 #include <sivid/model/series.hpp>
+#include <sivid/number/lanes.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/space/matrix.hpp>
 
 #include <algorithm>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 namespace sivid {
@@ -19,17 +21,28 @@ struct input_pieces {
     std::vector<T> value;
     std::vector<T> slope;
 
-    /// @param start  the step's begin: it selects the pieces
+    /// @param start  the step's begin, in each lane if it is not a double: it selects the pieces
     /// @param t      the expansion point, or a range of times within the step
-    input_pieces(flow const& f, double start, T const& t)
+    template <class Start>
+    input_pieces(flow const& f, Start const& start, T const& t)
         : value(f.model().about.inputs.size(), arithmetic_of<T>::point(0.0)), slope(value) {
         using A = arithmetic_of<T>;
         for (auto const i : f.sampled_inputs()) {
             auto const& u = f.input(i);
-            auto const piece = u.piece(start);
-            slope[i] = A::enclose(u.template slope<interval>(piece));
-            auto const since = A::sub(t, A::point(u.times()[piece]));
-            value[i] = A::add(A::point(u.values()[piece]), A::mul(slope[i], since));
+            auto const on_pieces = [&](auto const& get) {
+                if constexpr (std::is_arithmetic_v<Start>) {
+                    return A::enclose(get(u.piece(start)));
+                } else {
+                    return A::enclose_lanes([&](std::size_t l) {
+                        return get(u.piece(lane_traits<Start>::get(start, l)));
+                    });
+                }
+            };
+            slope[i] = on_pieces([&](std::size_t p) { return u.template slope<interval>(p); });
+            auto const since =
+                A::sub(t, on_pieces([&](std::size_t p) { return interval(u.times()[p]); }));
+            value[i] = A::add(on_pieces([&](std::size_t p) { return interval(u.values()[p]); }),
+                              A::mul(slope[i], since));
         }
     }
     T operator()(std::size_t i, std::size_t k) const {
@@ -61,7 +74,8 @@ public:
           values_(f.rate(), max_order),
           jacobian_(f.rate_jacobian(), max_order),
           x_(f.states() * stride_, arithmetic::point(0.0)),
-          v_(f.states() * columns_ * stride_, arithmetic::point(0.0)) {}
+          v_(f.states() * columns_ * stride_, arithmetic::point(0.0)),
+          sums_(f.states() * columns_) {}
 
     template <class Box>
     void set_parameters(Box const& p) {
@@ -70,15 +84,15 @@ public:
     }
 
     /// Coefficients 0 .. order of the solution through `x` at `t`.
-    template <class States>
-    void expand(double start, T const& t, States const& x, std::size_t order) {
+    template <class Start, class States>
+    void expand(Start const& start, T const& t, States const& x, std::size_t order) {
         run(values_, start, t, x, order);
         jumped_ = values_.jumped();
     }
 
     /// The same with the coefficients 0 .. order of V.
-    template <class States>
-    void expand_with_variations(double start, T const& t, States const& x, std::size_t order) {
+    template <class Start, class States>
+    void expand_with_variations(Start const& start, T const& t, States const& x, std::size_t order) {
         run(jacobian_, start, t, x, order);
         auto const n = flow_->states();
         for (std::size_t i = 0; i < n; ++i) {
@@ -87,7 +101,7 @@ public:
             }
         }
         auto const& program = flow_->rate_jacobian();
-        std::vector<typename arithmetic::accumulator> sums(n * columns_);
+        auto& sums = sums_;
         for (std::size_t k = 0; k < order; ++k) {
             std::fill(sums.begin(), sums.end(), typename arithmetic::accumulator{});
             for (auto const& e : flow_->entries()) {
@@ -129,17 +143,17 @@ public:
         return jacobian_.output(e.output, 0);
     }
     [[nodiscard]] typename arithmetic::mask undefined() const { return undefined_; }
-    [[nodiscard]] bool kinked() const { return kinked_; }
+    [[nodiscard]] typename arithmetic::mask kinked() const { return kinked_; }
     /// The right-hand side itself may jump within the last `expand` (not its Jacobian).
-    [[nodiscard]] bool jumped() const { return jumped_; }
+    [[nodiscard]] typename arithmetic::mask jumped() const { return jumped_; }
     [[nodiscard]] std::size_t max_order() const { return stride_ - 1; }
 
 private:
     T& v(std::size_t i, std::size_t c, std::size_t k) {
         return v_[(i * columns_ + c) * stride_ + k];
     }
-    template <class States>
-    void run(series<T>& s, double start, T const& t, States const& x, std::size_t order) {
+    template <class Start, class States>
+    void run(series<T>& s, Start const& start, T const& t, States const& x, std::size_t order) {
         input_pieces<T> const inputs(*flow_, start, t);
         auto const state = [this](std::size_t i, std::size_t k) -> T const& {
             return x_[i * stride_ + k];
@@ -167,9 +181,10 @@ private:
     series<T> jacobian_;
     std::vector<T> x_;
     std::vector<T> v_;
+    std::vector<typename arithmetic::accumulator> sums_;
     typename arithmetic::mask undefined_{};
-    bool kinked_ = false;
-    bool jumped_ = false;
+    typename arithmetic::mask kinked_{};
+    typename arithmetic::mask jumped_{};
 };
 
 } // namespace sivid

@@ -4,11 +4,7 @@
 
 #include <sivid/number/taylor_model_functions.hpp>
 #include <sivid/space/box.hpp>
-#include <sivid/space/matrix.hpp>
-#include <sivid/space/orthogonal_frame.hpp>
-
-#include <Eigen/Core>
-#include <Eigen/QR>
+#include <sivid/space/common_frame.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -53,16 +49,17 @@ struct normalised_unknowns {
         for (auto const& x : x0) initial.push_back(add(x));
     }
 
-    template <std::size_t N, std::size_t D>
-    [[nodiscard]] static taylor_model<N, D> model(side const& s) {
-        if (s.radius == 0) return widened(taylor_model<N, D>::constant(s.centre), s.rest);
-        return taylor_model<N, D>::variable(s.variable, s.centre, s.radius);
-    }
-    template <std::size_t N, std::size_t D>
-    [[nodiscard]] std::vector<taylor_model<N, D>> parameter_models() const {
-        std::vector<taylor_model<N, D>> models;
-        for (auto const& s : parameters) models.push_back(model<N, D>(s));
-        return models;
+    /// Writes one side's model into a lane.
+    template <std::size_t N, std::size_t D, class C>
+    static void put(side const& s, std::size_t lane, taylor_model<N, D, C>& m) {
+        using side_by_side = lane_traits<C>;
+        for (auto& c : m.c) side_by_side::put(c, lane, 0.0);
+        side_by_side::put(m.c[0], lane, s.centre);
+        side_by_side::put(m.r, lane, s.radius == 0 ? s.rest : 0.0);
+        if (s.radius != 0) {
+            side_by_side::put(m.c[monomials<N, D>::data.variable[s.variable]], lane, s.radius);
+        }
+        m.finish();
     }
 };
 
@@ -72,59 +69,70 @@ struct normalised_unknowns {
 /// polynomials of degree D in the unknowns, and what is lost on the way in generators that are
 /// themselves polynomials of degree (D+1)/2, so that they keep their dependence on q as they are
 /// carried, and never have to be inverted.
-template <std::size_t N, std::size_t D>
+/// @tparam C  `double`, or `lanes<W>`: W families side by side, each at its own time
+template <std::size_t N, std::size_t D, class C = double>
 struct parametric_set {
     static constexpr std::size_t column_degree = (D + 1) / 2;
-    using polynomial = taylor_model<N, D>;
-    using column_entry = taylor_model<N, column_degree>;
+    using side_by_side = lane_traits<C>;
+    using mask = typename side_by_side::mask;
+    using polynomial = taylor_model<N, D, C>;
+    using column_entry = taylor_model<N, column_degree, C>;
     using column = std::vector<column_entry>;
 
-    double time = 0;
+    C time{};
     std::vector<polynomial> centre; ///< P, radii 0
     std::vector<column> columns;    ///< g_j, radii 0
-    std::vector<double> reach;      ///< \f$ E_i \ge \sum_j \|g_{ij}\| \f$
+    std::vector<C> reach;           ///< \f$ E_i \ge \sum_j \|g_{ij}\| \f$
 
-    [[nodiscard]] static parametric_set start(double time, normalised_unknowns const& unknowns) {
-        parametric_set set;
-        set.time = time;
-        std::vector<double> rest;
-        for (auto const& s : unknowns.initial) {
-            set.centre.push_back(normalised_unknowns::model<N, D>(s));
-            rest.push_back(set.centre.back().r);
-            set.centre.back().r = 0;
+    explicit parametric_set(std::size_t states = 0) : centre(states), reach(states) {}
+
+    /// Starts the family of one lane.
+    void begin(std::size_t lane, double t, normalised_unknowns const& unknowns) {
+        side_by_side::put(time, lane, t);
+        for (auto& g : columns) {
+            for (auto& entry : g) {
+                for (auto& c : entry.c) side_by_side::put(c, lane, 0.0);
+                entry.finish();
+            }
         }
-        set.append(rest);
-        set.measure();
-        return set;
+        std::vector<C> rest(centre.size());
+        for (std::size_t i = 0; i < centre.size(); ++i) {
+            normalised_unknowns::put(unknowns.initial[i], lane, centre[i]);
+            side_by_side::put(rest[i], lane, side_by_side::get(centre[i].r, lane));
+            centre[i].r = 0.0;
+        }
+        append(rest);
+        measure();
     }
 
     /// Adds the box \f$ \prod [-s_i, s_i] \f$ as generators along the axes.
-    void append(std::vector<double> const& s) {
+    void append(std::vector<C> const& s) {
         for (std::size_t i = 0; i < s.size(); ++i) {
-            if (s[i] == 0) continue;
+            if (side_by_side::all(s[i] == C(0.0))) continue;
             column g(s.size());
-            bool const known = s[i] > 0; // NaN: nothing is known
-            g[i] = column_entry::constant(known ? s[i] : std::numeric_limits<double>::infinity());
+            g[i] = column_entry::constant(known(s[i])); // NaN: nothing is known
             columns.push_back(std::move(g));
         }
     }
     /// Recomputes the reach.
     void measure() {
-        reach.assign(centre.size(), 0.0);
+        reach.assign(centre.size(), C(0.0));
         for (auto const& g : columns) {
             for (std::size_t i = 0; i < g.size(); ++i) reach[i] += g[i].norm();
         }
         double const up = 1 + static_cast<double>(columns.size() + 4) * polynomial::unit;
-        for (auto& e : reach) e = e >= 0 ? e * up : std::numeric_limits<double>::infinity();
+        for (auto& e : reach) e = known(e * up);
     }
 
     /// A box that contains the set.
-    [[nodiscard]] box hull() const {
+    [[nodiscard]] box hull(std::size_t lane = 0) const {
         using traits = interval_traits<interval>;
         box result(centre.size());
         for (std::size_t i = 0; i < centre.size(); ++i) {
-            result[i] = std::isfinite(reach[i]) && std::isfinite(centre[i].norm())
-                            ? traits::add(range(centre[i]), traits::bounds(-reach[i], reach[i]))
+            double const e = side_by_side::get(reach[i], lane);
+            auto const p = lane_of(centre[i], lane);
+            result[i] = std::isfinite(e) && std::isfinite(p.norm())
+                            ? traits::add(range(p), traits::bounds(-e, e))
                             : traits::entire();
         }
         return result;
@@ -132,76 +140,106 @@ struct parametric_set {
 
     /// Limits the number of generators: the longest stay, the others are boxed in the orthogonal
     /// frame of the longest directions.
-    void reduce(std::size_t most) {
-        auto const n = centre.size();
-        if (columns.size() <= most || columns.size() < 2 * n) return;
-        std::vector<double> length(columns.size(), 0.0);
-        for (std::size_t j = 0; j < columns.size(); ++j) {
-            for (auto const& entry : columns[j]) length[j] += entry.norm();
-        }
-        std::vector<std::size_t> order(columns.size());
-        std::iota(order.begin(), order.end(), std::size_t{0});
-        std::stable_sort(order.begin(), order.end(),
-                         [&](std::size_t a, std::size_t b) { return length[a] > length[b]; });
-        std::size_t const kept = most > 3 * n ? most - 3 * n : 0;
-        auto const axes = frame_of(order, kept);
-        std::vector<double> side(n, 0.0);
-        for (std::size_t k = kept; k < order.size(); ++k) {
-            for (std::size_t i = 0; i < n; ++i) {
-                product_sum<N, column_degree> along;
-                for (std::size_t l = 0; l < n; ++l) {
-                    along.add(scaled(columns[order[k]][l], axes.inverse(i, l)));
-                }
-                side[i] += along.result().norm();
-            }
-        }
-        std::vector<column> next;
-        for (std::size_t k = 0; k < kept; ++k) next.push_back(std::move(columns[order[k]]));
-        std::vector<double> lost(n, 0.0); // by rounding the new columns
-        for (std::size_t i = 0; i < n; ++i) {
-            double const s =
-                side[i] * (1 + 4 * static_cast<double>(order.size()) * polynomial::unit);
-            if (s == 0) continue;
-            column g(n);
-            for (std::size_t l = 0; l < n; ++l) {
-                auto const q =
-                    axes.axes(static_cast<Eigen::Index>(l), static_cast<Eigen::Index>(i));
-                g[l] = column_entry::constant(q * s);
-                lost[l] += 2 * polynomial::unit * std::abs(q * s) + polynomial::tiny;
-            }
-            next.push_back(std::move(g));
-        }
-        columns = std::move(next);
-        for (auto& l : lost) l *= 1 + 64 * polynomial::unit;
-        append(lost);
-    }
+    /// @param used  the lanes that matter for the choice; sound in all of them
+    void reduce(std::size_t most, mask used = mask(true));
 
 private:
-    /// An orthogonal frame of the longest independent directions among the columns after `kept`.
-    [[nodiscard]] orthogonal_frame<interval> frame_of(std::vector<std::size_t> const& order,
-                                                      std::size_t kept) const {
-        auto const n = static_cast<Eigen::Index>(centre.size());
-        auto const dropped = static_cast<Eigen::Index>(order.size() - kept);
-        Eigen::MatrixXd directions(n, dropped);
-        for (Eigen::Index k = 0; k < dropped; ++k) {
-            auto const& g = columns[order[kept + static_cast<std::size_t>(k)]];
-            for (Eigen::Index l = 0; l < n; ++l) {
-                directions(l, k) = g[static_cast<std::size_t>(l)].c[0];
+    static C known(C const& x) {
+        return side_by_side::select(x >= C(0.0), x, C(std::numeric_limits<double>::infinity()));
+    }
+    /// Sum over the used lanes of each length as a share of the lane's longest: a common order.
+    static std::vector<double> shares(std::vector<C> const& lengths, mask used) {
+        std::vector<double> result(lengths.size(), 0.0);
+        for (std::size_t l = 0; l < side_by_side::count; ++l) {
+            if (!side_by_side::test(used, l)) continue;
+            double longest = 0;
+            for (auto const& x : lengths) longest = std::max(longest, side_by_side::get(x, l));
+            if (!(longest > 0) || !std::isfinite(longest)) continue;
+            for (std::size_t j = 0; j < result.size(); ++j) {
+                result[j] += side_by_side::get(lengths[j], l) / longest;
             }
         }
-        orthogonal_frame<interval> frame{Eigen::MatrixXd::Identity(n, n),
-                                         interval_matrix<interval>::identity(centre.size())};
-        if (!directions.allFinite()) return frame;
-        Eigen::MatrixXd const q =
-            Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(directions).householderQ();
-        interval_matrix<interval> inverse;
-        if (q.allFinite() && enclose_inverse<interval>(q, inverse)) {
-            frame.axes = q;
-            frame.inverse = std::move(inverse);
-        }
-        return frame;
+        return result;
     }
 };
+
+/// One of the families that lie side by side.
+template <std::size_t N, std::size_t D, class C>
+[[nodiscard]] parametric_set<N, D> lane_of(parametric_set<N, D, C> const& set, std::size_t lane) {
+    parametric_set<N, D> result;
+    result.time = lane_traits<C>::get(set.time, lane);
+    for (auto const& p : set.centre) result.centre.push_back(lane_of(p, lane));
+    for (auto const& g : set.columns) {
+        auto& column = result.columns.emplace_back();
+        for (auto const& entry : g) column.push_back(lane_of(entry, lane));
+    }
+    for (auto const& e : set.reach) result.reach.push_back(lane_traits<C>::get(e, lane));
+    return result;
+}
+
+template <std::size_t N, std::size_t D, class C>
+void parametric_set<N, D, C>::reduce(std::size_t most, mask used) {
+    auto const n = centre.size();
+    if (columns.size() <= most || columns.size() < 2 * n) return;
+    std::vector<C> length(columns.size());
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+        for (auto const& entry : columns[j]) length[j] += entry.norm();
+    }
+    auto const score = shares(length, used);
+    std::vector<std::size_t> order(columns.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return score[a] > score[b]; });
+    std::size_t const kept = most > 3 * n ? most - 3 * n : 0;
+
+    std::vector<std::vector<C>> directions;
+    for (std::size_t k = kept; k < order.size(); ++k) {
+        auto& d = directions.emplace_back(n);
+        for (std::size_t i = 0; i < n; ++i) d[i] = columns[order[k]][i].c[0];
+    }
+    auto const frame = common_frame(std::move(directions), [&](auto const& x) {
+        return shares(x, used);
+    });
+    // Coordinates of the dropped columns in the frame: (1 + R)^{-1} Q^T g with |R| <= defect.
+    std::vector<C> side(n);
+    std::vector<C> along(n);
+    for (std::size_t k = kept; k < order.size(); ++k) {
+        auto const& g = columns[order[k]];
+        C most_along{};
+        for (std::size_t i = 0; i < n; ++i) {
+            C sum{}, mass{};
+            for (std::size_t m = 0; m < column_entry::terms; ++m) {
+                C c = frame.axis[i][0] * g[0].c[m];
+                for (std::size_t l = 1; l < n; ++l) c += frame.axis[i][l] * g[l].c[m];
+                sum += side_by_side::abs(c);
+            }
+            for (std::size_t l = 0; l < n; ++l) {
+                mass += side_by_side::abs(frame.axis[i][l]) * g[l].norm();
+            }
+            along[i] = sum * column_entry::up +
+                       mass * (static_cast<double>(n + 4) * polynomial::unit) + polynomial::tiny;
+            most_along = side_by_side::max(along[i], most_along);
+        }
+        for (std::size_t i = 0; i < n; ++i) side[i] += along[i] + frame.defect * most_along;
+    }
+    std::vector<column> next;
+    for (std::size_t k = 0; k < kept; ++k) next.push_back(std::move(columns[order[k]]));
+    std::vector<C> lost(n); // by rounding the new columns
+    for (std::size_t i = 0; i < n; ++i) {
+        C const s = side[i] * (1 + 8 * static_cast<double>(order.size() + 4) * polynomial::unit);
+        if (side_by_side::all(s == C(0.0))) continue;
+        column g(n);
+        for (std::size_t l = 0; l < n; ++l) {
+            C const e = frame.axis[i][l] * s;
+            g[l] = column_entry::constant(e);
+            lost[l] += side_by_side::abs(e) * (2 * polynomial::unit) + polynomial::tiny;
+        }
+        next.push_back(std::move(g));
+    }
+    columns = std::move(next);
+    for (auto& l : lost) l *= 1 + 64 * polynomial::unit;
+    append(lost);
+}
 
 } // namespace sivid
 

@@ -17,6 +17,12 @@ struct literal {
     double nearest = 0;
 };
 
+/// Where a value is known to be positive, negative, or neither; one flag per lane.
+template <class Mask>
+struct decided_sign {
+    Mask positive{}, negative{}, neither{};
+};
+
 /// Sums of products, one operation after the other.
 template <class A>
 class plain_accumulator {
@@ -45,8 +51,8 @@ struct approximate_arithmetic {
     static double point(double x) { return x; }
     static double enclose(literal const& l) { return l.nearest; }
     static double enclose(interval const& x) { return mid(x); }
-    /// +1 or -1 for the sign of a value, 0 when it is not decided.
-    static int branch(double a) { return a > 0 ? 1 : a < 0 ? -1 : 0; }
+    static decided_sign<bool> sign_of(double a) { return {a > 0, a < 0, !(a > 0) && !(a < 0)}; }
+    static double select(bool m, double a, double b) { return m ? a : b; }
     static double neg(double a) { return -a; }
     static double add(double a, double b) { return a + b; }
     static double sub(double a, double b) { return a - b; }
@@ -84,15 +90,29 @@ struct proven_arithmetic : interval_traits<I> {
         typename interval_traits<I>::mask never{};
         return interval_traits<I>::div(a, interval_traits<I>::point(static_cast<double>(k)), never);
     }
-    static int branch(I const& a) {
+    static decided_sign<typename interval_traits<I>::mask> sign_of(I const& a) {
         using traits = interval_traits<I>;
-        bool positive = true;
-        bool negative = true;
+        using mask = typename traits::mask;
+        decided_sign<mask> s;
         for (std::size_t l = 0; l < traits::lanes; ++l) {
-            positive = positive && traits::lower(a, l) > 0;
-            negative = negative && traits::upper(a, l) < 0;
+            auto const bit = static_cast<mask>(mask{1} << l);
+            auto& where = traits::lower(a, l) > 0   ? s.positive
+                          : traits::upper(a, l) < 0 ? s.negative
+                                                    : s.neither;
+            where = static_cast<mask>(where | bit);
         }
-        return positive ? 1 : negative ? -1 : 0;
+        return s;
+    }
+    static I select(typename interval_traits<I>::mask m, I const& a, I const& b) {
+        if constexpr (interval_traits<I>::lanes == 1) {
+            return m ? a : b;
+        } else {
+            I result = b;
+            for (std::size_t l = 0; l < interval_traits<I>::lanes; ++l) {
+                if (((m >> l) & 1U) != 0) result.set(l, a[l]);
+            }
+            return result;
+        }
     }
 
     /// The sign as a set: [-1, 1] as soon as the argument touches 0. This is Filippov's value of a

@@ -47,22 +47,22 @@ public:
     /// A function was not defined on all of its argument.
     [[nodiscard]] mask undefined() const { return undefined_; }
     /// A kink lies in an argument: orders above 0 are not derivatives.
-    [[nodiscard]] bool kinked() const { return kinked_; }
+    [[nodiscard]] mask kinked() const { return kinked_; }
     /// A sign was taken of an argument that touches 0: the value is a set, the function may jump.
-    [[nodiscard]] bool jumped() const { return jumped_; }
+    [[nodiscard]] mask jumped() const { return jumped_; }
 
     /// Enters the parameters and computes what depends on them alone.
     template <class Box>
     void set_parameters(Box const& p) {
         constant_undefined_ = mask{};
-        constant_jumped_ = false;
+        constant_jumped_ = mask{};
         for (auto const& i : program_->constant()) {
             if (i.op == operation::constant) {
                 at(i.target, 0) = p[static_cast<std::size_t>(i.index)];
             } else {
                 at(i.target, 0) = value(i, constant_undefined_);
             }
-            constant_jumped_ = constant_jumped_ || jumps(i);
+            if (i.op == operation::sign) constant_jumped_ |= jumps(i);
         }
     }
 
@@ -71,7 +71,7 @@ public:
         time_ = t;
         time_slope_ = slope;
         undefined_ = constant_undefined_;
-        kinked_ = false;
+        kinked_ = mask{};
         jumped_ = constant_jumped_;
     }
     /// Computes coefficient k of everything that varies.
@@ -95,7 +95,7 @@ public:
                 result = k == 0 ? value(i, undefined_) : higher(i, k);
                 break;
             }
-            if (k == 0 && jumps(i)) jumped_ = true;
+            if (k == 0 && i.op == operation::sign) jumped_ |= jumps(i);
         }
     }
 
@@ -105,8 +105,8 @@ private:
         return c_[slot * stride_ + k];
     }
 
-    [[nodiscard]] bool jumps(instruction const& i) const {
-        return i.op == operation::sign && arithmetic::branch(get(i.a, 0)) == 0;
+    [[nodiscard]] mask jumps(instruction const& i) const {
+        return arithmetic::sign_of(get(i.a, 0)).neither;
     }
 
     T value(instruction const& i, mask& undefined) {
@@ -222,26 +222,25 @@ private:
         return i.a_varies ? A::add(get(i.a, k), b) : b;
     }
 
-    /// abs, sign, min, max: the smooth branch where the argument decides it, else a report. Packs
-    /// take a branch only when all lanes do.
+    /// abs, sign, min, max: the smooth branch where the argument decides it, else a report.
     T kink(instruction const& i, std::size_t k) {
         using A = arithmetic;
         auto const zero = A::point(0.0);
         bool const two = i.op == operation::min || i.op == operation::max;
-        int const side = arithmetic::branch(two ? A::sub(get(i.a, 0), get(i.b, 0)) : get(i.a, 0));
-        if (side == 0) {
-            kinked_ = true;
-            return zero;
-        }
+        auto const side = A::sign_of(two ? A::sub(get(i.a, 0), get(i.b, 0)) : get(i.a, 0));
+        kinked_ |= side.neither;
         auto const a = i.a_varies ? get(i.a, k) : zero;
         auto const b = i.b_varies ? get(i.b, k) : zero;
+        auto const choose = [&](T const& above, T const& below) {
+            return A::select(side.positive, above, A::select(side.negative, below, zero));
+        };
         switch (i.op) {
         case operation::abs:
-            return side > 0 ? a : A::neg(a);
+            return choose(a, A::neg(a));
         case operation::min:
-            return side > 0 ? b : a;
+            return choose(b, a);
         case operation::max:
-            return side > 0 ? a : b;
+            return choose(a, b);
         default:
             return zero;
         }
@@ -254,9 +253,9 @@ private:
     T time_slope_ = arithmetic::point(1.0);
     mask undefined_{};
     mask constant_undefined_{};
-    bool kinked_ = false;
-    bool jumped_ = false;
-    bool constant_jumped_ = false;
+    mask kinked_{};
+    mask jumped_{};
+    mask constant_jumped_{};
 };
 
 } // namespace sivid

@@ -7,16 +7,18 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace sivid {
 
 /// Taylor models behind the names of `interval_traits`, so that a recorded model and its series in
 /// time run on them as on intervals.
-template <std::size_t N, std::size_t D>
+template <std::size_t N, std::size_t D, class C = double>
 struct taylor_arithmetic {
-    using value_type = taylor_model<N, D>;
-    using mask = bool;
-    static constexpr std::size_t lanes = 1;
+    using value_type = taylor_model<N, D, C>;
+    using side_by_side = lane_traits<C>;
+    using mask = typename side_by_side::mask;
+    static constexpr std::size_t lanes = side_by_side::count;
     static constexpr bool keeps_reciprocals = true;
 
     class accumulator {
@@ -26,18 +28,31 @@ struct taylor_arithmetic {
         [[nodiscard]] value_type result() const { return sum_.result(); }
 
     private:
-        product_sum<N, D> sum_;
+        product_sum<N, D, C> sum_;
     };
 
-    static value_type point(double x) { return value_type::constant(x); }
+    static value_type point(double x) { return value_type::constant(C(x)); }
     static value_type enclose(interval const& x) { return value_type::constant(x); }
+    /// get(lane) in each lane.
+    template <class F>
+    static value_type enclose_lanes(F const& get) {
+        value_type result;
+        for (std::size_t l = 0; l < lanes; ++l) {
+            interval const x = get(l);
+            side_by_side::put(result.c[0], l, mid(x));
+            side_by_side::put(result.r, l,
+                              is_empty(x) ? std::numeric_limits<double>::infinity() : rad(x));
+        }
+        result.finish();
+        return result;
+    }
     static value_type enclose(literal const& l) { return value_type::constant(l.enclosure); }
     static value_type neg(value_type const& a) { return -a; }
     static value_type add(value_type const& a, value_type const& b) { return a + b; }
     static value_type sub(value_type const& a, value_type const& b) { return a - b; }
     static value_type mul(value_type const& a, value_type const& b) {
-        if (is_constant(a)) return scaled(b, a.c[0], a.r);
-        if (is_constant(b)) return scaled(a, b.c[0], b.r);
+        if (a.is_constant()) return scaled(b, a.c[0], a.r);
+        if (b.is_constant()) return scaled(a, b.c[0], b.r);
         return a * b;
     }
     static value_type over(value_type const& a, std::size_t k) {
@@ -46,83 +61,95 @@ struct taylor_arithmetic {
         return scaled(
             a, traits::div(traits::point(1.0), traits::point(static_cast<double>(k)), never));
     }
-    static value_type reciprocal(value_type const& a, bool& undefined) {
+    static value_type reciprocal(value_type const& a, mask& undefined) {
         return sivid::reciprocal(a, undefined);
     }
-    static value_type div(value_type const& a, value_type const& b, bool& undefined) {
+    static value_type div(value_type const& a, value_type const& b, mask& undefined) {
         return mul(a, reciprocal(b, undefined));
     }
     static value_type sqr(value_type const& a) { return mul(a, a); }
-    static value_type pown(value_type const& a, int n, bool&) {
+    static value_type pown(value_type const& a, int n, mask&) {
         value_type result = point(1.0);
         for (int k = 0; k < n; ++k) result = mul(result, a);
         return result;
     }
-    static value_type sqrt(value_type const& a, bool& undefined) {
+    static value_type sqrt(value_type const& a, mask& undefined) {
         return sivid::sqrt(a, undefined);
     }
     static value_type exp(value_type const& a) {
-        bool undefined = false;
+        mask undefined{};
         return sivid::apply(univariate::exp, a, undefined);
     }
-    static value_type log(value_type const& a, bool& undefined) {
+    static value_type log(value_type const& a, mask& undefined) {
         return sivid::apply(univariate::log, a, undefined);
     }
     static value_type sin(value_type const& a) { return everywhere(univariate::sin, a); }
     static value_type cos(value_type const& a) { return everywhere(univariate::cos, a); }
-    static value_type tan(value_type const& a, bool& undefined) {
+    static value_type tan(value_type const& a, mask& undefined) {
         return sivid::apply(univariate::tan, a, undefined);
     }
     static value_type atan(value_type const& a) { return everywhere(univariate::atan, a); }
     static value_type tanh(value_type const& a) { return everywhere(univariate::tanh, a); }
 
-    /// The sign of all values, or 0.
-    static int branch(value_type const& a) {
-        auto const values = range(a);
-        return values.lower() > 0 ? 1 : values.upper() < 0 ? -1 : 0;
+    static decided_sign<mask> sign_of(value_type const& a) {
+        auto const values = bounds(a);
+        decided_sign<mask> s;
+        s.positive = values.lower > C(0.0);
+        s.negative = values.upper < C(0.0);
+        s.neither = !(s.positive | s.negative);
+        return s;
+    }
+    static value_type select(mask m, value_type const& a, value_type const& b) {
+        return sivid::select(m, a, b);
     }
     static value_type abs(value_type const& a) {
-        int const side = branch(a);
-        if (side != 0) return side > 0 ? a : -a;
-        return enclose(interval_traits<interval>::abs(range(a)));
+        auto const side = sign_of(a);
+        auto const sure = sivid::select(side.positive, a, -a);
+        if (!side_by_side::any(side.neither)) return sure;
+        return sivid::select(side.neither, by_range([](interval const& x) {
+                                 return interval_traits<interval>::abs(x);
+                             }, a), sure);
     }
     /// As a set: [-1, 1] where the argument touches 0.
     static value_type sign(value_type const& a) {
-        int const side = branch(a);
-        return side != 0 ? point(side) : enclose(interval(-1.0, 1.0));
+        auto const side = sign_of(a);
+        return sivid::select(side.neither, enclose(interval(-1.0, 1.0)),
+                             sivid::select(side.positive, point(1.0), point(-1.0)));
     }
     static value_type min(value_type const& a, value_type const& b) {
-        int const side = branch(a - b);
-        if (side != 0) return side > 0 ? b : a;
-        return enclose(interval_traits<interval>::min(range(a), range(b)));
+        auto const side = sign_of(a - b);
+        auto const sure = sivid::select(side.positive, b, a);
+        if (!side_by_side::any(side.neither)) return sure;
+        return sivid::select(side.neither, by_range([](interval const& x, interval const& y) {
+                                 return interval_traits<interval>::min(x, y);
+                             }, a, b), sure);
     }
-    static value_type max(value_type const& a, value_type const& b) {
-        int const side = branch(a - b);
-        if (side != 0) return side > 0 ? a : b;
-        return enclose(interval_traits<interval>::max(range(a), range(b)));
-    }
+    static value_type max(value_type const& a, value_type const& b) { return -min(-a, -b); }
 
 private:
-    static bool is_constant(value_type const& a) {
-        for (std::size_t k = 1; k <= D; ++k) {
-            if (a.norms[k] != 0) return false;
-        }
-        return true;
+    /// A function of the arguments' ranges, lane by lane.
+    template <class F, class... Models>
+    static value_type by_range(F const& f, Models const&... models) {
+        auto result =
+            enclose_lanes([&](std::size_t l) { return f(range(lane_of(models, l))...); });
+        result.give_up_when_huge(result.norms[0]);
+        return result;
     }
     /// A bounded function: its range is the answer where the polynomial fails.
     static value_type everywhere(univariate f, value_type const& a) {
-        bool undefined = false;
+        mask undefined{};
         auto const result = sivid::apply(f, a, undefined);
-        if (!undefined) return result;
+        if (!side_by_side::any(undefined)) return result;
         auto never = false;
-        return enclose(taylor_coefficients<0>(f, interval_traits<interval>::entire(), never)[0]);
+        return sivid::select(undefined, enclose(taylor_coefficients<0>(
+                                 f, interval_traits<interval>::entire(), never)[0]), result);
     }
 };
 
 namespace model_detail {
-template <std::size_t N, std::size_t D>
-struct arithmetic_for<taylor_model<N, D>> {
-    using type = taylor_arithmetic<N, D>;
+template <std::size_t N, std::size_t D, class C>
+struct arithmetic_for<taylor_model<N, D, C>> {
+    using type = taylor_arithmetic<N, D, C>;
 };
 } // namespace model_detail
 

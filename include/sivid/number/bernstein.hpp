@@ -4,11 +4,9 @@
 
 #include <sivid/number/taylor_model.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 namespace sivid {
 
@@ -40,50 +38,68 @@ inline constexpr auto bernstein_of_power = [] {
 /// which are exact at the corners; falls back to the norms when there would be too many of them.
 /// @cost  O((D+1)^N N D)
 /// @ref   Garloff 1986: Bernstein polynomials enclose the range
-template <std::size_t N, std::size_t D>
-[[nodiscard]] interval range(taylor_model<N, D> const& a) {
-    using traits = interval_traits<interval>;
-    using model = taylor_model<N, D>;
+template <std::size_t N, std::size_t D, class C>
+[[nodiscard]] value_bounds<C> bounds(taylor_model<N, D, C> const& a) {
+    using model = taylor_model<N, D, C>;
+    using side_by_side = lane_traits<C>;
     constexpr std::size_t side = D + 1;
     constexpr std::size_t count = [] {
         std::size_t n = 1;
         for (std::size_t v = 0; v < N && n <= 20000; ++v) n *= side;
         return n;
     }();
-    auto const rough = rough_range(a);
-    if (count > 4096 || !std::isfinite(a.norm())) return rough;
-    std::vector<double> tensor(count, 0.0);
-    auto const& t = model::basis::data;
-    for (std::size_t i = 0; i < model::terms; ++i) {
-        std::size_t place = 0;
-        for (std::size_t v = 0; v < N; ++v) place = place * side + t.exponents[i][v];
-        tensor[place] = a.c[i];
-    }
-    auto const& m = number_detail::bernstein_of_power<D>;
-    std::size_t stride = 1;
-    std::array<double, side> line{};
-    for (std::size_t v = 0; v < N; ++v, stride *= side) {
-        for (std::size_t base = 0; base < count; ++base) {
-            if ((base / stride) % side != 0) continue;
-            for (std::size_t k = 0; k < side; ++k) {
-                line[k] = 0;
-                for (std::size_t e = 0; e < side; ++e) {
-                    line[k] += tensor[base + e * stride] * m[e][k];
+    auto const rough = rough_bounds(a);
+    if constexpr (count > 4096 || D < 2) {
+        return rough;
+    } else {
+        if (a.is_constant()) return rough;
+        std::array<C, count> tensor{};
+        auto const& t = model::basis::data;
+        for (std::size_t i = 0; i < model::terms; ++i) {
+            std::size_t place = 0;
+            for (std::size_t v = 0; v < N; ++v) place = place * side + t.exponents[i][v];
+            tensor[place] = a.c[i];
+        }
+        auto const& m = number_detail::bernstein_of_power<D>;
+        std::size_t stride = 1;
+        std::array<C, side> line{};
+        for (std::size_t v = 0; v < N; ++v, stride *= side) {
+            for (std::size_t base = 0; base < count; ++base) {
+                if ((base / stride) % side != 0) continue;
+                for (std::size_t e = 0; e < side; ++e) line[e] = tensor[base + e * stride];
+                for (std::size_t k = 0; k < side; ++k) {
+                    C sum = line[0] * m[0][k];
+                    for (std::size_t e = 1; e < side; ++e) sum += line[e] * m[e][k];
+                    tensor[base + k * stride] = sum;
                 }
             }
-            for (std::size_t k = 0; k < side; ++k) tensor[base + k * stride] = line[k];
         }
+        C lo = tensor[0];
+        C hi = tensor[0];
+        for (std::size_t k = 1; k < count; ++k) {
+            lo = side_by_side::min(lo, tensor[k]);
+            hi = side_by_side::max(hi, tensor[k]);
+        }
+        // A line's values are bounded by the sum of |coefficients| along it, since |m| <= 1; so
+        // are their errors, times (side + 2) units. Summed along the other lines that is the norm,
+        // in each stage; the last two operations below add less than four units of it.
+        constexpr double stages = static_cast<double>(N * (2 * side + 8)) + 8;
+        C const norm = a.polynomial_norm();
+        C const out = (norm * (stages * model::unit) + a.r) * model::up +
+                      (norm + a.r) * (4 * model::unit) + model::tiny;
+        // Where nothing is known of the polynomial the rough bounds say so.
+        auto const known = norm < C(model::largest);
+        return {side_by_side::select(known, side_by_side::max(lo - out, rough.lower), rough.lower),
+                side_by_side::select(known, side_by_side::min(hi + out, rough.upper), rough.upper)};
     }
-    double const lo = *std::min_element(tensor.begin(), tensor.end());
-    double const hi = *std::max_element(tensor.begin(), tensor.end());
-    // A line's values are bounded by the sum of |coefficients| along it, since |m| <= 1; so are
-    // their errors, times (side + 2) units. Summed along the other lines that is the norm, in each
-    // stage.
-    double const rounding =
-        static_cast<double>(N * (2 * side + 8)) * model::unit * a.polynomial_norm();
-    auto const w = (rounding + a.r) * model::up + model::tiny;
-    auto const tight = traits::add(traits::bounds(lo, hi), traits::bounds(-w, w));
-    return traits::intersect(tight, rough);
+}
+
+/// The same as an interval.
+template <std::size_t N, std::size_t D>
+[[nodiscard]] interval range(taylor_model<N, D> const& a) {
+    auto const b = bounds(a);
+    if (!std::isfinite(b.lower) || !std::isfinite(b.upper)) return interval_traits<interval>::entire();
+    return interval(b.lower, b.upper);
 }
 
 } // namespace sivid

@@ -3,12 +3,14 @@
 #define SIVID_NUMBER_TAYLOR_MODEL_HPP
 
 #include <sivid/number/interval_traits.hpp>
+#include <sivid/number/lanes.hpp>
 #include <sivid/number/monomials.hpp>
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 namespace sivid {
@@ -18,10 +20,13 @@ namespace sivid {
 /// Coefficients are doubles; every rounding and truncation error is in the radius. The arithmetic
 /// needs no rounding mode: error bounds hold for any mode (unit 2^-52) and for fused operations.
 /// A radius that is not finite means that nothing is known.
+/// @tparam C  `double`, or `lanes<W>`: W such functions side by side
 /// @ref  Makino and Berz, Int. J. Pure Appl. Math. 4 (2003); rounding bounds: Higham 2002, chapter
 /// 3
-template <std::size_t N, std::size_t D>
+template <std::size_t N, std::size_t D, class C = double>
 struct taylor_model {
+    using scalar = C;
+    using side_by_side = lane_traits<C>;
     using basis = monomials<N, D>;
     static constexpr std::size_t variables = N;
     static constexpr std::size_t degree = D;
@@ -33,52 +38,60 @@ struct taylor_model {
     /// More than all underflow errors of one operation.
     static constexpr double tiny = 1e-290;
 
-    std::array<double, terms> c{};
-    double r = 0;
-    std::array<double, D + 1> norms{}; ///< upper bounds of \f$ \sum_{|\alpha|=k} |c_\alpha| \f$
+    std::array<C, terms> c{};
+    C r{};
+    std::array<C, D + 1> norms{}; ///< upper bounds of \f$ \sum_{|\alpha|=k} |c_\alpha| \f$
 
     /// Values beyond this are given up: near the overflow, what happens depends on the rounding mode.
     static constexpr double largest = 1e300;
 
     /// Forgets everything when an operation on values of size `mass` may have overflowed.
-    void give_up_when_huge(double mass) {
-        if (!(mass < largest) || !(r < largest)) r = std::numeric_limits<double>::infinity();
+    void give_up_when_huge(C const& mass) {
+        r = side_by_side::select((mass < largest) & (r < largest), r,
+                                 std::numeric_limits<double>::infinity());
     }
 
     /// Recomputes `norms`; to be called after `c` was written.
     void finish() {
         auto const& first = basis::data.first;
         for (std::size_t k = 0; k <= D; ++k) {
-            double sum = 0;
-            for (std::size_t i = first[k]; i < first[k + 1]; ++i) sum += std::abs(c[i]);
+            C sum{};
+            for (std::size_t i = first[k]; i < first[k + 1]; ++i) sum += side_by_side::abs(c[i]);
             norms[k] = sum * up;
         }
     }
     /// Bound of the polynomial without its constant term.
-    [[nodiscard]] double spread() const {
-        double sum = 0;
+    [[nodiscard]] C spread() const {
+        C sum{};
         for (std::size_t k = 1; k <= D; ++k) sum += norms[k];
         return sum * up;
     }
     /// Bound of the polynomial.
-    [[nodiscard]] double polynomial_norm() const { return (norms[0] + spread()) * up; }
+    [[nodiscard]] C polynomial_norm() const { return (norms[0] + spread()) * up; }
     /// Bound of everything: \f$ |f(q)| \f$.
-    [[nodiscard]] double norm() const { return (polynomial_norm() + r) * up; }
+    [[nodiscard]] C norm() const { return (polynomial_norm() + r) * up; }
 
-    [[nodiscard]] static taylor_model constant(double v) {
+    [[nodiscard]] static taylor_model constant(C const& v) {
         taylor_model result;
         result.c[0] = v;
-        result.norms[0] = std::abs(v);
-        result.give_up_when_huge(std::abs(v));
+        result.norms[0] = side_by_side::abs(v);
+        result.give_up_when_huge(result.norms[0]);
         return result;
     }
     [[nodiscard]] static taylor_model constant(interval const& v) {
-        auto result = constant(mid(v));
+        auto result = constant(C(mid(v)));
         result.r = is_empty(v) ? std::numeric_limits<double>::infinity() : rad(v);
         return result;
     }
+    /// No variable has an influence, in any lane.
+    [[nodiscard]] bool is_constant() const {
+        for (std::size_t k = 1; k <= D; ++k) {
+            if (side_by_side::any(!(norms[k] == C(0.0)))) return false;
+        }
+        return true;
+    }
     /// centre + slope * q_v
-    [[nodiscard]] static taylor_model variable(std::size_t v, double centre, double slope) {
+    [[nodiscard]] static taylor_model variable(std::size_t v, C const& centre, C const& slope) {
         static_assert(D >= 1);
         auto result = constant(centre);
         result.c[basis::data.variable[v]] = slope;
@@ -87,23 +100,63 @@ struct taylor_model {
     }
 };
 
+/// The products of two polynomials' coefficients, added to those of a third.
+template <std::size_t N, std::size_t D, class C>
+class product_kernel {
+    using table = monomials<N, D>;
+    static constexpr std::size_t terms = table::count;
+
+public:
+    static void accumulate(std::array<C, terms>& sum, std::array<C, terms> const& a,
+                           std::array<C, terms> const& b) {
+        if constexpr (std::is_same_v<C, double>) {
+            multiply([&](std::size_t k) -> double& { return sum[k]; },
+                     [&](std::size_t k) { return a[k]; }, [&](std::size_t k) { return b[k]; },
+                     std::make_index_sequence<terms>{});
+        } else {
+            for (std::size_t p = 0; p < C::parts; ++p) {
+                multiply([&, p](std::size_t k) -> auto& { return sum[k].part(p); },
+                         [&, p](std::size_t k) { return a[k].part(p); },
+                         [&, p](std::size_t k) { return b[k].part(p); },
+                         std::make_index_sequence<terms>{});
+            }
+        }
+    }
+
+private:
+    // Unrolled: the positions are constants of the instructions.
+    template <class Sum, class A, class B, std::size_t... K>
+    [[gnu::always_inline]] static inline void multiply(Sum const& sum, A const& a, B const& b,
+                                                       std::index_sequence<K...>) {
+        ((sum(K) += coefficient<table::data.sum[K]>(
+              a, b, std::make_index_sequence<table::data.sum[K + 1] - table::data.sum[K]>{})),
+         ...);
+    }
+    template <std::size_t First, class A, class B, std::size_t... P>
+    [[gnu::always_inline]] static inline auto coefficient(A const& a, B const& b,
+                                                          std::index_sequence<P...>) {
+        return (... +
+                (a(table::data.pairs[First + P].left) * b(table::data.pairs[First + P].right)));
+    }
+};
+
 /// Sums of products of Taylor models, with one rounding bound for the whole sum.
-template <std::size_t N, std::size_t D>
+template <std::size_t N, std::size_t D, class C = double>
 class product_sum {
-    using model = taylor_model<N, D>;
+    using model = taylor_model<N, D, C>;
 
 public:
     [[gnu::noinline]] void add(model const& a, model const& b) {
-        multiply(a.c.data(), b.c.data(), std::make_index_sequence<model::terms>{});
+        product_kernel<N, D, C>::accumulate(c_, a.c, b.c);
         // What the product has beyond degree D, and the radii times everything.
-        double beyond = 0;
+        C beyond{};
         for (std::size_t k = 1; k <= D; ++k) {
-            double high = 0;
+            C high{};
             for (std::size_t l = D + 1 - k; l <= D; ++l) high += b.norms[l];
             beyond += a.norms[k] * high;
         }
-        double const pa = a.polynomial_norm();
-        double const pb = b.polynomial_norm();
+        C const pa = a.polynomial_norm();
+        C const pb = b.polynomial_norm();
         radius_ += beyond + a.r * (pb + b.r) + b.r * pa;
         mass_ += pa * pb;
         additions_ += static_cast<double>(monomials<N, D>::data.longest_sum + 1);
@@ -119,7 +172,7 @@ public:
         m.c = c_;
         // Each coefficient is a sum of at most `additions_` products; each operation errs by a unit
         // of a partial sum, which the total mass bounds.
-        double const rounding = (additions_ + 2) * model::unit * mass_;
+        C const rounding = mass_ * ((additions_ + 2) * model::unit);
         m.r = (radius_ + rounding) * (model::up + 8 * additions_ * model::unit) + model::tiny;
         m.finish();
         m.give_up_when_huge(mass_);
@@ -127,72 +180,60 @@ public:
     }
 
 private:
-    using table = monomials<N, D>;
-    // Unrolled: the positions are constants of the instructions.
-    template <std::size_t... K>
-    void multiply(double const* a, double const* b, std::index_sequence<K...>) {
-        ((c_[K] += coefficient<table::data.sum[K]>(
-              a, b, std::make_index_sequence<table::data.sum[K + 1] - table::data.sum[K]>{})),
-         ...);
-    }
-    template <std::size_t First, std::size_t... P>
-    static double coefficient(double const* a, double const* b, std::index_sequence<P...>) {
-        return (... +
-                (a[table::data.pairs[First + P].left] * b[table::data.pairs[First + P].right]));
-    }
-
-    std::array<double, model::terms> c_{};
-    double radius_ = 0;
-    double mass_ = 0;
+    std::array<C, model::terms> c_{};
+    C radius_{};
+    C mass_{};
     double additions_ = 0;
 };
 
-template <std::size_t N, std::size_t D>
-[[nodiscard]] taylor_model<N, D> operator-(taylor_model<N, D> a) {
+template <std::size_t N, std::size_t D, class C>
+[[nodiscard]] taylor_model<N, D, C> operator-(taylor_model<N, D, C> a) {
     for (auto& c : a.c) c = -c;
     return a;
 }
 
 namespace number_detail {
-template <int Sign, std::size_t N, std::size_t D>
-taylor_model<N, D> sum(taylor_model<N, D> const& a, taylor_model<N, D> const& b) {
-    using model = taylor_model<N, D>;
+template <int Sign, std::size_t N, std::size_t D, class C>
+taylor_model<N, D, C> sum(taylor_model<N, D, C> const& a, taylor_model<N, D, C> const& b) {
+    using model = taylor_model<N, D, C>;
     model result;
     for (std::size_t i = 0; i < model::terms; ++i) {
         result.c[i] = Sign > 0 ? a.c[i] + b.c[i] : a.c[i] - b.c[i];
     }
-    double const rounding = model::unit * (a.polynomial_norm() + b.polynomial_norm());
-    result.r = (a.r + b.r + rounding) * model::up;
+    C const mass = a.polynomial_norm() + b.polynomial_norm();
+    result.r = (a.r + b.r + mass * model::unit) * model::up;
     result.finish();
-    result.give_up_when_huge(a.polynomial_norm() + b.polynomial_norm());
+    result.give_up_when_huge(mass);
     return result;
 }
 } // namespace number_detail
 
-template <std::size_t N, std::size_t D>
-[[nodiscard]] taylor_model<N, D> operator+(taylor_model<N, D> const& a,
-                                           taylor_model<N, D> const& b) {
+template <std::size_t N, std::size_t D, class C>
+[[nodiscard]] taylor_model<N, D, C> operator+(taylor_model<N, D, C> const& a,
+                                           taylor_model<N, D, C> const& b) {
     return number_detail::sum<1>(a, b);
 }
-template <std::size_t N, std::size_t D>
-[[nodiscard]] taylor_model<N, D> operator-(taylor_model<N, D> const& a,
-                                           taylor_model<N, D> const& b) {
+template <std::size_t N, std::size_t D, class C>
+[[nodiscard]] taylor_model<N, D, C> operator-(taylor_model<N, D, C> const& a,
+                                           taylor_model<N, D, C> const& b) {
     return number_detail::sum<-1>(a, b);
 }
-template <std::size_t N, std::size_t D>
-[[nodiscard]] taylor_model<N, D> operator*(taylor_model<N, D> const& a,
-                                           taylor_model<N, D> const& b) {
-    product_sum<N, D> sum;
+template <std::size_t N, std::size_t D, class C>
+[[nodiscard]] taylor_model<N, D, C> operator*(taylor_model<N, D, C> const& a,
+                                           taylor_model<N, D, C> const& b) {
+    product_sum<N, D, C> sum;
     sum.add(a, b);
     return sum.result();
 }
 
 /// a times a number from \f$ [m - \rho, m + \rho] \f$.
-template <std::size_t N, std::size_t D>
-[[nodiscard]] taylor_model<N, D> scaled(taylor_model<N, D> a, double m, double rho = 0) {
-    using model = taylor_model<N, D>;
-    double const norm = a.polynomial_norm();
-    double const size = std::abs(m);
+template <std::size_t N, std::size_t D, class C>
+[[nodiscard]] taylor_model<N, D, C> scaled(taylor_model<N, D, C> a,
+                                           std::type_identity_t<C> const& m,
+                                           std::type_identity_t<C> const& rho = C(0.0)) {
+    using model = taylor_model<N, D, C>;
+    C const norm = a.polynomial_norm();
+    C const size = model::side_by_side::abs(m);
     for (auto& c : a.c) c *= m;
     // norm * size first: the unit times a tiny factor would underflow.
     a.r = (a.r * (size + rho) + norm * rho + norm * size * model::unit) * model::up + model::tiny;
@@ -200,32 +241,79 @@ template <std::size_t N, std::size_t D>
     a.give_up_when_huge(norm * (size + rho));
     return a;
 }
-template <std::size_t N, std::size_t D>
-[[nodiscard]] taylor_model<N, D> scaled(taylor_model<N, D> const& a, interval const& s) {
-    return scaled(a, mid(s), rad(s));
+template <std::size_t N, std::size_t D, class C>
+[[nodiscard]] taylor_model<N, D, C> scaled(taylor_model<N, D, C> const& a, interval const& s) {
+    return scaled(a, C(mid(s)), C(rad(s)));
 }
 
 /// The same function with an interval \f$ [-w, w] \f$ added.
-template <std::size_t N, std::size_t D>
-[[nodiscard]] taylor_model<N, D> widened(taylor_model<N, D> a, double w) {
-    a.r = (a.r + w) * taylor_model<N, D>::up;
-    a.give_up_when_huge(0);
+template <std::size_t N, std::size_t D, class C>
+[[nodiscard]] taylor_model<N, D, C> widened(taylor_model<N, D, C> a,
+                                            std::type_identity_t<C> const& w) {
+    a.r = (a.r + w) * taylor_model<N, D, C>::up;
+    a.give_up_when_huge(C(0.0));
     return a;
 }
 
+/// Lower and upper bounds, in each lane. Not finite where nothing is known.
+template <class C>
+struct value_bounds {
+    C lower, upper;
+    /// The least absolute value between them, 0 where they have different signs.
+    [[nodiscard]] C least() const {
+        using side_by_side = lane_traits<C>;
+        return side_by_side::max(side_by_side::max(lower, -upper), C(0.0));
+    }
+};
+
 /// Bounds by the norms alone: cheap, and wide when terms of high degree cancel.
+template <std::size_t N, std::size_t D, class C>
+[[nodiscard]] value_bounds<C> rough_bounds(taylor_model<N, D, C> const& a) {
+    using model = taylor_model<N, D, C>;
+    C const w = (a.spread() + a.r) * model::up;
+    // Two subtractions, each off by less than two units of |c_0| + w.
+    C const out = w + (model::side_by_side::abs(a.c[0]) + w) * (8 * model::unit) + model::tiny;
+    return {a.c[0] - out, a.c[0] + out};
+}
 template <std::size_t N, std::size_t D>
 [[nodiscard]] interval rough_range(taylor_model<N, D> const& a) {
-    using traits = interval_traits<interval>;
-    double const w = (a.spread() + a.r) * taylor_model<N, D>::up;
-    if (!std::isfinite(w) || !std::isfinite(a.c[0])) return traits::entire();
-    return traits::add(traits::point(a.c[0]), traits::bounds(-w, w));
+    auto const b = rough_bounds(a);
+    if (!std::isfinite(b.lower) || !std::isfinite(b.upper)) return interval_traits<interval>::entire();
+    return interval(b.lower, b.upper);
+}
+
+/// One of the functions that lie side by side.
+template <std::size_t N, std::size_t D, class C>
+[[nodiscard]] taylor_model<N, D> lane_of(taylor_model<N, D, C> const& a, std::size_t lane) {
+    using side_by_side = lane_traits<C>;
+    taylor_model<N, D> result;
+    for (std::size_t i = 0; i < a.c.size(); ++i) result.c[i] = side_by_side::get(a.c[i], lane);
+    for (std::size_t k = 0; k <= D; ++k) result.norms[k] = side_by_side::get(a.norms[k], lane);
+    result.r = side_by_side::get(a.r, lane);
+    return result;
+}
+/// a where the mask is set, else b.
+template <std::size_t N, std::size_t D, class C>
+[[nodiscard]] taylor_model<N, D, C> select(typename lane_traits<C>::mask const& m,
+                                           taylor_model<N, D, C> const& a,
+                                           taylor_model<N, D, C> const& b) {
+    using side_by_side = lane_traits<C>;
+    if (side_by_side::all(m)) return a;
+    taylor_model<N, D, C> result;
+    for (std::size_t i = 0; i < a.c.size(); ++i) {
+        result.c[i] = side_by_side::select(m, a.c[i], b.c[i]);
+    }
+    for (std::size_t k = 0; k <= D; ++k) {
+        result.norms[k] = side_by_side::select(m, a.norms[k], b.norms[k]);
+    }
+    result.r = side_by_side::select(m, a.r, b.r);
+    return result;
 }
 
 /// Re-expresses a model in other variables and degree: variable v becomes variable v of M >= N;
 /// terms beyond degree E go into the radius.
-template <std::size_t M, std::size_t E, std::size_t N, std::size_t D>
-[[nodiscard]] taylor_model<M, E> converted(taylor_model<N, D> const& a) {
+template <std::size_t M, std::size_t E, std::size_t N, std::size_t D, class C>
+[[nodiscard]] taylor_model<M, E, C> converted(taylor_model<N, D, C> const& a) {
     static_assert(M >= N);
     using target = monomials<M, E>;
     static constexpr auto image = [] {
@@ -243,41 +331,49 @@ template <std::size_t M, std::size_t E, std::size_t N, std::size_t D>
         }
         return map;
     }();
-    taylor_model<M, E> result;
+    taylor_model<M, E, C> result;
     for (std::size_t i = 0; i < image.size(); ++i) {
         if (image[i] < target::count) result.c[image[i]] = a.c[i];
     }
-    double cut = 0;
+    C cut{};
     for (std::size_t k = E + 1; k <= D; ++k) cut += a.norms[k];
-    result.r = (a.r + cut) * taylor_model<N, D>::up;
+    result.r = (a.r + cut) * taylor_model<N, D, C>::up;
     result.finish();
     return result;
 }
 
 /// Forgets the last variable: for each q, all values over \f$ [-1,1] \f$ of that variable.
-template <std::size_t N, std::size_t E, std::size_t D>
-[[nodiscard]] taylor_model<N, E> without_last_variable(taylor_model<N + 1, D> const& a) {
-    auto const& t = monomials<N + 1, D>::data;
-    auto kept = a;
-    double moved = 0;
-    for (std::size_t i = 0; i < kept.terms; ++i) {
-        if (t.exponents[i][N] == 0) continue;
-        moved += std::abs(kept.c[i]);
-        kept.c[i] = 0;
-    }
-    kept.finish();
-    using model = taylor_model<N, D>;
-    model small;
-    for (std::size_t i = 0; i < model::terms; ++i) {
-        for (std::size_t k = 0; k < kept.terms; ++k) {
-            bool same = t.exponents[k][N] == 0;
-            for (std::size_t v = 0; v < N && same; ++v) {
-                same = t.exponents[k][v] == model::basis::data.exponents[i][v];
+template <std::size_t N, std::size_t E, std::size_t D, class C>
+[[nodiscard]] taylor_model<N, E, C> without_last_variable(taylor_model<N + 1, D, C> const& a) {
+    using model = taylor_model<N, D, C>;
+    using side_by_side = lane_traits<C>;
+    // Where each monomial with the last variable absent stands among those of N variables.
+    static constexpr auto place = [] {
+        auto const& wide = monomials<N + 1, D>::data;
+        std::array<std::size_t, monomials<N + 1, D>::count> map{};
+        for (std::size_t k = 0; k < map.size(); ++k) {
+            map[k] = model::terms;
+            if (wide.exponents[k][N] != 0) continue;
+            for (std::size_t i = 0; i < model::terms; ++i) {
+                bool same = true;
+                for (std::size_t v = 0; v < N && same; ++v) {
+                    same = wide.exponents[k][v] == model::basis::data.exponents[i][v];
+                }
+                if (same) map[k] = i;
             }
-            if (same) small.c[i] = kept.c[k];
+        }
+        return map;
+    }();
+    model small;
+    C moved{};
+    for (std::size_t k = 0; k < place.size(); ++k) {
+        if (place[k] < model::terms) {
+            small.c[place[k]] = a.c[k];
+        } else {
+            moved += side_by_side::abs(a.c[k]);
         }
     }
-    small.r = (a.r + moved * kept.up) * kept.up;
+    small.r = (a.r + moved * a.up) * a.up;
     small.finish();
     return converted<N, E>(small);
 }

@@ -6,7 +6,7 @@
 #include <sivid/number/taylor_model.hpp>
 #include <sivid/number/univariate_taylor.hpp>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -15,29 +15,40 @@ namespace sivid {
 
 namespace number_detail {
 
-/// A model of which nothing is known.
-template <class Model>
-Model unknown(bool& undefined) {
-    undefined = true;
-    Model m;
-    m.r = std::numeric_limits<double>::infinity();
-    return m;
+/// Marks the lanes of which nothing is known.
+template <std::size_t N, std::size_t D, class C, class Mask>
+void forget(Mask const& lanes, taylor_model<N, D, C>& m) {
+    using side_by_side = lane_traits<C>;
+    if (!side_by_side::any(lanes)) return;
+    for (auto& c : m.c) c = side_by_side::select(lanes, C(0.0), c);
+    m.r = side_by_side::select(lanes, C(std::numeric_limits<double>::infinity()), m.r);
+    m.finish();
 }
 
 /// The product of two polynomials without any bound: a guess, to be verified by its residual.
-template <std::size_t N, std::size_t D>
-taylor_model<N, D> approximate_product(taylor_model<N, D> const& a, taylor_model<N, D> const& b) {
-    auto p = a * b;
-    p.r = 0;
+template <std::size_t N, std::size_t D, class C>
+taylor_model<N, D, C> approximate_product(taylor_model<N, D, C> const& a,
+                                          taylor_model<N, D, C> const& b) {
+    taylor_model<N, D, C> p;
+    product_kernel<N, D, C>::accumulate(p.c, a.c, b.c);
     return p;
 }
 
-/// Range by the norms where they decide on the sign, else by Bernstein.
-template <std::size_t N, std::size_t D>
-interval range_for_sign(taylor_model<N, D> const& a) {
-    auto const rough = rough_range(a);
-    double const half = 0.5 * std::abs(a.c[0]);
-    return rough.lower() > half || rough.upper() < -half ? rough : range(a);
+/// Bounds by the norms where they decide on the sign, else by Bernstein.
+template <std::size_t N, std::size_t D, class C>
+value_bounds<C> bounds_for_sign(taylor_model<N, D, C> const& a) {
+    using side_by_side = lane_traits<C>;
+    auto const rough = rough_bounds(a);
+    C const half = side_by_side::abs(a.c[0]) * 0.5;
+    return side_by_side::all((rough.lower > half) | (rough.upper < -half)) ? rough : bounds(a);
+}
+
+/// The polynomial part of s / s_0 - 1, up to rounding.
+template <std::size_t N, std::size_t D, class C>
+taylor_model<N, D, C> relative_deviation(taylor_model<N, D, C> s, C const& factor) {
+    for (auto& c : s.c) c *= factor;
+    s.c[0] = 0.0;
+    return s;
 }
 
 } // namespace number_detail
@@ -45,100 +56,142 @@ interval range_for_sign(taylor_model<N, D> const& a) {
 /// \f$ 1/s \f$, defined where the range of s does not touch 0.
 ///   A polynomial w close to 1/s is found by Horner's rule in \f$ s/s_0 - 1 \f$; its error is
 ///   proved from the residual: \f$ |1/s - w| \le \|1 - s w\| / \min |s| \f$.
-template <std::size_t N, std::size_t D>
-[[nodiscard]] taylor_model<N, D> reciprocal(taylor_model<N, D> const& s, bool& undefined) {
-    using model = taylor_model<N, D>;
-    auto const bounds = number_detail::range_for_sign(s);
-    double const least = mig(bounds);
-    if (!(least > 0) || !std::isfinite(s.norm())) return number_detail::unknown<model>(undefined);
-    double const centre = s.c[0];
-    if (centre == 0) return number_detail::unknown<model>(undefined);
-    auto t = scaled(s, -1 / centre); // -(s/s0 - 1), made exact by the residual below
-    t.c[0] = 0;
-    t.r = 0;
-    t.finish();
-    auto w = model::constant(1.0);
+/// @param undefined  gets the lanes where s may be 0
+template <std::size_t N, std::size_t D, class C>
+[[nodiscard]] taylor_model<N, D, C> reciprocal(taylor_model<N, D, C> const& s,
+                                               typename lane_traits<C>::mask& undefined) {
+    using model = taylor_model<N, D, C>;
+    using side_by_side = lane_traits<C>;
+    C const least = number_detail::bounds_for_sign(s).least();
+    // What is not finite fails the comparisons.
+    auto const good = (least > C(0.0)) & (s.norm() < C(model::largest)) &
+                      (side_by_side::abs(s.c[0]) > C(0.0));
+    C const inverse = C(1.0) / side_by_side::select(good, s.c[0], C(1.0));
+    auto const t = number_detail::relative_deviation(s, -inverse); // -(s/s0 - 1)
+    auto w = model::constant(C(1.0));
     for (std::size_t k = 0; k < D; ++k) {
         w = number_detail::approximate_product(t, w);
-        w.c[0] += 1;
-        w.finish();
+        w.c[0] += C(1.0);
     }
-    w = scaled(w, 1 / centre);
-    w.r = 0;
-    auto residual = s * w;
-    residual = model::constant(1.0) - residual;
+    for (auto& c : w.c) c *= inverse;
+    w.finish();
+    auto const residual = model::constant(C(1.0)) - s * w;
     w.r = residual.norm() / least * model::up + model::tiny;
+    w.give_up_when_huge(w.polynomial_norm());
+    number_detail::forget(!good, w);
+    undefined |= !good;
     return w;
 }
 
 /// \f$ \sqrt{s} \f$, defined where the range of s is positive.
 ///   A polynomial w is found by the binomial series; \f$ |\sqrt s - w| \le \|s - w^2\| /
 ///   (\sqrt{\min s} + \min w) \f$ where that is positive; else the range is the answer.
-template <std::size_t N, std::size_t D>
-[[nodiscard]] taylor_model<N, D> sqrt(taylor_model<N, D> const& s, bool& undefined) {
-    using model = taylor_model<N, D>;
-    auto const bounds = number_detail::range_for_sign(s);
-    double const least = bounds.lower();
-    if (!(least > 0) || !(s.c[0] > 0) || !std::isfinite(s.norm())) {
-        return number_detail::unknown<model>(undefined);
-    }
+/// @param undefined  gets the lanes where s may be 0 or negative
+template <std::size_t N, std::size_t D, class C>
+[[nodiscard]] taylor_model<N, D, C> sqrt(taylor_model<N, D, C> const& s,
+                                         typename lane_traits<C>::mask& undefined) {
+    using model = taylor_model<N, D, C>;
+    using side_by_side = lane_traits<C>;
+    auto const values = number_detail::bounds_for_sign(s);
+    auto const good = (values.lower > C(0.0)) & (s.norm() < C(model::largest)) & (s.c[0] > C(0.0));
+    C const centre = side_by_side::select(good, s.c[0], C(1.0));
+    C const root = each_lane<C>(
+        [&](std::size_t l) { return std::sqrt(side_by_side::get(centre, l)); });
     // sqrt(s0) (1 + t)^(1/2), t = s/s0 - 1, by Horner with binomial coefficients
-    double const centre = s.c[0];
-    auto t = scaled(s, 1 / centre);
-    t.c[0] = 0;
-    t.r = 0;
-    t.finish();
-    auto w = model::constant(1.0);
+    auto const t = number_detail::relative_deviation(s, C(1.0) / centre);
+    auto w = model::constant(C(1.0));
     for (std::size_t k = D; k > 0; --k) {
         double const ratio = (1.5 - static_cast<double>(k)) / static_cast<double>(k);
         w = number_detail::approximate_product(t, w);
         for (auto& c : w.c) c *= ratio;
-        w.c[0] += 1;
-        w.finish();
+        w.c[0] += C(1.0);
     }
-    double const root = std::sqrt(centre);
     for (auto& c : w.c) c *= root;
-    w.r = 0;
     w.finish();
     auto const residual = s - w * w;
     bool ignored = false;
-    double const smallest =
-        interval_traits<interval>::sqrt(interval_traits<interval>::point(least), ignored).lower();
-    double const below = smallest + rough_range(w).lower(); // of sqrt(s) + w
-    if (!(below > 0)) {
-        return model::constant(interval_traits<interval>::sqrt(bounds, ignored));
+    using traits = interval_traits<interval>;
+    C const smallest = each_lane<C>([&](std::size_t l) {
+        double const x = side_by_side::get(values.lower, l);
+        return x > 0 ? traits::sqrt(traits::point(x), ignored).lower() : 0.0;
+    });
+    C const below = (smallest + rough_bounds(w).lower) * (1 - 4 * model::unit); // <= sqrt(s) + w
+    auto const sharp = below > C(0.0);
+    w.r = residual.norm() / side_by_side::select(sharp, below, C(1.0)) * model::up + model::tiny;
+    if (!side_by_side::all(sharp | !good)) { // the range is all that is known
+        for (std::size_t l = 0; l < side_by_side::count; ++l) {
+            double const lo = side_by_side::get(values.lower, l);
+            double const hi = side_by_side::get(values.upper, l);
+            if (side_by_side::test(sharp, l) || !side_by_side::test(good, l)) continue;
+            auto const y = traits::sqrt(traits::bounds(lo, hi), ignored);
+            for (auto& c : w.c) side_by_side::put(c, l, 0.0);
+            side_by_side::put(w.c[0], l, mid(y));
+            side_by_side::put(w.r, l, rad(y));
+        }
+        w.finish();
     }
-    w.r = residual.norm() / below * model::up + model::tiny;
+    number_detail::forget(!good, w);
+    undefined |= !good;
     return w;
 }
 
 /// An elementary function by its Taylor polynomial about the centre of s and Lagrange's remainder:
 ///   \f$ f(s) \in \sum_{k \le D} f^{[k]}(s_0) \tilde s^k + f^{[D+1]}(range) \tilde s^{D+1} \f$.
-template <std::size_t N, std::size_t D>
-[[nodiscard]] taylor_model<N, D> apply(univariate f, taylor_model<N, D> const& s, bool& undefined) {
-    using model = taylor_model<N, D>;
+/// @param undefined  gets the lanes where f is not smooth on all of s
+template <std::size_t N, std::size_t D, class C>
+[[nodiscard]] taylor_model<N, D, C> apply(univariate f, taylor_model<N, D, C> const& s,
+                                          typename lane_traits<C>::mask& undefined) {
+    using model = taylor_model<N, D, C>;
     using traits = interval_traits<interval>;
-    if (!std::isfinite(s.norm())) return number_detail::unknown<model>(undefined);
-    bool cut = false;
-    auto const at_centre = taylor_coefficients<D>(f, traits::point(s.c[0]), cut);
-    auto const on_range = taylor_coefficients<D + 1>(f, range(s), cut);
-    if (cut) return number_detail::unknown<model>(undefined);
+    using side_by_side = lane_traits<C>;
     auto t = s;
-    t.c[0] = 0;
+    t.c[0] = 0.0;
     t.finish();
-    auto result = model::constant(at_centre[D]);
-    for (std::size_t k = D; k-- > 0;) result = result * t + model::constant(at_centre[k]);
-    // The derivative first: a power of a tiny size alone could underflow.
-    double rest = mag(on_range[D + 1]);
-    double const size = t.norm();
-    for (std::size_t k = 0; k <= D; ++k) rest *= size * model::up;
-    return widened(result, rest * model::up + model::tiny);
-}
-
-/// Encloses a function of bounded range by its range alone.
-template <std::size_t N, std::size_t D>
-[[nodiscard]] taylor_model<N, D> from_range(interval const& values) {
-    return taylor_model<N, D>::constant(values);
+    C const size = t.norm();
+    auto good = s.norm() < C(model::largest);
+    bool const simple = s.is_constant();
+    // Enclosures of the coefficients, lane by lane; the last one on the whole range.
+    std::array<C, D + 1> centre{}, radius{};
+    C last{};
+    bool const bounded = f == univariate::sin || f == univariate::cos;
+    auto const values = bounded || simple ? rough_bounds(s) : bounds(s);
+    for (std::size_t l = 0; l < side_by_side::count; ++l) {
+        if (!side_by_side::test(good, l)) continue;
+        bool cut = false;
+        auto const keep = [&](std::size_t k, interval const& y) {
+            side_by_side::put(centre[k], l, mid(y));
+            side_by_side::put(radius[k], l, rad(y));
+        };
+        auto const whole =
+            interval(side_by_side::get(values.lower, l), side_by_side::get(values.upper, l));
+        if (simple) {
+            double const r = side_by_side::get(s.r, l);
+            auto const x = traits::add(traits::point(side_by_side::get(s.c[0], l)),
+                                       traits::bounds(-r, r));
+            keep(0, taylor_coefficients<0>(f, x, cut)[0]);
+        } else {
+            auto const at_centre =
+                taylor_coefficients<D>(f, traits::point(side_by_side::get(s.c[0], l)), cut);
+            for (std::size_t k = 0; k <= D; ++k) keep(k, at_centre[k]);
+            double top = number_detail::inverse_factorial<D + 1>;
+            if (!bounded) top = mag(taylor_coefficients<D + 1>(f, whole, cut)[D + 1]);
+            side_by_side::put(last, l, top);
+        }
+        if (cut) good = good & !side_by_side::only(l);
+    }
+    auto result = widened(model::constant(centre[simple ? 0 : D]), radius[simple ? 0 : D]);
+    if (!simple) {
+        for (std::size_t k = D; k-- > 0;) {
+            result = result * t + widened(model::constant(centre[k]), radius[k]);
+        }
+        // The derivative first: a power of a tiny size alone could underflow.
+        C rest = last;
+        for (std::size_t k = 0; k <= D; ++k) rest *= size * model::up;
+        result = widened(result, rest * model::up + model::tiny);
+    }
+    number_detail::forget(!good, result);
+    undefined |= !good;
+    return result;
 }
 
 } // namespace sivid

@@ -10,6 +10,16 @@
 
 namespace sivid {
 
+namespace number_detail {
+/// Not less than 1/n!.
+template <std::size_t n>
+inline constexpr double inverse_factorial = [] {
+    double product = 1;
+    for (std::size_t k = 2; k <= n; ++k) product *= static_cast<double>(k); // exact to 22!
+    return 1 / product * (1 + static_cast<double>(n + 2) * 0x1p-52);
+}();
+} // namespace number_detail
+
 /// Functions of one variable whose Taylor coefficients are known here.
 enum class univariate { exp, log, sin, cos, tan, atan, tanh };
 

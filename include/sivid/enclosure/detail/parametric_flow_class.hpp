@@ -9,9 +9,8 @@
 #include <sivid/model/taylor_arithmetic.hpp>
 #include <sivid/number/guard.hpp>
 
-#include <Eigen/Core>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -31,138 +30,168 @@ namespace sivid {
 ///   centre  \f$ x(s; P) \in \sum_{k \le K} s^k x_k + s^{K+1} x_{K+1}(b) \f$
 ///   flow    \f$ V(s) \in \sum_{k<L} s^k V_k + s^L J_L(b) (1 + [-W, W]) \f$
 /// and the tube is proved when both images lie strictly inside it.
-/// @guarantee  after each successful `step`, for every q and every member of the set before, the
+///
+/// With lanes, W families advance together, each at its own time and with its own step: what a lane
+/// computes never depends on the others, but for the orders and the choice of generators to keep.
+/// @guarantee  after each successful step, for every q and every member of the set before, the
 ///             solution lies in the set after (same q), and during the step in `swept()`.
 /// @tparam N  number of variables, at least that of the unknowns
 /// @tparam D  degree of the polynomials
+/// @tparam C  `double`, or `lanes<W>`
 /// @cost  O(nodes K^2 products of degree D in N variables) a step
 /// @ref   Makino and Berz 2003 (Taylor models for flows); Kühn 1998 (zonotopes); Zgliczynski 2002
 /// (C1)
-template <std::size_t N, std::size_t D>
+template <std::size_t N, std::size_t D, class C = double>
 class parametric_flow {
 public:
-    using set_type = parametric_set<N, D>;
+    using set_type = parametric_set<N, D, C>;
     using polynomial = typename set_type::polynomial;
     using column_entry = typename set_type::column_entry;
+    using side_by_side = lane_traits<C>;
+    using mask = typename side_by_side::mask;
+    static constexpr std::size_t width = side_by_side::count;
     static constexpr std::size_t column_degree = set_type::column_degree;
     static constexpr std::size_t tube_degree = D >= 5 ? 3 : 2;
-    using tube_entry = taylor_model<N + 1, tube_degree>;
+    using tube_entry = taylor_model<N + 1, tube_degree, C>;
 
     parametric_flow(flow const& f, enclosure_options const& options)
         : flow_(&f),
           options_(options),
+          set_(f.states()),
           centre_(f, options.order + 1, variations::by_state),
           derivative_(f, options.order + 1, variations::by_state),
           tube_(f, options.order + 1, variations::by_state),
-          observe_(f.observe(), 0) {
+          observe_(f.observe(), 0),
+          parameters_(f.parameters()),
+          column_parameters_(f.parameters()),
+          tube_parameters_(f.parameters()),
+          around_(f.states()),
+          path_(f.states()),
+          tube_box_(f.states()),
+          swept_(f.states()),
+          room_(f.states()),
+          truncation_(f.states()) {
         if (options.order < 1)
             throw std::invalid_argument("enclosure_options: order must be at least 1");
     }
 
+    /// Starts the family of one lane; what the other lanes do goes on.
     /// @given  the unknowns have at most N variables (checked)
+    void begin(std::size_t lane, double time, box const& initial, box const& parameters);
+    /// The same in the first, or only, lane.
     void begin(double time, box const& initial, box const& parameters) {
-        require_sound_environment();
-        if (initial.size() != flow_->states() || parameters.size() != flow_->parameters()) {
-            throw std::invalid_argument("parametric_flow: the boxes do not have the model's sizes");
-        }
-        for (auto const* x : {&initial, &parameters}) {
-            for (auto const& side : *x) {
-                if (!std::isfinite(mag(side))) {
-                    throw std::invalid_argument("parametric_flow: empty or unbounded box");
-                }
-            }
-        }
-        unknowns_.emplace(initial, parameters);
-        if (unknowns_->variables > N)
-            throw std::invalid_argument("parametric_flow: too many unknowns");
-        centre_.set_parameters(unknowns_->template parameter_models<N, D>());
-        derivative_.set_parameters(unknowns_->template parameter_models<N, column_degree>());
-        tube_.set_parameters(unknowns_->template parameter_models<N + 1, tube_degree>());
-        observe_.set_parameters(unknowns_->template parameter_models<N, D>());
-        set_ = set_type::start(time, *unknowns_);
-        swept_.clear();
-        failure_.reset();
-        steps_ = 0;
-        order_ = std::min<std::size_t>(options_.order, 6);
-        flow_order_ = 3;
-        learned_ = 1;
+        begin(0, time, initial, parameters);
     }
+    /// Ends the family of a lane.
+    void end(std::size_t lane) { running_ = running_ & !side_by_side::only(lane); }
 
-    /// One proved step, at most to `limit`.
+    /// Tries one step in every lane that runs and is before its limit. A lane whose step was too
+    /// long stays where it is, and will try a shorter one.
+    /// @returns  the lanes that moved, none beyond its limit
+    [[nodiscard]] mask advance(C const& limit);
+    /// One proved step of the only lane, at most to `limit`.
     /// @throws std::invalid_argument when `limit` is not later than `time()`
-    [[nodiscard]] bool step(double limit);
-
-    [[nodiscard]] double time() const { return set_.time; }
-    [[nodiscard]] set_type const& set() const { return set_; }
-    [[nodiscard]] normalised_unknowns const& unknowns() const { return *unknowns_; }
-    [[nodiscard]] std::optional<enclosure_failure> const& failure() const { return failure_; }
-    [[nodiscard]] std::size_t steps() const { return steps_; }
-    [[nodiscard]] flow const& equations() const { return *flow_; }
-    /// The outputs at the set's time, as functions of the unknowns.
-    [[nodiscard]] std::vector<polynomial> outputs() {
-        std::vector<polynomial> x;
-        for (std::size_t i = 0; i < set_.centre.size(); ++i) {
-            x.push_back(widened(set_.centre[i], set_.reach[i]));
+    [[nodiscard]] bool step(double limit)
+        requires(width == 1)
+    {
+        if (!(limit > set_.time) && running_)
+            throw std::invalid_argument("parametric_flow: a step must go forward");
+        while (running_) {
+            if (advance(limit)) return true;
         }
-        auto const t = polynomial::constant(set_.time);
-        input_pieces<polynomial> const inputs(*flow_, set_.time, t);
-        observe_.start(t);
-        observe_.advance(
-            0, [&x](std::size_t i, std::size_t) -> polynomial const& { return x[i]; }, inputs);
-        std::vector<polynomial> result;
-        for (std::size_t y = 0; y < flow_->channels(); ++y) {
-            result.push_back(observe_.output(y, 0));
-            if (observe_.undefined()) result.back().r = std::numeric_limits<double>::infinity();
-        }
-        return result;
+        return false;
     }
 
-    /// A box that contains all states during the last proved step; without sides before the first.
-    [[nodiscard]] box swept() const {
-        box result(swept_.size());
-        for (std::size_t i = 0; i < result.size(); ++i) result[i] = range(swept_[i]);
+    [[nodiscard]] mask running() const { return running_; }
+    [[nodiscard]] double time(std::size_t lane = 0) const {
+        return side_by_side::get(set_.time, lane);
+    }
+    [[nodiscard]] set_type const& set() const { return set_; }
+    [[nodiscard]] normalised_unknowns const& unknowns(std::size_t lane = 0) const {
+        return *lanes_[lane].unknowns;
+    }
+    [[nodiscard]] std::optional<enclosure_failure> const& failure(std::size_t lane = 0) const {
+        return lanes_[lane].failure;
+    }
+    [[nodiscard]] std::size_t steps(std::size_t lane = 0) const { return lanes_[lane].steps; }
+    [[nodiscard]] flow const& equations() const { return *flow_; }
+    /// The outputs at the lanes' times, as functions of the unknowns.
+    [[nodiscard]] std::vector<polynomial> outputs();
+
+    /// A box that contains all states of a lane during its last proved step; without sides before
+    /// the first.
+    [[nodiscard]] box swept(std::size_t lane = 0) const {
+        box result(lanes_[lane].steps == 0 ? 0 : swept_.size());
+        for (std::size_t i = 0; i < result.size(); ++i) result[i] = range(lane_of(swept_[i], lane));
         return result;
     }
 
 private:
-    /// Upper bounds of sums of a few dozen non-negative doubles.
+    /// Makes computed sums of a few dozen non-negative numbers upper bounds.
     static constexpr double up = 1 + 1e-12;
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    [[nodiscard]] double allowed(std::size_t i) const {
+    /// n x n entries, one for each pair of states.
+    using square = std::vector<C>;
+
+    struct lane_state {
+        std::optional<normalised_unknowns> unknowns;
+        std::optional<enclosure_failure> failure;
+        enclosure_failure why; ///< of the last rejected attempt
+        std::size_t steps = 0;
+        std::size_t attempts = 0; ///< since the last accepted step
+        double proposed = 0;      ///< length that the coefficients suggested
+        double next = 0;          ///< length to try
+        double learned = 1;
+        bool free = false;        ///< the end of the interval had no say in it
+        bool rough = false;       ///< at a kink: the next attempt is of first order
+    };
+
+    [[nodiscard]] C allowed(std::size_t i) const {
         auto const& p = set_.centre[i];
-        return options_.tolerance * (1 + std::abs(p.c[0])) +
-               options_.relative_tolerance * (p.spread() + set_.reach[i]);
+        return (side_by_side::abs(p.c[0]) + C(1.0)) * options_.tolerance +
+               (p.spread() + set_.reach[i]) * options_.relative_tolerance;
     }
-    [[nodiscard]] double propose(double rest) const;
-    void adapt_order(double h, bool clamped);
-    /// Bounds |V - 1| on the step; false when h is too long for that.
-    [[nodiscard]] bool bound_flow(double h, Eigen::MatrixXd const& last, Eigen::MatrixXd& w) const;
-    [[nodiscard]] bool try_step(double to, double& shorten, enclosure_failure& why);
-    void accept(double to, interval const& h, Eigen::MatrixXd const& w);
-    [[nodiscard]] Eigen::MatrixXd sizes(double h, std::size_t from) const;
-    [[nodiscard]] bool useful(enclosure_failure& why) const;
-    [[nodiscard]] bool fail(enclosure_failure why) {
-        why.time = set_.time;
-        failure_ = why;
-        return false;
+    void expand(std::size_t order, std::size_t flow_order);
+    [[nodiscard]] double propose(std::size_t lane, double rest) const;
+    void adapt_order(mask moved, C const& h, bool clamped);
+    /// Bounds |V - 1| on the step; returns the lanes where it is short enough for that.
+    [[nodiscard]] mask bound_flow(square const& base, square const& last, mask pending,
+                                  square& w) const;
+    [[nodiscard]] mask useful(mask lanes);
+    void guess_tube(C const& h, std::size_t order);
+    /// @returns the lanes of `trying` whose step to `to` is proved
+    [[nodiscard]] mask attempt(mask trying, C const& to, std::size_t order, std::size_t flow_order,
+                               square& w, mask& jumps);
+    void accept(mask moved, C const& to, std::size_t order, std::size_t flow_order, square const& w,
+                mask jumps);
+    void sizes(C const& h, std::size_t order, std::size_t from, square& result) const;
+    void reject(mask lanes, failure_reason reason, C const& shorten);
+    void fail(std::size_t lane, enclosure_failure why) {
+        why.time = time(lane);
+        lanes_[lane].failure = why;
+        running_ = running_ & !side_by_side::only(lane);
     }
 
     flow const* flow_;
     enclosure_options options_;
-    std::optional<normalised_unknowns> unknowns_;
     set_type set_;
     expansion<polynomial> centre_;
     expansion<column_entry> derivative_;
     expansion<tube_entry> tube_;
     series<polynomial> observe_;
-    std::vector<tube_entry> tube_box_, lagrange_, swept_;
-    bool smooth_ = true;
-    bool jumps_ = false;
+    std::vector<polynomial> parameters_;
+    std::vector<column_entry> column_parameters_;
+    std::vector<tube_entry> tube_parameters_;
+    std::vector<column_entry> around_;
+    std::vector<tube_entry> path_, tube_box_, swept_;
+    std::vector<C> room_, truncation_;
+    std::array<lane_state, width> lanes_;
+    mask running_{};
+    bool stale_ = true;          ///< the expansions are not those of the present sets
+    bool smooth_ = true;         ///< the expansions are of full order
     std::size_t order_ = 6;      ///< K
     std::size_t flow_order_ = 3; ///< L
-    double learned_ = 1;
-    std::size_t steps_ = 0;
-    std::optional<enclosure_failure> failure_;
 };
 
 } // namespace sivid

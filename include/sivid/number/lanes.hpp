@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_NUMBER_LANES_HPP
+#define SIVID_NUMBER_LANES_HPP
+
+#include <sivid/number/detail/pack_target.hpp>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include <immintrin.h>
+
+namespace sivid {
+inline namespace SIVID_PACK_TARGET {
+
+namespace lanes_detail {
+inline constexpr std::size_t vector_bytes = SIVID_PACK_AVX512 ? 64 : SIVID_PACK_AVX2 ? 32 : 16;
+typedef double vector __attribute__((vector_size(vector_bytes)));
+typedef std::int64_t vector_mask __attribute__((vector_size(vector_bytes)));
+inline constexpr std::size_t per_vector = vector_bytes / sizeof(double);
+
+/// Bit l in lane l.
+inline vector_mask lane_bits() {
+    vector_mask m{};
+    for (std::size_t l = 0; l < per_vector; ++l) m[l] = std::int64_t{1} << l;
+    return m;
+}
+/// Bit l is the sign of lane l.
+inline std::uint64_t sign_bits(vector_mask m) {
+#if SIVID_PACK_AVX512
+    return _mm512_movepi64_mask(std::bit_cast<__m512i>(m));
+#elif SIVID_PACK_AVX2
+    return static_cast<std::uint64_t>(_mm256_movemask_pd(std::bit_cast<__m256d>(m)));
+#else
+    return static_cast<std::uint64_t>(_mm_movemask_pd(std::bit_cast<__m128d>(m)));
+#endif
+}
+} // namespace lanes_detail
+
+/// One truth value for each of W lanes.
+template <std::size_t W>
+class lane_mask {
+public:
+    static_assert(W <= 64);
+    static constexpr std::uint64_t full = W == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << W) - 1;
+
+    lane_mask() = default;
+    lane_mask(bool all) : bits_{all ? full : 0} {} // NOLINT: a bool is the same in every lane
+    [[nodiscard]] static lane_mask from_bits(std::uint64_t bits) {
+        lane_mask m;
+        m.bits_ = bits & full;
+        return m;
+    }
+    [[nodiscard]] static lane_mask only(std::size_t lane) {
+        return from_bits(std::uint64_t{1} << lane);
+    }
+    [[nodiscard]] std::uint64_t bits() const { return bits_; }
+    [[nodiscard]] bool operator[](std::size_t lane) const { return ((bits_ >> lane) & 1U) != 0; }
+
+    friend lane_mask operator&(lane_mask a, lane_mask b) { return from_bits(a.bits_ & b.bits_); }
+    friend lane_mask operator|(lane_mask a, lane_mask b) { return from_bits(a.bits_ | b.bits_); }
+    friend lane_mask operator!(lane_mask a) { return from_bits(~a.bits_); }
+    lane_mask& operator|=(lane_mask b) { return *this = *this | b; }
+    lane_mask& operator&=(lane_mask b) { return *this = *this & b; }
+    friend bool operator==(lane_mask a, lane_mask b) { return a.bits_ == b.bits_; }
+
+private:
+    std::uint64_t bits_ = 0;
+};
+
+/// W doubles in vector registers: the coefficient of W Taylor models side by side. Plain floating
+/// point, in whatever rounding mode; proofs come from error bounds that hold in each of them.
+template <std::size_t W>
+class lanes {
+    using vector = lanes_detail::vector;
+
+public:
+    static_assert(W % lanes_detail::per_vector == 0);
+    static constexpr std::size_t parts = W / lanes_detail::per_vector;
+    using mask = lane_mask<W>;
+
+    lanes() = default;
+    lanes(double x) { // NOLINT: a number is the same in every lane
+        for (auto& p : parts_) p = vector{} + x;
+    }
+    [[nodiscard]] double operator[](std::size_t lane) const {
+        return parts_[lane / lanes_detail::per_vector][lane % lanes_detail::per_vector];
+    }
+    void set(std::size_t lane, double x) {
+        parts_[lane / lanes_detail::per_vector][lane % lanes_detail::per_vector] = x;
+    }
+    [[nodiscard]] vector const& part(std::size_t p) const { return parts_[p]; }
+    [[nodiscard]] vector& part(std::size_t p) { return parts_[p]; }
+
+    lanes& operator+=(lanes const& b) { return *this = *this + b; }
+    lanes& operator-=(lanes const& b) { return *this = *this - b; }
+    lanes& operator*=(lanes const& b) { return *this = *this * b; }
+
+    friend lanes operator+(lanes const& a, lanes const& b) {
+        return each([&](std::size_t p) { return a.parts_[p] + b.parts_[p]; });
+    }
+    friend lanes operator-(lanes const& a, lanes const& b) {
+        return each([&](std::size_t p) { return a.parts_[p] - b.parts_[p]; });
+    }
+    friend lanes operator*(lanes const& a, lanes const& b) {
+        return each([&](std::size_t p) { return a.parts_[p] * b.parts_[p]; });
+    }
+    friend lanes operator/(lanes const& a, lanes const& b) {
+        return each([&](std::size_t p) { return a.parts_[p] / b.parts_[p]; });
+    }
+    friend lanes operator-(lanes const& a) {
+        return each([&](std::size_t p) { return -a.parts_[p]; });
+    }
+    friend mask operator<(lanes const& a, lanes const& b) {
+        return where([&](std::size_t p) { return a.parts_[p] < b.parts_[p]; });
+    }
+    friend mask operator>(lanes const& a, lanes const& b) { return b < a; }
+    friend mask operator<=(lanes const& a, lanes const& b) {
+        return where([&](std::size_t p) { return a.parts_[p] <= b.parts_[p]; });
+    }
+    friend mask operator>=(lanes const& a, lanes const& b) { return b <= a; }
+    friend mask operator==(lanes const& a, lanes const& b) {
+        return where([&](std::size_t p) { return a.parts_[p] == b.parts_[p]; });
+    }
+    [[nodiscard]] static lanes abs(lanes const& a) {
+        return each([&](std::size_t p) {
+            auto const bits = std::bit_cast<lanes_detail::vector_mask>(a.parts_[p]);
+            return std::bit_cast<vector>(bits & std::numeric_limits<std::int64_t>::max());
+        });
+    }
+    /// The second operand where one of them is NaN.
+    [[nodiscard]] static lanes max(lanes const& a, lanes const& b) {
+        return each([&](std::size_t p) -> vector {
+            return a.parts_[p] > b.parts_[p] ? a.parts_[p] : b.parts_[p];
+        });
+    }
+    [[nodiscard]] static lanes min(lanes const& a, lanes const& b) {
+        return each([&](std::size_t p) -> vector {
+            return a.parts_[p] < b.parts_[p] ? a.parts_[p] : b.parts_[p];
+        });
+    }
+    [[nodiscard]] static lanes select(mask m, lanes const& a, lanes const& b) {
+        return each([&](std::size_t p) -> vector {
+            auto const bits = static_cast<std::int64_t>(m.bits() >> (p * lanes_detail::per_vector));
+            auto const chosen = (lanes_detail::lane_bits() & bits) != 0;
+            return chosen ? a.parts_[p] : b.parts_[p];
+        });
+    }
+
+private:
+    template <class F>
+    static lanes each(F const& f) {
+        lanes result;
+        [&]<std::size_t... P>(std::index_sequence<P...>) { ((result.parts_[P] = f(P)), ...); }
+        (std::make_index_sequence<parts>{});
+        return result;
+    }
+    template <class F>
+    static mask where(F const& f) {
+        std::uint64_t bits = 0;
+        for (std::size_t p = 0; p < parts; ++p) {
+            bits |= lanes_detail::sign_bits(f(p)) << (p * lanes_detail::per_vector);
+        }
+        return mask::from_bits(bits);
+    }
+    std::array<vector, parts> parts_{};
+};
+
+} // namespace SIVID_PACK_TARGET
+
+/// What algorithms that run on one number or on several side by side say of their scalar.
+template <class C>
+struct lane_traits;
+
+template <>
+struct lane_traits<double> {
+    using mask = bool;
+    static constexpr std::size_t count = 1;
+    static double get(double x, std::size_t) { return x; }
+    static void put(double& x, std::size_t, double value) { x = value; }
+    static double select(bool m, double a, double b) { return m ? a : b; }
+    static double abs(double x) { return std::abs(x); }
+    static double max(double a, double b) { return a > b ? a : b; }
+    static double min(double a, double b) { return a < b ? a : b; }
+    static bool any(bool m) { return m; }
+    static bool all(bool m) { return m; }
+    static bool test(bool m, std::size_t) { return m; }
+    static bool only(std::size_t) { return true; }
+};
+
+template <std::size_t W>
+struct lane_traits<lanes<W>> {
+    using mask = lane_mask<W>;
+    static constexpr std::size_t count = W;
+    static double get(lanes<W> const& x, std::size_t lane) { return x[lane]; }
+    static void put(lanes<W>& x, std::size_t lane, double value) { x.set(lane, value); }
+    static lanes<W> select(mask m, lanes<W> const& a, lanes<W> const& b) {
+        return lanes<W>::select(m, a, b);
+    }
+    static lanes<W> abs(lanes<W> const& x) { return lanes<W>::abs(x); }
+    static lanes<W> max(lanes<W> const& a, lanes<W> const& b) { return lanes<W>::max(a, b); }
+    static lanes<W> min(lanes<W> const& a, lanes<W> const& b) { return lanes<W>::min(a, b); }
+    static bool any(mask m) { return m.bits() != 0; }
+    static bool all(mask m) { return m == mask(true); }
+    static bool test(mask m, std::size_t lane) { return m[lane]; }
+    static mask only(std::size_t lane) { return mask::only(lane); }
+};
+
+/// f applied to each lane.
+template <class C, class F>
+[[nodiscard]] C each_lane(F const& f) {
+    C result{};
+    for (std::size_t l = 0; l < lane_traits<C>::count; ++l) lane_traits<C>::put(result, l, f(l));
+    return result;
+}
+
+} // namespace sivid
+
+#endif
