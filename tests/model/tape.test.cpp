@@ -43,8 +43,16 @@ TEST_CASE("operands are computed before they are used") {
         bool ordered = true;
         auto const run = [&](std::vector<instruction> const& part) {
             for (auto const& i : part) {
-                if (!is_leaf(i.op)) ordered = ordered && known[i.a];
-                if (is_binary(i.op)) ordered = ordered && known[i.b];
+                if (i.is_sum()) {
+                    auto const* const terms = program.terms(i);
+                    for (std::size_t n = 0; n < i.last_term - i.first_term; ++n) {
+                        ordered = ordered && known[terms[n].a];
+                        if (terms[n].product) ordered = ordered && known[terms[n].b];
+                    }
+                } else if (!is_leaf(i.op)) {
+                    ordered = ordered && known[i.a];
+                    if (is_binary(i.op)) ordered = ordered && known[i.b];
+                }
                 known[i.target] = true;
             }
         };
@@ -53,4 +61,31 @@ TEST_CASE("operands are computed before they are used") {
         CHECK(ordered);
         CHECK(known[program.output(0)]);
     }
+}
+
+TEST_CASE("sums of products are gathered, unless something else needs a part") {
+    graph g;
+    auto const state = [&g](int i) { return expression(g, g.leaf(operation::state, i)); };
+    auto const x = state(0);
+    auto const y = state(1);
+    auto const z = state(2);
+    auto const shared = x * z;
+    auto const root = x * y - (shared + (z - y * z));
+    tape const program(g, {root.in(g), sin(shared).in(g)});
+    std::size_t sums = 0;
+    for (auto const& i : program.varying()) {
+        if (!i.is_sum()) continue;
+        ++sums;
+        auto const* const t = program.terms(i);
+        REQUIRE(i.last_term - i.first_term == 4); // x y - shared - z + y z
+        CHECK(t[0].product);
+        CHECK_FALSE(t[0].minus);
+        CHECK_FALSE(t[1].product);
+        CHECK(t[1].minus);
+        CHECK_FALSE(t[2].product);
+        CHECK(t[2].minus);
+        CHECK(t[3].product);
+        CHECK_FALSE(t[3].minus);
+    }
+    CHECK(sums == 1);
 }

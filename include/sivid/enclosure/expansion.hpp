@@ -21,6 +21,7 @@ struct input_pieces {
     std::vector<T> value;
     std::vector<T> slope;
 
+    input_pieces() = default;
     /// @param start  the step's begin, in each lane if it is not a double: it selects the pieces
     /// @param t      the expansion point, or a range of times within the step
     template <class Start>
@@ -71,64 +72,58 @@ public:
         : flow_(&f),
           stride_(max_order + 1),
           columns_(f.states() + (which == variations::by_state_and_parameter ? f.parameters() : 0)),
-          values_(f.rate(), max_order),
-          jacobian_(f.rate_jacobian(), max_order),
+          series_(f.rate_jacobian(), max_order),
           x_(f.states() * stride_, arithmetic::point(0.0)),
-          v_(f.states() * columns_ * stride_, arithmetic::point(0.0)),
-          sums_(f.states() * columns_) {}
+          v_(f.states() * columns_ * stride_, arithmetic::point(0.0)) {}
 
     template <class Box>
     void set_parameters(Box const& p) {
-        values_.set_parameters(p);
-        jacobian_.set_parameters(p);
+        series_.set_parameters(p);
     }
 
     /// Coefficients 0 .. order of the solution through `x` at `t`.
     template <class Start, class States>
     void expand(Start const& start, T const& t, States const& x, std::size_t order) {
-        run(values_, start, t, x, order);
-        jumped_ = values_.jumped();
+        inputs_ = input_pieces<T>(*flow_, start, t);
+        auto const n = flow_->states();
+        for (std::size_t i = 0; i < n; ++i) x_[i * stride_] = x[i];
+        series_.start(t);
+        for (std::size_t k = 0; k < order; ++k) {
+            series_.advance_principal(k, state_at(), inputs_);
+            for (std::size_t i = 0; i < n; ++i) {
+                bool const zero = k > 0 && !flow_->rate().output_varies(i);
+                x_[i * stride_ + k + 1] =
+                    zero ? arithmetic::point(0.0) : over(series_.output(i, k), k + 1);
+            }
+        }
+        jumped_ = series_.jumped();
     }
 
-    /// The same with the coefficients 0 .. order of V.
-    template <class Start, class States>
-    void expand_with_variations(Start const& start, T const& t, States const& x, std::size_t order) {
-        run(jacobian_, start, t, x, order);
+    /// The coefficients 0 .. order of V in addition, after `expand` of at least that order.
+    void add_variations(std::size_t order) {
         auto const n = flow_->states();
+        for (std::size_t k = 0; k < order; ++k) {
+            series_.advance_rest(k, state_at(), inputs_);
+        }
         for (std::size_t i = 0; i < n; ++i) {
             for (std::size_t c = 0; c < columns_; ++c) {
                 v(i, c, 0) = arithmetic::point(i == c ? 1.0 : 0.0);
             }
         }
-        auto const& program = flow_->rate_jacobian();
-        auto& sums = sums_;
         for (std::size_t k = 0; k < order; ++k) {
-            std::fill(sums.begin(), sums.end(), typename arithmetic::accumulator{});
-            for (auto const& e : flow_->entries()) {
-                bool const varies = program.output_varies(e.output);
-                if (e.column >= n) {
-                    if (e.column < columns_ && (k == 0 || varies)) {
-                        sums[e.row * columns_ + e.column].add(jacobian_.output(e.output, k));
-                    }
-                    continue;
-                }
-                std::size_t const last = varies ? k : 0;
-                for (std::size_t c = 0; c < columns_; ++c) {
-                    if (!flow_->sensitive(e.column, c)) continue;
-                    auto& sum = sums[e.row * columns_ + c];
-                    for (std::size_t j = 0; j <= last; ++j) {
-                        if (k - j == 0 && e.column != c) continue; // V starts as the identity
-                        sum.add_product(jacobian_.output(e.output, j), v(e.column, c, k - j));
-                    }
-                }
-            }
             for (std::size_t i = 0; i < n; ++i) {
                 for (std::size_t c = 0; c < columns_; ++c) {
-                    if (!flow_->sensitive(i, c)) continue;
-                    v(i, c, k + 1) = over(sums[i * columns_ + c].result(), k + 1);
+                    if (flow_->sensitive(i, c)) v(i, c, k + 1) = over(next_variation(i, c, k), k + 1);
                 }
             }
         }
+    }
+
+    /// Both.
+    template <class Start, class States>
+    void expand_with_variations(Start const& start, T const& t, States const& x, std::size_t order) {
+        expand(start, t, x, order);
+        add_variations(order);
     }
 
     [[nodiscard]] std::size_t columns() const { return columns_; }
@@ -140,10 +135,10 @@ public:
     }
     /// Value of an entry of the Jacobian of f, after `expand_with_variations`.
     [[nodiscard]] T const& jacobian(jacobian_entry const& e) const {
-        return jacobian_.output(e.output, 0);
+        return series_.output(e.output, 0);
     }
-    [[nodiscard]] typename arithmetic::mask undefined() const { return undefined_; }
-    [[nodiscard]] typename arithmetic::mask kinked() const { return kinked_; }
+    [[nodiscard]] typename arithmetic::mask undefined() const { return series_.undefined(); }
+    [[nodiscard]] typename arithmetic::mask kinked() const { return series_.kinked(); }
     /// The right-hand side itself may jump within the last `expand` (not its Jacobian).
     [[nodiscard]] typename arithmetic::mask jumped() const { return jumped_; }
     [[nodiscard]] std::size_t max_order() const { return stride_ - 1; }
@@ -152,38 +147,38 @@ private:
     T& v(std::size_t i, std::size_t c, std::size_t k) {
         return v_[(i * columns_ + c) * stride_ + k];
     }
-    template <class Start, class States>
-    void run(series<T>& s, Start const& start, T const& t, States const& x, std::size_t order) {
-        input_pieces<T> const inputs(*flow_, start, t);
-        auto const state = [this](std::size_t i, std::size_t k) -> T const& {
-            return x_[i * stride_ + k];
-        };
+    [[nodiscard]] auto state_at() const {
+        return [this](std::size_t i, std::size_t k) -> T const& { return x_[i * stride_ + k]; };
+    }
+    /// Coefficient k of row i of the Jacobian times column c of V.
+    [[nodiscard]] T next_variation(std::size_t i, std::size_t c, std::size_t k) {
         auto const n = flow_->states();
-        for (std::size_t i = 0; i < n; ++i) x_[i * stride_] = x[i];
-        s.start(t);
-        for (std::size_t k = 0; k < order; ++k) {
-            s.advance(k, state, inputs);
-            for (std::size_t i = 0; i < n; ++i) {
-                bool const zero = k > 0 && !flow_->rate().output_varies(i);
-                x_[i * stride_ + k + 1] =
-                    zero ? arithmetic::point(0.0) : over(s.output(i, k), k + 1);
+        typename arithmetic::accumulator sum;
+        for (auto const& e : flow_->entries()) {
+            if (e.row != i) continue;
+            bool const varies = flow_->rate_jacobian().output_varies(e.output);
+            if (e.column >= n) {
+                if (e.column == c && (k == 0 || varies)) sum.add(series_.output(e.output, k));
+                continue;
+            }
+            if (!flow_->sensitive(e.column, c)) continue;
+            std::size_t const last = varies ? k : 0;
+            for (std::size_t j = 0; j <= last; ++j) {
+                if (k - j == 0 && e.column != c) continue; // V starts as the identity
+                sum.add_product(series_.output(e.output, j), v(e.column, c, k - j));
             }
         }
-        undefined_ = s.undefined();
-        kinked_ = s.kinked();
+        return sum.result();
     }
     static T over(T const& a, std::size_t k) { return k == 1 ? a : arithmetic::over(a, k); }
 
     flow const* flow_;
     std::size_t stride_;
     std::size_t columns_;
-    series<T> values_;
-    series<T> jacobian_;
+    series<T> series_;
+    input_pieces<T> inputs_;
     std::vector<T> x_;
     std::vector<T> v_;
-    std::vector<typename arithmetic::accumulator> sums_;
-    typename arithmetic::mask undefined_{};
-    typename arithmetic::mask kinked_{};
     typename arithmetic::mask jumped_{};
 };
 

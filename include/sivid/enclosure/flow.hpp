@@ -82,7 +82,7 @@ private:
         };
         collect(dx, 0);
         collect(dp, states());
-        return tape(model_.g, outputs);
+        return tape(model_.g, outputs, values.size());
     }
 
     /// Transitive closure of the Jacobian's pattern.

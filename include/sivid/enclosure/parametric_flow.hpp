@@ -270,10 +270,14 @@ typename parametric_flow<N, D, C>::mask parametric_flow<N, D, C>::advance(C cons
             if (!smooth) lane.rough = false; // a shorter step may miss the kink
             continue;
         }
-        if (lane.next < lane.proposed) {
-            lane.learned = std::max(0.05, lane.learned * lane.next / lane.proposed);
-        } else if (lane.free) {
-            lane.learned = std::min(4.0, 1.08 * lane.learned);
+        if (lane.next < lane.proposed || lane.free) {
+            // Aim at a third of the allowed truncation; what is too long costs a whole attempt.
+            double const ratio = side_by_side::get(ratio_, l);
+            double const exponent = 1 / static_cast<double>(order + 1);
+            double const better =
+                ratio > 0 ? std::clamp(std::pow(0.3 / ratio, exponent), 0.8, 1.25) : 1.25;
+            lane.learned =
+                std::clamp(lane.learned * lane.next / lane.proposed * better, 0.05, 4.0);
         }
         lane.attempts = 0;
         lane.rough = false;
@@ -351,7 +355,7 @@ parametric_flow<N, D, C>::attempt(mask trying, C const& to, std::size_t order,
         // Without series terms x(h) = x(0) + h f(b) holds for every member, jumps or not. With them
         // no sign varies here (it would be a kink), and V carries the members as usual.
         jumps = K == 0 ? trying & tube_.jumped() : mask{};
-        C ratio{};
+        C ratio{}; // of the truncation to what is allowed
         for (std::size_t i = 0; i < n; ++i) {
             auto const& lagrange = tube_.state(i, K + 1);
             truncation_[i] = lagrange.norm() * power * up;
@@ -366,6 +370,7 @@ parametric_flow<N, D, C>::attempt(mask trying, C const& to, std::size_t order,
             }
         }
         mask const enough = shortest | (K > 0 ? mask{} : mask(h <= C(1e-4)));
+        ratio_ = ratio;
         mask const too_long = trying & !(ratio <= C(1.0)) & !enough;
         if (side_by_side::any(too_long)) {
             auto const shorten = each_lane<C>([&](std::size_t l) {
@@ -381,7 +386,7 @@ parametric_flow<N, D, C>::attempt(mask trying, C const& to, std::size_t order,
         w.assign(n * n, C(0.0));
         for (std::size_t i = 0; i < n; ++i) spread[i] = set_.reach[i];
         if (side_by_side::any(trying & !jumps)) {
-            tube_.expand_with_variations(set_.time, times, tube_box_, L);
+            tube_.add_variations(L);
             undefined = trying & !jumps & tube_.undefined();
             if (L > 1) {
                 mask const late = trying & !jumps & tube_.kinked();

@@ -29,13 +29,21 @@ class plain_accumulator {
     using value_type = typename A::value_type;
 
 public:
-    void add(value_type const& a) { sum_ = A::add(sum_, a); }
-    void add_product(value_type const& a, value_type const& b) {
-        sum_ = A::add(sum_, A::mul(a, b));
+    /// Adds a times a small integer.
+    void add(value_type const& a, double factor = 1) {
+        sum_ = factor == -1 ? A::sub(sum_, a) : A::add(sum_, times(a, factor));
     }
+    void add_product(value_type const& a, value_type const& b, double factor = 1) {
+        add(A::mul(a, b), factor);
+    }
+    void add_square(value_type const& a, double factor = 1) { add(A::sqr(a), factor); }
     [[nodiscard]] value_type const& result() const { return sum_; }
+    void result_into(value_type& a) const { a = sum_; }
 
 private:
+    static value_type times(value_type const& a, double factor) {
+        return factor == 1 ? a : A::mul(A::point(factor), a);
+    }
     value_type sum_ = A::point(0.0);
 };
 

@@ -30,39 +30,49 @@ public:
     series(tape const& program, std::size_t max_order)
         : program_(&program),
           stride_(max_order + 1),
-          c_(program.slots() * stride_, arithmetic::point(0.0)),
+          place_(program.slots()),
           reciprocal_(arithmetic::keeps_reciprocals ? program.slots() : 0, arithmetic::point(0.0)) {
+        std::size_t next = 0;
+        for (std::size_t slot = 0; slot < program.slots(); ++slot) {
+            bool const all = program.keeps_history(slot);
+            place_[slot] = {next, all ? ~std::size_t{0} : std::size_t{0}};
+            next += all ? stride_ : 1;
+        }
+        c_.assign(next, arithmetic::point(0.0));
         for (std::size_t i = 0; i < program.literals().size(); ++i) {
-            c_[program.literal_slots()[i] * stride_] = arithmetic::enclose(program.literals()[i]);
+            at(program.literal_slots()[i], 0) = arithmetic::enclose(program.literals()[i]);
         }
     }
 
     [[nodiscard]] std::size_t max_order() const { return stride_ - 1; }
+    /// The last one computed where the tape keeps no history.
     [[nodiscard]] T const& coefficient(std::size_t slot, std::size_t k) const {
-        return c_[slot * stride_ + k];
+        return get(slot, k);
     }
     [[nodiscard]] T const& output(std::size_t o, std::size_t k) const {
         return coefficient(program_->output(o), k);
     }
     /// A function was not defined on all of its argument.
-    [[nodiscard]] mask undefined() const { return undefined_; }
+    [[nodiscard]] mask undefined() const { return now_.undefined; }
     /// A kink lies in an argument: orders above 0 are not derivatives.
-    [[nodiscard]] mask kinked() const { return kinked_; }
+    [[nodiscard]] mask kinked() const { return now_.kinked; }
     /// A sign was taken of an argument that touches 0: the value is a set, the function may jump.
-    [[nodiscard]] mask jumped() const { return jumped_; }
+    [[nodiscard]] mask jumped() const { return now_.jumped; }
 
     /// Enters the parameters and computes what depends on them alone.
     template <class Box>
     void set_parameters(Box const& p) {
-        constant_undefined_ = mask{};
-        constant_jumped_ = mask{};
-        for (auto const& i : program_->constant()) {
+        constant_ = flags{};
+        rest_constant_ = flags{};
+        for (std::size_t n = 0; n < program_->constant().size(); ++n) {
+            auto const& i = program_->constant()[n];
+            auto& report = n < program_->principal_constant() ? constant_ : rest_constant_;
             if (i.op == operation::constant) {
                 at(i.target, 0) = p[static_cast<std::size_t>(i.index)];
             } else {
-                at(i.target, 0) = value(i, constant_undefined_);
+                at(i.target, 0) = value(i, report.undefined);
             }
-            if (i.op == operation::sign) constant_jumped_ |= jumps(i);
+            if (i.op == operation::sign) report.jumped |= jumps(i);
         }
     }
 
@@ -70,16 +80,40 @@ public:
     void start(T const& t, T const& slope = arithmetic::point(1.0)) {
         time_ = t;
         time_slope_ = slope;
-        undefined_ = constant_undefined_;
-        kinked_ = mask{};
-        jumped_ = constant_jumped_;
+        now_ = constant_;
     }
     /// Computes coefficient k of everything that varies.
     /// @param state  (i, k) -> coefficient k of state i
     /// @param input  (i, k) -> coefficient k of input i
     template <class State, class Input>
     void advance(std::size_t k, State const& state, Input const& input) {
-        for (auto const& i : program_->varying()) {
+        advance_principal(k, state, input);
+        advance_rest(k, state, input);
+    }
+    /// The same for what the tape's principal outputs need alone.
+    template <class State, class Input>
+    void advance_principal(std::size_t k, State const& state, Input const& input) {
+        advance(0, program_->principal_varying(), k, state, input);
+    }
+    /// The same for everything else, after the principal part has reached order k or beyond.
+    template <class State, class Input>
+    void advance_rest(std::size_t k, State const& state, Input const& input) {
+        if (k == 0) {
+            now_.undefined |= rest_constant_.undefined;
+            now_.jumped |= rest_constant_.jumped;
+        }
+        advance(program_->principal_varying(), program_->varying().size(), k, state, input);
+    }
+
+private:
+    struct flags {
+        mask undefined{}, kinked{}, jumped{};
+    };
+    template <class State, class Input>
+    void advance(std::size_t first, std::size_t last, std::size_t k, State const& state,
+                 Input const& input) {
+        for (std::size_t n = first; n < last; ++n) {
+            auto const& i = program_->varying()[n];
             auto& result = at(i.target, k);
             switch (i.op) {
             case operation::time:
@@ -92,17 +126,24 @@ public:
                 result = input(static_cast<std::size_t>(i.index), k);
                 break;
             default:
-                result = k == 0 ? value(i, undefined_) : higher(i, k);
+                if (i.is_sum()) {
+                    sum(i, k, result);
+                } else if (k > 0 && i.op == operation::mul && i.a_varies && i.b_varies) {
+                    accumulator total;
+                    convolve(total, i.a, i.b, k, 0, k);
+                    total.result_into(result);
+                } else {
+                    result = k == 0 ? value(i, now_.undefined) : higher(i, k);
+                }
                 break;
             }
-            if (k == 0 && i.op == operation::sign) jumped_ |= jumps(i);
+            if (k == 0 && i.op == operation::sign) now_.jumped |= jumps(i);
         }
     }
 
-private:
-    T& at(std::size_t slot, std::size_t k) { return c_[slot * stride_ + k]; }
+    T& at(std::size_t slot, std::size_t k) { return c_[place_[slot].first + (k & place_[slot].orders)]; }
     [[nodiscard]] T const& get(std::size_t slot, std::size_t k) const {
-        return c_[slot * stride_ + k];
+        return c_[place_[slot].first + (k & place_[slot].orders)];
     }
 
     [[nodiscard]] mask jumps(instruction const& i) const {
@@ -135,30 +176,45 @@ private:
         return apply<arithmetic>(i.op, get(i.a, 0), get(i.b, 0), i.index, undefined);
     }
 
-    /// \f$ \sum_{j=from}^{to} a_j b_{k-j} \f$
-    T convolve(std::size_t a, std::size_t b, std::size_t k, std::size_t from,
-               std::size_t to) const {
-        typename arithmetic::accumulator sum;
-        for (std::size_t j = from; j <= to; ++j) sum.add_product(get(a, j), get(b, k - j));
-        return sum.result();
+    using accumulator = typename arithmetic::accumulator;
+
+    /// Adds \f$ \pm \sum_{j=from}^{to} a_j b_{k-j} \f$.
+    void convolve(accumulator& sum, std::size_t a, std::size_t b, std::size_t k, std::size_t from,
+                  std::size_t to, double sign = 1) const {
+        for (std::size_t j = from; j <= to; ++j) sum.add_product(get(a, j), get(b, k - j), sign);
     }
     /// \f$ \sum_{j=1}^{to} j a_j b_{k-j} \f$
     T weighted(std::size_t a, std::size_t b, std::size_t k, std::size_t to) const {
-        typename arithmetic::accumulator sum;
+        accumulator total;
         for (std::size_t j = 1; j <= to; ++j) {
-            sum.add_product(arithmetic::mul(number(j), get(a, j)), get(b, k - j));
+            total.add_product(get(a, j), get(b, k - j), static_cast<double>(j));
         }
-        return sum.result();
+        return total.result();
     }
-    /// Squares of a series: each product once, the middle one as a square.
-    T square(std::size_t a, std::size_t k, std::size_t from) const {
-        typename arithmetic::accumulator half;
-        for (std::size_t j = from; 2 * j < k; ++j) half.add_product(get(a, j), get(a, k - j));
-        T sum = arithmetic::mul(number(2), half.result());
-        if (k % 2 == 0 && k / 2 >= from) {
-            sum = arithmetic::add(sum, arithmetic::sqr(get(a, k / 2)));
+    /// Adds \f$ \pm \sum_{j=from}^{k-from} a_j a_{k-j} \f$: each product once, the middle one as a
+    /// square.
+    void square(accumulator& sum, std::size_t a, std::size_t k, std::size_t from,
+                double sign = 1) const {
+        for (std::size_t j = from; 2 * j < k; ++j) {
+            sum.add_product(get(a, j), get(a, k - j), 2 * sign);
         }
-        return sum;
+        if (k % 2 == 0 && k / 2 >= from) sum.add_square(get(a, k / 2), sign);
+    }
+    void sum(instruction const& i, std::size_t k, T& result) const {
+        accumulator total;
+        auto const* const terms = program_->terms(i);
+        for (std::size_t n = 0; n < i.last_term - i.first_term; ++n) {
+            auto const& t = terms[n];
+            double const sign = t.minus ? -1 : 1;
+            if (!t.product) {
+                if (k == 0 || t.a_varies) total.add(get(t.a, k), sign);
+            } else if (t.a_varies && t.b_varies) {
+                convolve(total, t.a, t.b, k, 0, k, sign);
+            } else {
+                total.add_product(get(t.a, t.a_varies ? k : 0), get(t.b, t.b_varies ? k : 0), sign);
+            }
+        }
+        total.result_into(result);
     }
     static T number(std::size_t k) { return arithmetic::point(static_cast<double>(k)); }
     T over(T const& a, std::size_t k) const { return arithmetic::over(a, k); }
@@ -168,7 +224,7 @@ private:
             return arithmetic::mul(a, reciprocal_[i.target]);
         } else {
             auto const& b = get(slot, 0);
-            return arithmetic::div(a, twice ? arithmetic::mul(number(2), b) : b, undefined_);
+            return arithmetic::div(a, twice ? arithmetic::mul(number(2), b) : b, now_.undefined);
         }
     }
 
@@ -177,24 +233,28 @@ private:
         auto const a = i.a;
         auto const y = i.target;
         switch (i.op) {
-        case operation::neg:
-            return A::neg(get(a, k));
-        case operation::add:
-            return sum(i, k, false);
-        case operation::sub:
-            return sum(i, k, true);
         case operation::mul:
             if (!i.a_varies) return A::mul(get(a, 0), get(i.b, k));
-            if (!i.b_varies) return A::mul(get(a, k), get(i.b, 0));
-            return convolve(a, i.b, k, 0, k);
+            return A::mul(get(a, k), get(i.b, 0));
         case operation::div:
             if (!i.b_varies) return divide(get(a, k), i, i.b);
-            if (!i.a_varies) return A::neg(divide(convolve(y, i.b, k, 0, k - 1), i, i.b));
-            return divide(A::sub(get(a, k), convolve(y, i.b, k, 0, k - 1)), i, i.b);
-        case operation::sqr:
-            return square(a, k, 0);
-        case operation::sqrt:
-            return divide(A::sub(get(a, k), square(y, k, 1)), i, y, true);
+            {
+                accumulator rest; // a_k - sum_{j<k} y_j b_{k-j}
+                if (i.a_varies) rest.add(get(a, k));
+                convolve(rest, y, i.b, k, 0, k - 1, -1);
+                return divide(rest.result(), i, i.b);
+            }
+        case operation::sqr: {
+            accumulator total;
+            square(total, a, k, 0);
+            return total.result();
+        }
+        case operation::sqrt: {
+            accumulator rest;
+            rest.add(get(a, k));
+            square(rest, y, k, 1, -1);
+            return divide(rest.result(), i, y, true);
+        }
         case operation::exp:
             return over(weighted(a, y, k, k), k);
         case operation::log:
@@ -215,20 +275,13 @@ private:
         }
     }
 
-    T sum(instruction const& i, std::size_t k, bool minus) const {
-        using A = arithmetic;
-        if (!i.b_varies) return get(i.a, k);
-        auto const b = minus ? A::neg(get(i.b, k)) : get(i.b, k);
-        return i.a_varies ? A::add(get(i.a, k), b) : b;
-    }
-
     /// abs, sign, min, max: the smooth branch where the argument decides it, else a report.
     T kink(instruction const& i, std::size_t k) {
         using A = arithmetic;
         auto const zero = A::point(0.0);
         bool const two = i.op == operation::min || i.op == operation::max;
         auto const side = A::sign_of(two ? A::sub(get(i.a, 0), get(i.b, 0)) : get(i.a, 0));
-        kinked_ |= side.neither;
+        now_.kinked |= side.neither;
         auto const a = i.a_varies ? get(i.a, k) : zero;
         auto const b = i.b_varies ? get(i.b, k) : zero;
         auto const choose = [&](T const& above, T const& below) {
@@ -247,15 +300,18 @@ private:
     }
     tape const* program_;
     std::size_t stride_;
+    struct place {
+        std::size_t first = 0;  ///< where coefficient 0 is
+        std::size_t orders = 0; ///< all bits set where the others follow it, else none
+    };
+    std::vector<place> place_;
     std::vector<T> c_;
     std::vector<T> reciprocal_; ///< of what order 0 divides by, where the arithmetic keeps it
     T time_ = arithmetic::point(0.0);
     T time_slope_ = arithmetic::point(1.0);
-    mask undefined_{};
-    mask constant_undefined_{};
-    mask kinked_{};
-    mask jumped_{};
-    mask constant_jumped_{};
+    flags now_;           ///< of the present expansion
+    flags constant_;      ///< of what depends on the parameters alone: for the principal outputs,
+    flags rest_constant_; ///< and for the others
 };
 
 } // namespace sivid

@@ -23,9 +23,13 @@ struct taylor_arithmetic {
 
     class accumulator {
     public:
-        void add(value_type const& a) { sum_.add(a); }
-        void add_product(value_type const& a, value_type const& b) { sum_.add(a, b); }
+        void add(value_type const& a, double factor = 1) { sum_.add(a, factor); }
+        void add_product(value_type const& a, value_type const& b, double factor = 1) {
+            sum_.add(a, b, factor);
+        }
+        void add_square(value_type const& a, double factor = 1) { sum_.add(a, a, factor); }
         [[nodiscard]] value_type result() const { return sum_.result(); }
+        void result_into(value_type& a) const { sum_.result_into(a); }
 
     private:
         product_sum<N, D, C> sum_;

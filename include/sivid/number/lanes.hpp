@@ -167,7 +167,7 @@ private:
         }
         return mask::from_bits(bits);
     }
-    std::array<vector, parts> parts_{};
+    std::array<vector, parts> parts_;
 };
 
 } // namespace SIVID_PACK_TARGET

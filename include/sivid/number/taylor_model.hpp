@@ -38,9 +38,16 @@ struct taylor_model {
     /// More than all underflow errors of one operation.
     static constexpr double tiny = 1e-290;
 
-    std::array<C, terms> c{};
-    C r{};
-    std::array<C, D + 1> norms{}; ///< upper bounds of \f$ \sum_{|\alpha|=k} |c_\alpha| \f$
+    std::array<C, terms> c;
+    C r;
+    std::array<C, D + 1> norms; ///< upper bounds of \f$ \sum_{|\alpha|=k} |c_\alpha| \f$
+    C above;                    ///< upper bound of the norms 1 .. D together
+
+    /// The function 0.
+    taylor_model() : c{}, r{}, norms{}, above{} {}
+    /// For a result that is written at once.
+    struct unset {};
+    explicit taylor_model(unset) {}
 
     /// Values beyond this are given up: near the overflow, what happens depends on the rounding mode.
     static constexpr double largest = 1e300;
@@ -51,7 +58,7 @@ struct taylor_model {
                                  std::numeric_limits<double>::infinity());
     }
 
-    /// Recomputes `norms`; to be called after `c` was written.
+    /// Recomputes the norms; to be called after `c` was written.
     void finish() {
         auto const& first = basis::data.first;
         for (std::size_t k = 0; k <= D; ++k) {
@@ -59,15 +66,14 @@ struct taylor_model {
             for (std::size_t i = first[k]; i < first[k + 1]; ++i) sum += side_by_side::abs(c[i]);
             norms[k] = sum * up;
         }
+        above = C(0.0);
+        for (std::size_t k = 1; k <= D; ++k) above += norms[k];
+        above *= up;
     }
     /// Bound of the polynomial without its constant term.
-    [[nodiscard]] C spread() const {
-        C sum{};
-        for (std::size_t k = 1; k <= D; ++k) sum += norms[k];
-        return sum * up;
-    }
+    [[nodiscard]] C spread() const { return above; }
     /// Bound of the polynomial.
-    [[nodiscard]] C polynomial_norm() const { return (norms[0] + spread()) * up; }
+    [[nodiscard]] C polynomial_norm() const { return (norms[0] + above) * up; }
     /// Bound of everything: \f$ |f(q)| \f$.
     [[nodiscard]] C norm() const { return (polynomial_norm() + r) * up; }
 
@@ -85,10 +91,7 @@ struct taylor_model {
     }
     /// No variable has an influence, in any lane.
     [[nodiscard]] bool is_constant() const {
-        for (std::size_t k = 1; k <= D; ++k) {
-            if (side_by_side::any(!(norms[k] == C(0.0)))) return false;
-        }
-        return true;
+        return side_by_side::all(above == C(0.0));
     }
     /// centre + slope * q_v
     [[nodiscard]] static taylor_model variable(std::size_t v, C const& centre, C const& slope) {
@@ -107,17 +110,18 @@ class product_kernel {
     static constexpr std::size_t terms = table::count;
 
 public:
+    /// sum += factor * a * b
     static void accumulate(std::array<C, terms>& sum, std::array<C, terms> const& a,
-                           std::array<C, terms> const& b) {
+                           std::array<C, terms> const& b, double factor = 1) {
         if constexpr (std::is_same_v<C, double>) {
             multiply([&](std::size_t k) -> double& { return sum[k]; },
                      [&](std::size_t k) { return a[k]; }, [&](std::size_t k) { return b[k]; },
-                     std::make_index_sequence<terms>{});
+                     factor, std::make_index_sequence<terms>{});
         } else {
             for (std::size_t p = 0; p < C::parts; ++p) {
                 multiply([&, p](std::size_t k) -> auto& { return sum[k].part(p); },
                          [&, p](std::size_t k) { return a[k].part(p); },
-                         [&, p](std::size_t k) { return b[k].part(p); },
+                         [&, p](std::size_t k) { return b[k].part(p); }, factor,
                          std::make_index_sequence<terms>{});
             }
         }
@@ -127,8 +131,8 @@ private:
     // Unrolled: the positions are constants of the instructions.
     template <class Sum, class A, class B, std::size_t... K>
     [[gnu::always_inline]] static inline void multiply(Sum const& sum, A const& a, B const& b,
-                                                       std::index_sequence<K...>) {
-        ((sum(K) += coefficient<table::data.sum[K]>(
+                                                       double factor, std::index_sequence<K...>) {
+        ((sum(K) += factor * coefficient<table::data.sum[K]>(
               a, b, std::make_index_sequence<table::data.sum[K + 1] - table::data.sum[K]>{})),
          ...);
     }
@@ -146,8 +150,12 @@ class product_sum {
     using model = taylor_model<N, D, C>;
 
 public:
-    [[gnu::noinline]] void add(model const& a, model const& b) {
-        product_kernel<N, D, C>::accumulate(c_, a.c, b.c);
+    /// Adds factor * a * b, the factor a small integer.
+    [[gnu::noinline]] void add(model const& a, model const& b, double factor = 1) {
+        if (a.is_constant()) return add_multiple(b, a, factor);
+        if (b.is_constant()) return add_multiple(a, b, factor);
+        double const size = std::abs(factor);
+        product_kernel<N, D, C>::accumulate(c_, a.c, b.c, factor);
         // What the product has beyond degree D, and the radii times everything.
         C beyond{};
         for (std::size_t k = 1; k <= D; ++k) {
@@ -157,18 +165,23 @@ public:
         }
         C const pa = a.polynomial_norm();
         C const pb = b.polynomial_norm();
-        radius_ += beyond + a.r * (pb + b.r) + b.r * pa;
-        mass_ += pa * pb;
-        additions_ += static_cast<double>(monomials<N, D>::data.longest_sum + 1);
+        radius_ += (beyond + a.r * (pb + b.r) + b.r * pa) * size;
+        mass_ += pa * pb * size;
+        additions_ += static_cast<double>(monomials<N, D>::data.longest_sum + 2);
     }
-    void add(model const& a) {
-        for (std::size_t i = 0; i < model::terms; ++i) c_[i] += a.c[i];
-        radius_ += a.r;
-        mass_ += a.polynomial_norm();
-        additions_ += 1;
+    /// Adds factor * a.
+    void add(model const& a, double factor = 1) {
+        for (std::size_t i = 0; i < model::terms; ++i) c_[i] += a.c[i] * factor;
+        radius_ += a.r * std::abs(factor);
+        mass_ += a.polynomial_norm() * std::abs(factor);
+        additions_ += 2;
     }
     [[nodiscard]] model result() const {
-        model m;
+        model m{typename model::unset{}};
+        result_into(m);
+        return m;
+    }
+    void result_into(model& m) const {
         m.c = c_;
         // Each coefficient is a sum of at most `additions_` products; each operation errs by a unit
         // of a partial sum, which the total mass bounds.
@@ -176,10 +189,20 @@ public:
         m.r = (radius_ + rounding) * (model::up + 8 * additions_ * model::unit) + model::tiny;
         m.finish();
         m.give_up_when_huge(mass_);
-        return m;
     }
 
 private:
+    /// The same for a factor that does not depend on the variables.
+    void add_multiple(model const& a, model const& number, double factor) {
+        C const times = number.c[0] * factor;
+        for (std::size_t i = 0; i < model::terms; ++i) c_[i] += a.c[i] * times;
+        C const norm = a.polynomial_norm();
+        double const size = std::abs(factor);
+        radius_ += (number.r * (norm + a.r) + a.r * number.norms[0]) * size;
+        mass_ += norm * number.norms[0] * size;
+        additions_ += 3;
+    }
+
     std::array<C, model::terms> c_{};
     C radius_{};
     C mass_{};
@@ -196,7 +219,7 @@ namespace number_detail {
 template <int Sign, std::size_t N, std::size_t D, class C>
 taylor_model<N, D, C> sum(taylor_model<N, D, C> const& a, taylor_model<N, D, C> const& b) {
     using model = taylor_model<N, D, C>;
-    model result;
+    model result{typename model::unset{}};
     for (std::size_t i = 0; i < model::terms; ++i) {
         result.c[i] = Sign > 0 ? a.c[i] + b.c[i] : a.c[i] - b.c[i];
     }
@@ -228,18 +251,19 @@ template <std::size_t N, std::size_t D, class C>
 
 /// a times a number from \f$ [m - \rho, m + \rho] \f$.
 template <std::size_t N, std::size_t D, class C>
-[[nodiscard]] taylor_model<N, D, C> scaled(taylor_model<N, D, C> a,
+[[nodiscard]] taylor_model<N, D, C> scaled(taylor_model<N, D, C> const& a,
                                            std::type_identity_t<C> const& m,
                                            std::type_identity_t<C> const& rho = C(0.0)) {
     using model = taylor_model<N, D, C>;
     C const norm = a.polynomial_norm();
     C const size = model::side_by_side::abs(m);
-    for (auto& c : a.c) c *= m;
+    model result{typename model::unset{}};
+    for (std::size_t i = 0; i < model::terms; ++i) result.c[i] = a.c[i] * m;
     // norm * size first: the unit times a tiny factor would underflow.
-    a.r = (a.r * (size + rho) + norm * rho + norm * size * model::unit) * model::up + model::tiny;
-    a.finish();
-    a.give_up_when_huge(norm * (size + rho));
-    return a;
+    result.r = (a.r * (size + rho) + norm * rho + norm * size * model::unit) * model::up + model::tiny;
+    result.finish();
+    result.give_up_when_huge(norm * (size + rho));
+    return result;
 }
 template <std::size_t N, std::size_t D, class C>
 [[nodiscard]] taylor_model<N, D, C> scaled(taylor_model<N, D, C> const& a, interval const& s) {
@@ -289,6 +313,7 @@ template <std::size_t N, std::size_t D, class C>
     taylor_model<N, D> result;
     for (std::size_t i = 0; i < a.c.size(); ++i) result.c[i] = side_by_side::get(a.c[i], lane);
     for (std::size_t k = 0; k <= D; ++k) result.norms[k] = side_by_side::get(a.norms[k], lane);
+    result.above = side_by_side::get(a.above, lane);
     result.r = side_by_side::get(a.r, lane);
     return result;
 }
@@ -306,6 +331,7 @@ template <std::size_t N, std::size_t D, class C>
     for (std::size_t k = 0; k <= D; ++k) {
         result.norms[k] = side_by_side::select(m, a.norms[k], b.norms[k]);
     }
+    result.above = side_by_side::select(m, a.above, b.above);
     result.r = side_by_side::select(m, a.r, b.r);
     return result;
 }

@@ -186,6 +186,7 @@ private:
     std::vector<column_entry> around_;
     std::vector<tube_entry> path_, tube_box_, swept_;
     std::vector<C> room_, truncation_;
+    C ratio_{}; ///< of the last attempt's truncation to what is allowed
     std::array<lane_state, width> lanes_;
     mask running_{};
     bool stale_ = true;          ///< the expansions are not those of the present sets
