@@ -36,7 +36,9 @@ void parametric_flow<N, D, C>::begin(std::size_t lane, double time, box const& i
     end(lane);
     if (!side_by_side::any(running_)) { // a fresh start for all
         set_ = set_type(flow_->states());
-        order_ = std::min<std::size_t>(options_.order, 6);
+        // Knots of sampled inputs keep steps short; what lies between them decides on the order.
+        order_ = flow_->sampled_inputs().empty() ? options_.order
+                                                 : std::min<std::size_t>(options_.order, 6);
         flow_order_ = 3;
     }
     set_.begin(lane, time, unknowns);
@@ -271,11 +273,11 @@ typename parametric_flow<N, D, C>::mask parametric_flow<N, D, C>::advance(C cons
             continue;
         }
         if (lane.next < lane.proposed || lane.free) {
-            // Aim at a third of the allowed truncation; what is too long costs a whole attempt.
+            // Aim at a tenth of the allowed truncation; what is too long costs a whole attempt.
             double const ratio = side_by_side::get(ratio_, l);
             double const exponent = 1 / static_cast<double>(order + 1);
             double const better =
-                ratio > 0 ? std::clamp(std::pow(0.3 / ratio, exponent), 0.8, 1.25) : 1.25;
+                ratio > 0 ? std::clamp(std::pow(0.1 / ratio, exponent), 0.8, 1.1) : 1.1;
             lane.learned =
                 std::clamp(lane.learned * lane.next / lane.proposed * better, 0.05, 4.0);
         }

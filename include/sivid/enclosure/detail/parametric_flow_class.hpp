@@ -51,7 +51,7 @@ public:
     using mask = typename side_by_side::mask;
     static constexpr std::size_t width = side_by_side::count;
     static constexpr std::size_t column_degree = set_type::column_degree;
-    static constexpr std::size_t tube_degree = D >= 5 ? 3 : 2;
+    static constexpr std::size_t tube_degree = D >= 5 ? 3 : D >= 2 ? 2 : 1;
     using tube_entry = taylor_model<N + 1, tube_degree, C>;
 
     parametric_flow(flow const& f, enclosure_options const& options)
