@@ -23,7 +23,7 @@ void parametric_flow<N, D, C>::begin(std::size_t lane, double time, box const& i
         }
     }
     normalised_unknowns unknowns(initial, parameters);
-    if (unknowns.variables > N) throw std::invalid_argument("parametric_flow: too many unknowns");
+    if (unknowns.variables > (D == 0 ? 0 : N)) throw std::invalid_argument("parametric_flow: too many unknowns");
     for (std::size_t j = 0; j < parameters_.size(); ++j) {
         normalised_unknowns::put(unknowns.parameters[j], lane, parameters_[j]);
         normalised_unknowns::put(unknowns.parameters[j], lane, column_parameters_[j]);

@@ -166,15 +166,19 @@ public:
         C const pa = a.polynomial_norm();
         C const pb = b.polynomial_norm();
         radius_ += (beyond + a.r * (pb + b.r) + b.r * pa) * size;
-        mass_ += pa * pb * size;
-        additions_ += static_cast<double>(monomials<N, D>::data.longest_sum + 2);
+        C const mass = pa * pb * size;
+        mass_ += mass;
+        own_ += mass * static_cast<double>(monomials<N, D>::data.longest_sum + 1);
+        additions_ += 1;
     }
     /// Adds factor * a.
     void add(model const& a, double factor = 1) {
         for (std::size_t i = 0; i < model::terms; ++i) c_[i] += a.c[i] * factor;
         radius_ += a.r * std::abs(factor);
-        mass_ += a.polynomial_norm() * std::abs(factor);
-        additions_ += 2;
+        C const mass = a.polynomial_norm() * std::abs(factor);
+        mass_ += mass;
+        if (std::abs(factor) != 1) own_ += mass;
+        additions_ += 1;
     }
     [[nodiscard]] model result() const {
         model m{typename model::unset{}};
@@ -183,9 +187,9 @@ public:
     }
     void result_into(model& m) const {
         m.c = c_;
-        // Each coefficient is a sum of at most `additions_` products; each operation errs by a unit
-        // of a partial sum, which the total mass bounds.
-        C const rounding = mass_ * ((additions_ + 2) * model::unit);
+        // Each operation errs by a unit of its result: within a product by a unit of its own mass,
+        // where its sum joins the total by a unit of the total mass.
+        C const rounding = (own_ + mass_ * additions_) * model::unit;
         m.r = (radius_ + rounding) * (model::up + 8 * additions_ * model::unit) + model::tiny;
         m.finish();
         m.give_up_when_huge(mass_);
@@ -199,13 +203,16 @@ private:
         C const norm = a.polynomial_norm();
         double const size = std::abs(factor);
         radius_ += (number.r * (norm + a.r) + a.r * number.norms[0]) * size;
-        mass_ += norm * number.norms[0] * size;
-        additions_ += 3;
+        C const mass = norm * number.norms[0] * size;
+        mass_ += mass;
+        own_ += mass * 2.0;
+        additions_ += 1;
     }
 
     std::array<C, model::terms> c_{};
     C radius_{};
     C mass_{};
+    C own_{};
     double additions_ = 0;
 };
 

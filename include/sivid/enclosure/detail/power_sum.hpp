@@ -12,8 +12,9 @@
 namespace sivid {
 
 /// \f$ \sum_{k=0}^{K} h^k a_k \f$ for the length h of a step that is known up to one unit.
-///   The powers are off by less than 2k + 1 units, the sum of the terms beyond the first by K of
-///   its mass, the last addition by one of everything.
+///   The powers are off by less than 2k units, a product by one more. Summed from the highest order
+///   down, term k stands in k partial sums, each of which is rounded once; the last addition errs by
+///   a unit of everything.
 /// @param coefficient  k -> \f$ a_k \f$
 template <class Model, class Coefficient, class C>
 [[nodiscard]] Model at_time(Coefficient const& coefficient, std::size_t K, C const& h) {
@@ -23,19 +24,19 @@ template <class Model, class Coefficient, class C>
     C const size = side_by_side::abs(h) * (1 + 4 * Model::unit);
     std::vector<C> powers(K + 1, C(1.0));
     for (std::size_t k = 1; k <= K; ++k) powers[k] = powers[k - 1] * h;
-    C bound = C(1.0); // of |h|^k
-    for (std::size_t k = 1; k <= K; ++k) {
+    std::vector<C> bounds(K + 1, C(1.0)); // of |h|^k
+    for (std::size_t k = 1; k <= K; ++k) bounds[k] = bounds[k - 1] * size;
+    for (std::size_t k = K; k > 0; --k) {
         auto const& a = coefficient(k);
-        bound *= size;
         for (std::size_t m = 0; m < Model::terms; ++m) sum.c[m] += powers[k] * a.c[m];
-        C const norm = a.polynomial_norm() * bound;
+        C const norm = a.polynomial_norm() * bounds[k];
         mass += norm;
-        radius += a.r * bound + norm * (static_cast<double>(2 * k + K + 4) * Model::unit);
+        radius += a.r * bounds[k] + norm * (static_cast<double>(3 * k + 1) * Model::unit);
     }
     auto const& first = coefficient(0);
     for (std::size_t m = 0; m < Model::terms; ++m) sum.c[m] += first.c[m];
     C const all = mass + first.polynomial_norm();
-    sum.r = (radius + first.r + all * (2 * Model::unit)) *
+    sum.r = (radius + first.r + all * Model::unit) *
                 (Model::up + 8 * static_cast<double>(K + 4) * Model::unit) +
             Model::tiny;
     sum.finish();
