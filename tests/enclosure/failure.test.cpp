@@ -18,15 +18,15 @@ using support::between;
 TEST_CASE("each reason and advice has its own words") {
     std::set<std::string> words;
     for (auto r : {failure_reason::minimum_step, failure_reason::undefined,
-                   failure_reason::too_wide, failure_reason::step_limit,
-                   failure_reason::not_finite}) {
+                   failure_reason::too_wide, failure_reason::step_limit, failure_reason::not_finite,
+                   failure_reason::unsolved_stages}) {
         words.insert(std::string(to_string(r)));
     }
     for (auto a : {advice::smaller_box, advice::higher_order, advice::more_steps,
-                   advice::check_model}) {
+                   advice::check_model, advice::shorter_steps}) {
         words.insert(std::string(to_string(a)));
     }
-    CHECK(words.size() == 9);
+    CHECK(words.size() == 11);
     CHECK(words.count("") == 0);
     enclosure_failure const f{failure_reason::too_wide, 1.5, 2, advice::smaller_box};
     CHECK_THAT(f.message("psi"), ContainsSubstring("1.5") && ContainsSubstring("psi") &&
@@ -112,8 +112,8 @@ TEST_CASE("limits of steps and widths are kept") {
 
 TEST_CASE("a step that cannot be proved says so") {
     // A vector field too rough for the shortest step.
-    auto const f = support::flow_of(
-        support::model_of({1, 0, 0, 1e300}, [](auto const&, auto const& x, auto const&, auto const&) {
+    auto const f = support::flow_of(support::model_of(
+        {1, 0, 0, 1e300}, [](auto const&, auto const& x, auto const&, auto const&) {
             return std::vector{1e6 * exp(x[0])};
         }));
     enclosure_options o;

@@ -27,8 +27,8 @@ TEST_CASE("coefficients at the end of a step, for a length known up to a unit") 
         double const to = from + std::pow(10.0, d.uniform(-6, 0));
         double const h = to - from;
         rational const exact_h = rational(to) - rational(from);
-        auto const sum =
-            at_time<taylor_model<2, 2>>([&](std::size_t k) -> auto const& { return a[k]; }, K, h);
+        auto const sum = at_time<taylor_model<2, 2>>(
+            [&](std::size_t k) -> auto const& { return a[k]; }, K, h);
         support::exact_polynomial<2> exact;
         rational power = 1;
         for (std::size_t k = 0; k <= K; ++k) {
@@ -39,8 +39,8 @@ TEST_CASE("coefficients at the end of a step, for a length known up to a unit") 
         REQUIRE(support::covers(sum, exact));
         REQUIRE(sum.r <= 1e-13 * sum.polynomial_norm() * static_cast<double>(K + 1) + 1e-200);
         a[0].r = 0.25; // radii are carried
-        auto const wide =
-            at_time<taylor_model<2, 2>>([&](std::size_t k) -> auto const& { return a[k]; }, K, h);
+        auto const wide = at_time<taylor_model<2, 2>>(
+            [&](std::size_t k) -> auto const& { return a[k]; }, K, h);
         REQUIRE(wide.r >= 0.25 + sum.r * 0.5);
     }
 }

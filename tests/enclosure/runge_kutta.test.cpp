@@ -5,6 +5,7 @@
 
 #include "support/catch.hpp"
 #include "support/random.hpp"
+#include "support/runge_kutta.hpp"
 #include "support/sampling.hpp"
 #include "support/systems.hpp"
 
@@ -18,49 +19,19 @@ using support::mp;
 
 namespace {
 
-/// Three-eighths rule of order 4, and Kutta's third-order method: a user's own.
+/// Three-eighths rule of order 4 and Euler's method: a user's own.
 tableau three_eighths() {
-    return {"3/8", 4,
+    return {"3/8",
+            4,
             {{}, {{1, 3}}, {{-1, 3}, {1, 1}}, {{1, 1}, {-1, 1}, {1, 1}}},
             {{1, 8}, {3, 8}, {3, 8}, {1, 8}},
             {{0, 1}, {1, 3}, {2, 3}, {1, 1}}};
 }
-tableau kutta3() {
-    return {"kutta", 3, {{}, {{1, 2}}, {{-1, 1}, {2, 1}}}, {{1, 6}, {2, 3}, {1, 6}},
-            {{0, 1}, {1, 2}, {1, 1}}};
-}
 tableau euler() { return {"euler", 1, {{}}, {{1, 1}}, {{0, 1}}}; }
 
-/// The formula itself in 50 digits.
-template <class System>
-std::vector<mp> formula(System const& system, tableau const& m, mp const& t,
-                        std::vector<mp> const& x, std::vector<mp> const& p, mp const& h,
-                        double start) {
-    std::vector<std::vector<mp>> k;
-    auto const fraction = [](ratio const& r) { return mp(r.numerator) / r.denominator; };
-    for (std::size_t i = 0; i < m.stages(); ++i) {
-        auto at = x;
-        for (std::size_t l = 0; l < i; ++l) {
-            for (std::size_t s = 0; s < x.size(); ++s) at[s] += h * fraction(m.a[i][l]) * k[l][s];
-        }
-        mp const time = t + fraction(m.c[i]) * h;
-        std::vector<mp> u;
-        for (auto const& s : system.inputs) {
-            auto const piece = s.piece(start);
-            mp value = s.values()[piece];
-            if (s.kind() == interpolation::linear) {
-                value += (mp(s.values()[piece + 1]) - value) * (time - mp(s.times()[piece])) /
-                         (mp(s.times()[piece + 1]) - mp(s.times()[piece]));
-            }
-            u.push_back(value);
-        }
-        k.push_back(system.rate(time, at, p, u));
-    }
-    auto result = x;
-    for (std::size_t i = 0; i < m.stages(); ++i) {
-        for (std::size_t s = 0; s < x.size(); ++s) result[s] += h * fraction(m.b[i]) * k[i][s];
-    }
-    return result;
+std::vector<tableau> all_explicit() {
+    return {euler(),         explicit_midpoint(), heun(),    kutta3(), rk4(),
+            three_eighths(), dormand_prince5(),   butcher6()};
 }
 
 } // namespace
@@ -69,7 +40,7 @@ TEST_CASE("coefficient 0 is the formula; the next ones are its Taylor coefficien
     draws d(251);
     support::for_each_system([&](auto const& system) {
         auto const f = system.flow();
-        for (auto const& method : {euler(), heun(), kutta3(), rk4(), three_eighths()}) {
+        for (auto const& method : all_explicit()) {
             runge_kutta<interval> rk(*f, method);
             auto const x0 = d.in(system.initial);
             auto const p0 = d.in(system.parameters);
@@ -80,12 +51,12 @@ TEST_CASE("coefficient 0 is the formula; the next ones are its Taylor coefficien
             double const h = 0.01;
             bool undefined = false;
             auto const value = rk.coefficient(t, point_box(x0), interval(h), 0, undefined);
-            auto const exact = formula(system, method, t, x, p, h, t);
+            auto const exact = support::exact_step(system, method, t, x, p, h, t);
             // phi(h + e) from the expansion about h, with e small
             double const e = 0x1p-30;
-            auto const moved = formula(system, method, t, x, p, mp(h) + mp(e), t);
+            auto const moved = support::exact_step(system, method, t, x, p, mp(h) + mp(e), t);
             auto const top = method.order + 1;
-            std::vector<box> c;
+            std::vector<std::vector<interval>> c;
             bool kinked = false;
             for (std::size_t k = 0; k <= top; ++k) {
                 c.push_back(rk.coefficient(t, point_box(x0), interval(h), k, undefined));
@@ -117,7 +88,7 @@ TEST_CASE("up to its order a method agrees with the solution, one order above it
     draws d(252);
     support::for_each_smooth_system([&](auto const& system) {
         auto const f = system.flow();
-        for (auto const& method : {euler(), heun(), kutta3(), rk4(), three_eighths()}) {
+        for (auto const& method : all_explicit()) {
             auto const x0 = d.in(system.initial);
             auto const p0 = d.in(system.parameters);
             runge_kutta<interval> rk(*f, method);
@@ -146,11 +117,11 @@ TEST_CASE("up to its order a method agrees with the solution, one order above it
 TEST_CASE("one step of fixed length: the error has the method's order and is enclosed") {
     // x' = x: phi(h) and the remainder alone; halving h divides its width by 2^(p+1), or more where
     // the enclosures shrink as well.
-    auto const f = support::flow_of(
-        support::model_of({1, 0}, [](auto const&, auto const& x, auto const&, auto const&) {
-            return std::vector{x[0]};
-        }));
-    for (auto const& method : {heun(), kutta3(), rk4(), three_eighths()}) {
+    auto const f =
+        support::flow_of(support::model_of({1, 0}, [](auto const&, auto const& x, auto const&,
+                                                      auto const&) { return std::vector{x[0]}; }));
+    for (auto const& method : all_explicit()) {
+        if (method.order == 1) continue;
         std::vector<double> widths;
         for (double const h : {0.2, 0.1, 0.05}) {
             enclosure_options o;
@@ -179,12 +150,12 @@ TEST_CASE("a user's tableau encloses all systems") {
             enclosure_options o;
             o.method = method;
             o.tolerance = method.order == 1 ? 1e-3 : 1e-6;
-            auto const tube = integrate<interval>(system.flow(), system.initial,
-                                                  point_box(d.in(system.parameters)), 0,
-                                                  system.horizon, o);
+            auto const tube =
+                integrate<interval>(system.flow(), system.initial,
+                                    point_box(d.in(system.parameters)), 0, system.horizon, o);
             system.parameters = point_box(mid(system.parameters));
-            auto const again = integrate<interval>(system.flow(), system.initial,
-                                                   system.parameters, 0, system.horizon, o);
+            auto const again = integrate<interval>(system.flow(), system.initial, system.parameters,
+                                                   0, system.horizon, o);
             CAPTURE(system.name, method.name);
             CHECK(tube.end_time() > 0);
             support::check_tube(system, again, d, 1);
@@ -193,11 +164,14 @@ TEST_CASE("a user's tableau encloses all systems") {
 }
 
 TEST_CASE("a tableau of the wrong shape is refused") {
-    auto const f = support::flow_of(
-        support::model_of({1, 0}, [](auto const&, auto const& x, auto const&, auto const&) {
-            return std::vector{x[0]};
-        }));
+    auto const f =
+        support::flow_of(support::model_of({1, 0}, [](auto const&, auto const& x, auto const&,
+                                                      auto const&) { return std::vector{x[0]}; }));
     auto bad = rk4();
     bad.b.pop_back();
     CHECK_THROWS_AS(runge_kutta<interval>(*f, bad), std::invalid_argument);
+    CHECK_THROWS_AS(runge_kutta<interval>(*f, gauss2()), std::invalid_argument);
+    auto boast = kutta3();
+    boast.order = 4;
+    CHECK_THROWS_WITH(runge_kutta<interval>(*f, boast), ContainsSubstring("order 4"));
 }

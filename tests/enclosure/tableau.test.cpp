@@ -4,64 +4,43 @@
 #include "support/catch.hpp"
 #include "support/power_series.hpp"
 
+#include <sivid/number/interval.hpp>
+
 using namespace sivid;
 using support::encloses;
 using support::mp;
 
-namespace {
-
-mp exact(ratio const& r) { return mp(r.numerator) / r.denominator; }
-
-/// The order conditions of trees with up to four nodes, in exact fractions up to 50 digits.
-std::size_t proved_order(tableau const& m) {
-    auto const s = m.stages();
-    auto const a = [&](std::size_t i, std::size_t j) { return j < i ? exact(m.a[i][j]) : mp(0); };
-    auto const sum = [s](auto const& f) {
-        mp total = 0;
-        for (std::size_t i = 0; i < s; ++i) total += f(i);
-        return total;
-    };
-    auto const b = [&](std::size_t i) { return exact(m.b[i]); };
-    auto const c = [&](std::size_t i) { return exact(m.c[i]); };
-    auto const ac = [&](std::size_t i) { return sum([&](std::size_t j) { return mp(a(i, j) * c(j)); }); };
-    auto const near = [](mp const& x, mp const& y) { return abs(x - y) < 1e-40; };
-    for (std::size_t i = 0; i < s; ++i) {
-        if (!near(sum([&](std::size_t j) { return a(i, j); }), c(i))) return 0;
+TEST_CASE("fractions and roots are enclosed tightly") {
+    CHECK(encloses(surd{1, 6}.enclose<interval>(), mp(1) / 6));
+    CHECK(width(surd{1, 6}.enclose<interval>()) < 1e-16);
+    CHECK(is_point(surd{3, 4}.enclose<interval>()));
+    CHECK(encloses(surd{-7, 3}.enclose<interval>(), mp(-7) / 3));
+    for (int const r : {2, 3, 5, 6, 15}) {
+        for (int const f : {-169, -1, 1, 7}) {
+            surd const x{296, 1800, f, r};
+            mp const exact = (296 + f * sqrt(mp(r))) / 1800;
+            CHECK(encloses(x.enclose<interval>(), exact));
+            CHECK_FALSE(encloses(x.enclose<interval>(), exact + mp(1e-15)));
+            CHECK_FALSE(encloses(x.enclose<interval>(), exact - mp(1e-15)));
+        }
     }
-    if (!near(sum(b), 1)) return 0;
-    if (!near(sum([&](auto i) { return mp(b(i) * c(i)); }), mp(1) / 2)) return 1;
-    if (!near(sum([&](auto i) { return mp(b(i) * c(i) * c(i)); }), mp(1) / 3)) return 2;
-    if (!near(sum([&](auto i) { return mp(b(i) * ac(i)); }), mp(1) / 6)) return 2;
-    if (!near(sum([&](auto i) { return mp(b(i) * c(i) * c(i) * c(i)); }), mp(1) / 4)) return 3;
-    if (!near(sum([&](auto i) { return mp(b(i) * c(i) * ac(i)); }), mp(1) / 8)) return 3;
-    auto const acc = [&](std::size_t i) {
-        return sum([&](std::size_t j) { return mp(a(i, j) * c(j) * c(j)); });
-    };
-    auto const aac = [&](std::size_t i) {
-        return sum([&](std::size_t j) { return mp(a(i, j) * ac(j)); });
-    };
-    if (!near(sum([&](auto i) { return mp(b(i) * acc(i)); }), mp(1) / 12)) return 3;
-    if (!near(sum([&](auto i) { return mp(b(i) * aac(i)); }), mp(1) / 24)) return 3;
-    return 4;
+    CHECK(is_point(surd{1, 2, 3, 4}.enclose<interval>())); // (1 + 3 * 2) / 2
+    CHECK(contains(surd{1, 2, 3, 4}.enclose<interval>(), 3.5));
 }
 
-} // namespace
-
-TEST_CASE("the shipped tableaux have the order that they state") {
-    CHECK_NOTHROW(heun().require_explicit());
-    CHECK_NOTHROW(rk4().require_explicit());
-    CHECK(proved_order(heun()) == heun().order);
-    CHECK(proved_order(rk4()) == rk4().order);
-    CHECK(heun().order == 2);
+TEST_CASE("the shipped explicit methods have their shape") {
+    std::size_t stages = 0;
+    for (auto const& m :
+         {explicit_midpoint(), heun(), kutta3(), rk4(), dormand_prince5(), butcher6()}) {
+        CAPTURE(m.name);
+        CHECK(m.is_explicit());
+        CHECK_NOTHROW(m.require_explicit());
+        CHECK_THROWS_WITH(m.require_implicit(), ContainsSubstring(m.name));
+        stages += m.stages();
+    }
+    CHECK(stages == 2 + 2 + 3 + 4 + 6 + 7);
     CHECK(rk4().order == 4);
-    CHECK(rk4().stages() == 4);
-}
-
-TEST_CASE("fractions are enclosed exactly") {
-    CHECK(encloses(ratio{1, 6}.enclose<interval>(), mp(1) / 6));
-    CHECK(width(ratio{1, 6}.enclose<interval>()) < 1e-16);
-    CHECK(is_point(ratio{3, 4}.enclose<interval>()));
-    CHECK(encloses(ratio{-7, 3}.enclose<interval>(), mp(-7) / 3));
+    CHECK(butcher6().order == 6);
 }
 
 TEST_CASE("tableaux that are not explicit methods are refused") {

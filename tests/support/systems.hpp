@@ -28,6 +28,12 @@ struct dynamic_system {
     }
 };
 
+template <class Rate>
+dynamic_system(char const*, shape, Rate, box, box, double) -> dynamic_system<Rate>;
+template <class Rate>
+dynamic_system(char const*, shape, Rate, box, box, double, std::vector<sivid::sampled_signal>)
+    -> dynamic_system<Rate>;
+
 /// Calls visit(system) for each smooth system.
 template <class Visit>
 void for_each_smooth_system(Visit const& visit) {

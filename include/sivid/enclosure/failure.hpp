@@ -14,11 +14,13 @@ enum class failure_reason {
     undefined,    ///< a function of the model is not defined on the whole enclosure
     too_wide,     ///< the enclosure grew beyond the widest useful one
     step_limit,   ///< the allowed number of steps is used up
-    not_finite    ///< the enclosure became unbounded
+    not_finite,   ///< the enclosure became unbounded
+    /// the stages of an implicit method could not be proved, however short the step
+    unsolved_stages
 };
 
 /// What is most likely to help.
-enum class advice { smaller_box, higher_order, more_steps, check_model };
+enum class advice { smaller_box, higher_order, more_steps, check_model, shorter_steps };
 
 [[nodiscard]] constexpr std::string_view to_string(failure_reason r) {
     switch (r) {
@@ -32,6 +34,8 @@ enum class advice { smaller_box, higher_order, more_steps, check_model };
         return "the number of steps is used up";
     case failure_reason::not_finite:
         return "the enclosure became unbounded";
+    case failure_reason::unsolved_stages:
+        return "the stages of the implicit method have no proven solution";
     }
     return "";
 }
@@ -45,6 +49,8 @@ enum class advice { smaller_box, higher_order, more_steps, check_model };
         return "allow more steps";
     case advice::check_model:
         return "check the model's domain there";
+    case advice::shorter_steps:
+        return "allow shorter steps or use an explicit method";
     }
     return "";
 }

@@ -11,7 +11,7 @@ template <class I>
 double stepper<I>::propose(double limit, double from, basic_box<I> const& x) const {
     double const rest = limit - from;
     double h = std::min(options_.maximum_step, rest);
-    std::size_t const top = method_ ? method_->order() + 1 : options_.order;
+    std::size_t const top = options_.method ? options_.method->order + 1 : options_.order;
     for (std::size_t k = top > 1 ? top - 1 : 1; k <= top; ++k) {
         for (std::size_t i = 0; i < x.size(); ++i) {
             double const c = traits::mag(centre_.state(i, k));
@@ -28,7 +28,7 @@ double stepper<I>::propose(double limit, double from, basic_box<I> const& x) con
 /// The lowest order whose truncation stays within the tolerance for a step of length h.
 template <class I>
 std::size_t stepper<I>::choose_order(double h, basic_box<I> const& x) const {
-    if (method_) return method_->order() + 1;
+    if (options_.method) return options_.method->order + 1;
     for (std::size_t order = 2; order < options_.order; ++order) {
         bool enough = true;
         for (std::size_t k = order; k <= order + 1 && enough; ++k) {
@@ -50,8 +50,11 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
     auto const& x = set.hull;
     I const begin = traits::point(from);
     why.time = from;
+    if (long_) {
+        if (auto step = prove_long(set, limit)) return step;
+    }
     centre_.expand(from, begin, point_box<I>(set.centre),
-                   method_ ? method_->order() + 1 : options_.order);
+                   options_.method ? options_.method->order + 1 : options_.order);
     if (centre_.undefined()) {
         why.reason = failure_reason::undefined;
         why.help = advice::check_model;
@@ -61,6 +64,7 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
     double const proposed = h;
     bool smooth = true;
     bool undefined = false;
+    bool unsolved = false;
     std::size_t start_order = 0;
     for (int attempt = 0; attempt < 60; ++attempt) {
         double const to = h >= limit - from ? limit : from + h;
@@ -149,13 +153,22 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
         }
         bool const shortest = h <= 4 * options_.minimum_step || (!smooth && h <= 1e-4);
         if (ratio > 1 && !shortest) {
-            if (smooth && !method_ && step.order < options_.order && ratio < 1e4) {
+            if (smooth && !options_.method && step.order < options_.order && ratio < 1e4) {
                 extra_order_ += 2;
                 continue;
             }
             double const power = 1.0 / static_cast<double>(step.order);
             h *= std::clamp(0.9 * std::pow(1 / ratio, power), 0.1, 0.8);
             continue;
+        }
+        formula_.reset();
+        if (smooth && implicit_) {
+            formula_ = apply_method(from, set.centre, length);
+            unsolved = !formula_;
+            if (unsolved) {
+                h *= reject_factor;
+                continue;
+            }
         }
         step.jumps = tube_.jumped();
         tube_.expand_with_variations(from, times, b, q);
@@ -182,8 +195,10 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
         }
         return step;
     }
-    why.reason = undefined ? failure_reason::undefined : failure_reason::minimum_step;
-    why.help = advice::smaller_box;
+    why.reason = undefined  ? failure_reason::undefined
+                 : unsolved ? failure_reason::unsolved_stages
+                            : failure_reason::minimum_step;
+    why.help = unsolved ? advice::shorter_steps : advice::smaller_box;
     return std::nullopt;
 }
 
@@ -191,6 +206,9 @@ template <class I>
 void stepper<I>::load(tube_step<I> const& step) {
     I const begin = traits::point(step.from);
     I const times = traits::bounds(step.from, step.to);
+    formula_.reset();
+    long_map_.reset();
+    if (step.dissipative) return;
     centre_.expand(step.from, begin, point_box<I>(step.start.centre), step.order);
     start_.expand_with_variations(step.from, begin, step.start.hull, step.variational_order);
     tube_.expand(step.from, times, step.tube, step.order);
@@ -202,28 +220,102 @@ void stepper<I>::load(tube_step<I> const& step) {
 template <class I>
 basic_box<I> stepper<I>::centre_image(tube_step<I> const& step, I const& s) {
     auto taylor = sum(centre_, s, step.order, lagrange_);
-    if (!method_ || !step.smooth) return taylor;
+    if (!options_.method || !step.smooth) return taylor;
     // phi(s) + s^(p+1) (x^[p+1](B) - phi^[p+1]([0, s]))
-    auto const p = method_->order();
-    typename traits::mask undefined{};
-    auto const m = point_box<I>(step.start.centre);
-    auto image = method_->coefficient(step.from, m, s, 0, undefined);
-    bool rough = method_->kinked();
-    auto const range = traits::hull(traits::point(0.0), s);
-    auto const error = method_->coefficient(step.from, m, range, p + 1, undefined);
-    rough = rough || method_->kinked();
+    auto const p = options_.method->order;
+    auto const formula = formula_ ? formula_ : apply_method(step.from, step.start.centre, s);
     // A stage may leave the domain although the solution does not: the series then stands alone.
-    if (undefined || rough) return taylor;
+    if (!formula) return taylor;
     typename traits::mask ignored{};
     auto const power = traits::pown(s, static_cast<int>(p + 1), ignored);
+    basic_box<I> image(taylor.size());
     for (std::size_t i = 0; i < image.size(); ++i) {
-        image[i] = traits::add(image[i], traits::mul(power, traits::sub(lagrange_[i], error[i])));
+        auto const error = traits::sub(lagrange_[i], formula->next[i]);
+        image[i] = traits::add(formula->value[i], traits::mul(power, error));
     }
     return image;
 }
 
+/// A set that starts anew from a box: what it knew of the ensemble is lost.
+template <class I>
+doubleton<I> stepper<I>::restarted(double to, basic_box<I> const& x) const {
+    auto next = doubleton<I>::start(to, x, flow_->parameters());
+    next.shape.setZero();
+    next.remainder = subtract(x, next.centre);
+    return next;
+}
+
+template <class I>
+std::optional<tube_step<I>> stepper<I>::prove_long(doubleton<I> const& set, double limit) {
+    static constexpr double shortest = 2; // in time constants: below, the series do better
+    long_map_.reset();
+    if (long_pause_ > 0) {
+        --long_pause_;
+        return std::nullopt;
+    }
+    auto const n = flow_->states();
+    auto const& x = set.hull;
+    double const rest = limit - set.time;
+    double const constant = 1 / long_->stiffness(set.time, x);
+    std::vector<double> margin(n);
+    for (std::size_t i = 0; i < n; ++i) margin[i] = allowed(x, i);
+    double h = std::min({rest, options_.maximum_step, long_length_});
+    if (h < rest && h > 0.5 * rest) h = 0.5 * rest;
+    double const proposed = h;
+    for (int attempt = 0; attempt < 12 && h > shortest * constant; ++attempt) {
+        double const to = h >= rest ? limit : set.time + h;
+        if (h < options_.minimum_step || !(to > set.time)) break;
+        auto tube = long_->enclose(set.time, to, x, set.centre, margin);
+        auto map = tube ? long_->map(set.time, to, set.centre, *tube) : std::nullopt;
+        double ratio = map ? 0 : HUGE_VAL;
+        for (std::size_t i = 0; map && i < n; ++i) {
+            auto const row = static_cast<Eigen::Index>(i);
+            ratio = std::max(ratio, map->error[row] / margin[i]);
+            double spread = 0; // of the derivative, on this set
+            for (std::size_t c = 0; c < ensemble_->deviation.size(); ++c) {
+                double const size =
+                    c < n ? traits::mag(traits::sub(x[c], traits::point(set.centre[c])))
+                          : traits::mag(ensemble_->deviation[c]);
+                spread += map->slack(row, static_cast<Eigen::Index>(c)) * size;
+            }
+            ratio = std::max(ratio, spread / (margin[i] + 0.01 * traits::width(x[i])));
+        }
+        if (!(ratio <= 1)) {
+            double const power = 1.0 / static_cast<double>(long_->order());
+            h *= std::isfinite(ratio) ? std::clamp(0.9 * std::pow(ratio, -power), 0.1, 0.8) : 0.5;
+            continue;
+        }
+        long_length_ = h < proposed ? 1.1 * h : std::max(long_length_, 1.5 * h);
+        tube_step<I> step;
+        step.from = set.time;
+        step.to = to;
+        step.start = set;
+        step.order = long_->order();
+        step.dissipative = true;
+        step.swept = *tube;
+        step.tube = std::move(*tube);
+        step.variation = Eigen::MatrixXd::Constant(
+            static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(ensemble_->deviation.size()),
+            HUGE_VAL);
+        long_map_ = std::move(map);
+        return step;
+    }
+    long_length_ = 4 * h;
+    long_pause_ = 8;
+    return std::nullopt;
+}
+
+template <class I>
+doubleton<I> stepper<I>::map_long(tube_step<I> const& step, double to) {
+    auto const map =
+        long_map_ ? long_map_ : long_->map(step.from, to, step.start.centre, step.tube);
+    if (!map) return restarted(to, step.tube);
+    return step.start.mapped(to, map->image, map->derivative, step.tube, ensemble_->deviation);
+}
+
 template <class I>
 doubleton<I> stepper<I>::map(tube_step<I> const& step, double to) {
+    if (step.dissipative) return map_long(step, to);
     auto const n = flow_->states();
     auto const columns = n + flow_->parameters();
     I const s = span(step.from, to);
@@ -231,11 +323,8 @@ doubleton<I> stepper<I>::map(tube_step<I> const& step, double to) {
     auto const& deviation = ensemble_->deviation;
     auto const direct = intersect(sum(start_, s, q, tube_lagrange_), step.tube);
     if (step.jumps) {
-        // No derivative exists across a jump: the set starts anew from the set-valued step.
-        auto next = doubleton<I>::start(to, direct, flow_->parameters());
-        next.shape.setZero();
-        next.remainder = subtract(direct, next.centre);
-        return next;
+        // No derivative exists across a jump.
+        return restarted(to, direct);
     }
     interval_matrix<I> j(n, columns);
     I power = traits::point(1.0);

@@ -25,6 +25,8 @@ struct tube_step {
     std::size_t variational_order = 1;
     bool smooth = true; ///< false: a kink lies in the tube, first-order set-valued step
     bool jumps = false; ///< the right-hand side may be discontinuous in the tube
+    /// Long against the problem's time constants: see `dissipative_step`; no bound in `variation`.
+    bool dissipative = false;
     basic_box<I> swept; ///< a tighter box for the states over [from, to]
 };
 

@@ -2,9 +2,11 @@
 #ifndef SIVID_ENCLOSURE_DETAIL_STEPPER_CLASS_HPP
 #define SIVID_ENCLOSURE_DETAIL_STEPPER_CLASS_HPP
 
+#include <sivid/enclosure/dissipative_step.hpp>
 #include <sivid/enclosure/doubleton.hpp>
 #include <sivid/enclosure/expansion.hpp>
 #include <sivid/enclosure/failure.hpp>
+#include <sivid/enclosure/implicit_runge_kutta.hpp>
 #include <sivid/enclosure/options.hpp>
 #include <sivid/enclosure/runge_kutta.hpp>
 #include <sivid/enclosure/tube_step.hpp>
@@ -41,7 +43,13 @@ public:
           centre_(f, highest(options)),
           start_(f, highest(options)),
           tube_(f, highest(options)) {
-        if (options.method) method_.emplace(f, *options.method);
+        if (!options.method) return;
+        if (options.method->is_explicit()) {
+            method_.emplace(f, *options.method);
+        } else {
+            implicit_.emplace(f, *options.method);
+            long_.emplace(f, *options.method);
+        }
     }
 
     void set_ensemble(ensemble<I> const& e) {
@@ -51,6 +59,10 @@ public:
         start_.set_parameters(e.parameters);
         tube_.set_parameters(e.parameters);
         if (method_) method_->set_parameters(centre);
+        if (implicit_) implicit_->set_parameters(centre);
+        if (long_) long_->set_parameters(e.parameters, e.parameter_centre);
+        long_length_ = options_.maximum_step;
+        long_pause_ = 0;
         learned_ = 1;
         extra_order_ = 0;
     }
@@ -111,13 +123,30 @@ private:
     [[nodiscard]] double propose(double limit, double from, basic_box<I> const& x) const;
     [[nodiscard]] std::size_t choose_order(double h, basic_box<I> const& x) const;
     void load(tube_step<I> const& step);
+    /// Implicit methods: a step that is long against the problem's time constants, if there is one.
+    [[nodiscard]] std::optional<tube_step<I>> prove_long(doubleton<I> const& set, double limit);
+    [[nodiscard]] doubleton<I> map_long(tube_step<I> const& step, double to);
+    [[nodiscard]] doubleton<I> restarted(double to, basic_box<I> const& x) const;
     [[nodiscard]] doubleton<I> map(tube_step<I> const& step, double to);
     [[nodiscard]] basic_box<I> centre_image(tube_step<I> const& step, I const& s);
+    /// What the Runge-Kutta method says of a step of length s from the centre of the set.
+    [[nodiscard]] std::optional<runge_kutta_formula<I>>
+    apply_method(double from, std::vector<double> const& m, I const& s) {
+        if (method_) return method_->formula(from, point_box<I>(m), s);
+        if (implicit_) return implicit_->formula(from, point_box<I>(m), s);
+        return std::nullopt;
+    }
 
     flow const* flow_;
     enclosure_options options_;
     expansion<I> centre_, start_, tube_;
-    std::optional<runge_kutta<I>> method_;
+    std::optional<runge_kutta<I>> method_; ///< at most one of the two
+    std::optional<implicit_runge_kutta<I>> implicit_;
+    std::optional<runge_kutta_formula<I>> formula_; ///< of the step that was proved last
+    std::optional<dissipative_step<I>> long_;
+    std::optional<step_map<I>> long_map_; ///< of the long step that was proved last
+    double long_length_ = 1;
+    int long_pause_ = 0; ///< steps until long ones are tried again
     ensemble<I> const* ensemble_ = nullptr;
     basic_box<I> lagrange_;       ///< x^[K](B)
     basic_box<I> tube_lagrange_;  ///< x^[q](B)

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_ENCLOSURE_DETAIL_PARAMETRIC_RUNGE_KUTTA_CLASS_HPP
+#define SIVID_ENCLOSURE_DETAIL_PARAMETRIC_RUNGE_KUTTA_CLASS_HPP
+
+#include <sivid/enclosure/expansion.hpp>
+#include <sivid/enclosure/failure.hpp>
+#include <sivid/enclosure/implicit_runge_kutta.hpp>
+#include <sivid/enclosure/options.hpp>
+#include <sivid/enclosure/parametric_set.hpp>
+#include <sivid/enclosure/runge_kutta.hpp>
+#include <sivid/model/taylor_arithmetic.hpp>
+#include <sivid/number/guard.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// Carries a family of trajectories as Taylor models in its unknowns, its centre by a Runge-Kutta
+/// method of order p, explicit or implicit, in polynomials:
+///   centre  \f$ \phi(h; P) + h^{p+1} ( x_{p+1}(b) - \phi_{p+1}([0,h]; P) ) \f$
+///   flow    \f$ V(s) \in \sum_{k<L} s^k V_k + s^L J_L(b) (1 + [-W, W]) \f$
+/// The tube b is proved with the series of the solution, as in `parametric_flow`; the stages of an
+/// implicit method by a Krawczyk operator that holds for every value of the unknowns.
+/// Smooth models only: a step whose tube touches a kink is not taken.
+/// @guarantee  after each successful `step`, for every q and every member of the set before, the
+///             solution lies in the set after (same q), and during the step in `swept()`.
+/// @tparam N  number of variables, at least that of the unknowns
+/// @tparam D  degree of the polynomials
+/// @ref  docs/runge_kutta.md
+template <std::size_t N, std::size_t D>
+class parametric_runge_kutta {
+public:
+    using set_type = parametric_set<N, D>;
+    using polynomial = typename set_type::polynomial;
+    using column_entry = typename set_type::column_entry;
+    static constexpr std::size_t column_degree = set_type::column_degree;
+    static constexpr std::size_t tube_degree = D >= 5 ? 3 : 2;
+    using tube_entry = taylor_model<N + 1, tube_degree>;
+
+    /// @throws std::invalid_argument when the options name no method
+    parametric_runge_kutta(flow const& f, enclosure_options const& options)
+        : flow_(&f),
+          options_(options),
+          order_(order_of(options)),
+          flow_order_(std::max<std::size_t>(2, (order_ + 2) / 2)),
+          set_(f.states()),
+          centre_(f, order_ + 1, variations::by_state),
+          derivative_(f, order_ + 1, variations::by_state),
+          tube_(f, order_ + 1, variations::by_state) {
+        if (options.method->is_explicit()) {
+            explicit_value_.emplace(f, *options.method);
+            explicit_next_.emplace(f, *options.method);
+        } else {
+            implicit_value_.emplace(f, *options.method);
+            implicit_next_.emplace(f, *options.method);
+        }
+    }
+
+    /// @given  the unknowns have at most N variables (checked)
+    void begin(double time, box const& initial, box const& parameters);
+
+    /// One proved step, at most to `limit`.
+    /// @throws std::invalid_argument when `limit` is not later than `time()`
+    [[nodiscard]] bool step(double limit);
+
+    [[nodiscard]] double time() const { return set_.time; }
+    [[nodiscard]] set_type const& set() const { return set_; }
+    [[nodiscard]] normalised_unknowns const& unknowns() const { return *unknowns_; }
+    [[nodiscard]] std::optional<enclosure_failure> const& failure() const { return failure_; }
+    [[nodiscard]] std::size_t steps() const { return steps_; }
+    /// A box that contains all states during the last proved step.
+    [[nodiscard]] box swept() const {
+        box result(swept_.size());
+        for (std::size_t i = 0; i < result.size(); ++i) result[i] = range(swept_[i]);
+        return result;
+    }
+
+private:
+    /// Upper bounds of sums of a few dozen non-negative doubles.
+    static constexpr double up = 1 + 1e-12;
+
+    [[nodiscard]] static std::size_t order_of(enclosure_options const& options) {
+        if (!options.method) {
+            throw std::invalid_argument("parametric_runge_kutta: the options name no method");
+        }
+        return options.method->order;
+    }
+    [[nodiscard]] double allowed(std::size_t i) const {
+        auto const& p = set_.centre[i];
+        return options_.tolerance * (1 + std::abs(p.c[0])) +
+               options_.relative_tolerance * (p.spread() + set_.reach[i]);
+    }
+    template <std::size_t M, std::size_t E>
+    [[nodiscard]] std::vector<taylor_model<M, E>> parameter_models() const {
+        std::vector<taylor_model<M, E>> models;
+        for (auto const& s : unknowns_->parameters) {
+            normalised_unknowns::put(s, 0, models.emplace_back());
+        }
+        return models;
+    }
+    [[nodiscard]] double propose(double rest) const;
+    /// \f$ \sum_{from \le k < L} h^k \|V_k\| \f$, componentwise, rounded up.
+    [[nodiscard]] Eigen::MatrixXd sizes(double h, std::size_t from) const;
+    /// Bounds |V - 1| on the step; false when h is too long for that.
+    [[nodiscard]] bool bound_flow(double h, Eigen::MatrixXd const& last, Eigen::MatrixXd& w) const;
+    /// Proves the tube and what the method needs on it; `shorten` is for the next attempt.
+    [[nodiscard]] bool try_step(double to, double& shorten, enclosure_failure& why);
+    /// The method's value at h and its coefficient p + 1 at all times of the step.
+    [[nodiscard]] bool apply_method(interval const& h);
+    void accept(double to, interval const& h, Eigen::MatrixXd const& w);
+    [[nodiscard]] bool useful(enclosure_failure& why) const;
+    [[nodiscard]] bool fail(enclosure_failure why) {
+        why.time = set_.time;
+        failure_ = why;
+        return false;
+    }
+
+    flow const* flow_;
+    enclosure_options options_;
+    std::size_t order_;      ///< p
+    std::size_t flow_order_; ///< L
+    std::optional<normalised_unknowns> unknowns_;
+    set_type set_;
+    expansion<polynomial> centre_;
+    expansion<column_entry> derivative_;
+    expansion<tube_entry> tube_;
+    std::optional<runge_kutta<polynomial>> explicit_value_;
+    std::optional<runge_kutta<tube_entry>> explicit_next_;
+    std::optional<implicit_runge_kutta<polynomial>> implicit_value_;
+    std::optional<implicit_runge_kutta<tube_entry>> implicit_next_;
+    std::vector<polynomial> value_; ///< phi(h; P)
+    std::vector<tube_entry> next_;  ///< phi_{p+1}
+    std::vector<tube_entry> tube_box_, swept_;
+    double learned_ = 1;
+    std::size_t steps_ = 0;
+    std::optional<enclosure_failure> failure_;
+};
+
+} // namespace sivid
+
+#endif
