@@ -60,20 +60,28 @@ unary_table<I> unary_operations() {
 template <class I>
 binary_table<I> binary_operations() {
     using o = operations<I>;
-    return {{"add", o::add},    {"sub", o::sub},   {"mul", o::mul},
-            {"div", o::div},    {"min", o::min},   {"max", o::max},
-            {"pow", o::pow},    {"hull", o::hull}, {"intersection", o::intersection},
-            {"atan2", o::atan2}};
+    return {{"add", o::add},
+            {"sub", o::sub},
+            {"mul", o::mul},
+            {"div", o::div},
+            {"min", o::min},
+            {"max", o::max},
+            {"pow", o::pow},
+            {"hull", o::hull},
+            {"intersection", o::intersection},
+            {"atan2", o::atan2},
+            {"cancelminus", o::cancelminus},
+            {"cancelplus", o::cancelplus}};
 }
 
-/// Runs the lines whose result is an interval. @param tight  demand tight results where `is_tight`
+/// Runs the lines whose result is an interval; tight results where `must_be_tight`.
 template <class I>
-void run_vectors(std::vector<vector_line> const& lines, bool tight, report& r) {
+void run_vectors(std::vector<vector_line> const& lines, report& r) {
     using o = operations<I>;
     auto const unary = unary_operations<I>();
     auto const binary = binary_operations<I>();
     for (auto const& line : lines) {
-        bool const must = tight && is_tight(line.operation);
+        bool const must = must_be_tight<I>(line.operation);
         auto const interval_at = [&](std::size_t i) {
             return o::make(line.argument(2 * i), line.argument(2 * i + 1));
         };

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "conformance/vectors.hpp"
+#include "conformance/types.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/number/interval_traits.hpp>
 #include <sivid/number/relations.hpp>
 
+#include <concepts>
 #include <functional>
 #include <iostream>
 #include <map>
+#include <set>
 #include <string>
 
 namespace {
@@ -45,16 +47,66 @@ bool same(double a, double b) { return a == b || (a != a && b != b); }
 
 } // namespace
 
-TEST_CASE("vectors: every interval function contains, arithmetic is tight") {
+TEMPLATE_TEST_CASE("vectors: every interval function contains, arithmetic is tight", "",
+                   SIVID_TESTED_TYPES SIVID_PROVEN_TYPES) {
     auto const lines = all_vectors();
     if (lines.empty()) return;
     conformance::report r;
-    conformance::run_vectors<interval>(lines, true, r);
+    conformance::run_vectors<TestType>(lines, r);
     require_clean(r);
     CHECK(r.run > 5900);
 }
 
-TEST_CASE("vectors: numbers and relations of intervals") {
+TEMPLATE_TEST_CASE("vectors: numbers and relations by the traits", "",
+                   SIVID_TESTED_TYPES SIVID_PROVEN_TYPES) {
+    auto const lines = all_vectors();
+    if (lines.empty()) return;
+    using tr = sivid::interval_traits<TestType>;
+    using I = TestType;
+    constexpr std::size_t last = tr::lanes - 1;
+    std::map<std::string, double (*)(I const&)> const numbers{
+        {"width", [](I const& x) { return tr::width(x, last); }},
+        {"mid", [](I const& x) { return tr::mid(x, last); }},
+        {"rad", [](I const& x) { return tr::rad(x, last); }},
+        {"mag", [](I const& x) { return tr::mag(x, last); }},
+        {"mig", [](I const& x) { return tr::mig(x, last); }}};
+    using mask = typename tr::mask;
+    std::map<std::string, mask (*)(I const&, I const&)> const relations{
+        {"subset", [](I const& a, I const& b) { return tr::subset(a, b); }},
+        {"interior", [](I const& a, I const& b) { return tr::interior(a, b); }},
+        {"disjoint", [](I const& a, I const& b) { return tr::disjoint(a, b); }}};
+    std::map<std::string, mask (*)(I const&)> const predicates{
+        {"isempty", [](I const& x) { return tr::is_empty(x); }},
+        {"issingleton", [](I const& x) { return tr::is_point(x); }}};
+    auto const all_or_none = [](mask m, bool expected) {
+        if constexpr (tr::lanes == 1 && std::same_as<mask, bool>)
+            return m == expected;
+        else
+            return m == (expected ? tr::all_lanes : mask{});
+    };
+    std::size_t run = 0;
+    for (auto const& line : lines) {
+        auto const at = [&](std::size_t i) {
+            return tr::bounds(line.argument(i), line.argument(i + 1));
+        };
+        bool const expected = line.results.at(0) == "true";
+        INFO(line.text);
+        if (auto const f = numbers.find(line.operation); f != numbers.end())
+            CHECK(same(f->second(at(0)), line.result(0)));
+        else if (auto const g = relations.find(line.operation); g != relations.end())
+            CHECK(all_or_none(g->second(at(0), at(2)), expected));
+        else if (auto const h = predicates.find(line.operation); h != predicates.end())
+            CHECK(all_or_none(h->second(at(0)), expected));
+        else if (line.operation == "ismember")
+            CHECK(all_or_none(tr::contains(at(1), line.argument(0)), expected));
+        else
+            continue;
+        ++run;
+    }
+    CHECK(run > 110);
+}
+
+TEST_CASE("vectors: numbers and relations of the vocabulary type") {
     auto const lines = all_vectors();
     if (lines.empty()) return;
     using tr = sivid::interval_traits<interval>;
@@ -101,6 +153,23 @@ TEST_CASE("vectors: numbers and relations of intervals") {
         ++run;
     }
     CHECK(run > 200);
+}
+
+TEST_CASE("vectors: every operation of the files is known") {
+    // A vector of an operation without a name here would be passed over in silence.
+    auto const unary = conformance::unary_operations<interval>();
+    auto const binary = conformance::binary_operations<interval>();
+    std::set<std::string> const others{"fma",      "pown",       "inf",      "sup",
+                                       "width",    "mid",        "rad",      "mag",
+                                       "mig",      "subset",     "interior", "equal",
+                                       "less",     "strictless", "precedes", "strictprecedes",
+                                       "disjoint", "isempty",    "isentire", "issingleton",
+                                       "iscommon", "ismember"};
+    for (auto const& line : all_vectors()) {
+        INFO(line.text);
+        CHECK((unary.contains(line.operation) || binary.contains(line.operation) ||
+               others.contains(line.operation)));
+    }
 }
 
 TEST_CASE("vectors: the operators of the vocabulary type contain") {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Random containment of the functions of any interval type against MPFR: for boxes X of every shape
-// and points t in them, f(t) must lie in F(X). A template over the type, so that one oracle serves
-// all.
+// Random containment of the functions of interval types against MPFR: for intervals X of every
+// shape and points t in them, f(t) must lie in F(X). A template over the types, so that one value
+// of MPFR serves all of them.
 #ifndef SIVID_TESTS_LAWS_CONTAINMENT_HPP
 #define SIVID_TESTS_LAWS_CONTAINMENT_HPP
 
@@ -98,89 +98,109 @@ struct misses {
     }
 };
 
-/// One lane each of a fresh argument; `draw` gives the left end or the point.
-template <class I, class Draw>
-I random_lanes(oracle::inputs& in, Draw const& draw, argument (&x)[64]) {
+/// Arguments that are drawn at a time; a multiple of every number of lanes up to it.
+inline constexpr std::size_t batch = 64;
+
+/// The intervals x[k], x[k + 1], ... in the lanes.
+template <class I>
+I lanes_from(argument const* x) {
     using t = sivid::interval_traits<I>;
-    for (std::size_t lane = 0; lane < t::lanes; ++lane) x[lane] = random_argument(in, draw(in));
-    if constexpr (t::lanes == 1) {
+    if constexpr (requires { t::all_lanes; })
+        return t::from_lanes([x](std::size_t lane) { return x[lane].lo; },
+                             [x](std::size_t lane) { return x[lane].hi; });
+    else
         return t::bounds(x[0].lo, x[0].hi);
-    } else {
-        return t::from_lanes([&](std::size_t lane) { return x[lane].lo; },
-                             [&](std::size_t lane) { return x[lane].hi; });
+}
+
+/// f(t) (f(s, t)) in F(X) (F(X, Y)) of each type for the members of a batch; `exact` is NaN where
+/// nothing is asked.
+template <class I, int Arity, class Function>
+void check_batch(misses& m, char const* name, Function const& f, argument const* x,
+                 argument const* y, oracle::value const* exact) {
+    using t = sivid::interval_traits<I>;
+    static_assert(batch % t::lanes == 0);
+    for (std::size_t k = 0; k < batch; k += t::lanes) {
+        I const got = [&] {
+            if constexpr (Arity == 1)
+                return f(lanes_from<I>(x + k));
+            else
+                return f(lanes_from<I>(x + k), lanes_from<I>(y + k));
+        }();
+        for (std::size_t lane = 0; lane < t::lanes; ++lane) {
+            std::size_t const i = k + lane;
+            double const lo = t::lower(got, lane), hi = t::upper(got, lane);
+            if (exact[i].defined() && !exact[i].in(lo, hi))
+                m.note(name, x[i].lo, x[i].hi, x[i].member, y[i].member, lo, hi);
+        }
     }
 }
 
-/// f(t) in F(X) for `count` random X; points where f is not defined are not tested.
-template <class I, class Function>
+/// A pole, or not a number of the set of the reals, if both bounds are the same infinity.
+inline oracle::value finite(oracle::value v) {
+    if (v.below == v.above && v.below - v.below != 0.0)
+        v.below = v.above = sivid::detail::not_a_number;
+    return v;
+}
+
+/// Until `count` members at which the function is defined were checked: one exact value serves all
+/// types. @param exact  of (batch of x, batch of y, i)
+template <int Arity, class... I, class Exact, class Function>
+misses contained_batches(char const* name, std::size_t count, std::uint64_t seed,
+                         Exact const& exact, Function const& f) {
+    oracle::inputs in{seed};
+    misses m;
+    argument x[batch], y[batch];
+    oracle::value v[batch];
+    while (m.inputs < count) {
+        for (auto& a : x) a = random_argument(in, in.mixed());
+        for (auto& a : y) a = random_argument(in, in.mixed());
+        for (std::size_t i = 0; i < batch; ++i) {
+            v[i] = finite(exact(x[i].member, y[i].member));
+            if (v[i].defined()) ++m.inputs;
+        }
+        (check_batch<I, Arity>(m, name, f, x, y, v), ...);
+    }
+    return m;
+}
+
+/// For a function of one argument, and of two.
+template <class... I, class Function>
 misses contained(char const* name, std::size_t count, std::uint64_t seed, oracle::unary exact,
                  Function const& f) {
-    using t = sivid::interval_traits<I>;
-    static_assert(t::lanes <= 64);
-    oracle::inputs in{seed};
-    misses m;
-    argument x[64];
-    while (m.inputs < count) {
-        I const got = f(random_lanes<I>(
-            in, [](oracle::inputs& i) { return i.mixed(); }, x));
-        for (std::size_t lane = 0; lane < t::lanes; ++lane, ++m.inputs) {
-            oracle::value const v = oracle::at(exact, x[lane].member);
-            if (!v.defined() || (v.below != v.below)) continue;
-            if (v.below == v.above && v.below - v.below != 0.0) continue; // a pole
-            double const lo = t::lower(got, lane), hi = t::upper(got, lane);
-            if (!v.in(lo, hi)) m.note(name, x[lane].lo, x[lane].hi, x[lane].member, 0.0, lo, hi);
-        }
-    }
-    return m;
+    return contained_batches<1, I...>(
+        name, count, seed, [exact](double x, double) { return oracle::at(exact, x); }, f);
 }
-
-/// The same for two arguments.
-template <class I, class Function>
+template <class... I, class Function>
 misses contained(char const* name, std::size_t count, std::uint64_t seed, oracle::binary exact,
                  Function const& f) {
-    using t = sivid::interval_traits<I>;
-    static_assert(t::lanes <= 64);
-    oracle::inputs in{seed};
-    misses m;
-    argument x[64], y[64];
-    auto const draw = [](oracle::inputs& i) { return i.mixed(); };
-    while (m.inputs < count) {
-        I const a = random_lanes<I>(in, draw, x), b = random_lanes<I>(in, draw, y);
-        I const got = f(a, b);
-        for (std::size_t lane = 0; lane < t::lanes; ++lane, ++m.inputs) {
-            oracle::value const v = oracle::at(exact, x[lane].member, y[lane].member);
-            if (!v.defined()) continue;
-            if (v.below == v.above && v.below - v.below != 0.0) continue; // not a number of the set
-            double const lo = t::lower(got, lane), hi = t::upper(got, lane);
-            if (!v.in(lo, hi))
-                m.note(name, x[lane].lo, x[lane].hi, x[lane].member, y[lane].member, lo, hi);
-        }
-    }
-    return m;
+    return contained_batches<2, I...>(
+        name, count, seed, [exact](double x, double y) { return oracle::at(exact, x, y); }, f);
 }
 
-/// Every function of the concept with an MPFR counterpart, `count` inputs each.
+/// The traits of the argument of a generic function.
 template <class I>
+using of = sivid::interval_traits<I>;
+
+/// Every function of the concept with an MPFR counterpart, `count` inputs each.
+template <class... Is>
 std::vector<misses> all_contained(std::size_t count, std::uint64_t seed) {
-    using t = sivid::interval_traits<I>;
-    using mask = typename t::mask;
     std::vector<misses> all;
     auto const one = [&](char const* name, oracle::unary exact, auto const& f) {
-        all.push_back(contained<I>(name, count, ++seed, exact, f));
+        all.push_back(contained<Is...>(name, count, ++seed, exact, f));
     };
     auto const two = [&](char const* name, oracle::binary exact, auto const& f) {
-        all.push_back(contained<I>(name, count, ++seed, exact, f));
+        all.push_back(contained<Is...>(name, count, ++seed, exact, f));
     };
-    two("add", mpfr_add, [](I const& a, I const& b) { return t::add(a, b); });
-    two("sub", mpfr_sub, [](I const& a, I const& b) { return t::sub(a, b); });
-    two("mul", mpfr_mul, [](I const& a, I const& b) { return t::mul(a, b); });
-    two("div", mpfr_div, [](I const& a, I const& b) {
-        mask m{};
-        return t::div(a, b, m);
+    two("add", mpfr_add, []<class I>(I const& a, I const& b) { return of<I>::add(a, b); });
+    two("sub", mpfr_sub, []<class I>(I const& a, I const& b) { return of<I>::sub(a, b); });
+    two("mul", mpfr_mul, []<class I>(I const& a, I const& b) { return of<I>::mul(a, b); });
+    two("div", mpfr_div, []<class I>(I const& a, I const& b) {
+        typename of<I>::mask m{};
+        return of<I>::div(a, b, m);
     });
-    two("hypot", mpfr_hypot, [](I const& a, I const& b) { return t::hypot(a, b); });
-    two("min", mpfr_min, [](I const& a, I const& b) { return t::min(a, b); });
-    two("max", mpfr_max, [](I const& a, I const& b) { return t::max(a, b); });
+    two("hypot", mpfr_hypot, []<class I>(I const& a, I const& b) { return of<I>::hypot(a, b); });
+    two("min", mpfr_min, []<class I>(I const& a, I const& b) { return of<I>::min(a, b); });
+    two("max", mpfr_max, []<class I>(I const& a, I const& b) { return of<I>::max(a, b); });
     two(
         "atan2",
         [](mpfr_ptr r, mpfr_srcptr y, mpfr_srcptr x, mpfr_rnd_t d) {
@@ -192,9 +212,9 @@ std::vector<misses> all_contained(std::size_t count, std::uint64_t seed) {
             if (mpfr_sgn(x) > 0) return mpfr_set_zero(r, 1), 0; // 0 has no sign among the reals
             return mpfr_const_pi(r, d);
         },
-        [](I const& a, I const& b) {
-            mask m{};
-            return t::atan2(a, b, m);
+        []<class I>(I const& a, I const& b) {
+            typename of<I>::mask m{};
+            return of<I>::atan2(a, b, m);
         });
     two(
         "pow",
@@ -206,57 +226,85 @@ std::vector<misses> all_contained(std::size_t count, std::uint64_t seed) {
             }
             return mpfr_pow(r, x, y, d);
         },
-        [](I const& a, I const& b) {
-            mask m{};
-            return t::pow(a, b, m);
+        []<class I>(I const& a, I const& b) {
+            typename of<I>::mask m{};
+            return of<I>::pow(a, b, m);
         });
-    one("sqr", mpfr_sqr, [](I const& a) { return t::sqr(a); });
-    one("sqrt", mpfr_sqrt, [](I const& a) {
-        mask m{};
-        return t::sqrt(a, m);
+    two(
+        "deadband",
+        [](mpfr_ptr r, mpfr_srcptr x, mpfr_srcptr w, mpfr_rnd_t d) {
+            if (mpfr_sgn(w) < 0) {
+                mpfr_set_nan(r);
+                return 0;
+            }
+            if (mpfr_cmpabs(x, w) <= 0) return mpfr_set_zero(r, 1), 0;
+            return mpfr_sgn(x) > 0 ? mpfr_sub(r, x, w, d) : mpfr_add(r, x, w, d);
+        },
+        []<class I>(I const& a, I const& b) { return of<I>::deadband(a, b); });
+    two(
+        "saturate below -1",
+        [](mpfr_ptr r, mpfr_srcptr x, mpfr_srcptr y, mpfr_rnd_t d) {
+            mpfr_set_si(r, -1, d);
+            mpfr_max(r, r, x, d);
+            return mpfr_min(r, r, y, d);
+        },
+        []<class I>(I const& a, I const& b) { return of<I>::saturate(a, of<I>::point(-1.0), b); });
+    two(
+        "saturate above 2",
+        [](mpfr_ptr r, mpfr_srcptr x, mpfr_srcptr y, mpfr_rnd_t d) {
+            mpfr_max(r, x, y, d);
+            return mpfr_cmp_si(r, 2) > 0 ? mpfr_set_si(r, 2, d) : 0;
+        },
+        []<class I>(I const& a, I const& b) { return of<I>::saturate(a, b, of<I>::point(2.0)); });
+    one(
+        "sign",
+        [](mpfr_ptr r, mpfr_srcptr x, mpfr_rnd_t d) { return mpfr_set_si(r, mpfr_sgn(x), d); },
+        []<class I>(I const& a) { return of<I>::sign(a); });
+    one("sqr", mpfr_sqr, []<class I>(I const& a) { return of<I>::sqr(a); });
+    one("sqrt", mpfr_sqrt, []<class I>(I const& a) {
+        typename of<I>::mask m{};
+        return of<I>::sqrt(a, m);
     });
     one(
         "abs", [](mpfr_ptr r, mpfr_srcptr x, mpfr_rnd_t d) { return mpfr_abs(r, x, d); },
-        [](I const& a) { return t::abs(a); });
-    one("exp", mpfr_exp, [](I const& a) { return t::exp(a); });
-    one("expm1", mpfr_expm1, [](I const& a) { return t::expm1(a); });
-    one("log", mpfr_log, [](I const& a) {
-        mask m{};
-        return t::log(a, m);
+        []<class I>(I const& a) { return of<I>::abs(a); });
+    one("exp", mpfr_exp, []<class I>(I const& a) { return of<I>::exp(a); });
+    one("expm1", mpfr_expm1, []<class I>(I const& a) { return of<I>::expm1(a); });
+    one("log", mpfr_log, []<class I>(I const& a) {
+        typename of<I>::mask m{};
+        return of<I>::log(a, m);
     });
-    one("log1p", mpfr_log1p, [](I const& a) {
-        mask m{};
-        return t::log1p(a, m);
+    one("log1p", mpfr_log1p, []<class I>(I const& a) {
+        typename of<I>::mask m{};
+        return of<I>::log1p(a, m);
     });
-    one("sin", mpfr_sin, [](I const& a) { return t::sin(a); });
-    one("cos", mpfr_cos, [](I const& a) { return t::cos(a); });
-    one("tan", mpfr_tan, [](I const& a) {
-        mask m{};
-        return t::tan(a, m);
+    one("sin", mpfr_sin, []<class I>(I const& a) { return of<I>::sin(a); });
+    one("cos", mpfr_cos, []<class I>(I const& a) { return of<I>::cos(a); });
+    one("tan", mpfr_tan, []<class I>(I const& a) {
+        typename of<I>::mask m{};
+        return of<I>::tan(a, m);
     });
-    one("asin", mpfr_asin, [](I const& a) {
-        mask m{};
-        return t::asin(a, m);
+    one("asin", mpfr_asin, []<class I>(I const& a) {
+        typename of<I>::mask m{};
+        return of<I>::asin(a, m);
     });
-    one("acos", mpfr_acos, [](I const& a) {
-        mask m{};
-        return t::acos(a, m);
+    one("acos", mpfr_acos, []<class I>(I const& a) {
+        typename of<I>::mask m{};
+        return of<I>::acos(a, m);
     });
-    one("atan", mpfr_atan, [](I const& a) { return t::atan(a); });
-    one("sinh", mpfr_sinh, [](I const& a) { return t::sinh(a); });
-    one("cosh", mpfr_cosh, [](I const& a) { return t::cosh(a); });
-    one("tanh", mpfr_tanh, [](I const& a) { return t::tanh(a); });
-    if constexpr (requires(I const& a) { t::asinh(a); }) {
-        one("asinh", mpfr_asinh, [](I const& a) { return t::asinh(a); });
-        one("acosh", mpfr_acosh, [](I const& a) {
-            mask m{};
-            return t::acosh(a, m);
-        });
-        one("atanh", mpfr_atanh, [](I const& a) {
-            mask m{};
-            return t::atanh(a, m);
-        });
-    }
+    one("atan", mpfr_atan, []<class I>(I const& a) { return of<I>::atan(a); });
+    one("sinh", mpfr_sinh, []<class I>(I const& a) { return of<I>::sinh(a); });
+    one("cosh", mpfr_cosh, []<class I>(I const& a) { return of<I>::cosh(a); });
+    one("tanh", mpfr_tanh, []<class I>(I const& a) { return of<I>::tanh(a); });
+    one("asinh", mpfr_asinh, []<class I>(I const& a) { return of<I>::asinh(a); });
+    one("acosh", mpfr_acosh, []<class I>(I const& a) {
+        typename of<I>::mask m{};
+        return of<I>::acosh(a, m);
+    });
+    one("atanh", mpfr_atanh, []<class I>(I const& a) {
+        typename of<I>::mask m{};
+        return of<I>::atanh(a, m);
+    });
     for (int const n : {-7, -2, -1, 1, 2, 3, 4, 5, 17, 1000}) {
         static thread_local int power;
         power = n;
@@ -268,9 +316,9 @@ std::vector<misses> all_contained(std::size_t count, std::uint64_t seed) {
                 }
                 return mpfr_pow_si(r, x, power, d);
             },
-            [](I const& a) {
-                mask m{};
-                return t::pown(a, power, m);
+            []<class I>(I const& a) {
+                typename of<I>::mask m{};
+                return of<I>::pown(a, power, m);
             });
     }
     return all;

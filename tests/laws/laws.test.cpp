@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "laws/laws.hpp"
+#include "conformance/types.hpp"
 #include "support/catch.hpp"
-
-#include <sivid/number/interval_traits.hpp>
 
 namespace {
 
@@ -13,10 +12,11 @@ void require_none(std::vector<std::string> const& failures) {
 
 } // namespace
 
-TEST_CASE("the vocabulary type obeys the laws") {
-    require_none(laws::all<sivid::interval>(10'000, 42));
+TEMPLATE_TEST_CASE("every type obeys the laws", "", SIVID_TESTED_TYPES SIVID_PROVEN_TYPES) {
+    require_none(laws::all<TestType>(2'000, 42));
 }
 
-TEST_CASE("the vocabulary type obeys the laws, many inputs", "[.long]") {
-    require_none(laws::all<sivid::interval>(1'000'000, 43));
+TEMPLATE_TEST_CASE("every type obeys the laws, many inputs", "[.long]",
+                   SIVID_TESTED_TYPES SIVID_PROVEN_TYPES) {
+    require_none(laws::all<TestType>(200'000, 43));
 }

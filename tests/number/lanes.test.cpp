@@ -53,7 +53,7 @@ TEST_CASE("lanes compute what doubles compute") {
         auto const size = eight::abs(a);
         auto const most = eight::max(a, b);
         auto const least = eight::min(a, b);
-        auto const mask = lane_mask<8>::from_bits(d.below(256));
+        auto const mask = lanes_mask<8>::from_bits(d.below(256));
         auto const mixed = eight::select(mask, a, b);
         for (std::size_t l = 0; l < 8; ++l) {
             REQUIRE(sum[l] == a[l] + b[l]);
@@ -80,7 +80,7 @@ TEST_CASE("lanes compute what doubles compute") {
 }
 
 TEST_CASE("masks") {
-    using mask = lane_mask<8>;
+    using mask = lanes_mask<8>;
     CHECK(mask(true).bits() == 0xFF);
     CHECK((!mask::only(2)).bits() == 0xFB);
     CHECK((mask::only(1) | mask::only(4)).bits() == 0x12);
@@ -136,7 +136,7 @@ TEST_CASE("functions in lanes enclose the same as alone, undefined lanes apart")
         }
         auto const all = together(models);
         auto const compare = [&](auto const& f, bool partial) {
-            lane_mask<8> undefined(false);
+            lanes_mask<8> undefined(false);
             auto const result = f(all, undefined);
             for (std::size_t l = 0; l < 8; ++l) {
                 bool alone_undefined = false;

@@ -3,40 +3,18 @@
 
 #include <sivid/number/mp_interval.hpp>
 
-#include "conformance/vectors.hpp"
-#include "laws/laws.hpp"
 #include "number/support.hpp"
 
 using sivid::mp_interval;
 using traits = sivid::interval_traits<mp_interval>;
 
-TEST_CASE("the multiprecision type contains every test vector") {
-#if defined(SIVID_SHARED_DIR)
-    for (char const* name : {"itf1788.txt", "mpfi_elem.txt"}) {
-        auto const lines =
-            conformance::read_vectors(std::string{SIVID_SHARED_DIR "/vectors/"} + name);
-        conformance::report r;
-        conformance::run_vectors<mp_interval>(lines, false, r);
-        for (auto const& line : r.unsound) UNSCOPED_INFO("unsound: " << line);
-        CHECK(r.unsound.empty());
-        CHECK((lines.empty() || r.run > 1000));
-    }
-#else
-    SUCCEED("no vectors");
-#endif
-}
+// Vectors, laws and random containment: tests/conformance and tests/laws, as for every type.
 
-TEST_CASE("the multiprecision type contains what MPFR computes in double") {
-    for (auto const& m : laws::all_contained<mp_interval>(laws::containment_count(5'000), 11)) {
-        INFO(m.first);
-        CHECK(m.count == 0);
-    }
-}
-
-TEST_CASE("the multiprecision type obeys the laws") {
-    auto const failures = laws::all<mp_interval>(1'000, 12);
-    for (auto const& failure : failures) UNSCOPED_INFO(failure);
-    CHECK(failures.empty());
+TEST_CASE("NaN and infinity are no members") {
+    CHECK_FALSE(traits::contains(traits::entire(), sivid::detail::not_a_number));
+    CHECK_FALSE(traits::contains(traits::entire(), inf));
+    CHECK(traits::contains(traits::entire(), greatest));
+    CHECK_FALSE(traits::contains(traits::empty(), 0.0));
 }
 
 TEST_CASE("more digits than double") {

@@ -20,11 +20,15 @@ struct value {
     bool in(double lo, double hi) const { return lo <= below && above <= hi; }
 };
 
-/// A number of 53 bits and unbounded exponent: rounding to it and then to double in one direction
-/// is rounding to double in that direction.
+struct extra_bits {};
+inline constexpr extra_bits extra{};
+
+/// A number of 53 (64 if `extra`) bits and unbounded exponent: rounding to it and then to double in
+/// one direction is rounding to double in that direction.
 class number {
 public:
     number() { mpfr_init2(raw_, 53); }
+    explicit number(extra_bits) { mpfr_init2(raw_, 64); }
     explicit number(double x) : number() { mpfr_set_d(raw_, x, MPFR_RNDN); }
     ~number() { mpfr_clear(raw_); }
     number(number const&) = delete;
@@ -38,37 +42,31 @@ private:
 using unary = int (*)(mpfr_ptr, mpfr_srcptr, mpfr_rnd_t);
 using binary = int (*)(mpfr_ptr, mpfr_srcptr, mpfr_srcptr, mpfr_rnd_t);
 
-inline value at(unary f, double x) {
-    thread_local number a, r;
+/// The doubles around the exact value v of which r is the rounding down to more than 53 bits, from
+/// MPFR's statement whether it is exact: no double lies between r and the number above it.
+inline value around(mpfr_ptr r, int ternary) {
     value v{};
-    mpfr_set_d(a.raw(), x, MPFR_RNDN);
-    f(r.raw(), a.raw(), MPFR_RNDD);
-    v.below = mpfr_get_d(r.raw(), MPFR_RNDD);
-    f(r.raw(), a.raw(), MPFR_RNDU);
-    v.above = mpfr_get_d(r.raw(), MPFR_RNDU);
+    v.below = mpfr_get_d(r, MPFR_RNDD);
+    if (ternary != 0) mpfr_nextabove(r);
+    v.above = mpfr_get_d(r, MPFR_RNDU);
     return v;
 }
+inline value at(unary f, double x) {
+    thread_local number a, r{extra};
+    mpfr_set_d(a.raw(), x, MPFR_RNDN);
+    return around(r.raw(), f(r.raw(), a.raw(), MPFR_RNDD));
+}
 inline value at(binary f, double x, double y) {
-    thread_local number a, b, r;
-    value v{};
+    thread_local number a, b, r{extra};
     mpfr_set_d(a.raw(), x, MPFR_RNDN);
     mpfr_set_d(b.raw(), y, MPFR_RNDN);
-    f(r.raw(), a.raw(), b.raw(), MPFR_RNDD);
-    v.below = mpfr_get_d(r.raw(), MPFR_RNDD);
-    f(r.raw(), a.raw(), b.raw(), MPFR_RNDU);
-    v.above = mpfr_get_d(r.raw(), MPFR_RNDU);
-    return v;
+    return around(r.raw(), f(r.raw(), a.raw(), b.raw(), MPFR_RNDD));
 }
 /// x^n.
 inline value power(double x, long n) {
-    thread_local number a, r;
-    value v{};
+    thread_local number a, r{extra};
     mpfr_set_d(a.raw(), x, MPFR_RNDN);
-    mpfr_pow_si(r.raw(), a.raw(), n, MPFR_RNDD);
-    v.below = mpfr_get_d(r.raw(), MPFR_RNDD);
-    mpfr_pow_si(r.raw(), a.raw(), n, MPFR_RNDU);
-    v.above = mpfr_get_d(r.raw(), MPFR_RNDU);
-    return v;
+    return around(r.raw(), mpfr_pow_si(r.raw(), a.raw(), n, MPFR_RNDD));
 }
 
 /// Doubles that hurt, from a seed.

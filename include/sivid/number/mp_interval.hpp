@@ -74,8 +74,8 @@ struct interval_traits<basic_mp_interval<Digits10>> {
     }
     static bool is_point(I const& a) { return mpfr_equal_p(&raw(a)->left, &raw(a)->right) != 0; }
     static bool contains(I const& a, double t) {
-        return !is_empty(a) && !detail::is_infinite(t) && mpfr_cmp_d(&raw(a)->left, t) <= 0 &&
-               mpfr_cmp_d(&raw(a)->right, t) >= 0;
+        return !is_empty(a) && !detail::is_infinite(t) && !detail::is_nan(t) &&
+               mpfr_cmp_d(&raw(a)->left, t) <= 0 && mpfr_cmp_d(&raw(a)->right, t) >= 0;
     }
 
     // Sets.

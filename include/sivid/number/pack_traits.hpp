@@ -56,23 +56,25 @@ struct pack_traits {
 
     // Relations. The empty set is a subset of, interior to and disjoint from everything.
     static mask is_empty(I const& a) noexcept {
-        return ask([](part x) { return simd::is_empty(x); }, a);
+        return ask([](part const& x) { return simd::is_empty(x); }, a);
     }
     static mask is_point(I const& a) noexcept {
-        return ask([](part x) { return x.lo == x.hi; }, a);
+        return ask([](part const& x) { return x.lo == x.hi; }, a);
     }
     static mask contains(I const& a, double t) noexcept {
         if (!(t > -simd::infinity && t < simd::infinity)) return 0;
-        return ask([t](part x) { return (x.lo <= V(t)) & (V(t) <= x.hi); }, a);
+        return ask([t](part const& x) { return (x.lo <= V(t)) & (V(t) <= x.hi); }, a);
     }
     static mask subset(I const& a, I const& b) noexcept {
         return ask(
-            [](part x, part y) { return simd::is_empty(x) | ((y.lo <= x.lo) & (x.hi <= y.hi)); }, a,
-            b);
+            [](part const& x, part const& y) {
+                return simd::is_empty(x) | ((y.lo <= x.lo) & (x.hi <= y.hi));
+            },
+            a, b);
     }
     static mask interior(I const& a, I const& b) noexcept {
         return ask(
-            [](part x, part y) {
+            [](part const& x, part const& y) {
                 auto const below = (y.lo < x.lo) | (y.lo == V(-simd::infinity));
                 auto const above = (x.hi < y.hi) | (y.hi == V(simd::infinity));
                 return simd::is_empty(x) | (below & above);
@@ -81,124 +83,132 @@ struct pack_traits {
     }
     static mask disjoint(I const& a, I const& b) noexcept {
         return ask(
-            [](part x, part y) { return simd::either_empty(x, y) | (x.hi < y.lo) | (y.hi < x.lo); },
+            [](part const& x, part const& y) {
+                return simd::either_empty(x, y) | (x.hi < y.lo) | (y.hi < x.lo);
+            },
             a, b);
     }
     static I hull(I const& a, I const& b) noexcept {
-        return map([](part x, part y) { return simd::hull(x, y); }, a, b);
+        return map([](part const& x, part const& y) { return simd::hull(x, y); }, a, b);
     }
     static I intersect(I const& a, I const& b) noexcept {
-        return map([](part x, part y) { return simd::intersect(x, y); }, a, b);
+        return map([](part const& x, part const& y) { return simd::intersect(x, y); }, a, b);
     }
 
     // Arithmetic: tight.
     static I neg(I const& a) noexcept {
-        return map([](part x) { return simd::neg(x); }, a);
+        return map([](part const& x) { return simd::neg(x); }, a);
     }
     static I add(I const& a, I const& b) noexcept {
-        return map([](part x, part y) { return simd::add(x, y); }, a, b);
+        return map([](part const& x, part const& y) { return simd::add(x, y); }, a, b);
     }
     static I sub(I const& a, I const& b) noexcept {
-        return map([](part x, part y) { return simd::sub(x, y); }, a, b);
+        return map([](part const& x, part const& y) { return simd::sub(x, y); }, a, b);
     }
     static I mul(I const& a, I const& b) noexcept {
-        return map([](part x, part y) { return simd::mul(x, y); }, a, b);
+        return map([](part const& x, part const& y) { return simd::mul(x, y); }, a, b);
     }
     static I div(I const& a, I const& b, mask& undefined) noexcept {
-        return flagged([](part x, part y, M& m) { return simd::div(x, y, m); }, undefined, a, b);
+        return flagged([](part const& x, part const& y, M& m) { return simd::div(x, y, m); },
+                       undefined, a, b);
     }
     static I sqr(I const& a) noexcept {
-        return map([](part x) { return simd::sqr(x); }, a);
+        return map([](part const& x) { return simd::sqr(x); }, a);
     }
     static I abs(I const& a) noexcept {
-        return map([](part x) { return simd::abs(x); }, a);
+        return map([](part const& x) { return simd::abs(x); }, a);
     }
     static I min(I const& a, I const& b) noexcept {
-        return map([](part x, part y) { return simd::min(x, y); }, a, b);
+        return map([](part const& x, part const& y) { return simd::min(x, y); }, a, b);
     }
     static I max(I const& a, I const& b) noexcept {
-        return map([](part x, part y) { return simd::max(x, y); }, a, b);
+        return map([](part const& x, part const& y) { return simd::max(x, y); }, a, b);
     }
     static I sqrt(I const& a, mask& undefined) noexcept {
-        return flagged([](part x, M& m) { return simd::sqrt(x, m); }, undefined, a);
+        return flagged([](part const& x, M& m) { return simd::sqrt(x, m); }, undefined, a);
     }
     /// a b + c with two roundings a side.
     static I mul_add(I const& a, I const& b, I const& c) noexcept { return add(mul(a, b), c); }
     /// By squaring: up to 2 log2 |n| roundings a side.
     static I pown(I const& a, int n, mask& undefined) noexcept {
-        return flagged([n](part x, M& m) { return simd::pown(x, n, m); }, undefined, a);
+        return flagged([n](part const& x, M& m) { return simd::pown(x, n, m); }, undefined, a);
     }
     static I hypot(I const& a, I const& b) noexcept {
-        return map([](part x, part y) { return simd::hypot(x, y); }, a, b);
+        return map([](part const& x, part const& y) { return simd::hypot(x, y); }, a, b);
     }
 
     // Elementary functions: error bounds in docs/pack_functions.md.
     static I exp(I const& a) noexcept {
-        return map([](part x) { return simd::exp(x); }, a);
+        return map([](part const& x) { return simd::exp(x); }, a);
     }
     static I expm1(I const& a) noexcept {
-        return map([](part x) { return simd::expm1(x); }, a);
+        return map([](part const& x) { return simd::expm1(x); }, a);
     }
     static I log(I const& a, mask& undefined) noexcept {
-        return flagged([](part x, M& m) { return simd::log(x, m); }, undefined, a);
+        return flagged([](part const& x, M& m) { return simd::log(x, m); }, undefined, a);
     }
     static I log1p(I const& a, mask& undefined) noexcept {
-        return flagged([](part x, M& m) { return simd::log1p(x, m); }, undefined, a);
+        return flagged([](part const& x, M& m) { return simd::log1p(x, m); }, undefined, a);
     }
     static I sin(I const& a) noexcept {
-        return map([](part x) { return simd::sin(x); }, a);
+        return map([](part const& x) { return simd::sin(x); }, a);
     }
     static I cos(I const& a) noexcept {
-        return map([](part x) { return simd::cos(x); }, a);
+        return map([](part const& x) { return simd::cos(x); }, a);
     }
     static I tan(I const& a, mask& undefined) noexcept {
-        return flagged([](part x, M& m) { return simd::tan(x, m); }, undefined, a);
+        return flagged([](part const& x, M& m) { return simd::tan(x, m); }, undefined, a);
     }
     static I asin(I const& a, mask& undefined) noexcept {
-        return flagged([](part x, M& m) { return simd::asin(x, m); }, undefined, a);
+        return flagged([](part const& x, M& m) { return simd::asin(x, m); }, undefined, a);
     }
     static I acos(I const& a, mask& undefined) noexcept {
-        return flagged([](part x, M& m) { return simd::acos(x, m); }, undefined, a);
+        return flagged([](part const& x, M& m) { return simd::acos(x, m); }, undefined, a);
     }
     static I atan(I const& a) noexcept {
-        return map([](part x) { return simd::atan(x); }, a);
+        return map([](part const& x) { return simd::atan(x); }, a);
     }
     static I sinh(I const& a) noexcept {
-        return map([](part x) { return simd::sinh(x); }, a);
+        return map([](part const& x) { return simd::sinh(x); }, a);
     }
     static I cosh(I const& a) noexcept {
-        return map([](part x) { return simd::cosh(x); }, a);
+        return map([](part const& x) { return simd::cosh(x); }, a);
     }
     static I tanh(I const& a) noexcept {
-        return map([](part x) { return simd::tanh(x); }, a);
+        return map([](part const& x) { return simd::tanh(x); }, a);
     }
 
     // Lane by lane through the vocabulary type, with its excess.
     static I pow(I const& a, I const& b, mask& undefined) noexcept {
-        return flagged([](part x, part y, M& m) { return simd::pow(x, y, m); }, undefined, a, b);
+        return flagged([](part const& x, part const& y, M& m) { return simd::pow(x, y, m); },
+                       undefined, a, b);
     }
     static I atan2(I const& a, I const& b, mask& undefined) noexcept {
-        return flagged([](part x, part y, M& m) { return simd::atan2(x, y, m); }, undefined, a, b);
+        return flagged([](part const& x, part const& y, M& m) { return simd::atan2(x, y, m); },
+                       undefined, a, b);
     }
     static I asinh(I const& a) noexcept {
-        return map([](part x) { return simd::asinh(x); }, a);
+        return map([](part const& x) { return simd::asinh(x); }, a);
     }
     static I acosh(I const& a, mask& undefined) noexcept {
-        return flagged([](part x, M& m) { return simd::acosh(x, m); }, undefined, a);
+        return flagged([](part const& x, M& m) { return simd::acosh(x, m); }, undefined, a);
     }
     static I atanh(I const& a, mask& undefined) noexcept {
-        return flagged([](part x, M& m) { return simd::atanh(x, m); }, undefined, a);
+        return flagged([](part const& x, M& m) { return simd::atanh(x, m); }, undefined, a);
     }
 
     // Functions made of pieces: tight.
     static I sign(I const& a) noexcept {
-        return map([](part x) { return simd::sign(x); }, a);
+        return map([](part const& x) { return simd::sign(x); }, a);
     }
     static I saturate(I const& a, I const& lo, I const& hi) noexcept {
-        return map([](part x, part y, part z) { return simd::saturate(x, y, z); }, a, lo, hi);
+        return map(
+            [](part const& x, part const& y, part const& z) { return simd::saturate(x, y, z); }, a,
+            lo, hi);
     }
     static I deadband(I const& a, I const& half_width) noexcept {
-        return map([](part x, part y) { return simd::deadband(x, y); }, a, half_width);
+        return map([](part const& x, part const& y) { return simd::deadband(x, y); }, a,
+                   half_width);
     }
 
 private:

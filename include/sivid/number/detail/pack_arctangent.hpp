@@ -46,7 +46,7 @@ template <std::size_t N>
 /// arctan(y/x) for expansions y, x >= 0, not both zero, of moderate size:
 ///   arctan(y/x) = arctan c + arctan t,  t = (y - c x)/(x + c y), |t| <= 1/8.
 template <class V>
-[[nodiscard]] expansion<V> angle_kernel(expansion<V> y, expansion<V> x) noexcept {
+[[nodiscard]] expansion<V> angle_kernel(expansion<V> const& y, expansion<V> const& x) noexcept {
     static constexpr auto series = tangent_series<10>();
     V c(0.0), head(0.0), tail(0.0);
     for (slope_band const& band : slope_bands) {

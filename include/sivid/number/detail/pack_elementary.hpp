@@ -27,7 +27,7 @@ template <class V>
 
 /// y with f(x...) in the lanes of `which`; f sets its last argument where it is not defined.
 template <class V, class F, class... X>
-[[nodiscard]] bounds<V> replace_lanes(bounds<V> y, unsigned which, mask_of<V>& undefined,
+[[nodiscard]] bounds<V> replace_lanes(bounds<V> const& y, unsigned which, mask_of<V>& undefined,
                                       F const& f, X... x) noexcept {
     std::array<double, V::lanes> lo, hi, flag{};
     y.lo.store(lo.data());
@@ -57,7 +57,7 @@ template <class V, class F, class... X>
 
 /// Keeps the kernel's operations between here and there, whatever the mode is elsewhere.
 template <class V>
-[[nodiscard]] bounds<V> pinned(bounds<V> x) noexcept {
+[[nodiscard]] bounds<V> pinned(bounds<V> const& x) noexcept {
     if constexpr (!V::keeps_own_mode) {
         auto lo = x.lo.raw(), hi = x.hi.raw();
         __asm__ volatile("" : "+x"(lo), "+x"(hi));
@@ -70,7 +70,7 @@ template <class V>
 /// kernel(x) where the thread rounds to nearest and keeps subnormals; else, and in back ends with
 /// embedded rounding never, lane by lane through the vocabulary type, which sets its own mode.
 template <class V, class Kernel, class F>
-[[nodiscard]] bounds<V> evaluate(bounds<V> x, mask_of<V>& undefined, Kernel const& kernel,
+[[nodiscard]] bounds<V> evaluate(bounds<V> const& x, mask_of<V>& undefined, Kernel const& kernel,
                                  F const& f) noexcept {
     if constexpr (!V::keeps_own_mode) {
         constexpr unsigned rounding_and_flush = 0xE040;
@@ -80,45 +80,45 @@ template <class V, class Kernel, class F>
     return pinned(kernel(pinned(x)));
 }
 template <class V, class Kernel, class F>
-[[nodiscard]] bounds<V> evaluate(bounds<V> x, Kernel const& kernel, F const& f) noexcept {
+[[nodiscard]] bounds<V> evaluate(bounds<V> const& x, Kernel const& kernel, F const& f) noexcept {
     mask_of<V> ignored{};
     return evaluate(x, ignored, kernel, [&](interval const& t, bool&) { return f(t); });
 }
 
 template <class V>
-[[nodiscard]] bounds<V> exp(bounds<V> x) noexcept {
+[[nodiscard]] bounds<V> exp(bounds<V> const& x) noexcept {
     return evaluate(
         x,
-        [](bounds<V> t) {
+        [](bounds<V> const& t) {
             return bounds<V>{exp_lower(t.lo), exp_upper(t.hi)};
         },
         [](interval const& t) { return sivid::exp(t); });
 }
 template <class V>
-[[nodiscard]] bounds<V> expm1(bounds<V> x) noexcept {
+[[nodiscard]] bounds<V> expm1(bounds<V> const& x) noexcept {
     return evaluate(
         x,
-        [](bounds<V> t) {
+        [](bounds<V> const& t) {
             return bounds<V>{expm1_lower(t.lo), expm1_upper(t.hi)};
         },
         [](interval const& t) { return sivid::expm1(t); });
 }
 template <class V>
-[[nodiscard]] bounds<V> log(bounds<V> x, mask_of<V>& undefined) noexcept {
+[[nodiscard]] bounds<V> log(bounds<V> const& x, mask_of<V>& undefined) noexcept {
     undefined = undefined | (x.lo <= V(0.0));
     return evaluate(
         x, undefined,
-        [](bounds<V> t) {
+        [](bounds<V> const& t) {
             return empty_where(t.hi <= V(0.0), bounds<V>{log_lower(t.lo), log_upper(t.hi)});
         },
         [](interval const& t, bool& cut) { return sivid::log(t, cut); });
 }
 template <class V>
-[[nodiscard]] bounds<V> log1p(bounds<V> x, mask_of<V>& undefined) noexcept {
+[[nodiscard]] bounds<V> log1p(bounds<V> const& x, mask_of<V>& undefined) noexcept {
     undefined = undefined | (x.lo <= V(-1.0));
     return evaluate(
         x, undefined,
-        [](bounds<V> t) {
+        [](bounds<V> const& t) {
             return empty_where(t.hi <= V(-1.0), bounds<V>{log1p_lower(t.lo), log1p_upper(t.hi)});
         },
         [](interval const& t, bool& cut) { return sivid::log1p(t, cut); });
@@ -126,14 +126,14 @@ template <class V>
 
 /// Lanes with an end beyond the limit of the trigonometric kernels.
 template <class V>
-[[nodiscard]] unsigned beyond_limit(bounds<V> x) noexcept {
+[[nodiscard]] unsigned beyond_limit(bounds<V> const& x) noexcept {
     return (mag(x) > V(trigonometric_limit)).bits();
 }
 template <class V>
-[[nodiscard]] bounds<V> sin(bounds<V> x) noexcept {
+[[nodiscard]] bounds<V> sin(bounds<V> const& x) noexcept {
     auto const f = [](interval const& t) { return sivid::sin(t); };
     bounds<V> y = evaluate(
-        x, [](bounds<V> t) { return sin_within_limit(t); }, f);
+        x, [](bounds<V> const& t) { return sin_within_limit(t); }, f);
     if (unsigned const far = beyond_limit(x); far != 0) [[unlikely]] {
         mask_of<V> ignored{};
         y = replace_lanes(
@@ -142,10 +142,10 @@ template <class V>
     return y;
 }
 template <class V>
-[[nodiscard]] bounds<V> cos(bounds<V> x) noexcept {
+[[nodiscard]] bounds<V> cos(bounds<V> const& x) noexcept {
     auto const f = [](interval const& t) { return sivid::cos(t); };
     bounds<V> y = evaluate(
-        x, [](bounds<V> t) { return cos_within_limit(t); }, f);
+        x, [](bounds<V> const& t) { return cos_within_limit(t); }, f);
     if (unsigned const far = beyond_limit(x); far != 0) [[unlikely]] {
         mask_of<V> ignored{};
         y = replace_lanes(
@@ -154,11 +154,11 @@ template <class V>
     return y;
 }
 template <class V>
-[[nodiscard]] bounds<V> tan(bounds<V> x, mask_of<V>& undefined) noexcept {
+[[nodiscard]] bounds<V> tan(bounds<V> const& x, mask_of<V>& undefined) noexcept {
     auto const f = [](interval const& t, bool& cut) { return sivid::tan(t, cut); };
     mask_of<V> ignored{};
     bounds<V> y = evaluate(
-        x, ignored, [](bounds<V> t) { return tan_within_limit(t); }, f);
+        x, ignored, [](bounds<V> const& t) { return tan_within_limit(t); }, f);
     auto const far = mag(x) > V(trigonometric_limit);
     undefined = undefined | ((y.lo == V(-infinity)) & !far);
     if (far.bits() != 0) [[unlikely]]
@@ -167,10 +167,10 @@ template <class V>
 }
 
 template <class V>
-[[nodiscard]] bounds<V> atan(bounds<V> x) noexcept {
+[[nodiscard]] bounds<V> atan(bounds<V> const& x) noexcept {
     return evaluate(
         x,
-        [](bounds<V> t) {
+        [](bounds<V> const& t) {
             return bounds<V>{atan_lower(t.lo), atan_upper(t.hi)};
         },
         [](interval const& t) { return sivid::atan(t); });
@@ -183,27 +183,27 @@ struct unit_cut {
     mask_of<V> outside;
 };
 template <class V>
-[[nodiscard]] unit_cut<V> cut_to_unit(bounds<V> x) noexcept {
+[[nodiscard]] unit_cut<V> cut_to_unit(bounds<V> const& x) noexcept {
     V const one(1.0);
     return {{max(-one, x.lo), min(one, x.hi)}, (x.lo > one) | (x.hi < -one)};
 }
 template <class V>
-[[nodiscard]] bounds<V> asin(bounds<V> x, mask_of<V>& undefined) noexcept {
+[[nodiscard]] bounds<V> asin(bounds<V> const& x, mask_of<V>& undefined) noexcept {
     undefined = undefined | (x.lo < V(-1.0)) | (x.hi > V(1.0));
     return evaluate(
         x, undefined,
-        [](bounds<V> t) {
+        [](bounds<V> const& t) {
             auto const c = cut_to_unit(t);
             return empty_where(c.outside, bounds<V>{asin_lower(c.x.lo), asin_upper(c.x.hi)});
         },
         [](interval const& t, bool& cut) { return sivid::asin(t, cut); });
 }
 template <class V>
-[[nodiscard]] bounds<V> acos(bounds<V> x, mask_of<V>& undefined) noexcept {
+[[nodiscard]] bounds<V> acos(bounds<V> const& x, mask_of<V>& undefined) noexcept {
     undefined = undefined | (x.lo < V(-1.0)) | (x.hi > V(1.0));
     return evaluate(
         x, undefined,
-        [](bounds<V> t) {
+        [](bounds<V> const& t) {
             auto const c = cut_to_unit(t);
             return empty_where(c.outside, bounds<V>{acos_lower(c.x.hi), acos_upper(c.x.lo)});
         },
@@ -211,58 +211,60 @@ template <class V>
 }
 
 template <class V>
-[[nodiscard]] bounds<V> sinh(bounds<V> x) noexcept {
+[[nodiscard]] bounds<V> sinh(bounds<V> const& x) noexcept {
     return evaluate(
         x,
-        [](bounds<V> t) {
+        [](bounds<V> const& t) {
             return bounds<V>{sinh_lower(t.lo), sinh_upper(t.hi)};
         },
         [](interval const& t) { return sivid::sinh(t); });
 }
 template <class V>
-[[nodiscard]] bounds<V> cosh(bounds<V> x) noexcept {
+[[nodiscard]] bounds<V> cosh(bounds<V> const& x) noexcept {
     return evaluate(
         x,
-        [](bounds<V> t) {
+        [](bounds<V> const& t) {
             return bounds<V>{cosh_lower(mig(t)), cosh_upper(mag(t))};
         },
         [](interval const& t) { return sivid::cosh(t); });
 }
 template <class V>
-[[nodiscard]] bounds<V> tanh(bounds<V> x) noexcept {
+[[nodiscard]] bounds<V> tanh(bounds<V> const& x) noexcept {
     return evaluate(
         x,
-        [](bounds<V> t) {
+        [](bounds<V> const& t) {
             return bounds<V>{tanh_lower(t.lo), tanh_upper(t.hi)};
         },
         [](interval const& t) { return sivid::tanh(t); });
 }
 
 template <class V>
-[[nodiscard]] bounds<V> asinh(bounds<V> x) noexcept {
+[[nodiscard]] bounds<V> asinh(bounds<V> const& x) noexcept {
     mask_of<V> ignored{};
     return lane_by_lane<V>(
         ignored, [](interval const& t, bool&) { return sivid::asinh(t); }, x);
 }
 template <class V>
-[[nodiscard]] bounds<V> acosh(bounds<V> x, mask_of<V>& undefined) noexcept {
+[[nodiscard]] bounds<V> acosh(bounds<V> const& x, mask_of<V>& undefined) noexcept {
     return lane_by_lane<V>(
         undefined, [](interval const& t, bool& cut) { return sivid::acosh(t, cut); }, x);
 }
 template <class V>
-[[nodiscard]] bounds<V> atanh(bounds<V> x, mask_of<V>& undefined) noexcept {
+[[nodiscard]] bounds<V> atanh(bounds<V> const& x, mask_of<V>& undefined) noexcept {
     return lane_by_lane<V>(
         undefined, [](interval const& t, bool& cut) { return sivid::atanh(t, cut); }, x);
 }
 template <class V>
-[[nodiscard]] bounds<V> pow(bounds<V> x, bounds<V> y, mask_of<V>& undefined) noexcept {
+[[nodiscard]] bounds<V> pow(bounds<V> const& x, bounds<V> const& y,
+                            mask_of<V>& undefined) noexcept {
     return lane_by_lane<V>(
         undefined,
         [](interval const& s, interval const& t, bool& cut) { return sivid::pow(s, t, cut); }, x,
         y);
 }
 template <class V>
-[[nodiscard]] bounds<V> atan2(bounds<V> y, bounds<V> x, mask_of<V>& undefined) noexcept {
+[[nodiscard]] bounds<V> atan2(bounds<V> const& y, bounds<V> const& x,
+                              mask_of<V>& undefined) noexcept {
     return lane_by_lane<V>(
         undefined,
         [](interval const& s, interval const& t, bool& cut) { return sivid::atan2(s, t, cut); }, y,

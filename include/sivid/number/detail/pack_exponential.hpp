@@ -79,7 +79,7 @@ template <class V>
 
 /// e^x - 1 = 2^k (head + tail).
 template <class V>
-[[nodiscard]] expansion<V> expm1_kernel(exp_argument<V> a) noexcept {
+[[nodiscard]] expansion<V> expm1_kernel(exp_argument<V> const& a) noexcept {
     V const tail = exp_tail(a.r, a.rest);
     exact_pair<V> const one_plus_r = fast_two_sum(V(1.0), a.r);
     V const one = power_of_two(-min(V(1000.0), a.k)); // 2^-k; above k = 1000 without effect

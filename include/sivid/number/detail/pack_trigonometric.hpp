@@ -47,7 +47,7 @@ template <class V>
 
 /// floor(x / (pi/2)) + 1.5 2^52. r is never zero for x != 0, and has the sign of the exact rest.
 template <class V>
-[[nodiscard]] V quadrant(turn_argument<V> a) noexcept {
+[[nodiscard]] V quadrant(turn_argument<V> const& a) noexcept {
     return select(a.r < V(0.0), a.turns - V(1.0), a.turns);
 }
 
@@ -65,7 +65,7 @@ struct sine_pair {
 };
 /// sin and cos of r + rest.
 template <class V>
-[[nodiscard]] sine_pair<V> sine_kernel(turn_argument<V> a) noexcept {
+[[nodiscard]] sine_pair<V> sine_kernel(turn_argument<V> const& a) noexcept {
     static constexpr auto signs = [](auto c) { // alternate
         for (std::size_t i = 0; i < c.size(); i += 2) c[i] = -c[i];
         return c;
@@ -107,7 +107,7 @@ template <class V>
 
 /// The range of sin(t + shift pi/2), both ends within the limit.
 template <class V>
-[[nodiscard]] bounds<V> wave(bounds<V> x, double shift) noexcept {
+[[nodiscard]] bounds<V> wave(bounds<V> const& x, double shift) noexcept {
     wave_end<V> const a = wave_kernel(x.lo, shift), b = wave_kernel(x.hi, shift);
     V const one(1.0), extrema = b.piece - a.piece;
     auto const falling = bit_is_set<0>(a.piece);
@@ -118,21 +118,21 @@ template <class V>
 }
 
 template <class V>
-[[nodiscard]] bounds<V> sin_within_limit(bounds<V> x) noexcept {
+[[nodiscard]] bounds<V> sin_within_limit(bounds<V> const& x) noexcept {
     bounds<V> const y = wave(x, 0.0);
     // t <= sin t for t in [-inf, 0], and sin t >= 0 on [0, 3]; likewise above.
     return {select((x.lo <= V(0.0)) & (x.hi <= V(3.0)), max(x.lo, y.lo), y.lo),
             select((x.hi >= V(0.0)) & (x.lo >= V(-3.0)), min(x.hi, y.hi), y.hi)};
 }
 template <class V>
-[[nodiscard]] bounds<V> cos_within_limit(bounds<V> x) noexcept {
+[[nodiscard]] bounds<V> cos_within_limit(bounds<V> const& x) noexcept {
     bounds<V> const y = wave(x, 1.0);
     auto const zero = (x.lo == V(0.0)) & (x.hi == V(0.0));
     return {select(zero, V(1.0), y.lo), y.hi};
 }
 
 template <class V>
-[[nodiscard]] expansion<V> tan_kernel(turn_argument<V> a) noexcept {
+[[nodiscard]] expansion<V> tan_kernel(turn_argument<V> const& a) noexcept {
     sine_pair<V> const y = sine_kernel(a);
     auto const odd = bit_is_set<0>(a.turns); // -cos/sin
     expansion<V> const n{select(odd, -y.cos.head, y.sin.head),
@@ -144,7 +144,7 @@ template <class V>
 /// Rising between poles; everything if a pole lies between the ends. No other result has an
 /// infinite bound.
 template <class V>
-[[nodiscard]] bounds<V> tan_within_limit(bounds<V> x) noexcept {
+[[nodiscard]] bounds<V> tan_within_limit(bounds<V> const& x) noexcept {
     constexpr double delta = kernel_error::tan * unit_roundoff;
     turn_argument<V> const a = reduce_turns(x.lo), b = reduce_turns(x.hi);
     auto const pole = half_turn(quadrant(a), 1.0) < half_turn(quadrant(b), 1.0);
