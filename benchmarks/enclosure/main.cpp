@@ -141,8 +141,9 @@ void measure(problem const& p, setting const& s, std::string const& goal) {
     }
     std::size_t steps = 0;
     for (auto const& part : result.parts) steps = std::max(steps, part.steps);
-    std::printf("%-26s D%zu K%-2zu x%zu %9.3f ms %4zu steps %3zu parts %2zu failed  ", p.name.c_str(),
-                D, s.order, width, 1e3 * best, steps, result.parts.size(), result.failed);
+    std::printf("%-26s D%zu K%-2zu x%zu %9.3f ms %4zu steps %3zu parts %2zu failed  ",
+                p.name.c_str(), D, s.order, width, 1e3 * best, steps, result.parts.size(),
+                result.failed);
     if (!result.complete()) {
         std::printf("not enclosed: %s  [%s]\n", result.failure->message("x").c_str(), goal.c_str());
         return;
@@ -152,7 +153,8 @@ void measure(problem const& p, setting const& s, std::string const& goal) {
     for (auto const& x : hull) widest = std::max(widest, sivid::width(x));
     bool const point = sivid::normalised_unknowns(p.initial, p.parameters).variables == 0;
     if (point) {
-        std::printf("width %.1e, %s  [%s]\n", widest, meets_doubleton(p, hull).c_str(), goal.c_str());
+        std::printf("width %.1e, %s  [%s]\n", widest, meets_doubleton(p, hull).c_str(),
+                    goal.c_str());
     } else {
         auto const seen = sample(p, result, 1000);
         for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -167,8 +169,8 @@ void measure(problem const& p, setting const& s, std::string const& goal) {
 problem hovercraft_problem(std::string name, double w) {
     interval const pi(3.141592653589793, 3.1415926535897936);
     std::vector<sivid::signal> inputs;
-    inputs.push_back(sivid::analytic_signal::from(
-        [](auto const&) { return 250 / sivid::expression(3); }));
+    inputs.push_back(
+        sivid::analytic_signal::from([](auto const&) { return 250 / sivid::expression(3); }));
     inputs.push_back(sivid::analytic_signal::from([pi](auto const& t) {
         using sivid::expression;
         return expression(pi) / 12 * (1 + sin(expression(pi) * t / 2));
@@ -180,9 +182,9 @@ problem hovercraft_problem(std::string name, double w) {
     }
     if (w < 0) p = box{interval(0.20, 0.25), interval(0.0042, 0.0754), interval(0.25, 0.35)};
     return {std::move(name),
-            std::make_shared<sivid::flow const>(
-                sivid::record_model(hovercraft{}),
-                sivid::parameter_choice{{"Sv", "Sg", "L"}, {}}, inputs),
+            std::make_shared<sivid::flow const>(sivid::record_model(hovercraft{}),
+                                                sivid::parameter_choice{{"Sv", "Sg", "L"}, {}},
+                                                inputs),
             sivid::point_box({2, 0, 0, 0, 0, 0}), p, 3};
 }
 
@@ -202,7 +204,9 @@ int main(int argc, char** argv) {
     std::printf("parts are carried %zu at a time; packs for %s\n\n", std::size_t{8},
                 std::string(sivid::pack_target()).c_str());
     using eight = lanes<8>;
-    auto const h3 = [](double w) { return hovercraft_problem("H3 w=" + std::to_string(w).substr(0, 4), w); };
+    auto const h3 = [](double w) {
+        return hovercraft_problem("H3 w=" + std::to_string(w).substr(0, 4), w);
+    };
 
     measure<1, 0, double>(hovercraft_problem("H3-point", 0), {20, 2e-14, 0}, "0.5 ms, 1e-11");
     measure<3, 2, double>(h3(0.01), {8, 1e-6, 1e-4}, "0.5 ms, 1.005");
@@ -238,19 +242,19 @@ int main(int argc, char** argv) {
             {24, 1e-15, 0}, end < 15 ? "4 ms, 1.3e-7" : "8 ms, 2.5e-4");
     }
     using namespace sivid::literals;
-    for (auto const& [beta, gamma, goal] :
-         {std::tuple{100_dec, 1000_dec, "35 ms, 8.5e-10"}, std::tuple{1000_dec, 100000_dec, "270 ms, 5.9e-9"},
-          std::tuple{1000_dec, 10000000_dec, "400 ms, 1.8e-8"}}) {
+    for (auto const& [beta, gamma, goal] : {std::tuple{100_dec, 1000_dec, "35 ms, 8.5e-10"},
+                                            std::tuple{1000_dec, 100000_dec, "270 ms, 5.9e-9"},
+                                            std::tuple{1000_dec, 10000000_dec, "400 ms, 1.8e-8"}}) {
         sivid::parameter_choice c;
         c.fixed["beta"] = sivid::enclose(beta);
         c.fixed["gamma"] = sivid::enclose(gamma);
-        measure<1, 0, double>(autonomous<problems::robertson>("Robertson", sivid::point_box({1, 0, 0}),
-                                                              40, c),
-                              {20, 1e-14, 0, 0, 1e-7}, goal);
+        measure<1, 0, double>(
+            autonomous<problems::robertson>("Robertson", sivid::point_box({1, 0, 0}), 40, c),
+            {20, 1e-14, 0, 0, 1e-7}, goal);
     }
-    measure<1, 3, double>(autonomous<problems::lotka_volterra>(
-                              "Lotka-Volterra", box{interval(1.3 - 0.012, 1.3 + 0.012), interval(1.0)},
-                              3.64),
-                          {10, 1e-7, 1e-4}, "published tables");
+    measure<1, 3, double>(
+        autonomous<problems::lotka_volterra>(
+            "Lotka-Volterra", box{interval(1.3 - 0.012, 1.3 + 0.012), interval(1.0)}, 3.64),
+        {10, 1e-7, 1e-4}, "published tables");
     return 0;
 }

@@ -50,9 +50,9 @@ struct laub_loomis {
     sivid::vec<T, 7> rate(T const&, sivid::vec<T, 7> const& x, sivid::vec<T, 1> const&,
                           sivid::vec<T, 0> const&) const {
         using namespace sivid::literals;
-        return {1.4_dec * x[2] - 0.9_dec * x[0], 2.5_dec * x[4] - 1.5_dec * x[1],
+        return {1.4_dec * x[2] - 0.9_dec * x[0],        2.5_dec * x[4] - 1.5_dec * x[1],
                 0.6_dec * x[6] - 0.8_dec * x[1] * x[2], 2 - 1.3_dec * x[2] * x[3],
-                0.7_dec * x[0] - x[3] * x[4], 0.3_dec * x[0] - 3.1_dec * x[5],
+                0.7_dec * x[0] - x[3] * x[4],           0.3_dec * x[0] - 3.1_dec * x[5],
                 1.8_dec * x[5] - 1.5_dec * x[1] * x[6]};
     }
     template <class T>

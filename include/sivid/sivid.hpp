@@ -6,6 +6,7 @@
 
 #include <sivid/number/arithmetic.hpp>
 #include <sivid/number/bernstein.hpp>
+#include <sivid/number/cancellation.hpp>
 #include <sivid/number/decimal.hpp>
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/number/decimal_text.hpp>
@@ -17,6 +18,7 @@
 #include <sivid/number/interval.hpp>
 #include <sivid/number/interval_traits.hpp>
 #include <sivid/number/inverse_trigonometric.hpp>
+#include <sivid/number/lanes.hpp>
 #include <sivid/number/monomials.hpp>
 #include <sivid/number/pack.hpp>
 #include <sivid/number/pack_functions.hpp>
@@ -32,6 +34,7 @@
 #include <sivid/number/trigonometric.hpp>
 #include <sivid/number/univariate_taylor.hpp>
 #include <sivid/space/box.hpp>
+#include <sivid/space/common_frame.hpp>
 #include <sivid/space/eigen_support.hpp>
 #include <sivid/space/matrix.hpp>
 #include <sivid/space/orthogonal_frame.hpp>
@@ -51,13 +54,22 @@
 #include <sivid/model/tape.hpp>
 #include <sivid/model/taylor_arithmetic.hpp>
 #include <sivid/model/unit.hpp>
+#include <sivid/enclosure/dissipative_step.hpp>
 #include <sivid/enclosure/doubleton.hpp>
 #include <sivid/enclosure/expansion.hpp>
 #include <sivid/enclosure/failure.hpp>
 #include <sivid/enclosure/flow.hpp>
+#include <sivid/enclosure/implicit_runge_kutta.hpp>
+#include <sivid/enclosure/implicit_stages.hpp>
+#include <sivid/enclosure/implicit_tableau.hpp>
+#include <sivid/enclosure/invariant_box.hpp>
+#include <sivid/enclosure/matrix_exponential.hpp>
 #include <sivid/enclosure/observation.hpp>
 #include <sivid/enclosure/options.hpp>
+#include <sivid/enclosure/order_conditions.hpp>
+#include <sivid/enclosure/parametric_cover.hpp>
 #include <sivid/enclosure/parametric_flow.hpp>
+#include <sivid/enclosure/parametric_runge_kutta.hpp>
 #include <sivid/enclosure/parametric_set.hpp>
 #include <sivid/enclosure/runge_kutta.hpp>
 #include <sivid/enclosure/simulate.hpp>

@@ -65,7 +65,7 @@ TEST_CASE("operands are computed before they are used") {
 
 TEST_CASE("sums of products are gathered, unless something else needs a part") {
     graph g;
-    auto const state = [&g](int i) { return expression(g, g.leaf(operation::state, i)); };
+    auto const state = [&g](std::size_t i) { return expression(g, g.leaf(operation::state, i)); };
     auto const x = state(0);
     auto const y = state(1);
     auto const z = state(2);

@@ -72,15 +72,15 @@ TEST_CASE("the defect bounds what the transpose lacks of an inverse") {
                 for (auto& x : g) x = d.uniform(-1, 1);
                 vector const exact = q.fullPivLu().solve(g);
                 vector const transposed = q.transpose() * g;
-                long double const room = static_cast<long double>(defect) *
-                                             transposed.lpNorm<Eigen::Infinity>() +
-                                         1e-17L;
+                long double const room =
+                    static_cast<long double>(defect) * transposed.lpNorm<Eigen::Infinity>() +
+                    1e-17L;
                 REQUIRE((exact - transposed).lpNorm<Eigen::Infinity>() <= room);
             }
         }
         if (n > 1) CHECK(frame.defect[0] < 1e-8);
-        CHECK(axes_of(frame, 6) == matrix::Identity(static_cast<Eigen::Index>(n),
-                                                    static_cast<Eigen::Index>(n)));
+        CHECK(axes_of(frame, 6) ==
+              matrix::Identity(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n)));
     }
 }
 

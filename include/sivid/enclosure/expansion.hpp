@@ -113,7 +113,8 @@ public:
         for (std::size_t k = 0; k < order; ++k) {
             for (std::size_t i = 0; i < n; ++i) {
                 for (std::size_t c = 0; c < columns_; ++c) {
-                    if (flow_->sensitive(i, c)) v(i, c, k + 1) = over(next_variation(i, c, k), k + 1);
+                    if (flow_->sensitive(i, c))
+                        v(i, c, k + 1) = over(next_variation(i, c, k), k + 1);
                 }
             }
         }
@@ -121,7 +122,8 @@ public:
 
     /// Both.
     template <class Start, class States>
-    void expand_with_variations(Start const& start, T const& t, States const& x, std::size_t order) {
+    void expand_with_variations(Start const& start, T const& t, States const& x,
+                                std::size_t order) {
         expand(start, t, x, order);
         add_variations(order);
     }

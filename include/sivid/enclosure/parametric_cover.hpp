@@ -66,8 +66,8 @@ template <std::size_t N, std::size_t D, class C>
         double slope = 0;
         for (std::size_t i = 0; i < about.size(); ++i) {
             auto const& p = run.set().centre[i];
-            double const c = lane_traits<C>::get(
-                p.c[monomials<N, D>::data.variable[s.variable]], lane);
+            double const c =
+                lane_traits<C>::get(p.c[monomials<N, D>::data.variable[s.variable]], lane);
             slope += std::abs(c) / about[i].limit;
         }
         if (!(slope > most)) return;

@@ -197,9 +197,8 @@ void parametric_set<N, D, C>::reduce(std::size_t most, mask used) {
         auto& d = directions.emplace_back(n);
         for (std::size_t i = 0; i < n; ++i) d[i] = columns[order[k]][i].c[0];
     }
-    auto const frame = common_frame(std::move(directions), [&](auto const& x) {
-        return shares(x, used);
-    });
+    auto const frame =
+        common_frame(std::move(directions), [&](auto const& x) { return shares(x, used); });
     // Coordinates of the dropped columns in the frame: (1 + R)^{-1} Q^T g with |R| <= defect.
     std::vector<C> side(n);
     std::vector<C> along(n);

@@ -141,7 +141,9 @@ private:
         }
     }
 
-    T& at(std::size_t slot, std::size_t k) { return c_[place_[slot].first + (k & place_[slot].orders)]; }
+    T& at(std::size_t slot, std::size_t k) {
+        return c_[place_[slot].first + (k & place_[slot].orders)];
+    }
     [[nodiscard]] T const& get(std::size_t slot, std::size_t k) const {
         return c_[place_[slot].first + (k & place_[slot].orders)];
     }

@@ -97,9 +97,9 @@ public:
             }
             if (has_kink(n.op)) has_kinks_ = true;
         }
-        auto const first = reachable(
-            g, {outputs.begin(),
-                outputs.begin() + static_cast<std::ptrdiff_t>(std::min(principal, outputs.size()))});
+        auto const first =
+            reachable(g, {outputs.begin(), outputs.begin() + static_cast<std::ptrdiff_t>(std::min(
+                                                                 principal, outputs.size()))});
         std::vector<bool> early(slots_, false);
         for (std::size_t k = 0; k < g.size(); ++k) {
             if (needed[k] && !gathered[k]) early[slot[k]] = first[k];

@@ -110,9 +110,9 @@ struct taylor_arithmetic {
         auto const side = sign_of(a);
         auto const sure = sivid::select(side.positive, a, -a);
         if (!side_by_side::any(side.neither)) return sure;
-        return sivid::select(side.neither, by_range([](interval const& x) {
-                                 return interval_traits<interval>::abs(x);
-                             }, a), sure);
+        return sivid::select(
+            side.neither,
+            by_range([](interval const& x) { return interval_traits<interval>::abs(x); }, a), sure);
     }
     /// As a set: [-1, 1] where the argument touches 0.
     static value_type sign(value_type const& a) {
@@ -124,9 +124,12 @@ struct taylor_arithmetic {
         auto const side = sign_of(a - b);
         auto const sure = sivid::select(side.positive, b, a);
         if (!side_by_side::any(side.neither)) return sure;
-        return sivid::select(side.neither, by_range([](interval const& x, interval const& y) {
-                                 return interval_traits<interval>::min(x, y);
-                             }, a, b), sure);
+        return sivid::select(
+            side.neither,
+            by_range([](interval const& x,
+                        interval const& y) { return interval_traits<interval>::min(x, y); },
+                     a, b),
+            sure);
     }
     static value_type max(value_type const& a, value_type const& b) { return -min(-a, -b); }
 
@@ -134,8 +137,7 @@ private:
     /// A function of the arguments' ranges, lane by lane.
     template <class F, class... Models>
     static value_type by_range(F const& f, Models const&... models) {
-        auto result =
-            enclose_lanes([&](std::size_t l) { return f(range(lane_of(models, l))...); });
+        auto result = enclose_lanes([&](std::size_t l) { return f(range(lane_of(models, l))...); });
         result.give_up_when_huge(result.norms[0]);
         return result;
     }
@@ -145,8 +147,10 @@ private:
         auto const result = sivid::apply(f, a, undefined);
         if (!side_by_side::any(undefined)) return result;
         auto never = false;
-        return sivid::select(undefined, enclose(taylor_coefficients<0>(
-                                 f, interval_traits<interval>::entire(), never)[0]), result);
+        return sivid::select(
+            undefined,
+            enclose(taylor_coefficients<0>(f, interval_traits<interval>::entire(), never)[0]),
+            result);
     }
 };
 

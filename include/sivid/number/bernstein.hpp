@@ -98,7 +98,8 @@ template <std::size_t N, std::size_t D, class C>
 template <std::size_t N, std::size_t D>
 [[nodiscard]] interval range(taylor_model<N, D> const& a) {
     auto const b = bounds(a);
-    if (!std::isfinite(b.lower) || !std::isfinite(b.upper)) return interval_traits<interval>::entire();
+    if (!std::isfinite(b.lower) || !std::isfinite(b.upper))
+        return interval_traits<interval>::entire();
     return interval(b.lower, b.upper);
 }
 

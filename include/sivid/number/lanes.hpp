@@ -43,30 +43,30 @@ inline std::uint64_t sign_bits(vector_mask m) {
 
 /// One truth value for each of W lanes.
 template <std::size_t W>
-class lane_mask {
+class lanes_mask {
 public:
     static_assert(W <= 64);
     static constexpr std::uint64_t full = W == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << W) - 1;
 
-    lane_mask() = default;
-    lane_mask(bool all) : bits_{all ? full : 0} {} // NOLINT: a bool is the same in every lane
-    [[nodiscard]] static lane_mask from_bits(std::uint64_t bits) {
-        lane_mask m;
+    lanes_mask() = default;
+    lanes_mask(bool all) : bits_{all ? full : 0} {} // NOLINT: a bool is the same in every lane
+    [[nodiscard]] static lanes_mask from_bits(std::uint64_t bits) {
+        lanes_mask m;
         m.bits_ = bits & full;
         return m;
     }
-    [[nodiscard]] static lane_mask only(std::size_t lane) {
+    [[nodiscard]] static lanes_mask only(std::size_t lane) {
         return from_bits(std::uint64_t{1} << lane);
     }
     [[nodiscard]] std::uint64_t bits() const { return bits_; }
     [[nodiscard]] bool operator[](std::size_t lane) const { return ((bits_ >> lane) & 1U) != 0; }
 
-    friend lane_mask operator&(lane_mask a, lane_mask b) { return from_bits(a.bits_ & b.bits_); }
-    friend lane_mask operator|(lane_mask a, lane_mask b) { return from_bits(a.bits_ | b.bits_); }
-    friend lane_mask operator!(lane_mask a) { return from_bits(~a.bits_); }
-    lane_mask& operator|=(lane_mask b) { return *this = *this | b; }
-    lane_mask& operator&=(lane_mask b) { return *this = *this & b; }
-    friend bool operator==(lane_mask a, lane_mask b) { return a.bits_ == b.bits_; }
+    friend lanes_mask operator&(lanes_mask a, lanes_mask b) { return from_bits(a.bits_ & b.bits_); }
+    friend lanes_mask operator|(lanes_mask a, lanes_mask b) { return from_bits(a.bits_ | b.bits_); }
+    friend lanes_mask operator!(lanes_mask a) { return from_bits(~a.bits_); }
+    lanes_mask& operator|=(lanes_mask b) { return *this = *this | b; }
+    lanes_mask& operator&=(lanes_mask b) { return *this = *this & b; }
+    friend bool operator==(lanes_mask a, lanes_mask b) { return a.bits_ == b.bits_; }
 
 private:
     std::uint64_t bits_ = 0;
@@ -81,7 +81,7 @@ class lanes {
 public:
     static_assert(W % lanes_detail::per_vector == 0);
     static constexpr std::size_t parts = W / lanes_detail::per_vector;
-    using mask = lane_mask<W>;
+    using mask = lanes_mask<W>;
 
     lanes() = default;
     lanes(double x) { // NOLINT: a number is the same in every lane
@@ -194,7 +194,7 @@ struct lane_traits<double> {
 
 template <std::size_t W>
 struct lane_traits<lanes<W>> {
-    using mask = lane_mask<W>;
+    using mask = lanes_mask<W>;
     static constexpr std::size_t count = W;
     static double get(lanes<W> const& x, std::size_t lane) { return x[lane]; }
     static void put(lanes<W>& x, std::size_t lane, double value) { x.set(lane, value); }

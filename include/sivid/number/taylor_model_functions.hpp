@@ -45,10 +45,10 @@ value_bounds<C> bounds_for_sign(taylor_model<N, D, C> const& a) {
 
 /// The polynomial part of s / s_0 - 1, up to rounding.
 template <std::size_t N, std::size_t D, class C>
-taylor_model<N, D, C> relative_deviation(taylor_model<N, D, C> s, C const& factor) {
-    for (auto& c : s.c) c *= factor;
-    s.c[0] = 0.0;
-    return s;
+taylor_model<N, D, C> relative_deviation(taylor_model<N, D, C> const& s, C const& factor) {
+    taylor_model<N, D, C> t;
+    for (std::size_t i = 1; i < t.c.size(); ++i) t.c[i] = s.c[i] * factor;
+    return t;
 }
 
 } // namespace number_detail
@@ -62,10 +62,13 @@ template <std::size_t N, std::size_t D, class C>
                                                typename lane_traits<C>::mask& undefined) {
     using model = taylor_model<N, D, C>;
     using side_by_side = lane_traits<C>;
+    using mask = typename side_by_side::mask;
     C const least = number_detail::bounds_for_sign(s).least();
     // What is not finite fails the comparisons.
-    auto const good = (least > C(0.0)) & (s.norm() < C(model::largest)) &
-                      (side_by_side::abs(s.c[0]) > C(0.0));
+    mask const apart = least > C(0.0);
+    mask const finite = s.norm() < C(model::largest);
+    mask const centred = side_by_side::abs(s.c[0]) > C(0.0);
+    mask const good = apart & finite & centred;
     C const inverse = C(1.0) / side_by_side::select(good, s.c[0], C(1.0));
     auto const t = number_detail::relative_deviation(s, -inverse); // -(s/s0 - 1)
     auto w = model::constant(C(1.0));
@@ -92,11 +95,15 @@ template <std::size_t N, std::size_t D, class C>
                                          typename lane_traits<C>::mask& undefined) {
     using model = taylor_model<N, D, C>;
     using side_by_side = lane_traits<C>;
+    using mask = typename side_by_side::mask;
     auto const values = number_detail::bounds_for_sign(s);
-    auto const good = (values.lower > C(0.0)) & (s.norm() < C(model::largest)) & (s.c[0] > C(0.0));
+    mask const positive = values.lower > C(0.0);
+    mask const finite = s.norm() < C(model::largest);
+    mask const centred = s.c[0] > C(0.0);
+    mask const good = positive & finite & centred;
     C const centre = side_by_side::select(good, s.c[0], C(1.0));
-    C const root = each_lane<C>(
-        [&](std::size_t l) { return std::sqrt(side_by_side::get(centre, l)); });
+    C const root =
+        each_lane<C>([&](std::size_t l) { return std::sqrt(side_by_side::get(centre, l)); });
     // sqrt(s0) (1 + t)^(1/2), t = s/s0 - 1, by Horner with binomial coefficients
     auto const t = number_detail::relative_deviation(s, C(1.0) / centre);
     auto w = model::constant(C(1.0));
@@ -166,8 +173,8 @@ template <std::size_t N, std::size_t D, class C>
             interval(side_by_side::get(values.lower, l), side_by_side::get(values.upper, l));
         if (simple) {
             double const r = side_by_side::get(s.r, l);
-            auto const x = traits::add(traits::point(side_by_side::get(s.c[0], l)),
-                                       traits::bounds(-r, r));
+            auto const x =
+                traits::add(traits::point(side_by_side::get(s.c[0], l)), traits::bounds(-r, r));
             keep(0, taylor_coefficients<0>(f, x, cut)[0]);
         } else {
             auto const at_centre =

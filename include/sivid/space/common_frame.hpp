@@ -102,8 +102,7 @@ template <class C, class Score>
     auto const good = rho < C(0.01);
     for (std::size_t k = 0; k < n; ++k) {
         for (std::size_t i = 0; i < n; ++i) {
-            frame.axis[k][i] =
-                side_by_side::select(good, frame.axis[k][i], C(k == i ? 1.0 : 0.0));
+            frame.axis[k][i] = side_by_side::select(good, frame.axis[k][i], C(k == i ? 1.0 : 0.0));
         }
     }
     frame.defect = side_by_side::select(good, rho * 1.02, C(0.0));

@@ -91,9 +91,7 @@ public:
     [[nodiscard]] mask advance(C const& limit);
     /// One proved step of the only lane, at most to `limit`.
     /// @throws std::invalid_argument when `limit` is not later than `time()`
-    [[nodiscard]] bool step(double limit)
-        requires(width == 1)
-    {
+    [[nodiscard]] bool step(double limit) requires(width == 1) {
         if (!(limit > set_.time) && running_)
             throw std::invalid_argument("parametric_flow: a step must go forward");
         while (running_) {
@@ -143,8 +141,8 @@ private:
         double proposed = 0;      ///< length that the coefficients suggested
         double next = 0;          ///< length to try
         double learned = 1;
-        bool free = false;        ///< the end of the interval had no say in it
-        bool rough = false;       ///< at a kink: the next attempt is of first order
+        bool free = false;  ///< the end of the interval had no say in it
+        bool rough = false; ///< at a kink: the next attempt is of first order
     };
 
     [[nodiscard]] C allowed(std::size_t i) const {

@@ -13,8 +13,8 @@ namespace sivid {
 
 /// \f$ \sum_{k=0}^{K} h^k a_k \f$ for the length h of a step that is known up to one unit.
 ///   The powers are off by less than 2k units, a product by one more. Summed from the highest order
-///   down, term k stands in k partial sums, each of which is rounded once; the last addition errs by
-///   a unit of everything.
+///   down, term k stands in k partial sums, each of which is rounded once; the last addition errs
+///   by a unit of everything.
 /// @param coefficient  k -> \f$ a_k \f$
 template <class Model, class Coefficient, class C>
 [[nodiscard]] Model at_time(Coefficient const& coefficient, std::size_t K, C const& h) {
@@ -74,7 +74,7 @@ template <std::size_t E, std::size_t N, std::size_t D, class C, class Coefficien
     }();
     result_type sum;
     C radius{}, mass{};
-    C power = C(1.0);                                                  // (h/2)^k
+    C power = C(1.0);                                                    // (h/2)^k
     C const size = side_by_side::abs(h) * (0.5 * (1 + 4 * model::unit)); // bounds |h/2|
     C bound = C(1.0);
     std::array<double, E + 1> binomials{};

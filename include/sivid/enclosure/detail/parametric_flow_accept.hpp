@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_ENCLOSURE_DETAIL_PARAMETRIC_FLOW_ACCEPT_HPP
+#define SIVID_ENCLOSURE_DETAIL_PARAMETRIC_FLOW_ACCEPT_HPP
+
+/// @file
+/// The sets after a proved step.
+
+#include <sivid/enclosure/detail/parametric_flow_class.hpp>
+#include <sivid/enclosure/detail/power_sum.hpp>
+
+namespace sivid {
+
+template <std::size_t N, std::size_t D, class C>
+void parametric_flow<N, D, C>::accept(mask moved, C const& to, std::size_t order,
+                                      std::size_t flow_order, square const& w, mask jumps) {
+    auto const n = flow_->states();
+    C const length = to - set_.time; // off by less than a unit
+    std::vector<C> lost(n);
+    std::vector<polynomial> next(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        auto const last = without_last_variable<N, D>(tube_.state(i, order + 1));
+        next[i] = at_time<polynomial>(
+            [&](std::size_t k) -> polynomial const& {
+                return k <= order ? centre_.state(i, k) : last;
+            },
+            order + 1, length);
+        lost[i] = side_by_side::select(moved, next[i].r, C(0.0));
+        next[i].r = 0.0;
+    }
+    // The order of V follows the size of its Lagrange term.
+    C tail{};
+    C flow_power = length;
+    for (std::size_t k = 1; k < flow_order; ++k) flow_power *= length;
+    if (!side_by_side::all(jumps | !moved)) {
+        for (std::size_t i = 0; i < n; ++i) {
+            C row{};
+            for (std::size_t c = 0; c < n; ++c) {
+                if (!flow_->sensitive(i, c)) continue;
+                row += tube_.variation(i, c, flow_order).norm();
+            }
+            tail = side_by_side::max(tail, row * flow_power);
+        }
+    }
+    if (!side_by_side::all(jumps | !moved) && !set_.columns.empty()) {
+        std::vector<column_entry> j(n * n);
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t c = 0; c < n; ++c) {
+                if (!flow_->sensitive(i, c)) continue;
+                auto last =
+                    without_last_variable<N, column_degree>(tube_.variation(i, c, flow_order));
+                C spread{}; // |J_L(b)| W
+                for (std::size_t l = 0; l < n; ++l) {
+                    if (!flow_->sensitive(i, l)) continue;
+                    spread += tube_.variation(i, l, flow_order).norm() * w[l * n + c];
+                }
+                last = widened(last, spread * up);
+                auto const sum = at_time<column_entry>(
+                    [&](std::size_t k) -> column_entry const& {
+                        return k < flow_order ? derivative_.variation(i, c, k) : last;
+                    },
+                    flow_order, length);
+                // Lanes that stay, or jump, keep their generators.
+                j[i * n + c] =
+                    select(moved & !jumps, sum, column_entry::constant(C(i == c ? 1.0 : 0.0)));
+            }
+        }
+        for (auto& g : set_.columns) {
+            typename set_type::column image(n);
+            for (std::size_t i = 0; i < n; ++i) {
+                product_sum<N, column_degree, C> sum;
+                for (std::size_t l = 0; l < n; ++l) {
+                    if (!flow_->sensitive(i, l) || side_by_side::all(g[l].norm() == C(0.0)))
+                        continue;
+                    sum.add(j[i * n + l], g[l]);
+                }
+                image[i] = select(moved & !jumps, sum.result(), g[i]);
+                lost[i] += image[i].r;
+                image[i].r = 0.0;
+            }
+            g = std::move(image);
+        }
+    }
+    for (auto& x : lost) x *= up;
+    bool clamped = true;
+    for (std::size_t l = 0; l < width; ++l) {
+        if (!side_by_side::test(moved, l)) continue;
+        double const h = side_by_side::get(length, l);
+        clamped = clamped && (side_by_side::get(to, l) >= flow_->next_knot(time(l)) ||
+                              h >= options_.maximum_step);
+    }
+    if (order > 0) {
+        if (side_by_side::any(moved & (tail > C(1e-3)))) {
+            flow_order_ = std::min(flow_order + 1, options_.order);
+        } else if (side_by_side::all((tail < C(1e-6)) | !moved) && flow_order > 2) {
+            flow_order_ = flow_order - 1;
+        }
+        adapt_order(moved, length, clamped);
+    } else {
+        flow_order_ = 3;
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+        set_.centre[i] = select(moved, next[i], set_.centre[i]);
+        swept_[i] = select(moved, tube_box_[i], swept_[i]);
+    }
+    set_.time = side_by_side::select(moved, to, set_.time);
+    set_.append(lost);
+    set_.reduce(10 * n, running_);
+    set_.measure();
+    stale_ = true;
+}
+
+} // namespace sivid
+
+#endif
