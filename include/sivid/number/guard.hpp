@@ -30,6 +30,7 @@
 #error "sivid: doubles must be evaluated as doubles (FLT_EVAL_METHOD == 0)"
 #endif
 
+#include <sivid/number/detail/pack_target.hpp>
 #include <sivid/number/rounding.hpp>
 
 #include <bit>
@@ -64,13 +65,17 @@ namespace detail {
 } // namespace detail
 
 /// Checks that proofs are possible here and now; every solver calls it on entry.
-/// @guarantee  on return: round-to-nearest is set, subnormals are neither flushed nor read as zero,
+/// @guarantee  on return: the machine has the instructions that this file was compiled for (as far
+///             as packs use them), round-to-nearest is set, subnormals are neither flushed nor read as zero,
 ///             directed rounding works in each way that sivid uses, plain arithmetic is not
 ///             rearranged
 /// @throws     unsound_environment with the reason otherwise (for instance under valgrind, which
 ///             ignores the rounding mode, or in a program linked with -ffast-math)
 /// @cost       about 50 ns, no state
 [[gnu::always_inline]] inline void require_sound_environment() {
+    if (!pack_supported())
+        throw unsound_environment{
+            "this program was compiled for vector instructions that the machine does not have"};
     unsigned const control = detail::read_mxcsr();
     if ((control & detail::mxcsr_rounding) != 0)
         throw unsound_environment{
