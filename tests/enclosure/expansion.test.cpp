@@ -130,3 +130,27 @@ TEST_CASE("a kink or a pole within the box is reported, not differentiated") {
     CHECK(contains(e.state(0, 1), 0.0));
     CHECK(contains(e.state(0, 1), 1.0));
 }
+
+TEST_CASE("derivatives read the values' coefficients of their own order") {
+    // x' = -p x: the value needs the last coefficient of x alone, its derivative by p all of them.
+    auto const f = support::flow_of(
+        support::model_of({1, 1},
+                          [](auto const&, auto const& x, auto const& p, auto const&) {
+                              return std::vector{-(p[0] * x[0])};
+                          }),
+        {});
+    expansion<interval> e(*f, 8);
+    e.set_parameters(box{interval(2.0)});
+    e.expand_with_variations(0.0, interval(0.0), box{interval(3.0)}, 8);
+    double by_start = 1; // (-p)^k / k!
+    double by_parameter = 0;
+    for (std::size_t k = 0; k <= 8; ++k) {
+        CAPTURE(k);
+        CHECK(contains(e.state(0, k), 3 * by_start));
+        CHECK(contains(e.variation(0, 0, k), by_start));
+        CHECK(contains(e.variation(0, 1, k), by_parameter));
+        CHECK(width(e.variation(0, 1, k)) < 1e-13);
+        by_parameter = -3 * by_start; // -x_0 (-p)^(k-1) / (k-1)!
+        by_start *= -2.0 / static_cast<double>(k + 1);
+    }
+}

@@ -178,6 +178,26 @@ private:
             keep(t.a);
             keep(t.b);
         }
+        // What comes later is evaluated when the principal part has gone on to higher orders.
+        std::vector<bool> principal(slots_, false);
+        for (std::size_t k = 0; k < varying_.size(); ++k) {
+            auto const& i = varying_[k];
+            if (k < principal_varying_) {
+                principal[i.target] = true;
+                continue;
+            }
+            auto const read = [&](std::size_t slot) {
+                if (principal[slot]) keep(slot);
+            };
+            for (auto n = i.first_term; n < i.last_term; ++n) {
+                read(terms_[n].a);
+                if (terms_[n].product) read(terms_[n].b);
+            }
+            if (is_leaf(i.op) || i.is_sum()) continue;
+            read(i.a);
+            if (is_binary(i.op)) read(i.b);
+            read(i.companion);
+        }
         for (auto const& i : varying_) {
             if (is_leaf(i.op) || i.is_sum()) continue;
             bool const convolved = i.op != operation::mul || (i.a_varies && i.b_varies);
