@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <utility>
 
 #include <immintrin.h>
 
@@ -100,72 +99,85 @@ public:
     lanes& operator-=(lanes const& b) { return *this = *this - b; }
     lanes& operator*=(lanes const& b) { return *this = *this * b; }
 
-    friend lanes operator+(lanes const& a, lanes const& b) {
-        return each([&](std::size_t p) { return a.parts_[p] + b.parts_[p]; });
+    [[gnu::always_inline]] friend lanes operator+(lanes const& a, lanes const& b) {
+        lanes r;
+        for (std::size_t p = 0; p < parts; ++p) r.parts_[p] = a.parts_[p] + b.parts_[p];
+        return r;
     }
-    friend lanes operator-(lanes const& a, lanes const& b) {
-        return each([&](std::size_t p) { return a.parts_[p] - b.parts_[p]; });
+    [[gnu::always_inline]] friend lanes operator-(lanes const& a, lanes const& b) {
+        lanes r;
+        for (std::size_t p = 0; p < parts; ++p) r.parts_[p] = a.parts_[p] - b.parts_[p];
+        return r;
     }
-    friend lanes operator*(lanes const& a, lanes const& b) {
-        return each([&](std::size_t p) { return a.parts_[p] * b.parts_[p]; });
+    [[gnu::always_inline]] friend lanes operator*(lanes const& a, lanes const& b) {
+        lanes r;
+        for (std::size_t p = 0; p < parts; ++p) r.parts_[p] = a.parts_[p] * b.parts_[p];
+        return r;
     }
-    friend lanes operator/(lanes const& a, lanes const& b) {
-        return each([&](std::size_t p) { return a.parts_[p] / b.parts_[p]; });
+    [[gnu::always_inline]] friend lanes operator/(lanes const& a, lanes const& b) {
+        lanes r;
+        for (std::size_t p = 0; p < parts; ++p) r.parts_[p] = a.parts_[p] / b.parts_[p];
+        return r;
     }
-    friend lanes operator-(lanes const& a) {
-        return each([&](std::size_t p) { return -a.parts_[p]; });
+    [[gnu::always_inline]] friend lanes operator-(lanes const& a) {
+        lanes r;
+        for (std::size_t p = 0; p < parts; ++p) r.parts_[p] = -a.parts_[p];
+        return r;
     }
-    friend mask operator<(lanes const& a, lanes const& b) {
-        return where([&](std::size_t p) { return a.parts_[p] < b.parts_[p]; });
+    [[gnu::always_inline]] friend mask operator<(lanes const& a, lanes const& b) {
+        std::uint64_t bits = 0;
+        for (std::size_t p = 0; p < parts; ++p) bits |= signs(a.parts_[p] < b.parts_[p], p);
+        return mask::from_bits(bits);
+    }
+    [[gnu::always_inline]] friend mask operator<=(lanes const& a, lanes const& b) {
+        std::uint64_t bits = 0;
+        for (std::size_t p = 0; p < parts; ++p) bits |= signs(a.parts_[p] <= b.parts_[p], p);
+        return mask::from_bits(bits);
+    }
+    [[gnu::always_inline]] friend mask operator==(lanes const& a, lanes const& b) {
+        std::uint64_t bits = 0;
+        for (std::size_t p = 0; p < parts; ++p) bits |= signs(a.parts_[p] == b.parts_[p], p);
+        return mask::from_bits(bits);
     }
     friend mask operator>(lanes const& a, lanes const& b) { return b < a; }
-    friend mask operator<=(lanes const& a, lanes const& b) {
-        return where([&](std::size_t p) { return a.parts_[p] <= b.parts_[p]; });
-    }
     friend mask operator>=(lanes const& a, lanes const& b) { return b <= a; }
-    friend mask operator==(lanes const& a, lanes const& b) {
-        return where([&](std::size_t p) { return a.parts_[p] == b.parts_[p]; });
-    }
-    [[nodiscard]] static lanes abs(lanes const& a) {
-        return each([&](std::size_t p) {
+
+    [[nodiscard, gnu::always_inline]] static lanes abs(lanes const& a) {
+        lanes r;
+        for (std::size_t p = 0; p < parts; ++p) {
             auto const bits = std::bit_cast<lanes_detail::vector_mask>(a.parts_[p]);
-            return std::bit_cast<vector>(bits & std::numeric_limits<std::int64_t>::max());
-        });
+            r.parts_[p] = std::bit_cast<vector>(bits & std::numeric_limits<std::int64_t>::max());
+        }
+        return r;
     }
     /// The second operand where one of them is NaN.
-    [[nodiscard]] static lanes max(lanes const& a, lanes const& b) {
-        return each([&](std::size_t p) -> vector {
-            return a.parts_[p] > b.parts_[p] ? a.parts_[p] : b.parts_[p];
-        });
+    [[nodiscard, gnu::always_inline]] static lanes max(lanes const& a, lanes const& b) {
+        lanes r;
+        for (std::size_t p = 0; p < parts; ++p) {
+            r.parts_[p] = a.parts_[p] > b.parts_[p] ? a.parts_[p] : b.parts_[p];
+        }
+        return r;
     }
-    [[nodiscard]] static lanes min(lanes const& a, lanes const& b) {
-        return each([&](std::size_t p) -> vector {
-            return a.parts_[p] < b.parts_[p] ? a.parts_[p] : b.parts_[p];
-        });
+    [[nodiscard, gnu::always_inline]] static lanes min(lanes const& a, lanes const& b) {
+        lanes r;
+        for (std::size_t p = 0; p < parts; ++p) {
+            r.parts_[p] = a.parts_[p] < b.parts_[p] ? a.parts_[p] : b.parts_[p];
+        }
+        return r;
     }
-    [[nodiscard]] static lanes select(mask m, lanes const& a, lanes const& b) {
-        return each([&](std::size_t p) -> vector {
+    [[nodiscard, gnu::always_inline]] static lanes select(mask m, lanes const& a, lanes const& b) {
+        lanes r;
+        for (std::size_t p = 0; p < parts; ++p) {
             auto const bits = static_cast<std::int64_t>(m.bits() >> (p * lanes_detail::per_vector));
             auto const chosen = (lanes_detail::lane_bits() & bits) != 0;
-            return chosen ? a.parts_[p] : b.parts_[p];
-        });
+            r.parts_[p] = chosen ? a.parts_[p] : b.parts_[p];
+        }
+        return r;
     }
 
 private:
-    template <class F>
-    static lanes each(F const& f) {
-        lanes result;
-        [&]<std::size_t... P>(std::index_sequence<P...>) { ((result.parts_[P] = f(P)), ...); }
-        (std::make_index_sequence<parts>{});
-        return result;
-    }
-    template <class F>
-    static mask where(F const& f) {
-        std::uint64_t bits = 0;
-        for (std::size_t p = 0; p < parts; ++p) {
-            bits |= lanes_detail::sign_bits(f(p)) << (p * lanes_detail::per_vector);
-        }
-        return mask::from_bits(bits);
+    static std::uint64_t signs(lanes_detail::vector_mask m, std::size_t p) {
+        return lanes_detail::sign_bits(m) << (p * lanes_detail::per_vector);
     }
     std::array<vector, parts> parts_;
 };

@@ -72,49 +72,95 @@ public:
 
     [[nodiscard]] assessment<knowledge> operator()(box const& parameters,
                                                    std::shared_ptr<knowledge const> const& known) {
+        auto result = judge(parameters, known);
+        return result.blind ? std::move(learn({parameters})[0]) : result;
+    }
+
+    /// Decides and contracts by what is known, without integrating.
+    [[nodiscard]] assessment<knowledge> judge(box const& parameters,
+                                              std::shared_ptr<knowledge const> const& known) const {
         assessment<knowledge> result{.rest = parameters};
         if (known && options_.contract && subset(parameters, known->region)) {
             double const share = judge(*known, result);
-            if (result.verdict != box_verdict::undecided || share <= options_.sharp_enough) {
-                result.knowledge = known;
-                return result;
-            }
+            result.blind =
+                result.verdict == box_verdict::undecided && !(share <= options_.sharp_enough);
+            if (!result.blind) result.knowledge = known;
+            return result;
         }
-        auto found = std::make_shared<knowledge>();
-        found->region = parameters;
-        result.smear.assign(parameters.size(), 0.0);
-        for (std::size_t e = 0; e < flows_.size(); ++e) {
-            auto const& all = problem_->experiments[e].initial;
-            // What earlier experiments cut off need not be integrated, if it is worth the narrower
-            // use.
-            if (relative_volume(result.rest, found->region).upper() < 0.5) {
-                found->region = result.rest;
-            }
-            auto answer = run(e, all, found->region);
-            auto part = result.rest;
-            auto const says = assess(*answer, part);
-            if (says.refuted) {
-                result.verdict = box_verdict::outside;
-                return result;
-            }
-            if (options_.contract) result.rest = std::move(part);
-            add_smear(result, says.smear);
-            if (!is_point(all) && starts_differ(e)) {
-                // Not worth a run where the parameters alone spread the outputs too far.
-                bool const hopeless = says.explained || !says.may_hold;
-                found->chosen_starts.push_back(hopeless ? answer
-                                                        : run(e, starts_[e], found->region));
-            } else {
-                found->chosen_starts.push_back(answer);
-            }
-            found->all_starts.push_back(std::move(answer));
-        }
-        // `rest` may have shrunk since an experiment was judged.
-        auto smear = std::move(result.smear);
-        judge(*found, result);
-        result.smear = std::move(smear);
-        result.knowledge = std::move(found);
+        result.blind = true;
         return result;
+    }
+
+    /// Integrates over each of the boxes, then decides and contracts.
+    [[nodiscard]] std::vector<assessment<knowledge>> learn(std::vector<box> const& boxes) {
+        std::vector<assessment<knowledge>> results;
+        std::vector<std::shared_ptr<knowledge>> found;
+        std::vector<std::size_t> open; // boxes that no experiment has refuted
+        for (auto const& x : boxes) {
+            open.push_back(results.size());
+            results.push_back({.rest = x});
+            results.back().smear.assign(x.size(), 0.0);
+            found.push_back(std::make_shared<knowledge>());
+            found.back()->region = x;
+        }
+        for (std::size_t e = 0; e < flows_.size() && !open.empty(); ++e) {
+            std::vector<box> regions;
+            for (auto const k : open) {
+                // What earlier experiments cut off need not be integrated, if it is worth the
+                // narrower use.
+                auto& region = found[k]->region;
+                if (relative_volume(results[k].rest, region).upper() < 0.5) {
+                    region = results[k].rest;
+                }
+                regions.push_back(region);
+            }
+            auto const& all = problem_->experiments[e].initial;
+            auto const answers = run(e, all, regions);
+            bool const start_matters = !is_point(all) && starts_differ(e);
+            std::vector<std::size_t> still_open;
+            std::vector<box> promising;
+            std::vector<std::size_t> whose;
+            for (std::size_t n = 0; n < open.size(); ++n) {
+                auto const k = open[n];
+                auto part = results[k].rest;
+                auto const says = assess(*answers[n], part);
+                found[k]->all_starts.push_back(answers[n]);
+                found[k]->chosen_starts.push_back(answers[n]);
+                if (says.refuted) {
+                    results[k].verdict = box_verdict::outside;
+                    continue;
+                }
+                if (options_.contract) results[k].rest = std::move(part);
+                add_smear(results[k], says.smear);
+                still_open.push_back(k);
+                // Not worth a run where the parameters alone spread the outputs too far.
+                if (start_matters && !says.explained && says.may_hold) {
+                    promising.push_back(found[k]->region);
+                    whose.push_back(k);
+                }
+            }
+            if (!promising.empty()) {
+                auto const chosen = run(e, starts_[e], promising);
+                for (std::size_t n = 0; n < whose.size(); ++n) {
+                    found[whose[n]]->chosen_starts.back() = chosen[n];
+                }
+            }
+            open = std::move(still_open);
+        }
+        for (auto const k : open) {
+            // `rest` may have shrunk since an experiment was judged.
+            auto smear = std::move(results[k].smear);
+            (void)judge(*found[k], results[k]);
+            results[k].smear = std::move(smear);
+            results[k].knowledge = std::move(found[k]);
+        }
+        return results;
+    }
+    /// How many boxes are best given together.
+    [[nodiscard]] std::size_t at_once() const {
+        std::size_t most = 1;
+        for (auto const& r : runs_) most = std::max(most, r->at_once());
+        return most;
     }
 
     /// One experiment at a point, by the options for witnesses.
@@ -127,11 +173,15 @@ public:
             make_run(*flows_[e], experiment, records_[e], problem_->prior, options_.witness);
         return (*point)(point_box(initial), point_box(parameters));
     }
-    /// One experiment over a box of starts and parameters.
+    /// One experiment over boxes of starts and parameters.
+    [[nodiscard]] std::vector<std::shared_ptr<response const>>
+    run(std::size_t e, box const& initial, std::vector<box> const& parameters) {
+        integrations_ += parameters.size();
+        return (*runs_[e])(initial, parameters);
+    }
     [[nodiscard]] std::shared_ptr<response const> run(std::size_t e, box const& initial,
                                                       box const& parameters) {
-        ++integrations_;
-        return (*runs_[e])(initial, parameters);
+        return run(e, initial, std::vector<box>{parameters})[0];
     }
 
 private:

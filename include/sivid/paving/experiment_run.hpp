@@ -9,11 +9,13 @@
 #include <sivid/paving/response.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -40,39 +42,57 @@ struct run_options {
 class experiment_run {
 public:
     virtual ~experiment_run() = default;
-    /// @returns the outputs that were reached; fewer than all when the enclosure failed, became
-    ///          hopeless, or more measurements than allowed already fail for the whole box
-    [[nodiscard]] virtual std::shared_ptr<response const> operator()(box const& initial,
-                                                                     box const& parameters) = 0;
+    /// @returns for each box of parameters the outputs that were reached; fewer than all when the
+    ///          enclosure failed, became hopeless, or more measurements than allowed already fail
+    ///          for the whole box
+    [[nodiscard]] virtual std::vector<std::shared_ptr<response const>>
+    operator()(box const& initial, std::vector<box> const& parameters) = 0;
+    [[nodiscard]] std::shared_ptr<response const> operator()(box const& initial,
+                                                             box const& parameters) {
+        return (*this)(initial, std::vector<box>{parameters})[0];
+    }
+    /// How many boxes are best given together.
+    [[nodiscard]] virtual std::size_t at_once() const { return 1; }
 };
 
 namespace paving_detail {
 
-/// Walks through the measurements of a record in time, group by group.
-/// @param reach    (t) -> bool: integrates to t
-/// @param outputs  () -> the outputs at the current time
-/// @param keep     (output of a channel, bound) -> {certainly fails, hopeless}
+/// What an output says of a measurement.
 struct kept_output {
     bool fails = false;
     bool hopeless = false;
 };
-template <class Reach, class Outputs, class Keep>
-void walk(record const& samples, std::size_t allowed, Reach&& reach, Outputs&& outputs,
-          Keep&& keep) {
-    std::size_t failed = 0;
-    for (std::size_t i = 0; i < samples.size();) {
-        double const t = samples[i].time;
-        if (!reach(t)) return;
-        auto const seen = outputs();
+
+/// The place of one run in the measurements of a record, which are met group by group in time.
+class measurement_walk {
+public:
+    measurement_walk(record const& samples, std::size_t allowed)
+        : samples_(&samples), allowed_(allowed) {}
+
+    [[nodiscard]] bool done() const { return over_ || next_ >= samples_->size(); }
+    /// Time of the next measurements.
+    [[nodiscard]] double time() const { return (*samples_)[next_].time; }
+    /// Takes the measurements of the present time.
+    /// @param keep  (channel, bound) -> kept_output
+    template <class Keep>
+    void take(Keep&& keep) {
+        double const t = time();
         bool hopeless = true;
-        for (; i < samples.size() && samples[i].time == t; ++i) {
-            auto const verdict = keep(seen[samples[i].channel], samples[i].bound);
-            failed += verdict.fails ? 1 : 0;
+        for (; next_ < samples_->size() && (*samples_)[next_].time == t; ++next_) {
+            auto const verdict = keep((*samples_)[next_].channel, (*samples_)[next_].bound);
+            failed_ += verdict.fails ? 1 : 0;
             hopeless = hopeless && verdict.hopeless;
         }
-        if (failed > allowed || hopeless) return;
+        over_ = failed_ > allowed_ || hopeless;
     }
-}
+
+private:
+    record const* samples_;
+    std::size_t allowed_;
+    std::size_t next_ = 0;
+    std::size_t failed_ = 0;
+    bool over_ = false;
+};
 
 [[nodiscard]] inline std::shared_ptr<response> start_response(experiment const& e,
                                                               record const& samples,
@@ -82,6 +102,7 @@ void walk(record const& samples, std::size_t allowed, Reach&& reach, Outputs&& o
         normalised_unknowns(initial, parameters), nullptr, {}, {}, {}, samples.size(), e.outliers});
 }
 
+/// Taylor models in lanes: a lane that is done takes the next box.
 template <std::size_t N, std::size_t D>
 class taylor_run final : public experiment_run {
 public:
@@ -89,17 +110,86 @@ public:
                run_options const& options)
         : experiment_(&e), samples_(&samples), options_(options), flow_(f, options.enclosure) {}
 
-    std::shared_ptr<response const> operator()(box const& initial, box const& parameters) override {
-        using traits = interval_traits<interval>;
+    using experiment_run::operator();
+    [[nodiscard]] std::size_t at_once() const override { return width; }
+
+    std::vector<std::shared_ptr<response const>>
+    operator()(box const& initial, std::vector<box> const& parameters) override {
+        std::vector<std::shared_ptr<response const>> answers(parameters.size());
+        std::array<std::optional<lane>, width> lanes;
+        for (std::size_t l = 0; l < width; ++l) flow_.end(l);
+        std::size_t next = 0;
+        std::size_t in_work = 0;
+        while (next < parameters.size() || in_work > 0) {
+            scalar limit(experiment_->begin);
+            for (std::size_t l = 0; l < width; ++l) {
+                while (!lanes[l] && next < parameters.size()) {
+                    lanes[l] = begin(l, next, initial, parameters[next]);
+                    ++next;
+                    ++in_work;
+                    if (!lanes[l]->walk.done()) continue;
+                    answers[lanes[l]->box] = std::move(*lanes[l]).finish();
+                    lanes[l].reset();
+                    --in_work;
+                }
+                if (lanes[l]) lane_traits<scalar>::put(limit, l, lanes[l]->walk.time());
+            }
+            (void)flow_.advance(limit);
+            std::vector<taylor_model<N, D, scalar>> seen;
+            for (std::size_t l = 0; l < width; ++l) {
+                if (!lanes[l]) continue;
+                auto& mine = *lanes[l];
+                bool over = flow_.failure(l).has_value();
+                while (!over && !mine.walk.done() && !(flow_.time(l) < mine.walk.time())) {
+                    if (seen.empty()) seen = flow_.outputs();
+                    mine.walk.take([&](std::size_t channel, interval const& bound) {
+                        return mine.keep(lane_of(seen[channel], l), bound, options_.hopeless);
+                    });
+                }
+                if (!over && !mine.walk.done()) continue;
+                answers[mine.box] = std::move(mine).finish();
+                lanes[l].reset();
+                flow_.end(l);
+                --in_work;
+            }
+        }
+        return answers;
+    }
+
+private:
+    using scalar = lanes<8>;
+    static constexpr std::size_t width = lane_traits<scalar>::count;
+
+    /// What is known of the box in one lane.
+    struct lane {
+        std::size_t box = 0;
+        measurement_walk walk;
+        std::shared_ptr<response> answer;
+        std::vector<std::size_t> place; ///< of the used monomials among all
+        response_builder collected;
+
+        kept_output keep(taylor_model<N, D> const& y, interval const& bound, double hopeless) {
+            collected.add([&](std::size_t m) { return y.c[place[m]]; }, y.r, bound);
+            auto const value = rough_range(y);
+            double const known = 2 * y.spread() + sivid::width(bound);
+            return {interval_traits<interval>::disjoint(value, bound),
+                    !(2 * y.r <= hopeless * known)};
+        }
+        std::shared_ptr<response const> finish() && {
+            std::move(collected).finish(*answer);
+            return answer;
+        }
+    };
+
+    lane begin(std::size_t l, std::size_t index, box const& initial, box const& parameters) {
         auto answer = start_response(*experiment_, *samples_, initial, parameters);
-        flow_.begin(experiment_->begin, initial, parameters);
+        flow_.begin(l, experiment_->begin, initial, parameters);
         auto& table = tables_[answer->unknowns.variables];
         if (!table) {
             table = std::make_shared<monomial_table const>(
                 monomial_table::of<N, D>(answer->unknowns.variables));
         }
         answer->table = table;
-        // Positions of the used monomials among all.
         std::vector<std::size_t> place;
         for (std::size_t m = 0; m < monomials<N, D>::count; ++m) {
             auto const& exponents = monomials<N, D>::data.exponents[m];
@@ -108,32 +198,16 @@ public:
                 place.push_back(m);
             }
         }
-        response_builder collected(place.size());
-        walk(
-            *samples_, answer->allowed,
-            [&](double t) {
-                while (flow_.time() < t) {
-                    if (!flow_.step(t)) return false;
-                }
-                return true;
-            },
-            [&] { return flow_.outputs(); },
-            [&](taylor_model<N, D> const& y, interval const& bound) {
-                collected.add([&](std::size_t m) { return y.c[place[m]]; }, y.r, bound);
-                auto const value = rough_range(y);
-                double const known = 2 * y.spread() + width(bound);
-                return kept_output{traits::disjoint(value, bound),
-                                   !(2 * y.r <= options_.hopeless * known)};
-            });
-        std::move(collected).finish(*answer);
-        return answer;
+        auto const terms = place.size();
+        auto const allowed = answer->allowed;
+        return {index, measurement_walk(*samples_, allowed), std::move(answer), std::move(place),
+                response_builder(terms)};
     }
 
-private:
     experiment const* experiment_;
     record const* samples_;
     run_options options_;
-    parametric_flow<N, D> flow_;
+    parametric_flow<N, D, scalar> flow_;
     std::map<std::size_t, std::shared_ptr<monomial_table const>> tables_;
 };
 
@@ -147,7 +221,17 @@ public:
           run_(f, options.enclosure),
           look_(f) {}
 
-    std::shared_ptr<response const> operator()(box const& initial, box const& parameters) override {
+    using experiment_run::operator();
+
+    std::vector<std::shared_ptr<response const>>
+    operator()(box const& initial, std::vector<box> const& parameters) override {
+        std::vector<std::shared_ptr<response const>> answers;
+        for (auto const& p : parameters) answers.push_back(run_one(initial, p));
+        return answers;
+    }
+
+private:
+    std::shared_ptr<response const> run_one(box const& initial, box const& parameters) {
         using traits = interval_traits<interval>;
         auto answer = start_response(*experiment_, *samples_, initial, parameters);
         auto const& u = answer->unknowns;
@@ -157,45 +241,45 @@ public:
         response_builder collected(answer->table->size());
         auto const& deviation = run_.ensemble().deviation;
         auto const n = initial.size();
-        walk(
-            *samples_, answer->allowed,
-            [&](double t) {
-                while (run_.time() < t) {
-                    if (!run_.step(t)) return false;
+        auto const keep = [&](observation<interval> const& y, interval const& bound) {
+            // y = gradient . r + rest, r = radius * q; sides without a variable join the rest.
+            std::vector<double> c(u.variables + 1, 0.0);
+            auto rest = y.defined ? y.rest : traits::entire();
+            double affine = 0;
+            for (std::size_t k = 0; k < y.gradient.size(); ++k) {
+                auto const& side = k < n ? u.initial[k] : u.parameters[k - n];
+                auto const g = traits::point(y.gradient[k]);
+                if (side.radius == 0) {
+                    rest = traits::add(rest, traits::mul(g, deviation[k]));
+                    continue;
                 }
-                return true;
-            },
-            [&] { return look_(run_.set()); },
-            [&](observation<interval> const& y, interval const& bound) {
-                // y = gradient . r + rest, r = radius * q; sides without a variable join the rest.
-                std::vector<double> c(u.variables + 1, 0.0);
-                auto rest = y.defined ? y.rest : traits::entire();
-                double affine = 0;
-                for (std::size_t k = 0; k < y.gradient.size(); ++k) {
-                    auto const& side = k < n ? u.initial[k] : u.parameters[k - n];
-                    auto const g = traits::point(y.gradient[k]);
-                    if (side.radius == 0) {
-                        rest = traits::add(rest, traits::mul(g, deviation[k]));
-                        continue;
-                    }
-                    auto const exact = traits::mul(g, traits::point(side.radius));
-                    c[1 + side.variable] = mid(exact);
-                    affine += std::abs(mid(exact));
-                    auto const lost = rad(exact);
-                    rest = traits::add(rest, traits::bounds(-lost, lost));
-                }
-                c[0] = mid(rest);
-                double const radius = rad(rest);
-                collected.add([&](std::size_t m) { return c[m]; }, radius, bound);
-                bool const fails = y.defined && traits::disjoint(y.value, bound);
-                return kept_output{
-                    fails, !(2 * radius <= options_.hopeless * (2 * affine + width(bound)))};
+                auto const exact = traits::mul(g, traits::point(side.radius));
+                c[1 + side.variable] = mid(exact);
+                affine += std::abs(mid(exact));
+                auto const lost = rad(exact);
+                rest = traits::add(rest, traits::bounds(-lost, lost));
+            }
+            c[0] = mid(rest);
+            double const radius = rad(rest);
+            collected.add([&](std::size_t m) { return c[m]; }, radius, bound);
+            bool const fails = y.defined && traits::disjoint(y.value, bound);
+            return kept_output{fails,
+                               !(2 * radius <= options_.hopeless * (2 * affine + width(bound)))};
+        };
+        measurement_walk walk(*samples_, answer->allowed);
+        while (!walk.done()) {
+            bool reached = true;
+            while (reached && run_.time() < walk.time()) reached = run_.step(walk.time());
+            if (!reached) break;
+            auto const seen = look_(run_.set());
+            walk.take([&](std::size_t channel, interval const& bound) {
+                return keep(seen[channel], bound);
             });
+        }
         std::move(collected).finish(*answer);
         return answer;
     }
 
-private:
     static monomial_table linear_table(std::size_t variables) {
         monomial_table t;
         t.variables = variables;

@@ -167,6 +167,53 @@ template <set_test Test>
     auto const decide = [&](box x, box_verdict v) {
         if (v != box_verdict::outside || options.keep_outside) paving.add(std::move(x), v);
     };
+    using item = typename paving_detail::frontier<knowledge>::item;
+    // What a test found about a box goes into the paving, and its parts wait.
+    auto const settle = [&](item of, auto found) {
+        auto& x = of.set;
+        if (found.verdict == box_verdict::outside || is_empty(found.rest)) {
+            decide(std::move(x), box_verdict::outside);
+            return;
+        }
+        for (auto& cut : difference(x, found.rest)) decide(std::move(cut), box_verdict::outside);
+        if (found.verdict == box_verdict::inside) {
+            decide(std::move(found.rest), box_verdict::inside);
+            return;
+        }
+        // A box that shrank much is worth another look before it is split.
+        double const after = volume(found.rest);
+        if (after < 0.5 * of.volume && after > 0) {
+            waiting.push(std::move(found.rest), after, std::move(found.knowledge));
+            return;
+        }
+        auto const side =
+            paving_detail::side_to_split(found.rest, prior, found.smear, options.accuracy);
+        if (!side) {
+            result.reason = stop_reason::accuracy_reached;
+            decide(std::move(found.rest), box_verdict::undecided);
+            return;
+        }
+        auto [low, high] = bisect(found.rest, *side, mid(found.rest[*side]));
+        double const low_volume = volume(low);
+        double const high_volume = volume(high);
+        waiting.push(std::move(low), low_volume, found.knowledge);
+        waiting.push(std::move(high), high_volume, std::move(found.knowledge));
+    };
+    // Replaces every box by its halves; false when one cannot be split.
+    [[maybe_unused]] auto const halve = [&](std::vector<item>& items) {
+        std::vector<item> halves;
+        for (auto const& i : items) {
+            auto const side = paving_detail::side_to_split(i.set, prior, {}, options.accuracy);
+            if (!side) return false;
+            auto [low, high] = bisect(i.set, *side, mid(i.set[*side]));
+            for (auto* half : {&low, &high}) {
+                double const size = volume(*half);
+                halves.push_back({std::move(*half), i.known, size, i.rank, i.age});
+            }
+        }
+        items = std::move(halves);
+        return true;
+    };
     waiting.push(prior, 1, nullptr);
     while (!waiting.empty()) {
         double const inner = paving.inner_volume().upper();
@@ -188,36 +235,41 @@ template <set_test Test>
             while (!waiting.empty()) paving.add(waiting.pop().set, box_verdict::pending);
             break;
         }
-        auto [x, known, size, rank, age] = waiting.pop();
-        auto found = assess(x, known);
-        ++result.tested;
-        if (found.verdict == box_verdict::outside || is_empty(found.rest)) {
-            decide(std::move(x), box_verdict::outside);
-            continue;
+        auto next = waiting.pop();
+        if constexpr (batch_set_test<Test>) {
+            auto found = test.judge(next.set, next.known);
+            if (!found.blind) {
+                ++result.tested;
+                settle(std::move(next), std::move(found));
+                continue;
+            }
+            // Boxes that are blind too are learnt about together.
+            std::vector<item> blind, others;
+            blind.push_back(std::move(next));
+            auto const wanted = test.at_once();
+            for (std::size_t looked = 0;
+                 looked < 2 * wanted && blind.size() < wanted && !waiting.empty(); ++looked) {
+                auto other = waiting.pop();
+                bool const also = test.judge(other.set, other.known).blind;
+                (also ? blind : others).push_back(std::move(other));
+            }
+            for (auto& i : others) waiting.push(std::move(i.set), i.volume, std::move(i.known));
+            // While there are few the search has just begun: halves are more use than wholes.
+            while (options.order == search_order::largest_first && 2 * blind.size() <= wanted &&
+                   halve(blind)) {
+            }
+            std::vector<box> sets;
+            for (auto const& i : blind) sets.push_back(i.set);
+            auto learnt = test.learn(sets);
+            for (std::size_t k = 0; k < blind.size(); ++k) {
+                ++result.tested;
+                settle(std::move(blind[k]), std::move(learnt[k]));
+            }
+        } else {
+            auto found = assess(next.set, next.known);
+            ++result.tested;
+            settle(std::move(next), std::move(found));
         }
-        for (auto& cut : difference(x, found.rest)) decide(std::move(cut), box_verdict::outside);
-        if (found.verdict == box_verdict::inside) {
-            decide(std::move(found.rest), box_verdict::inside);
-            continue;
-        }
-        // A box that shrank much is worth another look before it is split.
-        double const after = volume(found.rest);
-        if (after < 0.5 * size && after > 0) {
-            waiting.push(std::move(found.rest), after, std::move(found.knowledge));
-            continue;
-        }
-        auto const side =
-            paving_detail::side_to_split(found.rest, prior, found.smear, options.accuracy);
-        if (!side) {
-            result.reason = stop_reason::accuracy_reached;
-            decide(std::move(found.rest), box_verdict::undecided);
-            continue;
-        }
-        auto [low, high] = bisect(found.rest, *side, mid(found.rest[*side]));
-        double const low_volume = volume(low);
-        double const high_volume = volume(high);
-        waiting.push(std::move(low), low_volume, found.knowledge);
-        waiting.push(std::move(high), high_volume, std::move(found.knowledge));
     }
     result.seconds = elapsed();
     return result;

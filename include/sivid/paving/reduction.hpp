@@ -146,12 +146,13 @@ public:
 
     [[nodiscard]] assessment<knowledge> operator()(box const& p,
                                                    std::shared_ptr<knowledge const> const& given) {
-        assessment<knowledge> result{.rest = p};
+        auto result = judge(p, given);
+        return result.blind ? std::move(learn({p})[0]) : result;
+    }
+    [[nodiscard]] assessment<knowledge> judge(box const& p,
+                                              std::shared_ptr<knowledge const> const& given) const {
         auto const r = map_->forward(p);
-        if (is_empty(r)) {
-            result.verdict = box_verdict::outside;
-            return result;
-        }
+        if (is_empty(r)) return {.verdict = box_verdict::outside, .rest = p};
         // The way back keeps a little more than the region that `given` speaks of.
         auto known = given && subset(r, given->region) ? given : nullptr;
         double least = HUGE_VAL;
@@ -161,15 +162,33 @@ public:
                 known = what;
             }
         }
-        auto found = (*inner_)(r, known);
-        if (found.knowledge && found.knowledge != known) {
-            shared_.emplace_back(
-                relative_volume(found.knowledge->region, map_->problem().prior).upper(),
-                found.knowledge);
+        return mapped_back(p, r, inner_->judge(r, known));
+    }
+    [[nodiscard]] std::vector<assessment<knowledge>> learn(std::vector<box> const& boxes) {
+        std::vector<box> images;
+        for (auto const& p : boxes) images.push_back(map_->forward(p));
+        auto found = inner_->learn(images);
+        std::vector<assessment<knowledge>> results;
+        for (std::size_t k = 0; k < boxes.size(); ++k) {
+            if (found[k].knowledge) {
+                shared_.emplace_back(
+                    relative_volume(found[k].knowledge->region, map_->problem().prior).upper(),
+                    found[k].knowledge);
+            }
+            results.push_back(mapped_back(boxes[k], images[k], std::move(found[k])));
         }
+        return results;
+    }
+    [[nodiscard]] std::size_t at_once() const { return inner_->at_once(); }
+
+private:
+    [[nodiscard]] assessment<knowledge> mapped_back(box const& p, box const& r,
+                                                    assessment<knowledge> found) const {
+        assessment<knowledge> result{.rest = p};
         result.verdict = found.verdict;
         result.knowledge = std::move(found.knowledge);
-        if (found.verdict == box_verdict::outside) return result;
+        result.blind = found.blind;
+        if (found.verdict == box_verdict::outside || found.blind) return result;
         result.smear = map_->smear(p, r, found.smear);
         // Inside holds for the contracted part only, and the map back keeps a little more than
         // that.
@@ -183,7 +202,6 @@ public:
         return result;
     }
 
-private:
     Inner* inner_;
     reduction const* map_;
     /// Everything that was computed, with the relative volume of its region.

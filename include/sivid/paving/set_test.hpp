@@ -26,6 +26,8 @@ struct assessment {
     /// first. Empty: the side that is widest against the prior.
     std::vector<double> smear = {};
     std::shared_ptr<Knowledge const> knowledge = nullptr;
+    /// What was known did not suffice to say more; the test could learn about this box.
+    bool blind = false;
 };
 
 /// A test of boxes against a set: sound verdicts and a sound contraction, completeness not
@@ -41,6 +43,17 @@ template <class T>
 concept learning_set_test = requires(T test, box const& x,
                                      std::shared_ptr<typename T::knowledge const> const& known) {
     { test(x, known) } -> std::same_as<assessment<typename T::knowledge>>;
+};
+
+/// A learning test that separates judging by what is known, which is cheap, from learning, which
+/// it does for several boxes at once.
+template <class T>
+concept batch_set_test = learning_set_test<T> &&
+    requires(T test, box const& x, std::shared_ptr<typename T::knowledge const> const& known,
+             std::vector<box> const& several) {
+    { test.judge(x, known) } -> std::same_as<assessment<typename T::knowledge>>;
+    { test.learn(several) } -> std::same_as<std::vector<assessment<typename T::knowledge>>>;
+    { test.at_once() } -> std::convertible_to<std::size_t>;
 };
 
 template <class T>
