@@ -69,12 +69,13 @@ struct monomial_builder {
             }
         }
         t.first[D + 1] = next;
+        auto const before = vectors_before();
         std::array<product, products> triples{};
         std::array<std::size_t, count> lengths{};
         std::size_t k = 0;
         for (std::size_t i = 0; i < count; ++i) {
             for (std::size_t j = 0; j < t.first[D - t.degree[i] + 1]; ++j) {
-                auto const m = find(t, i, j);
+                auto const m = find(t, before, i, j);
                 triples[k++] = {static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(j),
                                 static_cast<std::uint16_t>(m)};
                 ++lengths[m];
@@ -97,23 +98,30 @@ struct monomial_builder {
     }
 
 private:
-    /// Index of the product of monomials i and j: the rank of its exponents within its degree.
-    static constexpr std::size_t find(table const& t, std::size_t i, std::size_t j) {
-        std::array<std::size_t, N> e{};
-        std::size_t d = 0;
-        for (std::size_t v = 0; v < N; ++v) {
-            e[v] = static_cast<std::size_t>(t.exponents[i][v]) + t.exponents[j][v];
-            d += e[v];
-        }
-        // Before it stand the exponent vectors that are larger in the first place that differs.
-        std::size_t rank = t.first[d];
-        std::size_t rest = d;
+    /// [v][rest][e]: of the exponent vectors with a given head, so many with `rest` to share among
+    /// v and the variables behind it, and more than e at v. They stand before.
+    using ranks = std::array<std::array<std::array<std::size_t, D + 1>, D + 1>, N>;
+    static constexpr ranks vectors_before() {
+        ranks before{};
         for (std::size_t v = 0; v + 1 < N; ++v) {
-            // vectors with the same head and more than e[v] at v
-            for (std::size_t more = e[v] + 1; more <= rest; ++more) {
-                rank += binomial(rest - more + N - v - 2, N - v - 2);
+            for (std::size_t rest = 0; rest <= D; ++rest) {
+                for (std::size_t e = rest; e-- > 0;) {
+                    before[v][rest][e] =
+                        before[v][rest][e + 1] + binomial(rest - e - 1 + N - v - 2, N - v - 2);
+                }
             }
-            rest -= e[v];
+        }
+        return before;
+    }
+    /// Index of the product of monomials i and j: the rank of its exponents within its degree.
+    static constexpr std::size_t find(table const& t, ranks const& before, std::size_t i,
+                                      std::size_t j) {
+        std::size_t rest = static_cast<std::size_t>(t.degree[i]) + t.degree[j];
+        std::size_t rank = t.first[rest];
+        for (std::size_t v = 0; v + 1 < N; ++v) {
+            std::size_t const e = static_cast<std::size_t>(t.exponents[i][v]) + t.exponents[j][v];
+            rank += before[v][rest][e];
+            rest -= e;
         }
         return rank;
     }

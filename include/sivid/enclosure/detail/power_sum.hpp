@@ -61,6 +61,7 @@ template <std::size_t E, std::size_t N, std::size_t D, class C, class Coefficien
         for (std::size_t m = 0; m < model::terms; ++m) {
             for (std::size_t j = 0; j <= E; ++j) {
                 map[m][j] = result_type::terms;
+                if (narrow.degree[m] + j > E) continue;
                 for (std::size_t k = 0; k < result_type::terms; ++k) {
                     bool same = wide.exponents[k][N] == j;
                     for (std::size_t v = 0; v < N && same; ++v) {

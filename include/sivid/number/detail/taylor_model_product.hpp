@@ -38,15 +38,28 @@ public:
     }
 
 private:
-    // Unrolled: the positions are constants of the instructions.
+    /// Products up to so many are unrolled: the positions are constants of the instructions.
+    static constexpr std::size_t unrolled = 500;
+
     template <class Sum, class A, class B, std::size_t... K>
     [[gnu::always_inline]] static inline void multiply(Sum const& sum, A const& a, B const& b,
                                                        double factor, std::index_sequence<K...>) {
-        ((sum(K) +=
-          factor *
-          coefficient<table::data.sum[K]>(
-              a, b, std::make_index_sequence<table::data.sum[K + 1] - table::data.sum[K]>{})),
-         ...);
+        if constexpr (table::products > unrolled) {
+            for (std::size_t k = 0; k < terms; ++k) {
+                std::size_t p = table::data.sum[k];
+                auto total = a(table::data.pairs[p].left) * b(table::data.pairs[p].right);
+                for (++p; p < table::data.sum[k + 1]; ++p) {
+                    total += a(table::data.pairs[p].left) * b(table::data.pairs[p].right);
+                }
+                sum(k) += factor * total;
+            }
+        } else {
+            ((sum(K) +=
+              factor *
+              coefficient<table::data.sum[K]>(
+                  a, b, std::make_index_sequence<table::data.sum[K + 1] - table::data.sum[K]>{})),
+             ...);
+        }
     }
     template <std::size_t First, class A, class B, std::size_t... P>
     [[gnu::always_inline]] static inline auto coefficient(A const& a, B const& b,
