@@ -209,6 +209,12 @@ int run(identify_command const& c) {
         sivid::identification_json(problem, found,
                                    {.dataset = data.id, .further_assumptions = further}));
     print_summary(problem, found, data.id, c.out);
+    if (baseline) {
+        std::cout << "  beside it, Algorithm 1 of the report: not excluded at most "
+                  << report::at_most_percent(view.comparison[1].outer_volume.hi) << " after "
+                  << report::duration_text(baseline->seconds) << ", " << baseline->boxes
+                  << " boxes\n";
+    }
     return exit_code_of(found.verdict);
 }
 
