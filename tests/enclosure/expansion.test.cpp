@@ -134,10 +134,8 @@ TEST_CASE("a kink or a pole within the box is reported, not differentiated") {
 TEST_CASE("derivatives read the values' coefficients of their own order") {
     // x' = -p x: the value needs the last coefficient of x alone, its derivative by p all of them.
     auto const f = support::flow_of(
-        support::model_of({1, 1},
-                          [](auto const&, auto const& x, auto const& p, auto const&) {
-                              return std::vector{-(p[0] * x[0])};
-                          }),
+        support::model_of({1, 1}, [](auto const&, auto const& x, auto const& p,
+                                     auto const&) { return std::vector{-(p[0] * x[0])}; }),
         {});
     expansion<interval> e(*f, 8);
     e.set_parameters(box{interval(2.0)});

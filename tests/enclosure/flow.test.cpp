@@ -23,8 +23,8 @@ TEST_CASE("a flow has the structure of its equations") {
         entries.insert({e.row, e.column});
         CHECK(e.output >= 3);
     }
-    CHECK(entries == std::set<std::pair<std::size_t, std::size_t>>{
-                         {0, 1}, {1, 1}, {1, 3}, {2, 2}, {2, 4}});
+    CHECK(entries ==
+          std::set<std::pair<std::size_t, std::size_t>>{{0, 1}, {1, 1}, {1, 3}, {2, 2}, {2, 4}});
     bool const expected[3][5] = {{true, true, false, true, false},
                                  {false, true, false, true, false},
                                  {false, false, true, false, true}};
@@ -36,9 +36,10 @@ TEST_CASE("a flow has the structure of its equations") {
 }
 
 TEST_CASE("knots of all sampled inputs count") {
-    auto const m = support::model_of({1, 0, 3}, [](auto const&, auto const& x, auto const&, auto const& u) {
-        return std::vector{u[0] + u[1] + u[2] - x[0]};
-    });
+    auto const m =
+        support::model_of({1, 0, 3}, [](auto const&, auto const& x, auto const&, auto const& u) {
+            return std::vector{u[0] + u[1] + u[2] - x[0]};
+        });
     sampled_signal const a({0, 1, 2}, {0, 1, 0}, interpolation::linear);
     sampled_signal const b({0, 0.5, 3}, {0, 1, 0}, interpolation::hold);
     auto const formula = analytic_signal::from([](auto const& t) { return cos(t); });

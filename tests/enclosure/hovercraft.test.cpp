@@ -56,9 +56,9 @@ constexpr scenario scenarios[] = {
 
 auto reference_rate(scenario const& s, hovercraft const& model = {}) {
     return [s, model](extended t, extended_state const& x, extended_state const& p, auto const&) {
-        constants_of<hovercraft, wide> c{1.297L, 0.058L, 1.225L, 0.6L, 1.891L, 0.1339L,
-                                         0.18L,  0.1276L, p[0],  p[1], 0.025447L, p[2],
-                                         0.5L,   0.05L,  0.0L,   0.2L, 0.1L};
+        constants_of<hovercraft, wide> c{1.297L, 0.058L,  1.225L, 0.6L, 1.891L,    0.1339L,
+                                         0.18L,  0.1276L, p[0],   p[1], 0.025447L, p[2],
+                                         0.5L,   0.05L,   0.0L,   0.2L, 0.1L};
         states_of<hovercraft, wide> state;
         for (std::size_t i = 0; i < 6; ++i) state[i] = x[i];
         extended const pi = std::numbers::pi_v<extended>;
@@ -71,7 +71,8 @@ auto reference_rate(scenario const& s, hovercraft const& model = {}) {
 }
 
 std::vector<signal> inputs_of(scenario const& s) {
-    expression const rotor = s.rudder_moves ? expression(250) / 3 : expression(static_cast<double>(s.W));
+    expression const rotor =
+        s.rudder_moves ? expression(250) / 3 : expression(static_cast<double>(s.W));
     expression const pi(between(0x1.921fb54442d18p+1, 0x1.921fb54442d19p+1));
     auto const steady = analytic_signal::from([&](auto const&) { return rotor; });
     auto const turning = analytic_signal::from([&](auto const& t) {
@@ -109,8 +110,8 @@ TEST_CASE("the scenarios end where the reference page says") {
                                {-1.184, 1.463, -0.315, 7.717, 1.581, -2.356}};
     for (std::size_t k = 0; k < 3; ++k) {
         auto const& s = scenarios[k];
-        auto const x = support::reference_states(reference_rate(s), exact_start(s), exact_truth, 0,
-                                                 {s.end});
+        auto const x =
+            support::reference_states(reference_rate(s), exact_start(s), exact_truth, 0, {s.end});
         auto const f = flow_of(s);
         approximate_simulator simulate(*f);
         auto const y = simulate({s.speed, 0, 0, 0, 0, 0}, {0.22, 0.04, 0.30}, 0, {s.end});
@@ -125,7 +126,8 @@ TEST_CASE("the scenarios end where the reference page says") {
 TEST_CASE("scenario 3 as a point: below 1e-8 by Taylor, below 1e-6 by Runge-Kutta") {
     auto const& s = scenarios[2];
     auto const f = flow_of(s);
-    auto const x = support::reference_states(reference_rate(s), exact_start(s), exact_truth, 0, {3});
+    auto const x =
+        support::reference_states(reference_rate(s), exact_start(s), exact_truth, 0, {3});
     auto const taylor = integrate<interval>(f, start_of(s), truth(), 0, 3);
     REQUIRE(taylor.complete());
     CHECK(width(taylor.at(3)) < 1e-8);
@@ -150,7 +152,8 @@ TEST_CASE("all scenarios at all times, with both readings of the misprints") {
                 model.lift = hovercraft::lift_area::rudder;
                 model.friction = hovercraft::friction_law::as_printed;
             }
-            auto const tube = integrate<interval>(flow_of(s, model), start_of(s), truth(), 0, s.end);
+            auto const tube =
+                integrate<interval>(flow_of(s, model), start_of(s), truth(), 0, s.end);
             REQUIRE(tube.complete());
             std::vector<double> times;
             for (int k = 0; k < 40; ++k) times.push_back(d.uniform(0, s.end));
@@ -163,7 +166,8 @@ TEST_CASE("all scenarios at all times, with both readings of the misprints") {
                 for (std::size_t i = 0; i < 6; ++i) {
                     CAPTURE(s.end, literal, times[k], i);
                     CHECK(support::encloses_reference(at[i], x[k][i], 1e-13));
-                    if (k >= 5 && k <= 30) CHECK(support::encloses_reference(over[i], x[k][i], 1e-13));
+                    if (k >= 5 && k <= 30)
+                        CHECK(support::encloses_reference(over[i], x[k][i], 1e-13));
                 }
             }
         }
@@ -225,8 +229,8 @@ TEST_CASE("parameter boxes stay within twice the true range") {
                 auto const& side = p[static_cast<std::size_t>(j)];
                 q.push_back(c % 3 == 0 ? side.lower() : c % 3 == 1 ? side.upper() : mid(side));
             }
-            auto const x = support::reference_states(reference_rate(s), exact_start(s), q, 0, {3},
-                                                     {}, 1e-14L);
+            auto const x =
+                support::reference_states(reference_rate(s), exact_start(s), q, 0, {3}, {}, 1e-14L);
             for (std::size_t i = 0; i < 6; ++i) {
                 interval const v(static_cast<double>(x[0][i]));
                 seen[i] = corner == 0 ? v : hull(seen[i], v);

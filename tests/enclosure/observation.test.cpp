@@ -23,8 +23,9 @@ TEST_CASE("each member's output lies in its own affine form and in the value") {
     };
     auto const observe = [](auto const& t, auto const& x, auto const& p, auto const&) {
         using namespace support::real;
-        return std::vector{x[0] * x[1] + p[0] * t, abs(x[1]), exp(x[0]) / (1 + sqr(x[1])),
-                           sign(x[1] - p[0]), max(x[0], p[0] * x[1]), 0 * x[0] + p[0]};
+        return std::vector{x[0] * x[1] + p[0] * t,      abs(x[1]),
+                           exp(x[0]) / (1 + sqr(x[1])), sign(x[1] - p[0]),
+                           max(x[0], p[0] * x[1]),      0 * x[0] + p[0]};
     };
     auto const f = support::flow_of(support::model_of({2, 1}, rate, observe));
     draws d(271);
@@ -46,10 +47,9 @@ TEST_CASE("each member's output lies in its own affine form and in the value") {
                 auto const x = support::reference_states(rate, support::extend(x0),
                                                          support::extend(q), 0, {t})[0];
                 auto const y = observe(static_cast<extended>(t), x, support::extend(q), 0);
-                std::vector<extended> const r0{static_cast<extended>(x0[0]) - m[0],
-                                               static_cast<extended>(x0[1]) - m[1],
-                                               static_cast<extended>(q[0]) -
-                                                   run.ensemble().parameter_centre[0]};
+                std::vector<extended> const r0{
+                    static_cast<extended>(x0[0]) - m[0], static_cast<extended>(x0[1]) - m[1],
+                    static_cast<extended>(q[0]) - run.ensemble().parameter_centre[0]};
                 for (std::size_t k = 0; k < y.size(); ++k) {
                     CAPTURE(round, t, k);
                     CHECK(seen[k].defined);

@@ -28,7 +28,8 @@ TEST_CASE("simulations follow the reference, over knots of inputs too") {
         REQUIRE(found.states.size() == times.size());
         for (std::size_t k = 0; k < times.size(); ++k) {
             for (std::size_t i = 0; i < x0.size(); ++i) {
-                CHECK(std::fabs(found.states[k][i] - exact[k][i]) < 2e-6 * (1 + std::fabs(exact[k][i])));
+                CHECK(std::fabs(found.states[k][i] - exact[k][i]) <
+                      2e-6 * (1 + std::fabs(exact[k][i])));
                 CHECK(found.outputs[k][i] == found.states[k][i]);
             }
         }

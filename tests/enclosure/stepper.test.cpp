@@ -16,8 +16,8 @@ using support::draws;
 TEST_CASE("a proved step holds its trajectories in the tube, in the swept box and at any time") {
     draws d(281);
     int steps = 0;
-    for (std::size_t const order : {std::size_t{1}, std::size_t{2}, std::size_t{3}, std::size_t{6},
-                                    std::size_t{14}}) {
+    for (std::size_t const order :
+         {std::size_t{1}, std::size_t{2}, std::size_t{3}, std::size_t{6}, std::size_t{14}}) {
         for (std::size_t const variational : {std::size_t{0}, std::size_t{1}, std::size_t{3}}) {
             support::for_each_system([&](auto const& system) {
                 auto const f = system.flow();
@@ -29,8 +29,7 @@ TEST_CASE("a proved step holds its trajectories in the tube, in the swept box an
                 ensemble<interval> const e(system.initial, system.parameters);
                 stepper<interval> prover(*f, options);
                 prover.set_ensemble(e);
-                auto const set =
-                    doubleton<interval>::start(0, system.initial, f->parameters());
+                auto const set = doubleton<interval>::start(0, system.initial, f->parameters());
                 enclosure_failure why;
                 auto const limit = std::min(system.horizon, f->next_knot(0));
                 auto const step = prover.prove(set, limit, why);
@@ -55,9 +54,9 @@ TEST_CASE("a proved step holds its trajectories in the tube, in the swept box an
                     auto const dense =
                         support::reference_states(system.rate, support::extend(x0),
                                                   support::extend(p), 0, times, system.inputs);
-                    auto const at = support::reference_states(
-                        system.rate, support::extend(x0), support::extend(p), 0,
-                        {inside, step->to}, system.inputs);
+                    auto const at = support::reference_states(system.rate, support::extend(x0),
+                                                              support::extend(p), 0,
+                                                              {inside, step->to}, system.inputs);
                     for (std::size_t i = 0; i < x0.size(); ++i) {
                         CAPTURE(system.name, order, variational, i, step->to);
                         for (auto const& x : dense) {
@@ -94,10 +93,9 @@ TEST_CASE("advancing to the end is what finishing gave") {
 }
 
 TEST_CASE("orders that mean nothing are refused") {
-    auto const f = support::flow_of(
-        support::model_of({1, 0}, [](auto const&, auto const& x, auto const&, auto const&) {
-            return std::vector{x[0]};
-        }));
+    auto const f =
+        support::flow_of(support::model_of({1, 0}, [](auto const&, auto const& x, auto const&,
+                                                      auto const&) { return std::vector{x[0]}; }));
     enclosure_options none;
     none.order = 0;
     CHECK_THROWS_AS(stepper<interval>(*f, none), std::invalid_argument);

@@ -15,9 +15,8 @@ namespace {
 
 std::shared_ptr<flow const> decay() {
     return support::flow_of(
-        support::model_of({1, 1, 1}, [](auto const&, auto const& x, auto const& p, auto const& u) {
-            return std::vector{u[0] - p[0] * x[0]};
-        }),
+        support::model_of({1, 1, 1}, [](auto const&, auto const& x, auto const& p,
+                                        auto const& u) { return std::vector{u[0] - p[0] * x[0]}; }),
         {sampled_signal({0, 0.3, 0.7}, {1, 0, 2}, interpolation::hold)});
 }
 
@@ -51,8 +50,10 @@ TEST_CASE("a trajectory refuses boxes and steps that make no sense") {
     box const x{interval(1.0)};
     CHECK_THROWS_AS(run.begin(0, box{}, x), std::invalid_argument);
     CHECK_THROWS_AS(run.begin(0, x, box{}), std::invalid_argument);
-    CHECK_THROWS_AS(run.begin(0, box{interval_traits<interval>::empty()}, x), std::invalid_argument);
-    CHECK_THROWS_AS(run.begin(0, x, box{interval_traits<interval>::entire()}), std::invalid_argument);
+    CHECK_THROWS_AS(run.begin(0, box{interval_traits<interval>::empty()}, x),
+                    std::invalid_argument);
+    CHECK_THROWS_AS(run.begin(0, x, box{interval_traits<interval>::entire()}),
+                    std::invalid_argument);
     run.begin(0, x, x);
     CHECK_THROWS_AS(run.step(0), std::invalid_argument);
     CHECK_THROWS_AS(run.step(-1), std::invalid_argument);

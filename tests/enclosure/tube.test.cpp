@@ -123,9 +123,8 @@ TEST_CASE("the derivative's remainder is not short: x' = a x at its ends") {
     for (std::size_t const order : {std::size_t{1}, std::size_t{2}, std::size_t{3}}) {
         for (double const a : {1.0, -1.0, 2.0}) {
             auto const f = support::flow_of(
-                support::model_of({1, 0}, [a](auto const&, auto const& x, auto const&, auto const&) {
-                    return std::vector{a * x[0]};
-                }));
+                support::model_of({1, 0}, [a](auto const&, auto const& x, auto const&,
+                                              auto const&) { return std::vector{a * x[0]}; }));
             auto options = coarse(16, order, 1e-13);
             options.maximum_step = 0.25;
             auto const tube = integrate<interval>(f, box{between(-1, 3)}, box{}, 0, 1, options);
@@ -145,8 +144,8 @@ TEST_CASE("the derivative's remainder is not short: x' = a x at its ends") {
         }));
     auto options = coarse(16, 1, 1e-13);
     options.maximum_step = 0.25;
-    auto const tube =
-        integrate<interval>(f, box{interval(0.0), interval(1.0)}, box{between(-1, 1)}, 0, 1, options);
+    auto const tube = integrate<interval>(f, box{interval(0.0), interval(1.0)}, box{between(-1, 1)},
+                                          0, 1, options);
     REQUIRE(tube.complete());
     for (double const t : {0.2, 0.25, 0.9, 1.0}) {
         for (extended const p : {-1.0L, 1.0L}) {
@@ -237,7 +236,9 @@ TEST_CASE("outputs at a time: smooth, kinked, jumping, fed through, undefined") 
     auto const partial = support::flow_of(support::model_of(
         {1, 0},
         [](auto const&, auto const& x, auto const&, auto const&) { return std::vector{0 * x[0]}; },
-        [](auto const&, auto const& x, auto const&, auto const&) { return std::vector{log(x[0])}; }));
+        [](auto const&, auto const& x, auto const&, auto const&) {
+            return std::vector{log(x[0])};
+        }));
     auto const still = integrate<interval>(partial, box{between(-1, 1)}, box{}, 0, 1);
     CHECK(width(still.observe_at(1)[0]) == HUGE_VAL); // nothing is claimed
 }

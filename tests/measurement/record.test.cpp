@@ -8,8 +8,10 @@ using namespace sivid;
 using support::between;
 
 TEST_CASE("records are sorted by time, then channel, equal ones as they stood") {
-    record const mixed{{2, 0, between(0, 1)}, {1, 1, between(1, 2)},
-                       {1, 0, between(2, 3)}, {1, 1, between(3, 4)},
+    record const mixed{{2, 0, between(0, 1)},
+                       {1, 1, between(1, 2)},
+                       {1, 0, between(2, 3)},
+                       {1, 1, between(3, 4)},
                        {0, 5, between(4, 5)}};
     auto const s = sorted(mixed);
     REQUIRE(s.size() == 5);

@@ -43,9 +43,7 @@ TEST_CASE("approximate arithmetic lies within the proven one") {
         double const b = d.uniform(0.1, 3);
         interval const x(a);
         interval const y(b);
-        auto const slack = [](interval const& v) {
-            return exact::add(v, between(-1e-13, 1e-13));
-        };
+        auto const slack = [](interval const& v) { return exact::add(v, between(-1e-13, 1e-13)); };
         CHECK(contains(slack(exact::add(x, y)), fast::add(a, b)));
         CHECK(contains(slack(exact::sub(x, y)), fast::sub(a, b)));
         CHECK(contains(slack(exact::mul(x, y)), fast::mul(a, b)));

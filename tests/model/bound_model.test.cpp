@@ -40,14 +40,14 @@ TEST_CASE("binding makes parameters of the unknown constants, in the order asked
     CHECK(bound.parameters == std::vector<std::size_t>{1, 0});
     CHECK(bound.sampled == std::vector<std::size_t>{0, 1});
     support::place_box where;
-    where.x = box{interval(2.0), interval(5.0)}; // the helper feeds the inputs from here too
-    where.p = box{interval(10.0), interval(100.0)};  // p1 = 10, p0 = 100
+    where.x = box{interval(2.0), interval(5.0)};    // the helper feeds the inputs from here too
+    where.p = box{interval(10.0), interval(100.0)}; // p1 = 10, p0 = 100
     auto const rate = support::evaluate(bound.g, bound.rate, where).outputs;
     CHECK(rate[0].lower() == 100 * 2 + 10 * 2);
     CHECK(rate[1].lower() == 5 * 2);
-    auto const j = support::evaluate(bound.g, {bound.rate_dx[0][0], bound.rate_dp[0][0],
-                                               bound.rate_dp[0][1], bound.observe_dx[0][1],
-                                               bound.observe_dp[0][0]},
+    auto const j = support::evaluate(bound.g,
+                                     {bound.rate_dx[0][0], bound.rate_dp[0][0], bound.rate_dp[0][1],
+                                      bound.observe_dx[0][1], bound.observe_dp[0][0]},
                                      where)
                        .outputs;
     CHECK(j[0].lower() == 100); // d rate0 / d x0 = p0
@@ -60,8 +60,8 @@ TEST_CASE("binding makes parameters of the unknown constants, in the order asked
 
 TEST_CASE("known constants and analytic inputs are folded in") {
     auto const m = sample();
-    auto const bound = bind(m, {{}, {{"p0", interval(0.0)}, {"p1", interval(4.0)}}},
-                            {wave(), ramp()});
+    auto const bound =
+        bind(m, {{}, {{"p0", interval(0.0)}, {"p1", interval(4.0)}}}, {wave(), ramp()});
     CHECK(bound.parameter_count() == 0);
     CHECK(bound.sampled == std::vector<std::size_t>{1});
     support::place_box where;
@@ -77,9 +77,10 @@ TEST_CASE("known constants and analytic inputs are folded in") {
 }
 
 TEST_CASE("constants with an uncertain value stay independent of each other") {
-    auto const m = support::model_of({1, 2}, [](auto const&, auto const& x, auto const& p, auto const&) {
-        return std::vector{p[0] * x[0] - p[1] * x[0]};
-    });
+    auto const m =
+        support::model_of({1, 2}, [](auto const&, auto const& x, auto const& p, auto const&) {
+            return std::vector{p[0] * x[0] - p[1] * x[0]};
+        });
     auto const bound = bind(m, {{}, {{"p0", between(1, 2)}, {"p1", between(1, 2)}}}, {});
     support::place_box where;
     where.x[0] = interval(1.0);

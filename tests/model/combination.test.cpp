@@ -3,8 +3,8 @@
 
 #include "support/catch.hpp"
 #include "support/models.hpp"
-#include "support/random.hpp"
 #include "support/power_series.hpp"
+#include "support/random.hpp"
 
 #include "../../examples/hovercraft/model.hpp"
 
@@ -138,9 +138,10 @@ TEST_CASE("a claim of entanglement holds: rescaled parameters give the same rate
 }
 
 TEST_CASE("what vanishes in one experiment may show in another") {
-    auto const m = support::model_of({1, 2, 1}, [](auto const&, auto const& x, auto const& p, auto const& u) {
-        return std::vector{-(p[0] * p[1]) * x[0] + p[0] * u[0]};
-    });
+    auto const m =
+        support::model_of({1, 2, 1}, [](auto const&, auto const& x, auto const& p, auto const& u) {
+            return std::vector{-(p[0] * p[1]) * x[0] + p[0] * u[0]};
+        });
     auto const constant = [](double v) {
         return analytic_signal::from([v](auto const&) { return expression(v); });
     };
@@ -155,8 +156,7 @@ TEST_CASE("what vanishes in one experiment may show in another") {
 TEST_CASE("the hovercraft knows L and S_g through their product only") {
     sampled_signal const rotor({0, 3}, {80, 85}, interpolation::linear);
     sampled_signal const rudder({0, 3}, {0.1, 0.4}, interpolation::linear);
-    auto const bound =
-        bind(record_model(hovercraft{}), {{"Sv", "Sg", "L"}, {}}, {rotor, rudder});
+    auto const bound = bind(record_model(hovercraft{}), {{"Sv", "Sg", "L"}, {}}, {rotor, rudder});
     auto const found = find_combinations({&bound});
     CHECK(found.entangled == indices{1, 2});
     REQUIRE(found.combinations.size() == 1);
@@ -172,9 +172,8 @@ TEST_CASE("the hovercraft knows L and S_g through their product only") {
 TEST_CASE("ranges of combinations enclose their values") {
     draws d(172);
     for (int round = 0; round < 200; ++round) {
-        combination const c{{static_cast<int>(d.below(5)) - 2, static_cast<int>(d.below(5)) - 2},
-                            "",
-                            ""};
+        combination const c{
+            {static_cast<int>(d.below(5)) - 2, static_cast<int>(d.below(5)) - 2}, "", ""};
         box const p{between(0.5, 0.5 + d.uniform(0, 1)), between(-3, -3 + d.uniform(0, 2))};
         auto const range = c.over(p);
         auto const v = d.in(p);

@@ -24,8 +24,8 @@ struct lag {
         return {-c[0] * (x[0] - u[0])};
     }
     template <class T>
-    channels_of<lag, T> observe(T const& t, states_of<lag, T> const& x,
-                                constants_of<lag, T> const&, inputs_of<lag, T> const&) const {
+    channels_of<lag, T> observe(T const& t, states_of<lag, T> const& x, constants_of<lag, T> const&,
+                                inputs_of<lag, T> const&) const {
         return {2 * x[0] + 0 * t};
     }
 };

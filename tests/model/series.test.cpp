@@ -116,8 +116,11 @@ int compare(draws& d, support::formula const& f, double radius) {
 
 support::formula chain(std::vector<support::formula::term> const& terms) {
     support::formula f;
-    f.terms = {{operation::time},          {operation::state, 0, 0, 0}, {operation::state, 0, 0, 1},
-               {operation::constant, 0, 0, 0}, {operation::constant, 0, 0, 1},
+    f.terms = {{operation::time},
+               {operation::state, 0, 0, 0},
+               {operation::state, 0, 0, 1},
+               {operation::constant, 0, 0, 0},
+               {operation::constant, 0, 0, 1},
                {operation::literal, 0, 0, 0, 1.5}};
     f.terms.insert(f.terms.end(), terms.begin(), terms.end());
     return f;

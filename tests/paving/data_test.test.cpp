@@ -20,8 +20,8 @@ box box_around(draws& d, std::vector<double> const& p, box const& prior, double 
     box b(p.size());
     for (std::size_t j = 0; j < p.size(); ++j) {
         double const w = width(prior[j]);
-        b[j] = intersect(prior[j], between(p[j] - d.uniform(0, share) * w,
-                                           p[j] + d.uniform(0, share) * w));
+        b[j] = intersect(prior[j],
+                         between(p[j] - d.uniform(0, share) * w, p[j] + d.uniform(0, share) * w));
     }
     return b;
 }
@@ -130,8 +130,10 @@ TEST_CASE("measurements at a knot of a held input that feeds through") {
     e.name = "E";
     e.inputs = {sampled_signal({0, 1, 2}, {1, -1, 3}, interpolation::hold)};
     e.initial = box{interval(0.0)};
-    e.measurements = {{1, 0, between(-1.1, -0.9)}, {2, 0, between(2.9, 3.1)},
-                      {1, 1, between(0.9, 1.1)},   {2, 1, between(-0.1, 0.1)}};
+    e.measurements = {{1, 0, between(-1.1, -0.9)},
+                      {2, 0, between(2.9, 3.1)},
+                      {1, 1, between(0.9, 1.1)},
+                      {2, 1, between(-0.1, 0.1)}};
     problem.experiments = {e};
     for (auto const set : {carried_set::taylor_model, carried_set::doubleton}) {
         data_test_options options;

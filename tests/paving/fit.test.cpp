@@ -17,7 +17,8 @@ TEST_CASE("easy problems are fitted within their bounds, outliers and unknown st
         for (std::size_t outliers : {std::size_t{0}, std::size_t{2}}) {
             for (double const spread : {0.0, 0.03}) {
                 auto const planted = support::plant(
-                    d, model, {.experiments = 2, .samples = 12, .outliers = outliers, .spread = spread});
+                    d, model,
+                    {.experiments = 2, .samples = 12, .outliers = outliers, .spread = spread});
                 fitter fit(planted.problem);
                 auto const found = fit();
                 ++tried;
@@ -58,9 +59,10 @@ TEST_CASE("data that nothing explains give a finite inflation above one") {
 }
 
 TEST_CASE("a simulation that fails everywhere gives no guess, and ends") {
-    auto const model = support::model_of({1, 1}, [](auto const&, auto const& x, auto const& p, auto const&) {
-        return std::vector{p[0] * x[0] * x[0]}; // blows up at t = 1/p
-    });
+    auto const model =
+        support::model_of({1, 1}, [](auto const&, auto const& x, auto const& p, auto const&) {
+            return std::vector{p[0] * x[0] * x[0]}; // blows up at t = 1/p
+        });
     identification_problem problem;
     problem.model = model;
     problem.choice.unknown = {"p0"};

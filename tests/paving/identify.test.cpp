@@ -116,8 +116,8 @@ TEST_CASE("products that alone are known are named, and inside boxes stay true f
         REQUIRE(found.combinations.size() == 1);
         CHECK(found.combinations[0].what.formula == "p0*p1");
         // The product is known better than its factors.
-        CHECK(width(found.combinations[0].hull) < 0.7 * width(found.combinations[0].what.over(
-                                                            planted.problem.prior)));
+        CHECK(width(found.combinations[0].hull) <
+              0.7 * width(found.combinations[0].what.over(planted.problem.prior)));
         check_claims(planted, found, d, 0);
     }
 }
@@ -193,9 +193,10 @@ TEST_CASE("budgets and cancellation leave the truth in what is left") {
 
 TEST_CASE("exact measurements do not stop the search") {
     identification_problem problem;
-    problem.model = support::model_of({1, 1}, [](auto const&, auto const& x, auto const& p, auto const&) {
-        return std::vector{-(p[0] * x[0])};
-    });
+    problem.model =
+        support::model_of({1, 1}, [](auto const&, auto const& x, auto const& p, auto const&) {
+            return std::vector{-(p[0] * x[0])};
+        });
     problem.choice.unknown = {"p0"};
     problem.prior = box{between(0.5, 1.5)};
     experiment e;

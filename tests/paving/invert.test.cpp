@@ -146,9 +146,7 @@ TEST_CASE("the ring: inner and outer volumes bracket the true area and close on 
 
 TEST_CASE("a disc in three dimensions with a side of zero width") {
     struct disc {
-        assessment<> operator()(box const& b) const {
-            return ring{-1, 1}(box{b[0], b[2]});
-        }
+        assessment<> operator()(box const& b) const { return ring{-1, 1}(box{b[0], b[2]}); }
     };
     // The assessment's box must have the test's size: wrap it.
     struct test {

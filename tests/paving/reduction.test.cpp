@@ -54,8 +54,8 @@ TEST_CASE("a reduced problem has the trajectories of the original one") {
     CHECK(small.prior.size() < s.problem.prior.size());
     CHECK(small.choice.unknown.size() == small.prior.size());
     CHECK_NOTHROW(small.require_valid());
-    auto const original = std::make_shared<flow const>(s.problem.model, s.problem.choice,
-                                                       std::vector<signal>{});
+    auto const original =
+        std::make_shared<flow const>(s.problem.model, s.problem.choice, std::vector<signal>{});
     auto const reduced =
         std::make_shared<flow const>(small.model, small.choice, std::vector<signal>{});
     for (int round = 0; round < 60; ++round) {
@@ -142,9 +142,11 @@ TEST_CASE("nothing is reduced where no product can stand for its factors") {
 TEST_CASE("identification through a reduction contains the truth and claims nothing false") {
     draws d(373);
     for (int round = 0; round < 8; ++round) {
-        auto const planted = support::plant(
-            d, 2,
-            {.experiments = 2, .samples = 8, .outliers = d.below(2), .noise = d.uniform(0.03, 0.2)});
+        auto const planted = support::plant(d, 2,
+                                            {.experiments = 2,
+                                             .samples = 8,
+                                             .outliers = d.below(2),
+                                             .noise = d.uniform(0.03, 0.2)});
         auto const allowed = planted.problem.experiments[0].outliers;
         identify_options options;
         options.search.accuracy = 1.0 / 32;

@@ -20,7 +20,9 @@ using traits = interval_traits<interval>;
 
 /// Corners are multiples of 2^-20, so that 50 digits hold a volume exactly.
 box random_box(draws& d, std::size_t n, double size) {
-    auto const corner = [&] { return std::ldexp(std::round(std::ldexp(d.uniform(-size, size), 20)), -20); };
+    auto const corner = [&] {
+        return std::ldexp(std::round(std::ldexp(d.uniform(-size, size), 20)), -20);
+    };
     std::vector<interval> sides;
     for (std::size_t i = 0; i < n; ++i) {
         double const a = corner();
@@ -67,8 +69,9 @@ TEST_CASE("hull, intersection, subset and containment of boxes agree on points")
         CHECK(subset(b, around));
         CHECK(subset(both, a));
         CHECK(subset(both, b));
-        CHECK(subset(a, b) == (!is_empty(both) && contains(b, {a[0].lower(), a[1].lower(), a[2].lower()}) &&
-                               contains(b, {a[0].upper(), a[1].upper(), a[2].upper()})));
+        CHECK(subset(a, b) ==
+              (!is_empty(both) && contains(b, {a[0].lower(), a[1].lower(), a[2].lower()}) &&
+               contains(b, {a[0].upper(), a[1].upper(), a[2].upper()})));
         auto const x = d.in(around);
         CHECK(contains(around, x));
         CHECK((contains(a, x) && contains(b, x)) == (!is_empty(both) && contains(both, x)));

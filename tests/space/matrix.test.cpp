@@ -99,8 +99,7 @@ TEST_CASE("approximate centres lie within the entries") {
     auto const m = approximate_mid(a);
     for (std::size_t i = 0; i < 4; ++i) {
         for (std::size_t j = 0; j < 3; ++j) {
-            CHECK(contains(a(i, j),
-                           m(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))));
+            CHECK(contains(a(i, j), m(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))));
         }
     }
 }

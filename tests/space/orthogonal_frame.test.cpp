@@ -90,8 +90,7 @@ TEST_CASE("matrices far from orthogonal are inverted or refused, never wrongly")
     int accepted = 0;
     for (int round = 0; round < 300; ++round) {
         auto const n = static_cast<Eigen::Index>(2 + d.below(3));
-        Eigen::MatrixXd q =
-            Eigen::HouseholderQR<Eigen::MatrixXd>(d.matrix(n, n)).householderQ();
+        Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(d.matrix(n, n)).householderQ();
         q += d.matrix(n, n, d.uniform(0, 0.3));
         interval_matrix<interval> inverse;
         if (!enclose_inverse<interval>(q, inverse)) continue;
@@ -118,8 +117,7 @@ TEST_CASE("matrices that are not finite give the identity or a refusal") {
     Eigen::MatrixXd const huge = 1e300 * Eigen::MatrixXd::Ones(2, 2);
     auto const frame = make_frame<interval>(huge, {1e300, 1e300});
     check_inverse(frame.axes, frame.inverse);
-    auto const weightless =
-        make_frame<interval>(Eigen::MatrixXd::Identity(2, 2),
-                             {std::numeric_limits<double>::quiet_NaN(), 1});
+    auto const weightless = make_frame<interval>(Eigen::MatrixXd::Identity(2, 2),
+                                                 {std::numeric_limits<double>::quiet_NaN(), 1});
     check_inverse(weightless.axes, weightless.inverse);
 }

@@ -87,26 +87,65 @@ std::vector<T> values(formula const& f, Leaf const& leaf, Check const& check) {
         T const b = v[n.b];
         check(n, a, b);
         switch (n.op) {
-        case operation::neg: v.push_back(-a); break;
-        case operation::add: v.push_back(a + b); break;
-        case operation::sub: v.push_back(a - b); break;
-        case operation::mul: v.push_back(a * b); break;
-        case operation::div: v.push_back(a / b); break;
-        case operation::sqr: v.push_back(sqr(a)); break;
-        case operation::pown: v.push_back(pown(a, n.index)); break;
-        case operation::sqrt: v.push_back(sqrt(a)); break;
-        case operation::exp: v.push_back(exp(a)); break;
-        case operation::log: v.push_back(log(a)); break;
-        case operation::sin: v.push_back(sin(a)); break;
-        case operation::cos: v.push_back(cos(a)); break;
-        case operation::tan: v.push_back(tan(a)); break;
-        case operation::atan: v.push_back(atan(a)); break;
-        case operation::tanh: v.push_back(tanh(a)); break;
-        case operation::abs: v.push_back(abs(a)); break;
-        case operation::sign: v.push_back(sign(a)); break;
-        case operation::min: v.push_back(min(a, b)); break;
-        case operation::max: v.push_back(max(a, b)); break;
-        default: throw std::logic_error("formula");
+        case operation::neg:
+            v.push_back(-a);
+            break;
+        case operation::add:
+            v.push_back(a + b);
+            break;
+        case operation::sub:
+            v.push_back(a - b);
+            break;
+        case operation::mul:
+            v.push_back(a * b);
+            break;
+        case operation::div:
+            v.push_back(a / b);
+            break;
+        case operation::sqr:
+            v.push_back(sqr(a));
+            break;
+        case operation::pown:
+            v.push_back(pown(a, n.index));
+            break;
+        case operation::sqrt:
+            v.push_back(sqrt(a));
+            break;
+        case operation::exp:
+            v.push_back(exp(a));
+            break;
+        case operation::log:
+            v.push_back(log(a));
+            break;
+        case operation::sin:
+            v.push_back(sin(a));
+            break;
+        case operation::cos:
+            v.push_back(cos(a));
+            break;
+        case operation::tan:
+            v.push_back(tan(a));
+            break;
+        case operation::atan:
+            v.push_back(atan(a));
+            break;
+        case operation::tanh:
+            v.push_back(tanh(a));
+            break;
+        case operation::abs:
+            v.push_back(abs(a));
+            break;
+        case operation::sign:
+            v.push_back(sign(a));
+            break;
+        case operation::min:
+            v.push_back(min(a, b));
+            break;
+        case operation::max:
+            v.push_back(max(a, b));
+            break;
+        default:
+            throw std::logic_error("formula");
         }
     }
     return v;
@@ -120,7 +159,8 @@ T value(formula const& f, Leaf const& leaf) {
 struct not_defined {};
 struct too_large {};
 
-/// Whether an operation is defined at its operands; smooth ones are also asked to be differentiable.
+/// Whether an operation is defined at its operands; smooth ones are also asked to be
+/// differentiable.
 inline void require_defined(formula::term const& n, mp const& a, mp const& b, bool derivatives) {
     using sivid::operation;
     if (!(abs(a) < 1e30) || !(abs(b) < 1e30)) throw too_large{};
@@ -151,7 +191,9 @@ inline place_box random_places(draws& d, double radius) {
     }
     return b;
 }
-inline place random_place(draws& d, place_box const& b) { return {d.in(b.t), d.in(b.x), d.in(b.p)}; }
+inline place random_place(draws& d, place_box const& b) {
+    return {d.in(b.t), d.in(b.x), d.in(b.p)};
+}
 
 /// @throws not_defined, too_large
 inline mp exact_value(formula const& f, place const& at) {
@@ -170,9 +212,8 @@ inline mp exact_value(formula const& f, place const& at) {
 /// The formula recorded in a graph.
 inline sivid::node_id recorded(formula const& f, sivid::graph& g) {
     using sivid::expression;
-    return value<expression>(f, [&g](sivid::operation op, std::size_t i) {
-               return expression(g, g.leaf(op, i));
-           })
+    return value<expression>(
+               f, [&g](sivid::operation op, std::size_t i) { return expression(g, g.leaf(op, i)); })
         .in(g);
 }
 

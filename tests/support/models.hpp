@@ -70,8 +70,7 @@ sivid::recorded_model model_of(shape const& s, Rate const& rate, Observe const& 
         m.about.states.push_back({numbered('x', i), "1", s.limit});
     }
     for (std::size_t j = 0; j < s.constants; ++j) {
-        m.about.constants.push_back(
-            {numbered('p', j), "1", sivid::literal{interval(1.0), 1.0}});
+        m.about.constants.push_back({numbered('p', j), "1", sivid::literal{interval(1.0), 1.0}});
     }
     for (std::size_t k = 0; k < s.inputs; ++k) {
         m.about.inputs.push_back({numbered('u', k), "1"});
@@ -87,7 +86,8 @@ sivid::recorded_model model_of(shape const& s, Rate const& rate, Observe const& 
 /// Every state is a channel.
 template <class Rate>
 sivid::recorded_model model_of(shape const& s, Rate const& rate) {
-    return model_of(s, rate, [](auto const&, auto const& x, auto const&, auto const&) { return x; });
+    return model_of(s, rate,
+                    [](auto const&, auto const& x, auto const&, auto const&) { return x; });
 }
 
 /// The flow with every constant unknown.

@@ -11,8 +11,8 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include <array>
-#include <concepts>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <vector>
 

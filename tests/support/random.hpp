@@ -28,9 +28,12 @@ public:
     /// A point of the interval; its ends with a chance of one in four each.
     double in(sivid::interval const& x) {
         switch (below(4)) {
-        case 0: return x.lower();
-        case 1: return x.upper();
-        default: return std::fmin(std::fmax(uniform(x.lower(), x.upper()), x.lower()), x.upper());
+        case 0:
+            return x.lower();
+        case 1:
+            return x.upper();
+        default:
+            return std::fmin(std::fmax(uniform(x.lower(), x.upper()), x.lower()), x.upper());
         }
     }
     std::vector<double> in(sivid::box const& x) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Reference trajectories: Fehlberg 7(8) of Boost.Odeint in extended precision, error per step 1e-17.
-// The tests that use it allow for a global error of `reference_error` relative to 1 + |x|, which
-// `tube.test.cpp` checks against closed forms.
+// Reference trajectories: Fehlberg 7(8) of Boost.Odeint in extended precision, error per step
+// 1e-17. The tests that use it allow for a global error of `reference_error` relative to 1 + |x|,
+// which `tube.test.cpp` checks against closed forms.
 #ifndef SIVID_TESTS_SUPPORT_REFERENCE_HPP
 #define SIVID_TESTS_SUPPORT_REFERENCE_HPP
 
@@ -50,11 +50,11 @@ inline extended sampled(sivid::sampled_signal const& s, extended t, double start
 /// @param rate  (t, x, p, u) -> vector
 /// @param knots where the right-hand side is not smooth in time
 template <class Rate>
-std::vector<extended_state>
-reference_states(Rate const& rate, extended_state x, extended_state const& p, double from,
-                 std::vector<double> const& times,
-                 std::vector<sivid::sampled_signal> const& inputs = {},
-                 extended tolerance = 1e-17L) {
+std::vector<extended_state> reference_states(Rate const& rate, extended_state x,
+                                             extended_state const& p, double from,
+                                             std::vector<double> const& times,
+                                             std::vector<sivid::sampled_signal> const& inputs = {},
+                                             extended tolerance = 1e-17L) {
     namespace odeint = boost::numeric::odeint;
     double start = from;
     auto const rhs = [&](extended_state const& state, extended_state& dxdt, extended t) {
@@ -62,7 +62,8 @@ reference_states(Rate const& rate, extended_state x, extended_state const& p, do
         for (auto const& s : inputs) u.push_back(sampled(s, t, start));
         dxdt = rate(t, state, p, u);
     };
-    using method = odeint::runge_kutta_fehlberg78<extended_state, extended, extended_state, extended>;
+    using method =
+        odeint::runge_kutta_fehlberg78<extended_state, extended, extended_state, extended>;
     std::vector<extended_state> result;
     double t = from;
     for (double const target : times) {

@@ -31,8 +31,8 @@ void check_tube(System const& system, sivid::tube<interval> const& tube, draws& 
             times.push_back(tube.steps()[d.below(tube.steps().size())].to);
         }
         std::sort(times.begin(), times.end());
-        auto const states = reference_states(system.rate, extend(x0), extend(p), begin, times,
-                                             system.inputs);
+        auto const states =
+            reference_states(system.rate, extend(x0), extend(p), begin, times, system.inputs);
         auto const a = d.below(times.size());
         auto const b = a + d.below(times.size() - a);
         auto const over = tube.over(times[a], times[b]);

@@ -66,9 +66,9 @@ namespace detail {
 
 /// Checks that proofs are possible here and now; every solver calls it on entry.
 /// @guarantee  on return: the machine has the instructions that this file was compiled for (as far
-///             as packs use them), round-to-nearest is set, subnormals are neither flushed nor read as zero,
-///             directed rounding works in each way that sivid uses, plain arithmetic is not
-///             rearranged
+///             as packs use them), round-to-nearest is set, subnormals are neither flushed nor read
+///             as zero, directed rounding works in each way that sivid uses, plain arithmetic is
+///             not rearranged
 /// @throws     unsound_environment with the reason otherwise (for instance under valgrind, which
 ///             ignores the rounding mode, or in a program linked with -ffast-math)
 /// @cost       about 50 ns, no state
