@@ -292,6 +292,7 @@ public:
     static sivid::interval round_error() noexcept { return {}; }
     static sivid::interval denorm_min() noexcept { return {}; }
     static sivid::interval infinity() noexcept { return {}; }
+    // NOLINTNEXTLINE(readability-identifier-naming): the standard's name
     static sivid::interval quiet_NaN() noexcept { return {}; }
 };
 

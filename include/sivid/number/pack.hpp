@@ -45,6 +45,7 @@ struct chosen {
 /// The widest vector that divides W.
 template <std::size_t W>
 [[nodiscard]] constexpr auto choose() noexcept {
+    // NOLINTBEGIN(readability-misleading-indentation): one chain across the conditions
 #if SIVID_PACK_AVX512
     if constexpr (W % 8 == 0)
         return chosen<simd::vector_avx512>{};
@@ -59,6 +60,7 @@ template <std::size_t W>
         return chosen<simd::vector_sse2>{};
     else
         return chosen<simd::vector_portable>{};
+    // NOLINTEND(readability-misleading-indentation)
 }
 
 } // namespace simd_choice

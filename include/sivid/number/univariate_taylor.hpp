@@ -11,12 +11,12 @@
 namespace sivid {
 
 namespace number_detail {
-/// Not less than 1/n!.
-template <std::size_t n>
+/// Not less than 1/N!.
+template <std::size_t N>
 inline constexpr double inverse_factorial = [] {
     double product = 1;
-    for (std::size_t k = 2; k <= n; ++k) product *= static_cast<double>(k); // exact to 22!
-    return 1 / product * (1 + static_cast<double>(n + 2) * 0x1p-52);
+    for (std::size_t k = 2; k <= N; ++k) product *= static_cast<double>(k); // exact to 22!
+    return 1 / product * (1 + static_cast<double>(N + 2) * 0x1p-52);
 }();
 } // namespace number_detail
 

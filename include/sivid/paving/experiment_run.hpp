@@ -128,7 +128,7 @@ public:
                     ++next;
                     ++in_work;
                     if (!lanes[l]->walk.done()) continue;
-                    answers[lanes[l]->box] = std::move(*lanes[l]).finish();
+                    answers[next - 1] = std::move(*lanes[l]).finish();
                     lanes[l].reset();
                     --in_work;
                 }
@@ -147,7 +147,8 @@ public:
                     });
                 }
                 if (!over && !mine.walk.done()) continue;
-                answers[mine.box] = std::move(mine).finish();
+                auto const index = mine.box;
+                answers[index] = std::move(mine).finish();
                 lanes[l].reset();
                 flow_.end(l);
                 --in_work;

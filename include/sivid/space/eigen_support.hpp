@@ -50,6 +50,7 @@ struct NumTraits<I> {
     using NonInteger = I;
     using Nested = I;
     using Literal = double;
+    // NOLINTBEGIN(readability-identifier-naming): Eigen's names
     enum {
         IsComplex = 0,
         IsInteger = 0,
@@ -59,6 +60,7 @@ struct NumTraits<I> {
         AddCost = 4,
         MulCost = 10
     };
+    // NOLINTEND(readability-identifier-naming)
     /// Nothing is negligible.
     static I epsilon() { return sivid::interval_traits<I>::point(0.0); }
     static I dummy_precision() { return sivid::interval_traits<I>::point(0.0); }
@@ -132,8 +134,8 @@ struct promoted_product : generic_product_impl_base<Lhs, Rhs, Derived> {
     using Scalar = typename Product<Lhs, Rhs>::Scalar;
 
     template <class Destination>
-    static void scaleAndAddTo(Destination& to, Lhs const& lhs, Rhs const& rhs,
-                              Scalar const& alpha) {
+    static void scaleAndAddTo( // NOLINT(readability-identifier-naming): Eigen's name
+        Destination& to, Lhs const& lhs, Rhs const& rhs, Scalar const& alpha) {
         auto const left = lhs.template cast<Scalar>().eval();
         auto const right = rhs.template cast<Scalar>().eval();
         to += alpha * (left * right);
