@@ -4,6 +4,7 @@
 // kernels of `experiment_run.test.cpp`.
 #include "support/catch.hpp"
 #include "support/models.hpp"
+#include "support/parametric_sets.hpp"
 #include "support/random.hpp"
 #include "support/reference.hpp"
 #include "support/taylor_models.hpp"
@@ -20,8 +21,10 @@
 #include <vector>
 
 using namespace sivid;
+using support::at;
 using support::between;
 using support::draws;
+using support::encloses_at;
 using support::extended;
 using support::extended_state;
 using support::flow_of;
@@ -31,31 +34,6 @@ namespace {
 
 using exact_solution = std::function<extended_state(extended t, std::vector<extended> const& x0,
                                                     std::vector<extended> const& p)>;
-
-/// x within P(q) plus the generators at this q, componentwise; `slack` covers the reference.
-template <class Set>
-bool encloses_at(Set const& set, std::vector<double> const& q, extended_state const& x,
-                 extended slack = 1e-16L) {
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        extended reach = 0;
-        for (auto const& g : set.columns) {
-            reach += std::fabs(support::value<extended>(g[i], q));
-        }
-        extended const off = std::fabs(x[i] - support::value<extended>(set.centre[i], q));
-        if (!(off <= reach + slack * (1 + std::fabs(x[i])))) return false;
-    }
-    return true;
-}
-
-std::vector<extended> at(std::vector<normalised_unknowns::side> const& sides,
-                         std::vector<double> const& q) {
-    std::vector<extended> x;
-    for (auto const& s : sides) {
-        x.push_back(s.centre +
-                    (s.radius > 0 ? static_cast<extended>(s.radius) * q[s.variable] : 0));
-    }
-    return x;
-}
 
 /// The set and the tube of one lane after a step against an exact solution.
 template <class Flow>
@@ -602,4 +580,21 @@ TEST_CASE("parametric flow: what is checked") {
     REQUIRE(limited.failure()->help == advice::more_steps);
     REQUIRE(lower(swept[0]) == lower(limited.swept()[0]));
     REQUIRE(upper(swept[0]) == upper(limited.swept()[0]));
+}
+
+TEST_CASE("parametric set: a lane begins anew whatever its generators were") {
+    parametric_set<1, 2, lanes<8>> set(2);
+    normalised_unknowns const unknowns(box{between(1, 2), between(0, 0)}, box());
+    for (std::size_t l = 0; l < 8; ++l) set.begin(l, 0, unknowns);
+    std::vector<lanes<8>> spoilt(2, lanes<8>(1e-3));
+    spoilt[0].set(3, HUGE_VAL);
+    spoilt[1].set(3, std::nan(""));
+    set.append(spoilt);
+    set.measure();
+    REQUIRE_FALSE(std::isfinite(set.reach[0][3]));
+    set.begin(3, 0, unknowns);
+    for (std::size_t i = 0; i < 2; ++i) {
+        CHECK(set.reach[i][3] == 0);
+        CHECK(set.reach[i][4] >= 1e-3);
+    }
 }

@@ -4,6 +4,7 @@
 #include <sivid/enclosure/parametric_runge_kutta.hpp>
 
 #include "support/catch.hpp"
+#include "support/parametric_sets.hpp"
 #include "support/random.hpp"
 #include "support/reference.hpp"
 #include "support/runge_kutta.hpp"
@@ -17,8 +18,10 @@
 #include <vector>
 
 using namespace sivid;
+using support::at;
 using support::between;
 using support::draws;
+using support::encloses_at;
 using support::extended;
 using support::extended_state;
 using support::flow_of;
@@ -35,31 +38,6 @@ std::vector<tableau> methods() {
         all.push_back(m);
     }
     return all;
-}
-
-/// x within P(q) plus the generators at this q, componentwise; `slack` covers the reference.
-template <class Set>
-bool encloses_at(Set const& set, std::vector<double> const& q, extended_state const& x,
-                 extended slack = 1e-16L) {
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        extended reach = 0;
-        for (auto const& g : set.columns) {
-            reach += std::fabs(support::value<extended>(g[i], q));
-        }
-        extended const off = std::fabs(x[i] - support::value<extended>(set.centre[i], q));
-        if (!(off <= reach + slack * (1 + std::fabs(x[i])))) return false;
-    }
-    return true;
-}
-
-std::vector<extended> at(std::vector<normalised_unknowns::side> const& sides,
-                         std::vector<double> const& q) {
-    std::vector<extended> x;
-    for (auto const& s : sides) {
-        x.push_back(s.centre +
-                    (s.radius > 0 ? static_cast<extended>(s.radius) * q[s.variable] : 0));
-    }
-    return x;
 }
 
 template <std::size_t N, std::size_t D>

@@ -92,6 +92,7 @@ struct parametric_set {
         for (auto& g : columns) {
             for (auto& entry : g) {
                 for (auto& c : entry.c) side_by_side::put(c, lane, 0.0);
+                side_by_side::put(entry.r, lane, 0.0); // infinite where the lane was lost
                 entry.finish();
             }
         }
