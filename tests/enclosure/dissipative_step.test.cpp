@@ -12,6 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 #include <vector>
 
 using namespace sivid;
@@ -46,6 +48,19 @@ double longest(tube<interval> const& run) {
     double h = 0;
     for (auto const& s : run.steps()) h = std::max(h, s.to - s.from);
     return h;
+}
+
+/// x' = A x with time constants from 1e-4 to 0.3 and couplings of size 1.
+std::pair<Eigen::MatrixXd, std::shared_ptr<flow const>> stiff_linear_system(draws& d) {
+    Eigen::MatrixXd a = d.matrix(3, 3, 1);
+    for (Eigen::Index i = 0; i < 3; ++i) a(i, i) = -std::pow(10, d.uniform(0.5, 4));
+    return {a, support::flow_of(support::model_of(
+                   {3, 0}, [a](auto const&, auto const& x, auto const&, auto const&) {
+                       auto const row = [&](Eigen::Index i) {
+                           return a(i, 0) * x[0] + a(i, 1) * x[1] + a(i, 2) * x[2];
+                       };
+                       return std::vector{row(0), row(1), row(2)};
+                   }))};
 }
 
 } // namespace
@@ -140,15 +155,7 @@ TEST_CASE("the error of the image is the method's, and is needed") {
 TEST_CASE("the derivative of a linear problem is the matrix exponential, whatever the step") {
     draws d(652);
     for (int round = 0; round < 12; ++round) {
-        Eigen::MatrixXd a = d.matrix(3, 3, 1);
-        for (Eigen::Index i = 0; i < 3; ++i) a(i, i) = -std::pow(10, d.uniform(0.5, 4));
-        auto const f = support::flow_of(
-            support::model_of({3, 0}, [a](auto const&, auto const& x, auto const&, auto const&) {
-                auto const row = [&](Eigen::Index i) {
-                    return a(i, 0) * x[0] + a(i, 1) * x[1] + a(i, 2) * x[2];
-                };
-                return std::vector{row(0), row(1), row(2)};
-            }));
+        auto const [a, f] = stiff_linear_system(d);
         dissipative_step<interval> stiff(*f, radau_iia5());
         stiff.set_parameters(box{}, {});
         double const h = d.uniform(0.1, 2);
@@ -209,15 +216,7 @@ TEST_CASE("random stiff linear systems against the matrix exponential") {
     draws d(655);
     std::size_t long_steps = 0;
     for (int round = 0; round < 8; ++round) {
-        Eigen::MatrixXd a = d.matrix(3, 3, 1);
-        for (Eigen::Index i = 0; i < 3; ++i) a(i, i) = -std::pow(10, d.uniform(0.5, 4));
-        auto const f = support::flow_of(
-            support::model_of({3, 0}, [a](auto const&, auto const& x, auto const&, auto const&) {
-                auto const row = [&](Eigen::Index i) {
-                    return a(i, 0) * x[0] + a(i, 1) * x[1] + a(i, 2) * x[2];
-                };
-                return std::vector{row(0), row(1), row(2)};
-            }));
+        auto const [a, f] = stiff_linear_system(d);
         box const initial{between(0.5, 1), between(-1, -0.9), interval(0.25)};
         for (auto const& method : {radau_iia5(), gauss6(), lobatto_iiic4()}) {
             enclosure_options o;

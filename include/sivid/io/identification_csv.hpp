@@ -8,9 +8,9 @@
 #include <sivid/paving/identify.hpp>
 
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <set>
 #include <string>
 #include <utility>
@@ -22,9 +22,11 @@ namespace io_detail {
 
 /// The decimal that is the double (at most 767 significant digits).
 inline std::string all_digits(double x) {
-    std::array<char, 1200> buffer{};
-    std::snprintf(buffer.data(), buffer.size(), "%.767g", x);
-    return exact_decimal::parse(buffer.data()).value_or(exact_decimal{}).text();
+    std::array<char, 1200> buffer;
+    auto const end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x,
+                                   std::chars_format::general, 767)
+                         .ptr;
+    return exact_decimal::parse({buffer.data(), end}).value_or(exact_decimal{}).text();
 }
 
 /// A text as a cell: in quotes where a comma or a quote would break the row.

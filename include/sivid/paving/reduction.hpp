@@ -165,6 +165,8 @@ public:
         return mapped_back(p, r, inner_->judge(r, known));
     }
     [[nodiscard]] std::vector<assessment<knowledge>> learn(std::vector<box> const& boxes) {
+        // None is empty: what `judge` finds empty is outside and not learnt about, and the image
+        // of a part of a box stays within the reduced prior.
         std::vector<box> images;
         for (auto const& p : boxes) images.push_back(map_->forward(p));
         auto found = inner_->learn(images);

@@ -214,7 +214,7 @@ parametric_flow<N, D, C>::attempt(mask trying, C const& to, std::size_t order,
             reject(open, failure_reason::minimum_step, C(0.7));
             return proved;
         }
-        // Rooms of lanes that are proved stay, so that the next round finds the same there.
+        // Rooms of lanes that are proved stay; the next round judges them again.
         mask finite = open;
         for (std::size_t i = 0; i < n; ++i) {
             C const image = (truncation_[i] + spread[i]) * up;

@@ -31,8 +31,9 @@ namespace sivid {
 ///   flow    \f$ V(s) \in \sum_{k<L} s^k V_k + s^L J_L(b) (1 + [-W, W]) \f$
 /// and the tube is proved when both images lie strictly inside it.
 ///
-/// With lanes, W families advance together, each at its own time and with its own step: what a lane
-/// computes never depends on the others, but for the orders and the choice of generators to keep.
+/// With lanes, W families advance together, each at its own time and with its own step. No lane's
+/// proof rests on another; shared are orders, the choice of generators to keep, and which of
+/// several bounds is evaluated.
 /// @guarantee  after each successful step, for every q and every member of the set before, the
 ///             solution lies in the set after (same q), and during the step in `swept()`.
 /// @tparam N  number of variables, at least that of the unknowns
