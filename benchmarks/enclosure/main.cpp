@@ -4,6 +4,7 @@
 #include "hovercraft/model.hpp"
 #include "problems.hpp"
 
+#include <sivid/enclosure/implicit_tableau.hpp>
 #include <sivid/enclosure/parametric_cover.hpp>
 #include <sivid/enclosure/simulate.hpp>
 #include <sivid/enclosure/tube.hpp>
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -196,6 +198,31 @@ problem autonomous(std::string name, box initial, double end, sivid::parameter_c
             std::move(initial), box(), end};
 }
 
+/// One method on the stiff relaxation: steps, and the longest against the time constant 1/k.
+void measure_stiff(std::string const& name, std::optional<sivid::tableau> const& method) {
+    if (only != nullptr && std::string("relaxation").find(only) == std::string::npos) return;
+    auto const p = autonomous<problems::relaxation>("relaxation", sivid::point_box({1.4, 0}), 5);
+    sivid::enclosure_options options;
+    options.method = method;
+    options.tolerance = 1e-6;
+    options.maximum_steps = 5000;
+    auto const begin = std::chrono::steady_clock::now();
+    auto const tube =
+        sivid::integrate<interval>(p.flow, p.initial, p.parameters, 0, p.end, options);
+    double const ms = 1e3 * seconds_since(begin);
+    double longest = 0;
+    for (auto const& s : tube.steps()) longest = std::max(longest, s.to - s.from);
+    std::printf("relaxation k=1e4, T=5, %-14s %8.1f ms %5zu steps, longest %.3g / k, ",
+                name.c_str(), ms, tube.steps().size(), 1e4 * longest);
+    if (tube.complete()) {
+        std::printf("width %.1e\n",
+                    std::max(sivid::width(tube.end().hull[0]), sivid::width(tube.end().hull[1])));
+    } else {
+        std::printf("stopped at t = %.3g\n", tube.end_time());
+    }
+    std::fflush(stdout);
+}
+
 } // namespace
 
 /// Usage: sivid_benchmark_enclosure [part of a problem's name]
@@ -256,5 +283,12 @@ int main(int argc, char** argv) {
         autonomous<problems::lotka_volterra>(
             "Lotka-Volterra", box{interval(1.3 - 0.012, 1.3 + 0.012), interval(1.0)}, 3.64),
         {10, 1e-7, 1e-4}, "published tables");
+    std::printf("\n");
+    measure_stiff("Radau IIA 5", sivid::radau_iia5());
+    measure_stiff("Gauss 6", sivid::gauss6());
+    measure_stiff("Gauss 4", sivid::gauss4());
+    measure_stiff("Lobatto IIIC 6", sivid::lobatto_iiic6());
+    measure_stiff("RK4", sivid::rk4());
+    measure_stiff("Taylor", std::nullopt);
     return 0;
 }

@@ -135,6 +135,29 @@ struct lotka_volterra {
     }
 };
 
+/// Stiff relaxation to cos t, with a slow follower: x' = -k (x - cos t) - sin t,  y' = (x - y)/2
+struct relaxation {
+    static constexpr auto name = "relaxation";
+    static constexpr auto states = sivid::states({{"x", "1", 2}, {"y", "1", 2}});
+    static constexpr auto inputs = sivid::no_inputs;
+    static constexpr auto channels = sivid::channels({{"x", "1"}});
+    static constexpr auto constants = [] {
+        using namespace sivid::literals;
+        return sivid::constants({{"k", "1", 10000_dec}});
+    }();
+    template <class T>
+    sivid::vec<T, 2> rate(T const& t, sivid::vec<T, 2> const& s, sivid::vec<T, 1> const& c,
+                          sivid::vec<T, 0> const&) const {
+        auto const& [x, y] = s;
+        return {-(c[0] * (x - cos(t))) - sin(t), (x - y) / 2};
+    }
+    template <class T>
+    sivid::vec<T, 1> observe(T const&, sivid::vec<T, 2> const& s, sivid::vec<T, 1> const&,
+                             sivid::vec<T, 0> const&) const {
+        return {s[0]};
+    }
+};
+
 } // namespace problems
 
 #endif
