@@ -75,6 +75,7 @@ struct bound_model {
 
 /// Binds constants and inputs, folds what became constant, and differentiates.
 /// @param inputs  one signal per input of the model
+/// @given  the model has no delays (checked): they have to be resolved first
 /// @throws std::invalid_argument on unknown names, a wrong number of inputs, or an empty value
 [[nodiscard]] inline bound_model bind(recorded_model const& model, parameter_choice const& choice,
                                       std::vector<signal> const& inputs) {
@@ -83,6 +84,10 @@ struct bound_model {
         throw std::invalid_argument("model '" + about.name + "' has " +
                                     std::to_string(about.inputs.size()) + " inputs, but " +
                                     std::to_string(inputs.size()) + " signals were given");
+    }
+    if (!model.input_delays.empty() || !model.channel_delays.empty()) {
+        throw std::invalid_argument("model '" + about.name +
+                                    "' has delays; fix them and shift the signals first");
     }
     bound_model result;
     result.about = about;

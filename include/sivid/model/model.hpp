@@ -121,6 +121,13 @@ struct model_description {
     std::vector<constant> constants;
 };
 
+/// A pure delay by an unknown constant, which no graph in t, x, c, u can express: an input that acts
+/// late, or a channel that is seen late.
+struct time_delay {
+    std::size_t index = 0;    ///< of the input or channel
+    std::size_t constant = 0; ///< of the delay among the model's constants, at least 0 [s]
+};
+
 /// A model as data: its description and its recorded graph. From here on nothing depends on the
 /// model's C++ type, so that constants, effects and variants are chosen at run time.
 struct recorded_model {
@@ -128,6 +135,10 @@ struct recorded_model {
     graph g;
     std::vector<node_id> rate;    ///< one node a state
     std::vector<node_id> observe; ///< one node a channel
+    /// The model sees input u(t - c) instead of u(t), and u at the begin before.
+    std::vector<time_delay> input_delays;
+    /// The channel at t shows its value at t - c, and the one at the begin before.
+    std::vector<time_delay> channel_delays;
 };
 
 /// Runs the functor once on the recording scalar.
