@@ -45,6 +45,8 @@
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/combination.hpp>
 #include <sivid/model/differentiate.hpp>
+#include <sivid/model/effect.hpp>
+#include <sivid/model/effects.hpp>
 #include <sivid/model/expression.hpp>
 #include <sivid/model/graph.hpp>
 #include <sivid/model/model.hpp>
@@ -93,6 +95,8 @@
 #include <sivid/paving/set_test.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/verdict.hpp>
+#include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/diagnosis/resolve_delays.hpp>
 #include <sivid/version.hpp>
 
 #endif // SIVID_SIVID_HPP

@@ -94,8 +94,14 @@ using channels_of = vec<T, channel_count<Model>>;
 /// \f$ y = g(t, x, c, u) \f$; both are member templates on the scalar, free of side effects, and
 /// `name`, `states`, `inputs`, `channels`, `constants` say what the numbers mean.
 template <class M>
-concept dynamic_model = requires(M const m, expression t, states_of<M, expression> x,
-                                 constants_of<M, expression> c, inputs_of<M, expression> u) {
+concept dynamic_model = requires {
+    M::states;
+    M::inputs;
+    M::channels;
+    M::constants;
+}
+&&requires(M const m, expression t, states_of<M, expression> x, constants_of<M, expression> c,
+           inputs_of<M, expression> u) {
     { M::name } -> std::convertible_to<std::string_view>;
     { m.rate(t, x, c, u) } -> std::same_as<states_of<M, expression>>;
     { m.observe(t, x, c, u) } -> std::same_as<channels_of<M, expression>>;
@@ -121,11 +127,17 @@ struct model_description {
     std::vector<constant> constants;
 };
 
-/// A pure delay by an unknown constant, which no graph in t, x, c, u can express: an input that acts
-/// late, or a channel that is seen late.
+/// A pure delay by an unknown constant, which no graph in t, x, c, u can express: an input that
+/// acts late, or a channel that is seen late.
 struct time_delay {
     std::size_t index = 0;    ///< of the input or channel
     std::size_t constant = 0; ///< of the delay among the model's constants, at least 0 [s]
+};
+
+/// A state that an effect brought along, with its value at the begin of an experiment.
+struct added_state {
+    std::size_t state = 0;
+    node_id at_begin = 0; ///< a function of the inputs at the begin and the constants
 };
 
 /// A model as data: its description and its recorded graph. From here on nothing depends on the
@@ -139,6 +151,7 @@ struct recorded_model {
     std::vector<time_delay> input_delays;
     /// The channel at t shows its value at t - c, and the one at the begin before.
     std::vector<time_delay> channel_delays;
+    std::vector<added_state> added_states; ///< of effects (see effect.hpp)
 };
 
 /// Runs the functor once on the recording scalar.

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_MODEL_EFFECT_HPP
+#define SIVID_MODEL_EFFECT_HPP
+
+#include <sivid/model/bound_model.hpp>
+#include <sivid/model/expression.hpp>
+#include <sivid/model/model.hpp>
+#include <sivid/model/rewrite.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+class effect_scope;
+
+/// A parameter of an effect: its prior, and the value at which the effect vanishes.
+struct effect_parameter {
+    std::string name;
+    std::string unit;
+    decimal lower;
+    decimal upper;
+    decimal neutral;
+};
+
+/// Something that a model leaves out, as an edit of its recording: inputs and constants may change
+/// before the model sees them (`on_inputs`), its rates after they are formed (`on_rates`), and its
+/// channels (`on_channels`). Any of the three may be empty.
+///
+/// Effects on one input are joined in the order of `order`, then of writing.
+struct effect {
+    using edit = std::function<void(effect_scope&)>;
+
+    std::string name;
+    std::vector<effect_parameter> parameters;
+    edit on_inputs{};
+    edit on_rates{};
+    edit on_channels{};
+    int order = 0;
+    std::string about{}; ///< what it means, for reports
+};
+
+/// What an effect sees of a model under construction and may change. Names are the model's own;
+/// an unknown one throws std::invalid_argument that lists what exists.
+class effect_scope {
+public:
+    [[nodiscard]] expression const& time() const { return time_; }
+    /// The effect's own k-th parameter.
+    [[nodiscard]] expression const& parameter(std::size_t k = 0) const {
+        return constants_.at(first_parameter_ + k);
+    }
+    [[nodiscard]] expression const& state(std::string const& name) const {
+        return states_[index_of(model_->about.states, name, "state")];
+    }
+    /// The constant, as the model sees it.
+    [[nodiscard]] expression& constant(std::string const& name) {
+        return constants_[index_of(model_->about.constants, name, "constant")];
+    }
+    /// The input, as the model sees it.
+    [[nodiscard]] expression& input(std::string const& name) {
+        return inputs_[index_of(model_->about.inputs, name, "input")];
+    }
+    /// Time derivative of a state; of the model's own ones from `on_rates` on.
+    [[nodiscard]] expression& rate(std::string const& state) {
+        return rates_[index_of(model_->about.states, state, "state")];
+    }
+    /// Output of a channel, in `on_channels`.
+    [[nodiscard]] expression& channel(std::string const& name) {
+        return channels_[index_of(model_->about.channels, name, "channel")];
+    }
+
+    /// A further state, whose rate the effect sets.
+    /// @param limit     own range |x| <= limit
+    /// @param at_begin  its initial value, in inputs (at the begin) and constants
+    expression add_state(std::string const& name, std::string const& unit, double limit,
+                         expression const& at_begin) {
+        auto const k = model_->about.states.size();
+        for (auto const& s : model_->about.states) {
+            if (s.name == name) {
+                throw std::invalid_argument("effect: the model has a state '" + name + "'");
+            }
+        }
+        model_->about.states.push_back({name, unit, limit});
+        model_->added_states.push_back({k, at_begin.in(model_->g)});
+        states_.emplace_back(model_->g, model_->g.leaf(operation::state, k));
+        rates_.emplace_back(0.0);
+        return states_.back();
+    }
+    /// The model sees the input late, by the effect's k-th parameter.
+    void delay_input(std::string const& name, std::size_t k = 0) {
+        model_->input_delays.push_back(
+            {index_of(model_->about.inputs, name, "input"), first_parameter_ + k});
+    }
+    /// The channel shows the past, by the effect's k-th parameter.
+    void delay_channel(std::string const& name, std::size_t k = 0) {
+        model_->channel_delays.push_back(
+            {index_of(model_->about.channels, name, "channel"), first_parameter_ + k});
+    }
+
+private:
+    friend recorded_model with(recorded_model const& base, std::vector<effect> effects);
+
+    explicit effect_scope(recorded_model& model) : model_(&model), time_(leaf(operation::time, 0)) {
+        auto const leaves = [this](operation op, std::size_t count, std::vector<expression>& to) {
+            for (std::size_t i = 0; i < count; ++i) to.push_back(leaf(op, i));
+        };
+        leaves(operation::state, model.about.states.size(), states_);
+        leaves(operation::constant, model.about.constants.size(), constants_);
+        leaves(operation::input, model.about.inputs.size(), inputs_);
+        rates_.resize(states_.size());
+    }
+    [[nodiscard]] expression leaf(operation op, std::size_t index) const {
+        return expression(model_->g, model_->g.leaf(op, index));
+    }
+
+    recorded_model* model_;
+    expression time_;
+    std::vector<expression> states_, constants_, inputs_, rates_, channels_;
+    std::size_t first_parameter_ = 0;
+};
+
+/// A model with effects. Their parameters become constants `<effect>.<parameter>`, nominal at the
+/// neutral value; states that they add stand behind the model's own.
+/// @throws std::invalid_argument when an effect names what the model lacks, or stands twice
+[[nodiscard]] inline recorded_model with(recorded_model const& base, std::vector<effect> effects) {
+    std::stable_sort(effects.begin(), effects.end(),
+                     [](effect const& a, effect const& b) { return a.order < b.order; });
+    recorded_model result;
+    result.about = base.about;
+    result.input_delays = base.input_delays;
+    result.channel_delays = base.channel_delays;
+    std::vector<std::size_t> first;
+    auto& constants = result.about.constants;
+    for (auto const& e : effects) {
+        first.push_back(constants.size());
+        for (auto const& p : e.parameters) {
+            auto const name = e.name + "." + p.name;
+            for (auto const& c : constants) {
+                if (c.name == name) {
+                    throw std::invalid_argument("effect '" + e.name + "' stands twice");
+                }
+            }
+            constants.push_back({name, p.unit, literal{enclose(p.neutral), nearest(p.neutral)}});
+        }
+    }
+    effect_scope scope(result);
+    auto const apply_all = [&](effect::edit effect::*stage) {
+        for (std::size_t k = 0; k < effects.size(); ++k) {
+            scope.first_parameter_ = first[k];
+            if (effects[k].*stage) (effects[k].*stage)(scope);
+        }
+    };
+    apply_all(&effect::on_inputs);
+
+    // The model itself, on the inputs and constants that the effects left.
+    auto& g = result.g;
+    auto outputs = base.rate;
+    outputs.insert(outputs.end(), base.observe.begin(), base.observe.end());
+    for (auto const& a : base.added_states) outputs.push_back(a.at_begin);
+    auto const images = copy_into(g, base.g, outputs, [&](node const& n, graph& to) {
+        auto const k = static_cast<std::size_t>(n.index);
+        if (n.op == operation::constant) return scope.constants_[k].in(to);
+        if (n.op == operation::input) return scope.inputs_[k].in(to);
+        return to.leaf(n.op, k);
+    });
+    auto image = images.begin();
+    for (std::size_t i = 0; i < base.rate.size(); ++i) {
+        scope.rates_[i] = expression(g, *image++);
+    }
+    for (std::size_t i = 0; i < base.observe.size(); ++i) {
+        scope.channels_.emplace_back(g, *image++);
+    }
+    for (auto const& a : base.added_states) result.added_states.push_back({a.state, *image++});
+    apply_all(&effect::on_rates);
+    apply_all(&effect::on_channels);
+    for (auto const& e : scope.rates_) result.rate.push_back(e.in(g));
+    for (auto const& e : scope.channels_) result.observe.push_back(e.in(g));
+    for (auto const& a : result.added_states) {
+        if ((g.depends(a.at_begin) & (on_state | on_time)) != 0) {
+            throw std::invalid_argument("effect: the initial value of state '" +
+                                        result.about.states[a.state].name +
+                                        "' may depend on inputs and constants only");
+        }
+    }
+    return result;
+}
+
+/// `with(model{}, effect...)`: records the model and adds the effects.
+template <dynamic_model M, std::same_as<effect>... Effects>
+[[nodiscard]] recorded_model with(M const& model, Effects const&... effects) {
+    return with(record_model(model), std::vector<effect>{effects...});
+}
+
+} // namespace sivid
+
+#endif

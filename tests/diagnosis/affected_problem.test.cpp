@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/diagnosis/affected_problem.hpp>
+
+#include "diagnosis/small_campaign.hpp"
+#include "support/catch.hpp"
+
+using namespace sivid;
+using namespace sivid::literals;
+
+TEST_CASE("an affected problem has the effects' parameters as further unknowns") {
+    auto const base = small_campaign::problem();
+    auto const p = affected(base, {effects::linear_damping("drag", "v", {0_dec, 0.5_dec}),
+                                   effects::input_lag("lag", "u", "N", 5, {0.1_dec, 1_dec})});
+    CHECK(p.choice.unknown == std::vector<std::string>{"k", "drag.k", "lag.tau"});
+    REQUIRE(p.prior.size() == 3);
+    CHECK(contains(p.prior[2], 0.1));
+    CHECK(p.prior[1].upper() == 0.5);
+    for (auto const& e : p.experiments) {
+        REQUIRE(e.initial.size() == 3);
+        CHECK(e.initial[2].lower() == 1);
+        CHECK(e.initial[2].upper() == 1);
+    }
+    p.require_valid();
+    CHECK(affected(base, {}).prior.size() == 1);
+}
+
+TEST_CASE("starts of added states follow the parameters they depend on") {
+    auto base = small_campaign::problem();
+    auto p = affected(base, {effects::input_lag("lag", "u", "N", 5, {0.1_dec, 1_dec}),
+                             effects::input_dead_band("band", "u", "N", {0_dec, 0.25_dec})});
+    // 1 - b
+    CHECK(p.experiments[0].initial[2].lower() == 0.75);
+    CHECK(p.experiments[0].initial[2].upper() == 1);
+    CHECK(p.choice.unknown[1] == "lag.tau"); // in the order of writing
+    p.prior[2] = interval(0.125);
+    start_added_states(p);
+    CHECK(p.experiments[0].initial[2].lower() == 0.875);
+    CHECK(p.experiments[0].initial[2].upper() == 0.875);
+}
+
+TEST_CASE("analytic inputs are read at the begin") {
+    auto base = small_campaign::problem();
+    base.experiments[0].inputs = {
+        analytic_signal::from([](auto const& t) { return 0.5 + t * sin(t); })};
+    auto const p = affected(base, {effects::input_lag("lag", "u", "N", 5, {0.1_dec, 1_dec})});
+    CHECK(p.experiments[0].initial[2].lower() == 0.5);
+    base.experiments[0].inputs = {analytic_signal::from([](auto const& t) { return 1 / t; })};
+    CHECK_THROWS_AS(affected(base, {effects::input_lag("lag", "u", "N", 5, {0.1_dec, 1_dec})}),
+                    std::domain_error);
+}

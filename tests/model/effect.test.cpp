@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/model/effect.hpp>
+
+#include "support/catch.hpp"
+#include "support/formulas.hpp"
+
+using namespace sivid;
+
+namespace {
+
+/// x' = -k x + u, y = x
+struct tank {
+    static constexpr auto name = "tank";
+    static constexpr auto states = sivid::states({{"x", "m", 5}});
+    static constexpr auto inputs = sivid::inputs({{"u", "m/s"}});
+    static constexpr auto channels = sivid::channels({{"y", "m"}});
+    static constexpr auto constants = [] {
+        using namespace sivid::literals;
+        return sivid::constants({{"k", "1/s", 0.5_dec}});
+    }();
+    template <class T>
+    states_of<tank, T> rate(T const&, states_of<tank, T> const& x, constants_of<tank, T> const& c,
+                            inputs_of<tank, T> const& u) const {
+        return {-c[0] * x[0] + u[0]};
+    }
+    template <class T>
+    channels_of<tank, T> observe(T const&, states_of<tank, T> const& x,
+                                 constants_of<tank, T> const&, inputs_of<tank, T> const&) const {
+        return {x[0]};
+    }
+};
+
+effect doubled(std::string const& name) {
+    using namespace sivid::literals;
+    effect e;
+    e.name = name;
+    e.parameters = {{"g", "1", 0_dec, 3_dec, 1_dec}};
+    e.on_inputs = [](effect_scope& m) { m.input("u") *= m.parameter(); };
+    return e;
+}
+
+} // namespace
+
+TEST_CASE("an effect adds constants, states and terms") {
+    using namespace sivid::literals;
+    effect lag;
+    lag.name = "lag";
+    lag.parameters = {{"tau", "s", 0.1_dec, 1_dec, 0.5_dec}};
+    lag.order = 1;
+    lag.on_inputs = [](effect_scope& m) {
+        auto const d = m.add_state("d", "m/s", 9, m.input("u"));
+        m.rate("d") = (m.input("u") - d) / m.parameter();
+        m.input("u") = d;
+    };
+    lag.on_rates = [](effect_scope& m) { m.rate("x") += m.time() * m.constant("k"); };
+    lag.on_channels = [](effect_scope& m) { m.channel("y") *= 2; };
+    // Written behind the lag, but its order puts the gain in front.
+    auto const m = with(tank{}, lag, doubled("gain"));
+    REQUIRE(m.about.states.size() == 2);
+    CHECK(m.about.states[1].name == "d");
+    CHECK(m.about.states[1].limit == 9);
+    REQUIRE(m.about.constants.size() == 3);
+    CHECK(m.about.constants[1].name == "gain.g");
+    CHECK(m.about.constants[2].name == "lag.tau");
+    CHECK(m.about.constants[2].nominal.nearest == 0.5);
+    REQUIRE(m.added_states.size() == 1);
+    auto const value = [&m](node_id n) {
+        graph g;
+        auto const at = copy_into(g, m.g, {n}, [](node const& leaf, graph& to) {
+            double const states[] = {3, 7}, constants[] = {0.5, 2, 0.25};
+            auto const k = static_cast<std::size_t>(leaf.index);
+            return to.constant(leaf.op == operation::state      ? states[k]
+                               : leaf.op == operation::constant ? constants[k]
+                               : leaf.op == operation::input    ? 5.0
+                                                                : 1.0);
+        });
+        return g.value(g[at.front()]).nearest;
+    };
+    CHECK(value(m.rate[0]) == -0.5 * 3 + 7 + 1 * 0.5);
+    CHECK(value(m.rate[1]) == (2 * 5 - 7) / 0.25);
+    CHECK(value(m.observe[0]) == 6);
+    CHECK(value(m.added_states[0].at_begin) == 10);
+}
+
+TEST_CASE("effects can be joined one after the other") {
+    auto const once = with(tank{}, doubled("a"));
+    auto const twice = with(once, {doubled("b")});
+    auto const together = with(tank{}, doubled("a"), doubled("b"));
+    CHECK(twice.about.constants.size() == 3);
+    CHECK(twice.g.size() == together.g.size());
+}
+
+TEST_CASE("delays are named, and binding refuses them") {
+    using namespace sivid::literals;
+    effect late;
+    late.name = "late";
+    late.parameters = {{"in", "s", 0_dec, 1_dec, 0_dec}, {"out", "s", 0_dec, 1_dec, 0_dec}};
+    late.on_inputs = [](effect_scope& m) { m.delay_input("u", 0); };
+    late.on_channels = [](effect_scope& m) { m.delay_channel("y", 1); };
+    auto const m = with(tank{}, late);
+    REQUIRE((m.input_delays.size() == 1 && m.channel_delays.size() == 1));
+    CHECK(m.input_delays[0].constant == 1);
+    CHECK(m.channel_delays[0].constant == 2);
+    auto const hold = sampled_signal({0.0}, {1.0}, interpolation::hold);
+    CHECK_THROWS_AS(bind(m, {}, {hold}), std::invalid_argument);
+    CHECK(with(m, {}).input_delays.size() == 1);
+}
+
+TEST_CASE("mistakes in effects are named") {
+    auto const with_input = [](std::string const& name) {
+        effect e;
+        e.name = "wrong";
+        e.on_inputs = [name](effect_scope& m) { m.input(name) *= 2; };
+        return e;
+    };
+    CHECK_THROWS_WITH(with(tank{}, with_input("v")), ContainsSubstring("unknown input 'v'"));
+    CHECK_THROWS_WITH(with(tank{}, doubled("a"), doubled("a")), ContainsSubstring("twice"));
+    effect start;
+    start.name = "start";
+    start.on_inputs = [](effect_scope& m) { (void)m.add_state("d", "m", 1, m.state("x")); };
+    CHECK_THROWS_WITH(with(tank{}, start), ContainsSubstring("initial value"));
+    effect again;
+    again.name = "again";
+    again.on_inputs = [](effect_scope& m) { (void)m.add_state("x", "m", 1, 0); };
+    CHECK_THROWS_WITH(with(tank{}, again), ContainsSubstring("has a state 'x'"));
+}

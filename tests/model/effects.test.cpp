@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/model/effects.hpp>
+
+#include "support/catch.hpp"
+
+#include <cmath>
+#include <functional>
+
+using namespace sivid;
+using namespace sivid::literals;
+
+namespace {
+
+/// x' = c u, w' = x; y = x, z = w
+struct cart {
+    static constexpr auto name = "cart";
+    static constexpr auto states = sivid::states({{"x", "m/s", 5}, {"w", "m", 5}});
+    static constexpr auto inputs = sivid::inputs({{"u", "N"}});
+    static constexpr auto channels = sivid::channels({{"y", "m/s"}, {"z", "m"}});
+    static constexpr auto constants = [] {
+        using namespace sivid::literals;
+        return sivid::constants({{"c", "1/kg", 2_dec}});
+    }();
+    template <class T>
+    states_of<cart, T> rate(T const&, states_of<cart, T> const& x, constants_of<cart, T> const& c,
+                            inputs_of<cart, T> const& u) const {
+        return {c[0] * u[0], x[0]};
+    }
+    template <class T>
+    channels_of<cart, T> observe(T const&, states_of<cart, T> const& x,
+                                 constants_of<cart, T> const&, inputs_of<cart, T> const&) const {
+        return {x[0], x[1]};
+    }
+};
+
+/// Value of a node at t = 3, x = (-0.5, 2, 0.25), u, c = 2 and the effect's parameter.
+double at(recorded_model const& m, node_id n, double u, double parameter) {
+    graph g;
+    auto const image = copy_into(g, m.g, {n}, [&](node const& leaf, graph& to) {
+        double const states[] = {-0.5, 2, 0.25}, constants[] = {2, parameter};
+        auto const k = static_cast<std::size_t>(leaf.index);
+        return to.constant(leaf.op == operation::state      ? states[k]
+                           : leaf.op == operation::constant ? constants[k]
+                           : leaf.op == operation::input    ? u
+                                                            : 3.0);
+    });
+    return g.value(g[image.front()]).nearest;
+}
+double rate(effect const& e, std::size_t i, double u, double parameter) {
+    auto const m = with(cart{}, e);
+    return at(m, m.rate[i], u, parameter);
+}
+double channel(effect const& e, std::size_t i, double parameter) {
+    auto const m = with(cart{}, e);
+    return at(m, m.observe[i], 0, parameter);
+}
+
+constexpr effects::range prior{0_dec, 1_dec};
+
+} // namespace
+
+TEST_CASE("effects of inputs") {
+    auto const band = effects::input_dead_band("e", "u", "N", prior);
+    CHECK(rate(band, 0, 1.5, 0.5) == 2);
+    CHECK(rate(band, 0, -1.5, 0.5) == -2);
+    CHECK(rate(band, 0, 0.3, 0.5) == 0);
+    auto const limit = effects::input_saturation("e", "u", "N", prior);
+    CHECK(rate(limit, 0, 1.5, 0.5) == 1);
+    CHECK(rate(limit, 0, -1.5, 0.5) == -1);
+    CHECK(rate(limit, 0, 0.25, 0.5) == 0.5);
+    CHECK(rate(effects::input_trim("e", "u", "b", "N", prior), 0, 1, 0.5) == 3);
+    CHECK(rate(effects::input_gain("e", "u", prior), 0, 1, 0.5) == 3);
+    auto const lag = effects::input_lag("e", "u", "N", 10, prior);
+    CHECK(rate(lag, 0, 7, 0.5) == 0.5);
+    CHECK(rate(lag, 2, 7, 0.5) == (7 - 0.25) / 0.5);
+    auto const model = with(cart{}, lag);
+    CHECK(at(model, model.added_states[0].at_begin, 7, 0.5) == 7);
+    auto const resting = with(cart{}, effects::input_lag("e", "u", "N", 10, prior, true));
+    CHECK(at(resting, resting.added_states[0].at_begin, 7, 0.5) == 0);
+    CHECK(with(cart{}, effects::input_delay("e", "u", prior)).input_delays.size() == 1);
+}
+
+TEST_CASE("effects of equations") {
+    CHECK(rate(effects::constant_rate("e", "x", "m/s^2", prior), 0, 1, 0.5) == 2.5);
+    CHECK(rate(effects::linear_damping("e", "x", prior), 0, 1, 0.5) == 2.25);
+    CHECK(rate(effects::quadratic_damping("e", "x", "1/m", prior), 0, 1, 0.5) == 2.125);
+    CHECK(rate(effects::dry_friction("e", "x", "m/s^2", prior, 0_dec), 0, 1, 0.5) == 2.5);
+    auto const smooth = effects::dry_friction("e", "x", "m/s^2", prior, 0.5_dec);
+    CHECK(std::abs(rate(smooth, 0, 1, 0.5) - (2 + 0.5 / std::sqrt(2.0))) < 1e-15);
+    CHECK(rate(effects::drift("e", "c", prior), 0, 1, 0.5) == 2 * (1 + 0.5 * 3));
+}
+
+TEST_CASE("effects of sensors") {
+    CHECK(channel(effects::sensor_bias("e", "y", "m/s", prior), 0, 0.5) == 0);
+    auto const scale = effects::sensor_scale("e", {"y", "z"}, prior);
+    CHECK(channel(scale, 0, 0.5) == -0.75);
+    CHECK(channel(scale, 1, 0.5) == 3);
+    auto const late = with(cart{}, effects::sensor_latency("e", {"y", "z"}, prior));
+    CHECK(late.channel_delays.size() == 2);
+}
+
+TEST_CASE("the neutral value leaves the model as it is") {
+    for (auto const& e :
+         {effects::input_dead_band("e", "u", "N", prior),
+          effects::input_trim("e", "u", "b", "N", prior), effects::input_gain("e", "u", prior),
+          effects::constant_rate("e", "x", "m/s^2", prior),
+          effects::linear_damping("e", "x", prior), effects::drift("e", "c", prior),
+          effects::input_saturation("e", "u", "N", prior)}) {
+        double const neutral = nearest(e.parameters[0].neutral);
+        CHECK(rate(e, 0, 0.75, neutral) == 1.5);
+    }
+}
