@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_DIAGNOSIS_HPP
+#define SIVID_DIAGNOSIS_DIAGNOSIS_HPP
+
+#include <sivid/number/interval_traits.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sivid {
+
+/// Whether some parameter explains the data used for fitting.
+enum class gap_verdict {
+    none,      ///< proved: one does
+    certified, ///< proved: none in the prior does
+    undecided
+};
+[[nodiscard]] constexpr std::string_view to_string(gap_verdict v) {
+    return v == gap_verdict::none        ? "none"
+           : v == gap_verdict::certified ? "certified"
+                                         : "undecided";
+}
+
+/// The factor by which all measurement bounds must grow until some parameter explains the data:
+///   \f$ \lambda^* = \min_{p, x_0} \max_s \f$ (the (q_s+1)-th largest |y - m|/e in scenario s).
+/// As [lower, upper], both proved; upper is infinite where nothing is known.
+using inflation_range = interval;
+
+/// Nothing is known of an inflation but that it is not negative.
+[[nodiscard]] inline inflation_range unknown_inflation() {
+    return interval_traits<interval>::bounds(0, std::numeric_limits<double>::infinity());
+}
+
+/// The share of a gap that an effect removes, \f$ 1 - \max(0, after - 1) / \max(0, before - 1) \f$.
+/// @returns nothing where there is no gap to shrink (before.upper <= 1); the lower bound is
+///          -infinity where `before` may be 1, or `after` is unbounded
+[[nodiscard]] inline std::optional<interval> shrink(inflation_range const& before,
+                                                    inflation_range const& after) {
+    using traits = interval_traits<interval>;
+    if (!(before.upper() > 1)) return std::nullopt;
+    auto const excess = [](double x, bool up) {
+        if (!(x > 1)) return 0.0;
+        auto const d = traits::sub(traits::point(x), traits::point(1.0));
+        return up ? d.upper() : d.lower();
+    };
+    auto const infinity = std::numeric_limits<double>::infinity();
+    // Smallest and largest quotient of the excesses.
+    double most = infinity;
+    double const gap_low = excess(before.lower(), false);
+    bool undefined = false;
+    if (gap_low > 0 && after.upper() < infinity) {
+        most = traits::div(traits::point(excess(after.upper(), true)), traits::point(gap_low),
+                           undefined)
+                   .upper();
+    }
+    double least = 0;
+    if (before.upper() < infinity) {
+        least = traits::div(traits::point(excess(after.lower(), false)),
+                            traits::point(excess(before.upper(), true)), undefined)
+                    .lower();
+    }
+    auto const quotient = traits::bounds(std::max(0.0, least), most);
+    return traits::sub(traits::point(1.0), quotient);
+}
+
+/// A stretch of a scenario.
+struct time_window {
+    std::string scenario;
+    double from = 0, to = 0; ///< [s]
+};
+
+/// A proof that an equation and sensors cannot hold together, whatever the parameters.
+struct broken_relation_report {
+    std::string equation;
+    std::vector<std::string> sensors;
+    bool proved = false;
+    std::vector<std::string> assumptions;
+    std::vector<time_window> windows;
+};
+
+/// A place where model and robot part.
+struct suspected_place {
+    std::string kind; ///< equation, sensor or input
+    std::string name;
+    bool proved = false;
+    time_window where;
+    std::optional<interval> missing; ///< proved bounds of the mean missing rate or offset
+    std::optional<double> estimate;  ///< the same, estimated
+    std::string unit;
+    std::string law;    ///< the shape of what is missing; empty when none stands out
+    std::string regime; ///< where it acts; empty when everywhere
+    std::vector<std::string> alternatives{}; ///< places that explain as much
+};
+
+enum class cause_verdict {
+    explains, ///< proved, with a witness
+    excluded, ///< proved over the prior of the effect's parameters
+    undecided
+};
+[[nodiscard]] constexpr std::string_view to_string(cause_verdict v) {
+    return v == cause_verdict::explains   ? "explains"
+           : v == cause_verdict::excluded ? "excluded"
+                                          : "undecided";
+}
+
+/// A number with a name, and what is known of it.
+struct named_estimate {
+    std::string name;
+    std::string unit;
+    double value = 0;             ///< of the fit
+    std::optional<interval> hull; ///< proved to contain every value that explains the data
+};
+
+/// What parameters and starts were verified.
+struct named_witness {
+    std::vector<named_estimate> parameters;
+    struct start {
+        std::string scenario;
+        std::vector<named_estimate> states;
+    };
+    std::vector<start> starts;
+};
+
+/// How well data that chose nothing are met, before and after an effect is joined.
+struct holdout_figures {
+    inflation_range inflation_before = unknown_inflation();
+    inflation_range inflation_after = unknown_inflation();
+    std::vector<std::string> channels;
+    std::vector<double> rmse_before, rmse_after;  ///< one per channel
+    double covered_before = 0, covered_after = 0; ///< share of samples inside the predicted tube
+    double width_before = 0, width_after = 0;     ///< mean width of that tube, in error bounds
+};
+
+/// One candidate: effects that might be what the model leaves out.
+struct cause {
+    std::vector<std::string> effects;
+    cause_verdict verdict = cause_verdict::undecided;
+    inflation_range inflation = unknown_inflation();
+    double fitted_inflation = 0; ///< of the best fit found; not proved
+    double score = 0;            ///< 3 sum of squares + k ln N of the fit: less is likelier
+    std::vector<named_estimate> parameters; ///< of the effects
+    std::optional<named_witness> witness;
+    std::vector<std::string> assumptions;
+    std::optional<holdout_figures> holdout;
+};
+
+enum class answer_kind { none, effects, unexplained };
+[[nodiscard]] constexpr std::string_view to_string(answer_kind k) {
+    return k == answer_kind::none ? "none" : k == answer_kind::effects ? "effects" : "unexplained";
+}
+
+/// A manoeuvre that would tell candidates apart.
+struct next_experiment {
+    std::string manoeuvre;
+    std::vector<named_estimate> settings; ///< of a manoeuvre that was optimised
+    double separation = 0; ///< predicted: largest difference of the outputs in error bounds
+    bool recorded = false; ///< one of the manoeuvres at hand, made again with finer bounds
+};
+
+/// Where model and robot part, which effect it is, and how far the gap shrinks.
+/// Everything that is called proved, certified, excluded or explained is a theorem under the
+/// assumptions listed; the rest is an estimate.
+struct diagnosis {
+    gap_verdict gap = gap_verdict::undecided;
+    inflation_range inflation = unknown_inflation();
+    std::vector<named_estimate> scenario_inflation, channel_inflation;
+    std::vector<broken_relation_report> relations;
+    std::vector<suspected_place> where; ///< most important first
+    std::vector<cause> causes;          ///< best first
+    answer_kind answer = answer_kind::none;
+    std::vector<std::string> effects; ///< the answer
+    std::vector<std::vector<std::string>> indistinguishable;
+    std::vector<std::string> unobservable; ///< effects that these channels and scenarios never show
+    std::optional<interval> shrink_fit, shrink_holdout;
+    std::optional<next_experiment> next;
+    std::vector<std::string> assumptions;
+    double seconds = 0;
+    bool interrupted = false;
+};
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/io/diagnosis_json.hpp>
+
+#include "support/catch.hpp"
+
+#include <nlohmann/json.hpp>
+
+using namespace sivid;
+
+TEST_CASE("an empty diagnosis is a valid document") {
+    auto const text = diagnosis_json({}, "nothing");
+    CHECK(nlohmann::json::accept(text));
+    CHECK_THAT(text, ContainsSubstring("\"verdict\": \"undecided\""));
+    CHECK_THAT(text, ContainsSubstring("\"inflation\": [0, null]"));
+    CHECK_THAT(text, ContainsSubstring("\"fit\": null"));
+    CHECK_THAT(text, ContainsSubstring("\"next\": null"));
+}
+
+TEST_CASE("all that a diagnosis says is written, bounds outward and names quoted") {
+    diagnosis d;
+    d.gap = gap_verdict::certified;
+    d.inflation = interval(0.1 + 0.2, 4);
+    d.relations.push_back({"yaw", {"r", "psi"}, true, {"|r''| <= 40 rad/s^3"}, {{"S4", 1.2, 2}}});
+    suspected_place yaw;
+    yaw.kind = "equation";
+    yaw.name = "yaw";
+    yaw.where = {"S4", 1.2, 2};
+    yaw.missing = interval(-0.42, -0.18);
+    yaw.law = "F_u \"quoted\"";
+    d.where.push_back(yaw);
+    cause c;
+    c.effects = {"rudder_lag"};
+    c.verdict = cause_verdict::explains;
+    c.inflation = interval(0.5, 0.75);
+    c.parameters.push_back({"rudder_lag.tau", "s", 0.169, interval(0.125, 0.25)});
+    c.parameters.push_back({"rudder_lag.other", "s", 0.5, std::nullopt});
+    c.witness = named_witness{{{"Sv", "m^2", 0.1 + 0.2, std::nullopt}},
+                              {{"S1", {{"u", "m/s", 2, std::nullopt}}}}};
+    c.holdout = holdout_figures{};
+    c.holdout->channels = {"u"};
+    c.holdout->rmse_before = {0.5};
+    d.causes.push_back(c);
+    d.answer = answer_kind::effects;
+    d.effects = {"rudder_lag"};
+    d.indistinguishable = {{"input_delay"}, {"wind", "payload"}};
+    d.next = next_experiment{"zigzag", {{"amplitude", "rad", 0.25, std::nullopt}}, 7.5, false};
+    auto const text = diagnosis_json(d, "dev \"7\"");
+    CHECK(nlohmann::json::accept(text));
+    for (auto const* part :
+         {"\"inflation\": [0.30000000000000", ", 4]", "\"sensors\": [\"r\", \"psi\"]",
+          "{\"scenario\": \"S4\", \"from\": 1.2, \"to\": 2}", "\"law\": \"F_u \\\"quoted\\\"\"",
+          "\"regime\": null", "\"rudder_lag.tau\": [0.125, 0.25]", "\"rudder_lag.other\": null",
+          "\"Sv\": 0.30000000000000004", "\"S1\": {\"u\": 2}", "\"rmse_before\": {\"u\": 0.5}",
+          "[\"wind\", \"payload\"]", "\"amplitude\": 0.25", "\"dataset\": \"dev \\\"7\\\"\""}) {
+        CHECK_THAT(text, ContainsSubstring(part));
+    }
+}
