@@ -47,7 +47,7 @@ TEST_CASE("all that a diagnosis says is written, bounds outward and names quoted
     auto const text = diagnosis_json(d, "dev \"7\"");
     CHECK(nlohmann::json::accept(text));
     for (auto const* part :
-         {"\"inflation\": [0.30000000000000", ", 4]", "\"sensors\": [\"r\", \"psi\"]",
+         {"\"inflation\": [0.3", ", 4]", "\"sensors\": [\"r\", \"psi\"]",
           "{\"scenario\": \"S4\", \"from\": 1.2, \"to\": 2}", "\"law\": \"F_u \\\"quoted\\\"\"",
           "\"regime\": null", "\"rudder_lag.tau\": [0.125, 0.25]", "\"rudder_lag.other\": null",
           "\"Sv\": 0.30000000000000004", "\"S1\": {\"u\": 2}", "\"rmse_before\": {\"u\": 0.5}",
