@@ -165,8 +165,7 @@ private:
                 if (w.block != s) continue;
                 double const value = w.value * scales_[s][w.function];
                 auto const weight = traits::mul(half, traits::point(value));
-                auto const lo = traits::point(r.bounds[w.function].lower());
-                auto const hi = traits::point(r.bounds[w.function].upper());
+                auto const [lo, hi] = measured_ends(r.bounds[w.function]);
                 sum.add_constant(traits::neg(traits::mul(weight, traits::add(lo, hi))));
                 size = traits::add(size, traits::abs(traits::mul(weight, traits::sub(hi, lo))));
                 mine.emplace_back(w.function, value);

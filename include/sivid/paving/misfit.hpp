@@ -5,14 +5,29 @@
 #include <sivid/number/interval_traits.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <vector>
 
 namespace sivid {
 
-/// Encloses \f$ |y - m| / e \f$ for all y in `output`, where m is the exact middle and e the exact
-/// half width of the measured bound: by which factor the bound must grow to contain y.
+/// The ends of a measured bound. Each is the outward neighbour of a decimal, or the decimal itself.
+struct measured_ends {
+    interval lower, upper;
+
+    /// @given  bounded
+    explicit measured_ends(interval const& bound) : lower(bound.lower()), upper(bound.upper()) {
+        if (!(bound.lower() < bound.upper())) return;
+        lower = interval_traits<interval>::bounds(
+            bound.lower(), std::nextafter(bound.lower(), detail::infinity));
+        upper = interval_traits<interval>::bounds(
+            std::nextafter(bound.upper(), -detail::infinity), bound.upper());
+    }
+};
+
+/// Encloses \f$ |y - m| / e \f$ for all y in `output`, where m is the middle and e the half width of
+/// the measured bound: by which factor the bound must grow to contain y.
 ///   A bound that is not bounded cannot grow: the misfit is 0 within and infinite outside.
 [[nodiscard]] inline interval misfit(interval const& output, interval const& bound) {
     using traits = interval_traits<interval>;
@@ -22,12 +37,11 @@ namespace sivid {
         return traits::bounds(disjoint(output, bound) ? detail::greatest : 0.0, detail::infinity);
     }
     bool undefined = false;
-    auto const lo = traits::point(lower(bound));
-    auto const hi = traits::point(upper(bound));
+    auto const [lo, hi] = measured_ends(bound);
     // |2 y - (lo + hi)| / (hi - lo)
     auto const off = traits::sub(traits::mul(traits::point(2.0), output), traits::add(lo, hi));
     auto const size = traits::sub(hi, lo);
-    auto const quotient = [&](double a, double b) {
+    auto const quotient = [&undefined](double a, double b) {
         return traits::div(traits::point(a), traits::point(b), undefined);
     };
     double const least = mig(off);
