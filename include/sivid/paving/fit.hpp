@@ -29,6 +29,8 @@ struct approximate_fit {
     /// Largest over the experiments of the (q+1)-th largest |residual|: at most 1 when all is
     /// explained.
     double inflation = std::numeric_limits<double>::infinity();
+    /// Least sum of squared residuals on the way, without the q largest of each experiment.
+    double squares = std::numeric_limits<double>::infinity();
 };
 
 /// Minimises the inflation: least squares that leave out what looks like an outlier, then a higher
@@ -97,7 +99,8 @@ private:
         z.for_each(
             [&](double& v, double hi) {
                 double const golden = std::fmod(
-                    0.5 + static_cast<double>(k) * std::sqrt(static_cast<double>(2 + 3 * i++)), 1.0);
+                    0.5 + static_cast<double>(k) * std::sqrt(static_cast<double>(2 + 3 * i++)),
+                    1.0);
                 v += golden * (hi - v);
             },
             campaign_->upper());
@@ -115,6 +118,7 @@ private:
             down.run(here, 1.2, kept, {12, 1e-3}, &best);
         }
         down.run(here, 2, {}, {20, 1e-3}, &best);
+        squares_ = std::min(squares_, squares_of(here));
         if (best.inflation < 0.7) return best;
         down.run(here, 8, {}, {6, 1e-2}, &best);
         auto unit = campaign_->upper();
@@ -125,8 +129,20 @@ private:
     }
 
     /// Once more, with care.
+    [[nodiscard]] double squares_of(descent_point const& here) const {
+        auto const kept = kept_of(here.residuals, campaign_->outliers());
+        double sum = 0;
+        for (std::size_t e = 0; e < kept.size(); ++e) {
+            for (std::size_t k = 0; k < kept[e].size(); ++k) {
+                sum += kept[e][k] * here.residuals[e][k] * here.residuals[e][k];
+            }
+        }
+        return sum;
+    }
+
     [[nodiscard]] approximate_fit finished(descent_point here) {
         approximate_fit result;
+        result.squares = squares_;
         if (!std::isfinite(here.inflation)) return result;
         campaign_->set_accuracy(1e-3);
         residual_lists fine;
@@ -142,6 +158,7 @@ private:
     }
 
     std::unique_ptr<campaign> campaign_;
+    double squares_ = std::numeric_limits<double>::infinity();
 };
 
 } // namespace sivid
