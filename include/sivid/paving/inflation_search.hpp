@@ -84,7 +84,7 @@ public:
     }
 
     /// Splits the box with the least bound, or integrates over several.
-    /// @param hurry  false ends an integration between two experiments
+    /// @param go_on  false ends an integration between two experiments
     void step(proposal const& propose, std::function<bool()> const& go_on) {
         auto next = pop();
         if (!is_blind(next) || next.fresh) {
@@ -124,6 +124,10 @@ public:
     }
 
 private:
+    static bool is_complete(inflation_bounder::responses const& known) {
+        return std::all_of(known.begin(), known.end(),
+                           [](auto const& r) { return r->outputs() == r->measurements; });
+    }
     static bool is_blind(inflation_box const& b) {
         return std::find(b.stale.begin(), b.stale.end(), true) != b.stale.end();
     }
@@ -188,9 +192,7 @@ private:
         auto const found = inflation_bounder(b.known, outliers_, b.set)(target_);
         b.lower = std::max(b.lower, found.lower);
         b.smear = found.smear;
-        bool complete = true;
-        for (auto const& r : b.known) complete = complete && r->outputs() == r->measurements;
-        propose(found, complete);
+        propose(found, is_complete(b.known));
         double const missing = std::isfinite(above_) ? above_ - b.lower : std::max(b.lower, 1.0);
         for (std::size_t s = 0; s < b.known.size(); ++s) {
             auto const& r = *b.known[s];
