@@ -94,7 +94,7 @@ public:
     inflation_work(identification_problem const& problem, inflation_options const& options)
         : problem_(&problem),
           options_(&options),
-          everything_(inflation_search::without_limit(problem)),
+          everything_(box_explorer::without_limit(problem)),
           points_(everything_, options.test),
           map_(reduction::find(problem, dependence_of(problem))),
           search_(working(), options.test),
