@@ -115,7 +115,7 @@ TEST_CASE("no point of the box has a smaller inflation than the relaxation prove
         std::vector<double> x0;
         for (std::size_t s = 0; s < e.known.size(); ++s) {
             auto const& side = e.known[s]->unknowns.initial[0];
-            x0.push_back(side.radius > 0 ? (mid(found.starts[s])[0] - side.centre) / side.radius
+            x0.push_back(side.radius > 0 ? (found.starts[s][0] - side.centre) / side.radius
                                          : 0);
             CHECK(std::abs(x0.back()) <= 1 + 1e-9);
         }

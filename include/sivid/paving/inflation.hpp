@@ -4,6 +4,7 @@
 
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/inflation_search.hpp>
+#include <sivid/paving/minimax_fit.hpp>
 #include <sivid/paving/misfit.hpp>
 
 #include <algorithm>
@@ -93,26 +94,40 @@ public:
     inflation_work(identification_problem const& problem, inflation_options const& options)
         : problem_(&problem),
           options_(&options),
-          everything_(inflation_search::without_limit(problem)),
+          everything_(box_explorer::without_limit(problem)),
           points_(everything_, options.test),
           map_(reduction::find(problem, dependence_of(problem))),
-          search_(map_ ? map_->problem() : problem, options.test) {}
+          search_(working(), options.test),
+          fit_(working()) {}
 
     [[nodiscard]] inflation_bound operator()(approximate_fit const* guess) {
-        if (guess != nullptr && guess->parameters.size() == problem_->prior.size()) {
-            verify(guess->parameters, guess->starts);
+        std::vector<std::vector<double>> starts;
+        for (auto const& e : problem_->experiments) starts.push_back(mid(e.initial));
+        if (guess != nullptr && guess->parameters.size() == problem_->prior.size() &&
+            guess->starts.size() == starts.size()) {
+            auto const& p = guess->parameters;
+            improve(map_ ? mid(map_->forward(point_box(p))) : p, guess->starts);
         }
+        if (!witness_) improve(mid(working().prior), starts);
         auto const propose = [this](inflation_relaxation const& found, bool complete) {
             consider(found, complete);
         };
         while (!search_.exhausted() && !finished()) {
             search_.aim_at(target());
             search_.step(propose, [this] { return in_time(); });
+            if (promise_) {
+                improve(promise_->point, promise_->starts);
+                promise_.reset();
+            }
         }
         return report();
     }
 
 private:
+    /// The problem with the fewest parameters that has the same trajectories.
+    [[nodiscard]] identification_problem const& working() const {
+        return map_ ? map_->problem() : *problem_;
+    }
     [[nodiscard]] double elapsed() const {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
     }
@@ -130,23 +145,30 @@ private:
         return std::isfinite(enough) ? enough : std::max(1.0, 2 * search_.lower());
     }
 
-    /// A point of a relaxation is worth validated runs when it promises a better upper bound.
+    /// Keeps the best promise of a step, if it promises enough to be worth validated runs. Where
+    /// outputs are missing it is worth little.
     void consider(inflation_relaxation const& found, bool complete) {
-        if (found.point.empty()) return;
-        bool const settled = options_->only_verdict && complete && found.approximate_value > 1;
-        double const promised = std::isfinite(upper_) && settled ? detail::infinity
-                                                                 : found.approximate_value;
-        if (!(promised < upper_ * (1 - 0.2 * options_->relative_width))) return;
-        // Where outputs are missing the promise is worth little.
-        if (!complete && std::isfinite(upper_) && verifying_ > 0.2 * elapsed()) return;
-        std::vector<std::vector<double>> starts;
-        for (auto const& x0 : found.starts) starts.push_back(mid(x0));
-        verify(map_ ? map_->approximate_preimage(problem_->prior, found.point) : found.point,
-               std::move(starts));
+        double const enough = (1 - 0.2 * options_->relative_width) * upper_;
+        if (found.point.empty() || !(found.approximate_value < enough)) return;
+        if (!complete && witness_ && improving_ > 0.2 * elapsed()) return;
+        if (promise_ && !(found.approximate_value < promise_->approximate_value)) return;
+        promise_ = found;
     }
-    void verify(std::vector<double> parameters, std::vector<std::vector<double>> starts) {
+    /// Descends from a point of the working problem and verifies where that leads.
+    void improve(std::vector<double> const& point,
+                 std::vector<std::vector<double>> const& starts) {
         double const begin = elapsed();
-        verified_witness candidate{std::move(parameters), std::move(starts), {}};
+        auto const better = fit_(point, starts, [this] { return in_time(); });
+        if (better.parameters.empty()) {
+            verify(point, starts);
+        } else if (better.inflation < upper_) {
+            verify(better.parameters, better.starts);
+        }
+        improving_ += elapsed() - begin;
+    }
+    void verify(std::vector<double> const& point, std::vector<std::vector<double>> starts) {
+        verified_witness candidate{
+            map_ ? map_->approximate_preimage(problem_->prior, point) : point, std::move(starts), {}};
         move_inside(candidate.parameters, problem_->prior);
         for (std::size_t s = 0; s < candidate.starts.size(); ++s) {
             move_inside(candidate.starts[s], problem_->experiments[s].initial);
@@ -157,7 +179,6 @@ private:
             witness_ = std::move(candidate);
             search_.drop_above(upper_);
         }
-        verifying_ += elapsed() - begin;
     }
     /// Into the box and, where that has a width, off its bounds, which enclose decimals.
     static void move_inside(std::vector<double>& x, box const& where) {
@@ -191,8 +212,10 @@ private:
     data_test points_;
     std::optional<reduction> map_;
     inflation_search search_;
+    minimax_fitter fit_;
     double upper_ = detail::infinity;
-    double verifying_ = 0;
+    double improving_ = 0; ///< seconds
+    std::optional<inflation_relaxation> promise_;
     std::optional<verified_witness> witness_;
 };
 

@@ -25,8 +25,8 @@ struct inflation_relaxation {
     double slack = 0;           ///< what the curvature may have cost the bound
     std::vector<double> blur;   ///< per experiment: what its remainders may have cost
     std::vector<double> smear;  ///< per parameter
-    std::vector<double> point;  ///< parameters where the inflation is about least
-    std::vector<box> starts;    ///< not proved either: a start for each experiment, as points
+    std::vector<double> point;  ///< parameters where the inflation is about least, not proved
+    std::vector<std::vector<double>> starts; ///< one initial state per experiment, for `point`
     double approximate_value = std::numeric_limits<double>::infinity(); ///< about, at `point`
 };
 
@@ -260,7 +260,7 @@ private:
     /// Keeps a point of the unknowns when the polynomials promise less there.
     void propose(inflation_relaxation& result, std::vector<double> const& d) const {
         double worst = 0;
-        std::vector<box> starts;
+        std::vector<std::vector<double>> starts;
         for (std::size_t s = 0; s < known_->size(); ++s) {
             auto const& r = *(*known_)[s];
             auto const& local = locals_[s];
@@ -285,7 +285,7 @@ private:
             for (auto const& side : r.unknowns.initial) {
                 x0.push_back(side.centre + (side.radius > 0 ? side.radius * q[side.variable] : 0));
             }
-            starts.push_back(point_box(x0));
+            starts.push_back(std::move(x0));
         }
         if (!(worst < result.approximate_value)) return;
         result.approximate_value = worst;
