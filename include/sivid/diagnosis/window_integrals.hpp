@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,30 @@ namespace sivid {
 struct derivative_pair {
     std::size_t r = 0, q = 0;
 };
+
+namespace diagnosis_detail {
+
+/// The same expression in which a product with 0 is 0 even where the other factor is not defined
+/// everywhere; for derivatives, which are only used where their function is defined.
+inline node_id without_zero_products(graph& g, node_id i, std::map<node_id, node_id>& done) {
+    if (auto const found = done.find(i); found != done.end()) return found->second;
+    auto const n = g[i]; // a copy: building moves the nodes
+    auto result = i;
+    if (!is_leaf(n.op)) {
+        auto const a = without_zero_products(g, n.a, done);
+        if (is_binary(n.op)) {
+            auto const b = without_zero_products(g, n.b, done);
+            bool const zero = n.op == operation::mul && (g.is(a, 0) || g.is(b, 0));
+            bool const none = n.op == operation::div && g.is(a, 0);
+            result = zero || none ? g.constant(0.0) : g.binary(n.op, a, b);
+        } else {
+            result = n.op == operation::pown ? g.pown(a, n.index) : g.unary(n.op, a);
+        }
+    }
+    return done[i] = result;
+}
+
+} // namespace diagnosis_detail
 
 /// Functions of time, states and inputs with what their enclosures need: partial derivatives by the
 /// states, and which of them are differentiable in Clarke's sense (no jumps).
@@ -43,6 +68,10 @@ struct integrand_set {
             result.continuous.push_back(!jumps);
         }
         result.slopes = differentiate(g, functions, x);
+        std::map<node_id, node_id> done;
+        for (auto& row : result.slopes) {
+            for (auto& d : row) d = diagnosis_detail::without_zero_products(g, d, done);
+        }
         result.g = &g;
         return result;
     }
@@ -202,6 +231,7 @@ private:
     [[nodiscard]] static std::vector<double> slow_weight(std::vector<cell_ranges> const& ranges,
                                                          std::vector<time_cell> const& cells,
                                                          std::size_t p, double slow) {
+        if (cells.empty()) return {0.0};
         double const from = cells.front().from;
         double const length = cells.back().to - from;
         auto const knots = static_cast<std::size_t>(std::max(1.0, std::ceil(length / slow))) + 1;
