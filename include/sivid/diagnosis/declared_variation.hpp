@@ -101,7 +101,9 @@ find_rate_scales(bound_model const& model, box const& prior, experiment const& e
 /// is a function of states only (a kinematic equation) varies by at most one and a half times what
 /// the rates of those states bring about within a gap.
 ///   An assumption, not a theorem: it belongs into the list of assumptions. Smooth motion meets it
-///   threefold; an actuator that switches, or a gust, shows in the change over three gaps.
+///   with room to spare; an actuator that switches, or a gust, shows in the change over three gaps.
+///   Not met by what comes and goes between two samples, such as the hard sticking of dry friction:
+///   then declare more.
 /// @param own  declared by the user for states by name; the rest gets the default
 [[nodiscard]] inline std::vector<std::vector<rate_variation>>
 declare_variations(bound_model const& model, std::vector<rate_scales> const& scales,
