@@ -88,12 +88,14 @@
 #include <sivid/enclosure/tube_step.hpp>
 #include <sivid/enclosure/variation_bound.hpp>
 #include <sivid/paving/arrow_system.hpp>
+#include <sivid/paving/box_explorer.hpp>
 #include <sivid/paving/campaign.hpp>
 #include <sivid/paving/combined_polynomial.hpp>
 #include <sivid/paving/data_test.hpp>
 #include <sivid/paving/descent.hpp>
 #include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/fit.hpp>
+#include <sivid/paving/holdout_inflation.hpp>
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/inflation.hpp>
 #include <sivid/paving/inflation_relaxation.hpp>
@@ -102,6 +104,7 @@
 #include <sivid/paving/linear_contraction.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/minimax.hpp>
+#include <sivid/paving/minimax_fit.hpp>
 #include <sivid/paving/minimax_lp.hpp>
 #include <sivid/paving/misfit.hpp>
 #include <sivid/paving/problem.hpp>
@@ -114,14 +117,27 @@
 #include <sivid/paving/suspect_samples.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/diagnosis/broken_relation.hpp>
 #include <sivid/diagnosis/candidate.hpp>
+#include <sivid/diagnosis/channel_tube.hpp>
+#include <sivid/diagnosis/declared_variation.hpp>
 #include <sivid/diagnosis/diagnose.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/diagnosis/graph_range.hpp>
 #include <sivid/diagnosis/holdout.hpp>
+#include <sivid/diagnosis/linear_refutation.hpp>
 #include <sivid/diagnosis/manoeuvre.hpp>
+#include <sivid/diagnosis/observed_motion.hpp>
+#include <sivid/diagnosis/relation_finding.hpp>
+#include <sivid/diagnosis/relation_row.hpp>
+#include <sivid/diagnosis/relation_windows.hpp>
 #include <sivid/diagnosis/resolve_delays.hpp>
 #include <sivid/diagnosis/screening.hpp>
+#include <sivid/diagnosis/separation.hpp>
+#include <sivid/diagnosis/state_samples.hpp>
 #include <sivid/diagnosis/verification.hpp>
+#include <sivid/diagnosis/weak_windows.hpp>
+#include <sivid/diagnosis/window_integrals.hpp>
 #include <sivid/version.hpp>
 
 #endif // SIVID_SIVID_HPP
