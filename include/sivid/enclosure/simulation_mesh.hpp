@@ -67,7 +67,8 @@ public:
                      times_.end());
         observed_.assign(times_.size(), {});
         for (std::size_t k = 0; k < requests_.size(); ++k) {
-            auto const at = std::lower_bound(times_.begin(), times_.end(), seen(requests_[k]) - close);
+            auto const at =
+                std::lower_bound(times_.begin(), times_.end(), seen(requests_[k]) - close);
             observed_[static_cast<std::size_t>(at - times_.begin())].push_back(k);
         }
         auto const n = signals_.size();

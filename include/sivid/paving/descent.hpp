@@ -48,7 +48,8 @@ public:
              descent_point* best = nullptr) {
         double damping = power > 2 ? 1e-4 : 1e-3;
         for (int round = 0; round < options.rounds; ++round) {
-            auto const weight = kept.empty() ? kept_of(here.residuals, campaign_->outliers()) : kept;
+            auto const weight =
+                kept.empty() ? kept_of(here.residuals, campaign_->outliers()) : kept;
             double const scale = std::max(largest(here.residuals, weight), 1e-12);
             double const before = cost(here, weight, power, scale);
             residual_lists r;
@@ -156,11 +157,9 @@ private:
             slope.global += system_.side(e).head(g);
             slope.local[e] = system_.side(e).tail(slope.local[e].size());
         }
-        slope.for_each(
-            [](double& s, double v, double lo, double hi) {
-                s = (v <= lo && s > 0) || (v >= hi && s < 0) ? 1 : 0;
-            },
-            z, campaign_->lower(), campaign_->upper());
+        slope.for_each([](double& s, double v, double lo,
+                          double hi) { s = (v <= lo && s > 0) || (v >= hi && s < 0) ? 1 : 0; },
+                       z, campaign_->lower(), campaign_->upper());
         return slope;
     }
 

@@ -97,7 +97,8 @@ private:
         z.for_each(
             [&](double& v, double hi) {
                 double const golden = std::fmod(
-                    0.5 + static_cast<double>(k) * std::sqrt(static_cast<double>(2 + 3 * i++)), 1.0);
+                    0.5 + static_cast<double>(k) * std::sqrt(static_cast<double>(2 + 3 * i++)),
+                    1.0);
                 v += golden * (hi - v);
             },
             campaign_->upper());
