@@ -127,12 +127,17 @@
 #include <sivid/diagnosis/holdout.hpp>
 #include <sivid/diagnosis/linear_refutation.hpp>
 #include <sivid/diagnosis/manoeuvre.hpp>
+#include <sivid/diagnosis/missing_rate.hpp>
 #include <sivid/diagnosis/observed_motion.hpp>
+#include <sivid/diagnosis/place.hpp>
+#include <sivid/diagnosis/place_fit.hpp>
+#include <sivid/diagnosis/place_search.hpp>
 #include <sivid/diagnosis/relation_finding.hpp>
 #include <sivid/diagnosis/relation_row.hpp>
 #include <sivid/diagnosis/relation_windows.hpp>
 #include <sivid/diagnosis/resolve_delays.hpp>
 #include <sivid/diagnosis/screening.hpp>
+#include <sivid/diagnosis/sensor_model.hpp>
 #include <sivid/diagnosis/separation.hpp>
 #include <sivid/diagnosis/state_samples.hpp>
 #include <sivid/diagnosis/verification.hpp>

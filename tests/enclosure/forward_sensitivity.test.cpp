@@ -27,16 +27,16 @@ TEST_CASE("one step is the Runge-Kutta step of the variational equation") {
     s.start(plain, layout);
     double const a = 0.8, h = 0.1;
     auto const stage = [&](double x, double share) {
-        return linear_stage{{-a}, {-x}, {}, share};
+        return linear_stage{{-a}, {-x}, {}, {}, share};
     };
     auto const s1 = stage(1, 0), s2 = stage(std::exp(-a * h / 2), 0.5),
                s4 = stage(std::exp(-a * h), 1);
     s.step(h, {&s1, &s2, &s2, &s4}, 4, 0, 2);
     CHECK(s.stride() == 4);
     double const decay = std::exp(-a * h);
-    CHECK(s.row(0)[1] == Approx(decay).epsilon(1e-6));
-    CHECK(s.row(0)[0] == Approx(-h * decay).epsilon(1e-5));
+    CHECK_THAT(s.row(0)[1], WithinAbs(decay, 1e-6));
+    CHECK_THAT(s.row(0)[0], WithinAbs(-h * decay, 1e-5));
     double const whole = (1 - decay) / a;
-    CHECK(s.row(0)[2] + s.row(0)[3] == Approx(whole).epsilon(1e-6));
+    CHECK_THAT(s.row(0)[2] + s.row(0)[3], WithinAbs(whole, 1e-6));
     CHECK(s.row(0)[3] > s.row(0)[2]);
 }

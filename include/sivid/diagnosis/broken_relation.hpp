@@ -37,7 +37,7 @@ public:
     [[nodiscard]] relation_finding examine(std::size_t i) {
         relation_finding result;
         result.equation = i;
-        result.name = windows_.about().states.at(i).name;
+        result.name = windows_.about().states.at(i).equation_name();
         result.reason = windows_.obstacle(i);
         if (!result.reason.empty()) return result;
         for (auto const way : windows_.ways(i)) {

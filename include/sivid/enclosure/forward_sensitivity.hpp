@@ -25,9 +25,9 @@ struct sensitivity_layout {
 
 /// What a Runge-Kutta stage tells the sensitivities.
 struct linear_stage {
-    std::vector<double> by_state, by_parameter; ///< values of the non-zero derivatives
-    std::vector<double> by_delay;               ///< per unknown delay and state
-    double late_share = 0;                      ///< of the later of the two hats
+    std::vector<double> by_state, by_parameter, by_input; ///< values of the non-zero derivatives
+    std::vector<double> by_delay;                         ///< per unknown delay and state
+    double late_share = 0;                                ///< of the later of the two hats
 };
 
 /// S = d x / d (columns) along the classical Runge-Kutta method: S' = A S + B, stage by stage.
@@ -49,8 +49,8 @@ public:
 
     /// @param active  columns from there on are still zero
     /// @param hat     the first of the two knots on whose hats the step lies
-    void step(double h, linear_stage const* const (&stages)[4], std::size_t active,
-              std::size_t hat, std::size_t knots) {
+    void step(double h, linear_stage const* const (&stages)[4], std::size_t active, std::size_t hat,
+              std::size_t knots) {
         active_ = active;
         hat_ = hat;
         knots_ = knots;

@@ -56,6 +56,7 @@ public:
             s.rate.assign(n, 0.0);
             s.linear.by_state.assign(model_->rate().by_state.size(), 0.0);
             s.linear.by_parameter.assign(model_->rate().by_parameter.size(), 0.0);
+            s.linear.by_input.assign(model_->rate().by_input.size(), 0.0);
             s.linear.by_delay.assign(delays * n, 0.0);
         }
     }
@@ -129,6 +130,7 @@ private:
             active_ = layout_->first_disturbance +
                       std::min(hat_ + 2, knots_.size()) * layout_->disturbed.size();
         }
+        if (sensitive_ && fresh_) linearise_piece(mesh_.time(k), stages_[0].linear);
     }
     /// Share of the later of the two hats that stand on this piece.
     [[nodiscard]] double share(double t) const {
@@ -171,14 +173,23 @@ private:
         for (std::size_t k = 0; k < f.by_parameter.size(); ++k) {
             s.by_parameter[k] = memory_[f.by_parameter[k].slot];
         }
+        for (std::size_t k = 0; k < f.by_input.size(); ++k) {
+            s.by_input[k] = memory_[f.by_input[k].slot];
+        }
+        linearise_piece(t, s);
+    }
+    /// What of a stage depends on the piece, which may change while the state does not.
+    void linearise_piece(double t, linear_stage& s) const {
+        auto const& f = model_->rate();
         s.late_share = share(t);
         std::size_t first = 0;
         for (auto const& d : model_->input_delays()) {
             if (!d.unknown) continue;
             for (std::size_t i = 0; i < model_->states(); ++i) s.by_delay[first + i] = 0;
-            for (auto const& e : f.by_input) {
+            for (std::size_t k = 0; k < f.by_input.size(); ++k) {
+                auto const& e = f.by_input[k];
                 if (e.column != d.index) continue;
-                s.by_delay[first + e.row] = -memory_[e.slot] * mesh_.slope(piece_, d.index);
+                s.by_delay[first + e.row] = -s.by_input[k] * mesh_.slope(piece_, d.index);
             }
             first += model_->states();
         }
@@ -302,23 +313,23 @@ private:
             advance(h, stages_[2]);
             evaluate(t + h, trial_, stages_[3]);
             for (std::size_t i = 0; i < n; ++i) {
-                trial_[i] = x_[i] + h / 6 * (stages_[0].rate[i] + 2 * stages_[1].rate[i] +
-                                             2 * stages_[2].rate[i] + stages_[3].rate[i]);
+                trial_[i] = x_[i] + h / 6 *
+                                        (stages_[0].rate[i] + 2 * stages_[1].rate[i] +
+                                         2 * stages_[2].rate[i] + stages_[3].rate[i]);
             }
             double const end = last ? to : t + h;
             evaluate(end, trial_, stages_[4]);
             double error = 0;
             for (std::size_t i = 0; i < n; ++i) {
                 double const e = h / 6 * std::abs(stages_[3].rate[i] - stages_[4].rate[i]);
-                double const allowed =
-                    accuracy_ * (tolerances_[i] + 1e-6 * std::abs(trial_[i]));
+                double const allowed = accuracy_ * (tolerances_[i] + 1e-6 * std::abs(trial_[i]));
                 error = e <= std::numeric_limits<double>::max() ? std::max(error, e / allowed)
                                                                 : HUGE_VAL;
             }
             if (!(error <= 1) && (h > least || !std::isfinite(error))) {
                 if (h <= least * 1e-3) return false;
-                h *= std::isfinite(error) ? std::clamp(0.9 * std::pow(error, -0.25), 0.1, 0.5)
-                                          : 0.1;
+                h *=
+                    std::isfinite(error) ? std::clamp(0.9 * std::pow(error, -0.25), 0.1, 0.5) : 0.1;
                 suggested = h;
                 continue;
             }
@@ -331,7 +342,8 @@ private:
             std::swap(x_, trial_);
             std::swap(stages_[0], stages_[4]);
             t = end;
-            double const growth = error > 0 ? std::clamp(0.9 * std::pow(error, -0.25), 0.5, 4.0) : 4;
+            double const growth =
+                error > 0 ? std::clamp(0.9 * std::pow(error, -0.25), 0.5, 4.0) : 4;
             if (!last || growth * h < whole) {
                 suggested = std::max(growth * h, least);
             } else {

@@ -40,12 +40,18 @@ public:
     /// For these parameters; cheap when no unknown delay moves it.
     void place(std::vector<double> const& parameters) {
         if (!times_.empty() && !moves_) return;
+        bool moved = times_.empty();
+        auto const set = [&](double& delay, double value) {
+            moved = moved || delay != value;
+            delay = value;
+        };
         for (auto const& d : model_->input_delays()) {
-            input_delay_[d.index] = std::max(0.0, d.value(parameters));
+            set(input_delay_[d.index], std::max(0.0, d.value(parameters)));
         }
         for (auto const& d : model_->channel_delays()) {
-            channel_delay_[d.index] = std::max(0.0, d.value(parameters));
+            set(channel_delay_[d.index], std::max(0.0, d.value(parameters)));
         }
+        if (!moved) return;
         double end = begin_;
         for (auto const& r : requests_) end = std::max(end, r.time);
         times_ = {begin_, end};
@@ -67,7 +73,8 @@ public:
                      times_.end());
         observed_.assign(times_.size(), {});
         for (std::size_t k = 0; k < requests_.size(); ++k) {
-            auto const at = std::lower_bound(times_.begin(), times_.end(), seen(requests_[k]) - close);
+            auto const at =
+                std::lower_bound(times_.begin(), times_.end(), seen(requests_[k]) - close);
             observed_[static_cast<std::size_t>(at - times_.begin())].push_back(k);
         }
         auto const n = signals_.size();

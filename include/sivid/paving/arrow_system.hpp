@@ -100,10 +100,9 @@ public:
             right[i] = 0;
         }
         if (g > 0) {
-            Eigen::LLT<Eigen::MatrixXd> const top(schur);
-            if (top.info() != Eigen::Success) return false;
-            x.global = top.solve(right);
-            schur_inverse_source_ = schur;
+            top_.compute(schur);
+            if (top_.info() != Eigen::Success) return false;
+            x.global = top_.solve(right);
         } else {
             x.global.resize(0);
         }
@@ -122,23 +121,17 @@ public:
         return x.all_finite();
     }
 
-    /// Variances of experiment e's own variables: the diagonal of its block of the inverse, after a
-    /// successful `solve`.
-    [[nodiscard]] Eigen::VectorXd local_variance(std::size_t e) const {
+    /// Experiment e's own block of the inverse, after a successful `solve`.
+    [[nodiscard]] Eigen::MatrixXd local_inverse(std::size_t e) const {
         auto const l = matrices_[e].rows() - globals_;
-        Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(l, l);
         if (l == 0) return {};
-        factors_[e].matrixL().solveInPlace(inverse);
-        Eigen::VectorXd variance = inverse.colwise().squaredNorm().transpose();
+        Eigen::MatrixXd inverse = factors_[e].solve(Eigen::MatrixXd::Identity(l, l));
         if (globals_ > 0) {
             Eigen::MatrixXd spread = coupled_[e].leftCols(globals_);
             factors_[e].matrixU().solveInPlace(spread);
-            Eigen::LLT<Eigen::MatrixXd> const top(schur_inverse_source_);
-            Eigen::MatrixXd t = spread.transpose();
-            top.matrixL().solveInPlace(t);
-            variance += t.colwise().squaredNorm().transpose();
+            inverse += spread * top_.solve(spread.transpose());
         }
-        return variance;
+        return inverse;
     }
 
 private:
@@ -161,7 +154,7 @@ private:
     std::vector<Eigen::VectorXd> sides_;
     std::vector<Eigen::LLT<Eigen::MatrixXd>> factors_;
     std::vector<Eigen::MatrixXd> coupled_; ///< L^-1 (coupling, side)
-    Eigen::MatrixXd schur_inverse_source_;
+    Eigen::LLT<Eigen::MatrixXd> top_;
 };
 
 } // namespace sivid

@@ -39,7 +39,8 @@ public:
                 return std::holds_alternative<analytic_signal>(u);
             });
             if (!shared || formulas) {
-                auto own = std::make_shared<plain_model const>(problem.model, problem.choice, s.inputs);
+                auto own =
+                    std::make_shared<plain_model const>(problem.model, problem.choice, s.inputs);
                 shared = formulas ? nullptr : own;
                 models_.push_back(std::move(own));
             } else {
@@ -209,8 +210,8 @@ private:
         return true;
     }
     /// A small share of the error bounds for states that are measured directly, else of their size.
-    [[nodiscard]] std::vector<double> tolerances(std::size_t e,
-                                                 std::vector<output_request> const& requests) const {
+    [[nodiscard]] std::vector<double>
+    tolerances(std::size_t e, std::vector<output_request> const& requests) const {
         auto const& model = *models_[e];
         std::vector<double> result(model.states(), 1e-6);
         std::vector<double> finest(model.channels(), 1e-2);

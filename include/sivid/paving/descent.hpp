@@ -47,8 +47,10 @@ public:
     void run(descent_point& here, double power, residual_lists const& kept, descent_options options,
              descent_point* best = nullptr) {
         double damping = power > 2 ? 1e-4 : 1e-3;
+        balance_ = balance(here, kept, power);
         for (int round = 0; round < options.rounds; ++round) {
-            auto const weight = kept.empty() ? kept_of(here.residuals, campaign_->outliers()) : kept;
+            auto const weight =
+                kept.empty() ? kept_of(here.residuals, campaign_->outliers()) : kept;
             double const scale = std::max(largest(here.residuals, weight), 1e-12);
             double const before = cost(here, weight, power, scale);
             residual_lists r;
@@ -80,6 +82,7 @@ public:
     [[nodiscard]] bool assemble_plain(descent_point const& here, residual_lists const& weight) {
         residual_lists r;
         if (!campaign_->linearise(here.at, r)) return false;
+        balance_ = 1;
         assemble(here, weight, 2, 1);
         return true;
     }
@@ -99,6 +102,23 @@ private:
         }
         return result;
     }
+    /// Keeps the regularisation as strong, beside higher powers, as it is beside squares.
+    [[nodiscard]] double balance(descent_point const& here, residual_lists const& kept,
+                                 double power) const {
+        if (smooth_.empty() || power == 2) return 1;
+        auto const weight = kept.empty() ? kept_of(here.residuals, campaign_->outliers()) : kept;
+        double const scale = std::max(largest(here.residuals, weight), 1e-12);
+        double squares = 1e-12;
+        double powers = 0;
+        for (std::size_t e = 0; e < weight.size(); ++e) {
+            for (std::size_t k = 0; k < weight[e].size(); ++k) {
+                double const size = std::abs(here.residuals[e][k]) / scale;
+                squares += weight[e][k] * size * size;
+                powers += weight[e][k] * std::pow(size, power);
+            }
+        }
+        return powers / squares;
+    }
     [[nodiscard]] double smoothness(std::size_t e, arrow_vector const& z) const {
         if (smooth_.empty()) return 0;
         return z.local[e].dot(smooth_[e].selfadjointView<Eigen::Lower>() * z.local[e]);
@@ -113,7 +133,7 @@ private:
                 double const size = std::abs(here.residuals[e][k]) / scale;
                 sum += weight[e][k] * (power == 2 ? size * size : std::pow(size, power));
             }
-            sum += smoothness(e, here.at) / (scale * scale);
+            sum += balance_ * smoothness(e, here.at) / (scale * scale);
         }
         return sum;
     }
@@ -142,7 +162,7 @@ private:
             system_.side(e) = j.transpose() * force;
             if (smooth_.empty()) continue;
             auto const l = n.rows() - g;
-            double const share = 1 / (scale * scale);
+            double const share = balance_ / (scale * scale);
             n.bottomRightCorner(l, l).triangularView<Eigen::Lower>() += share * smooth_[e];
             system_.side(e).tail(l) +=
                 share * (smooth_[e].selfadjointView<Eigen::Lower>() * here.at.local[e]);
@@ -156,16 +176,15 @@ private:
             slope.global += system_.side(e).head(g);
             slope.local[e] = system_.side(e).tail(slope.local[e].size());
         }
-        slope.for_each(
-            [](double& s, double v, double lo, double hi) {
-                s = (v <= lo && s > 0) || (v >= hi && s < 0) ? 1 : 0;
-            },
-            z, campaign_->lower(), campaign_->upper());
+        slope.for_each([](double& s, double v, double lo,
+                          double hi) { s = (v <= lo && s > 0) || (v >= hi && s < 0) ? 1 : 0; },
+                       z, campaign_->lower(), campaign_->upper());
         return slope;
     }
 
     campaign* campaign_;
     regularisation smooth_;
+    double balance_ = 1;
     arrow_system system_;
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> scaled_;
 };

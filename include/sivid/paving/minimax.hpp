@@ -21,8 +21,7 @@ public:
     explicit minimax(campaign& c) : campaign_(&c), descent_(c) {}
 
     /// @param unit  per variable: the radius of a trust region of size 1
-    void run(descent_point& here, arrow_vector const& unit, int rounds = 10,
-             double enough = 2e-3) {
+    void run(descent_point& here, arrow_vector const& unit, int rounds = 10, double enough = 2e-3) {
         double radius = 0.1;
         int small = 0;
         for (int round = 0; round < rounds; ++round) {
@@ -92,10 +91,12 @@ private:
             plus.emplace_back(Eigen::VectorXd::Constant(l.size(), even));
             minus.push_back(plus.back());
         }
-        below.for_each([&](double& b, double s, double lo) { b = even * t / std::max(s - lo, 1e-300); },
-                       step, low);
-        above.for_each([&](double& b, double s, double hi) { b = even * t / std::max(hi - s, 1e-300); },
-                       step, high);
+        below.for_each(
+            [&](double& b, double s, double lo) { b = even * t / std::max(s - lo, 1e-300); }, step,
+            low);
+        above.for_each(
+            [&](double& b, double s, double hi) { b = even * t / std::max(hi - s, 1e-300); }, step,
+            high);
         for (int round = 0; round < 40; ++round) {
             double gap = 0;
             for (std::size_t e = 0; e < lines_.size(); ++e) {
@@ -105,18 +106,21 @@ private:
                 }
             }
             auto product = below;
-            product.for_each([&](double& b, double s, double lo, double f) { gap += f * b * (s - lo); },
-                             step, low, free);
+            product.for_each(
+                [&](double& b, double s, double lo, double f) { gap += f * b * (s - lo); }, step,
+                low, free);
             product = above;
-            product.for_each([&](double& b, double s, double hi, double f) { gap += f * b * (hi - s); },
-                             step, high, free);
+            product.for_each(
+                [&](double& b, double s, double hi, double f) { gap += f * b * (hi - s); }, step,
+                high, free);
             if (gap < 5e-4 * t || !std::isfinite(gap)) break;
             double const mu = 0.15 * gap / count;
             // Normal equations over (t, globals, locals).
             std::vector<Eigen::Index> locals = campaign_->local_sizes();
             system_.reset(1 + g, locals);
             auto const held = held_of(free);
-            for (std::size_t e = 0; e < lines_.size(); ++e) assemble(e, t, mu, kept[e], plus[e], minus[e]);
+            for (std::size_t e = 0; e < lines_.size(); ++e)
+                assemble(e, t, mu, kept[e], plus[e], minus[e]);
             system_.side(0)[0] -= 1;
             add_box(g, mu, step, low, high, below, above, free);
             arrow_vector move;
@@ -192,7 +196,8 @@ private:
             auto const& r = here.residuals[e];
             Eigen::VectorXd own(step.global.size() + step.local[e].size());
             own << step.global, step.local[e];
-            lines_[e] = Eigen::Map<Eigen::VectorXd const>(r.data(), static_cast<Eigen::Index>(r.size()));
+            lines_[e] =
+                Eigen::Map<Eigen::VectorXd const>(r.data(), static_cast<Eigen::Index>(r.size()));
             lines_[e] += campaign_->derivatives(e) * own;
         }
     }
@@ -231,16 +236,12 @@ private:
                  arrow_vector const& free) {
         auto stiff = step;
         auto force = step;
-        stiff.for_each(
-            [](double& v, double lo, double hi, double b, double a, double f) {
-                v = f == 0 ? 0 : b / (v - lo) + a / (hi - v);
-            },
-            low, high, below, above, free);
-        force.for_each(
-            [mu](double& v, double lo, double hi, double f) {
-                v = f == 0 ? 0 : mu / (v - lo) - mu / (hi - v);
-            },
-            low, high, free);
+        stiff.for_each([](double& v, double lo, double hi, double b, double a,
+                          double f) { v = f == 0 ? 0 : b / (v - lo) + a / (hi - v); },
+                       low, high, below, above, free);
+        force.for_each([mu](double& v, double lo, double hi,
+                            double f) { v = f == 0 ? 0 : mu / (v - lo) - mu / (hi - v); },
+                       low, high, free);
         system_.matrix(0).diagonal().segment(1, g) += stiff.global;
         system_.side(0).segment(1, g) += force.global;
         for (std::size_t e = 0; e < step.local.size(); ++e) {

@@ -68,7 +68,8 @@ namespace paving_detail {
         auto const budget = c.outliers()[e];
         if (budget == 0) continue;
         std::map<std::size_t, std::vector<std::size_t>> channels;
-        for (std::size_t k = 0; k < requests.size(); ++k) channels[requests[k].channel].push_back(k);
+        for (std::size_t k = 0; k < requests.size(); ++k)
+            channels[requests[k].channel].push_back(k);
         std::vector<std::pair<double, std::size_t>> suspects;
         for (auto const& [channel, rows] : channels) {
             std::vector<double> t, y, r;
