@@ -33,6 +33,8 @@ int run(diagnose_command const& c) {
     };
     auto run = sivid::diagnose(problem, catalogue(), options);
     progress.finish();
+    progress.note("judging by data that chose nothing");
+    sivid::judge_by_holdout(run, sivid::holdout_from_dataset(data, model.about));
     auto& d = run.result;
     d.assumptions.insert(d.assumptions.end(), further.begin(), further.end());
     sivid::write_atomically(c.out / "diagnosis.json", sivid::diagnosis_json(d, data.id));

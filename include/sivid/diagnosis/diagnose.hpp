@@ -2,8 +2,10 @@
 #ifndef SIVID_DIAGNOSIS_DIAGNOSE_HPP
 #define SIVID_DIAGNOSIS_DIAGNOSE_HPP
 
+#include <sivid/diagnosis/broken_relation.hpp>
 #include <sivid/diagnosis/candidate.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/diagnosis/holdout_judgement.hpp>
 #include <sivid/diagnosis/manoeuvre.hpp>
 #include <sivid/diagnosis/screening.hpp>
 #include <sivid/diagnosis/verification.hpp>
@@ -39,6 +41,7 @@ struct diagnosis_run {
     std::vector<screened> candidates; ///< the model itself first
     std::size_t answer = 0;           ///< index of the candidate that is the answer
     verified_inflation base_bound, answer_bound;
+    std::optional<holdout_judgement> holdout_before, holdout_after;
 };
 
 /// Diagnoses one campaign step by step.
@@ -62,6 +65,7 @@ public:
         screening tried(run_.base, run_.catalogue, options_.screening);
         measure_gap(tried);
         if (d.gap != gap_verdict::none && !stopped_) {
+            find_relations();
             tried.run();
             run_.candidates = tried.candidates();
             decide(tried);
@@ -106,6 +110,7 @@ private:
             // Both contain the inflation, or bound it from above.
             double const upper = std::min(proved.value.upper(), bound.range.upper());
             if (proved.value.upper() <= bound.range.upper()) bound.witness = proved.witness;
+            bound.hull = proved.hull;
             bound.range =
                 interval_traits<interval>::bounds(std::min(proved.value.lower(), upper), upper);
         } else {
@@ -115,6 +120,15 @@ private:
         d.gap = d.inflation.upper() <= 1  ? gap_verdict::none
                 : d.inflation.lower() > 1 ? gap_verdict::certified
                                           : gap_verdict::undecided;
+    }
+
+    void find_relations() {
+        if (!go_on("proving which equations cannot hold")) return;
+        for (auto const& f : find_broken_relations(run_.base)) {
+            broken_relation_report r{f.name, f.channels, f.proved, f.assumptions, {}};
+            for (auto const& w : f.windows) r.windows.push_back({w.scenario, w.from, w.to});
+            run_.result.relations.push_back(std::move(r));
+        }
     }
 
     [[nodiscard]] std::vector<std::string> names_of(candidate const& c) const {
@@ -208,7 +222,10 @@ private:
                 c.assumptions = proved.assumptions;
                 if (proved.range.upper() <= 1) c.verdict = cause_verdict::explains;
                 if (proved.witness) c.witness = named(s, *proved.witness);
-                if (order_[k] == run_.answer) run_.answer_bound = std::move(proved);
+                if (order_[k] == run_.answer) {
+                    run_.answer_bound = std::move(proved);
+                    sharpen_answer(s, c);
+                }
             }
         }
         for (std::size_t k = 0; k < order_.size(); ++k) {
@@ -226,6 +243,25 @@ private:
             c.inflation = proved.value;
             if (c.inflation.lower() > 1) c.verdict = cause_verdict::excluded;
         }
+    }
+
+    /// The least inflation of the answer from below, and the box that its best parameters lie in.
+    void sharpen_answer(screened const& s, cause& c) {
+        auto& d = run_.result;
+        auto& bound = run_.answer_bound;
+        if (!diagnosis_detail::has_delays(s.problem.model)) {
+            inflation_options search;
+            search.seconds = std::min(left(), options_.gap_seconds);
+            auto const proved = bound_inflation(s.problem, &s.fit, search);
+            double const upper = std::min(proved.value.upper(), bound.range.upper());
+            bound.range =
+                interval_traits<interval>::bounds(std::min(proved.value.lower(), upper), upper);
+            bound.hull = proved.hull;
+        } else {
+            bound.range = interval_traits<interval>::bounds(0, bound.range.upper());
+        }
+        c.inflation = bound.range;
+        d.shrink_fit = shrink(d.inflation, bound.range);
     }
 
     void propose() {
@@ -252,6 +288,35 @@ private:
     bool stopped_ = false;
     clock::time_point begin_ = clock::now();
 };
+
+/// Judges the model and the answer of a diagnosis by hold-out data and adds the figures: the only
+/// place where such data are read, after everything is chosen.
+inline void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds = 4) {
+    if (data.empty() || run.candidates.empty()) return;
+    auto const& base = run.candidates.front();
+    auto const before = judge_by_holdout(
+        base, run.base_bound, data.judged_by(base, run.base, run.catalogue), seconds / 2);
+    run.holdout_before = before;
+    if (run.result.causes.empty()) return;
+    auto const& answer = run.candidates[run.answer];
+    auto const after = judge_by_holdout(
+        answer, run.answer_bound, data.judged_by(answer, run.base, run.catalogue), seconds / 2);
+    run.holdout_after = after;
+    holdout_figures figures;
+    figures.inflation_before = before.at_witness;
+    figures.inflation_after = after.at_witness;
+    figures.over_fits_before = before.over_fits;
+    figures.over_fits_after = after.over_fits;
+    for (auto const& c : run.base.model.about.channels) figures.channels.push_back(c.name);
+    figures.rmse_before = before.rmse;
+    figures.rmse_after = after.rmse;
+    figures.covered_before = before.covered;
+    figures.covered_after = after.covered;
+    figures.width_before = before.width;
+    figures.width_after = after.width;
+    run.result.shrink_holdout = shrink(figures.inflation_before, figures.inflation_after);
+    run.result.causes.front().holdout = std::move(figures);
+}
 
 /// Says whether a model explains a campaign; if not, by how much it misses, and which effects of a
 /// catalogue explain what is missing.

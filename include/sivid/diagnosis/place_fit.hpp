@@ -165,13 +165,13 @@ private:
         for (auto const& e : problem.experiments) knots.push_back(missing_rate_knots(e));
         return knots;
     }
-    [[nodiscard]] std::vector<std::vector<double>> by_equation(std::vector<double> const& d,
-                                                               std::size_t knots,
-                                                               std::size_t states) const {
+    [[nodiscard]] std::vector<std::vector<double>>
+    by_equation(std::vector<double> const& d, std::size_t knots, std::size_t states) const {
         std::vector<std::vector<double>> result(states);
         auto const count = equations_.size();
         for (std::size_t c = 0; c < count; ++c) {
-            for (std::size_t k = 0; k < knots; ++k) result[equations_[c]].push_back(d[k * count + c]);
+            for (std::size_t k = 0; k < knots; ++k)
+                result[equations_[c]].push_back(d[k * count + c]);
         }
         return result;
     }

@@ -14,16 +14,18 @@
 namespace sivid {
 
 struct place_search_options {
-    double seconds = 4;        ///< no new set is begun after
-    double equal_score = 12;   ///< sets whose scores differ by less are equal alternatives
-    double much_better = 30;   ///< by what a superset's score must be better to start from it
+    double seconds = 4;      ///< no new set is begun after
+    double equal_score = 12; ///< sets whose scores differ by less are equal alternatives
+    double much_better = 30; ///< by what a superset's score must be better to start from it
 };
 
 /// Which smallest set of places, allowed to be wrong, explains the data.
 class place_search {
 public:
     place_search(place_fitter& fit, place_state base, place_search_options options = {})
-        : fit_(&fit), base_(std::move(base)), options_(options),
+        : fit_(&fit),
+          base_(std::move(base)),
+          options_(options),
           begin_(std::chrono::steady_clock::now()) {}
 
     /// Every set that was tried, in order of its cost.
@@ -100,7 +102,8 @@ private:
         }
         auto result = (*fit_)(set, *from);
         // A start that did not lead anywhere: the base once more.
-        if (result.inflation > 1 && from != &base_ && result.score > 0.9 * score && set.size() > 1) {
+        if (result.inflation > 1 && from != &base_ && result.score > 0.9 * score &&
+            set.size() > 1) {
             auto again = (*fit_)(set, base_);
             if (again.score < result.score) result = std::move(again);
         }
@@ -114,7 +117,8 @@ private:
             }
         }
     }
-    void triples(std::vector<std::size_t> const& sensors, std::vector<std::size_t> const& equations) {
+    void triples(std::vector<std::size_t> const& sensors,
+                 std::vector<std::size_t> const& equations) {
         for (std::size_t a = 0; a < equations.size(); ++a) {
             for (std::size_t b = a + 1; b < equations.size(); ++b) {
                 for (auto const s : sensors) try_set({s, equations[a], equations[b]});

@@ -77,7 +77,7 @@ inline double clamped_into(double x, interval const& side) {
         resolved.problem.prior = box{value};
         resolved.problem.choice.unknown.push_back(name);
     }
-    auto const everything = inflation_search::without_limit(resolved.problem);
+    auto const everything = box_explorer::without_limit(resolved.problem);
     data_test runs(everything, {});
     verified_witness witness{point.parameters, point.starts, {}};
     for (std::size_t s = 0; s < starts.size(); ++s) {
