@@ -79,10 +79,9 @@ std::string draw_foreign(std::size_t which, random_source& random, campaign& c) 
     case 0: {
         double const force = rounded(random.sign() * random.uniform(0.5, 1.5));
         for (auto& s : c.scenarios) {
-            if (s.plan.duration < 2) continue;
             double const length = rounded(random.uniform(0.5, 1.2));
-            double const latest = std::min(s.plan.duration, 6.0) - length;
-            s.gusts.push_back({rounded(random.uniform(0.3, latest)), length, force});
+            double const latest = std::max(0.15, std::min(s.plan.duration, 6.0) - length);
+            s.gusts.push_back({rounded(random.uniform(0.1, latest)), length, force});
         }
         c.effects = {"gust"};
         return "gust(lateral)";

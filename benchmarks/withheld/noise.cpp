@@ -29,12 +29,12 @@ double drawn(shape s, random_source& random) {
     return a;
 }
 
-void add_noise(measured_scenario& s, shape noise, random_source& random) {
+void add_noise(measured_scenario& s, shape noise, double reach, random_source& random) {
     s.value.assign(s.truth.size(), channels{});
     for (std::size_t i = 0; i < s.truth.size(); ++i)
         for (std::size_t k = 0; k < channel_count; ++k) {
             // Rounding and the integration must not push a sample over its bound.
-            double const room = error_bound[k] - 2e-6;
+            double const room = reach * error_bound[k] - 2e-6;
             s.value[i][k] = six_decimals(s.truth[i][k] + room * drawn(noise, random));
         }
 }
@@ -73,9 +73,12 @@ void measure(campaign& c, random_source& random) {
               : noise == shape::triangular ? "triangular"
               : noise == shape::bell       ? "bell"
                                            : "edges";
+    // Bounds are mostly stated with a little reserve, sometimes with none.
+    double const reach = random.coin(0.7) ? 0.95 : 1.0;
+    if (reach < 1) c.noise += " 0.95";
     for (auto& s : c.scenarios) {
         s.truth = readings(world_of(c, s), s.initial, s.plan.sample_times, careful_step);
-        add_noise(s, noise, random);
+        add_noise(s, noise, reach, random);
         add_outliers(s, c, random);
     }
 }
