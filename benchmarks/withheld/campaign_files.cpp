@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "campaign_files.hpp"
 #include "catalogue.hpp"
+#include "fit.hpp"
 #include "measure.hpp"
+#include "recorded.hpp"
 
 #include <fstream>
 #include <sstream>
@@ -97,6 +99,14 @@ std::string true_gusts(campaign const& c) {
     return text.empty() ? "-" : text;
 }
 
+/// The least inflation of the base model that a fit finds in the data as they were written.
+double best_inflation_without_effects(fs::path const& folder) {
+    auto const data = read_recording(folder);
+    fit_problem const problem{data, {}};
+    auto result = fit(problem, {}, {});
+    return problem.tighten(result.x);
+}
+
 } // namespace
 
 void write_dataset(campaign const& c, fs::path const& folder) {
@@ -110,10 +120,10 @@ void write_dataset(campaign const& c, fs::path const& folder) {
 
 std::string labels_header() {
     return "case\tfamily\teffects\tparams\tnoise\toutliers\tstarts\tgusts\tfit_base\tfit_true"
-           "\tholdout_base\tholdout_true";
+           "\tholdout_base\tholdout_true\tfit_base_best";
 }
 
-std::string label_of(campaign const& c) {
+std::string label_of(campaign const& c, fs::path const& folder) {
     std::ostringstream line;
     line << c.id << '\t' << family_names[static_cast<std::size_t>(c.kind)] << '\t' << c.effects_text
          << '\t';
@@ -128,6 +138,7 @@ std::string label_of(campaign const& c) {
     for (part const which : {part::fit, part::holdout})
         for (bool const with : {false, true})
             line << '\t' << six_digits(inflation_at_truth(c, with, which));
+    line << '\t' << six_digits(best_inflation_without_effects(folder));
     return line.str();
 }
 

@@ -17,7 +17,8 @@ void write_dataset(campaign const& c, std::filesystem::path const& folder);
 /// Tab-separated; the first four columns say what is true, the others help to judge what is
 /// reported.
 std::string labels_header();
-std::string label_of(campaign const& c);
+/// `folder` is where the data set was written: the base model is fitted to it.
+std::string label_of(campaign const& c, std::filesystem::path const& folder);
 
 } // namespace withheld
 

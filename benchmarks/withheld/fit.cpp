@@ -195,7 +195,7 @@ double fit_problem::minimise(std::vector<double>& x, double power, int iteration
 
 double fit_problem::inflation(std::vector<double> const& x, bool holdout) const {
     double most = 0;
-    auto const z = evaluate(x, holdout, 5e-3);
+    auto const z = evaluate(x, holdout, 1e-3);
     for (std::size_t s = 0; s < z.size(); ++s) {
         std::vector<double> sizes;
         for (double const r : z[s]) sizes.push_back(std::abs(r));

@@ -44,8 +44,9 @@ int main(int argc, char** argv) {
             char id[32];
             std::snprintf(id, sizeof id, "w%04zu", i);
             c.id = id;
-            write_dataset(c, std::filesystem::path{out} / id);
-            table << label_of(c) << '\n' << std::flush;
+            auto const folder = std::filesystem::path{out} / id;
+            write_dataset(c, folder);
+            table << label_of(c, folder) << '\n' << std::flush;
         }
         if (!table) throw std::runtime_error("cannot write " + labels);
     } catch (std::exception const& e) {
