@@ -170,7 +170,7 @@ json diagnosed(recording const& data) {
         if (!c.effects.empty()) j["causes"].push_back(described(c, base));
     for (auto const& name : j["answer"]["effects"])
         j["where"].push_back(place_of(name.get<std::string>()));
-    if (!none && base.result.inflation > 1) {
+    if (j["answer"]["kind"] == "effects") {
         double const fit = shrink(base.result.inflation, all.front().result.inflation);
         j["shrink"]["fit"] = {fit, fit};
         if (base.holdout > 1) {

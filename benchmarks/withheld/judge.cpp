@@ -90,7 +90,7 @@ void judge_relations(label const& l, json const& d, judgement& j) {
             equation.is_string() && holds(broken, "equation", equation.get<std::string>());
         for (auto const& s : names_in(member(r, "sensors")))
             touched = touched || holds(broken, "sensor", s);
-        if (!touched) j.false_proofs.emplace_back("relation");
+        if (!touched || j.absorbed) j.false_proofs.emplace_back("relation");
     }
 }
 
@@ -105,7 +105,7 @@ void judge_places(label const& l, json const& d, judgement& j) {
         first = false;
         if (member(w, "proved") != true) continue;
         ++j.proofs;
-        if (!hit) j.false_proofs.emplace_back("place");
+        if (!hit || j.absorbed) j.false_proofs.emplace_back("place");
     }
     if (!first) return;
     // Nothing is said: right where there is nothing to say.

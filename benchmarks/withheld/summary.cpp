@@ -127,7 +127,7 @@ std::string complaints(std::vector<judgement> const& all) {
 
 std::string measures(std::vector<judgement> const& all) {
     std::vector<double> width, slack, shrink, shrink_error, seconds;
-    counted relations, certified, sound;
+    counted relations, certified, sound, shrink_held;
     std::size_t witnesses = 0;
     for (auto const& j : all) {
         witnesses += j.witnesses_checked;
@@ -144,7 +144,10 @@ std::string measures(std::vector<judgement> const& all) {
         }
         if (j.shrink_lower && j.shrink_upper) {
             shrink.push_back((*j.shrink_lower + *j.shrink_upper) / 2);
-            if (j.shrink_true) shrink_error.push_back(shrink.back() - *j.shrink_true);
+            if (!j.shrink_true) continue;
+            shrink_error.push_back(shrink.back() - *j.shrink_true);
+            shrink_held.add(*j.shrink_lower <= *j.shrink_true + 1e-3 &&
+                            *j.shrink_upper >= *j.shrink_true - 1e-3);
         }
     }
     std::ostringstream text;
@@ -154,7 +157,8 @@ std::string measures(std::vector<judgement> const& all) {
          << "inflation, upper/lower:          " << spread(width) << '\n'
          << "inflation, lower/least known:    " << spread(slack) << '\n'
          << "hold-out shrink reported:        " << spread(shrink) << '\n'
-         << "hold-out shrink - true shrink:   " << spread(shrink_error) << '\n'
+         << "hold-out shrink - true shrink:   " << spread(shrink_error)
+         << ", true one held: " << shrink_held.text() << '\n'
          << "seconds a campaign:              " << spread(seconds) << ", in all "
          << std::accumulate(seconds.begin(), seconds.end(), 0.0) << '\n'
          << "witnesses simulated:             " << witnesses << '\n';

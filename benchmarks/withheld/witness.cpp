@@ -60,10 +60,10 @@ channels start_of(scenario const& plan, json const& witness) {
     return start;
 }
 
-double inflation_at(recording const& data, world w, json const& witness) {
+double inflation_at(recording const& data, world w, json const& witness, bool holdout) {
     double most = 0;
     for (auto const& s : data.scenarios) {
-        if (s.plan.holdout) continue;
+        if (s.plan.holdout != holdout) continue;
         w.motor = s.plan.motor;
         w.rudder = s.plan.rudder;
         auto const model =
@@ -72,6 +72,31 @@ double inflation_at(recording const& data, world w, json const& witness) {
         most = std::max(most, inflation_of(all, s.budget));
     }
     return most;
+}
+
+/// Hold-out starts are nuisances; a value is comparable only where there is nothing to choose.
+bool holdout_starts_known(recording const& data) {
+    bool any = false;
+    for (auto const& s : data.scenarios) {
+        if (!s.plan.holdout) continue;
+        any = true;
+        for (auto const& box : s.plan.initial)
+            if (box.lo < box.hi) return false;
+    }
+    return any;
+}
+
+/// The certified hold-out inflation must hold its value at the witness.
+void check_holdout(recording const& data, world const& w, json const& cause, judgement& j) {
+    auto const place = json::json_pointer{"/holdout/inflation_after"};
+    if (!cause.contains(place) || !holdout_starts_known(data)) return;
+    auto const& range = cause.at(place);
+    if (!range.is_array() || range.size() != 2) return;
+    ++j.proofs;
+    double const value = inflation_at(data, w, cause.at("witness"), true);
+    bool const above = range[1].is_number() && value > range[1].get<double>() * (1 + 1e-3);
+    bool const below = range[0].is_number() && value < range[0].get<double>() * (1 - 1e-3);
+    if (above || below) j.false_proofs.emplace_back("holdout");
 }
 
 } // namespace
@@ -86,7 +111,9 @@ void check_witnesses(recording const& data, json const& diagnosis, judgement& j)
         ++j.witnesses_checked;
         ++j.proofs;
         // Witnesses that stand on the bound itself must survive the printing of their digits.
-        if (inflation_at(data, *w, witness) > 1 + 1e-3) j.false_proofs.emplace_back("witness");
+        if (inflation_at(data, *w, witness, false) > 1 + 1e-3)
+            j.false_proofs.emplace_back("witness");
+        check_holdout(data, *w, cause, j);
     }
 }
 
