@@ -62,7 +62,9 @@ std::size_t outlier_budget(double fraction, std::size_t samples);
 world world_of(campaign const& c, measured_scenario const& s);
 world base_world_of(campaign const& c, measured_scenario const& s);
 
-campaign draw_campaign(std::uint64_t seed, std::size_t index, std::optional<family> only);
+/// `size` multiplies the effects of the catalogue: below 1 the check becomes harder.
+campaign draw_campaign(std::uint64_t seed, std::size_t index, std::optional<family> only,
+                       double size = 1);
 
 } // namespace withheld
 

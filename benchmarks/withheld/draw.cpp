@@ -107,7 +107,8 @@ std::string draw_foreign(std::size_t which, random_source& random, campaign& c) 
 /// With poses only, a bias of the gyro leaves no trace.
 bool visible(effect const& e, family kind) { return kind != family::pose || e.name != "gyro_bias"; }
 
-void draw_effects(std::uint64_t seed, std::size_t n, random_source& random, campaign& c) {
+void draw_effects(std::uint64_t seed, std::size_t n, double size, random_source& random,
+                  campaign& c) {
     auto const& all = catalogue();
     std::uint64_t const deck = derived_seed(seed, effect_deck + static_cast<std::uint64_t>(c.kind));
     c.true_effects = {};
@@ -123,8 +124,9 @@ void draw_effects(std::uint64_t seed, std::size_t n, random_source& random, camp
     for (auto const& s : c.scenarios)
         if (!s.plan.holdout) largest = std::max(largest, s.plan.rudder.largest_magnitude());
     std::size_t const count = c.kind == family::pair ? 2 : 1;
-    double const scale =
-        c.kind == family::weak ? 1.0 / 3 : (c.kind == family::pair ? random.uniform(0.6, 1) : 1);
+    double const scale = size * (c.kind == family::weak   ? 1.0 / 3
+                                 : c.kind == family::pair ? random.uniform(0.6, 1)
+                                                          : 1.0);
     c.effects_text.clear();
     std::size_t which = dealt(deck, n, all.size());
     while (c.effects.size() < count) {
@@ -140,10 +142,10 @@ void draw_effects(std::uint64_t seed, std::size_t n, random_source& random, camp
 
 /// Each effect must matter: at the true constants the data leave the model without it by some
 /// bounds. A constant offset of a sensor shows in hundreds of samples and may be smaller.
-bool matters(campaign const& c) {
+bool matters(campaign const& c, double size) {
     auto const needed = [&](std::string const& name) {
         bool const offset = name == "gyro_bias" || name == "heading_bias";
-        return (offset ? 1.8 : 3.0) / (c.kind == family::weak ? 3 : 1);
+        return std::min(size, 1.0) * (offset ? 1.8 : 3.0) / (c.kind == family::weak ? 3 : 1);
     };
     if (c.kind == family::none) return true;
     if (c.kind == family::outside) return largest_deviation(c, {}, {}) >= 3;
@@ -162,7 +164,8 @@ family family_of(std::uint64_t seed, std::size_t index) {
     return shuffled_families(seed, index / 11)[index % 11];
 }
 
-campaign draw_campaign(std::uint64_t seed, std::size_t index, std::optional<family> only) {
+campaign draw_campaign(std::uint64_t seed, std::size_t index, std::optional<family> only,
+                       double size) {
     campaign c;
     c.kind = only ? *only : family_of(seed, index);
     random_source random{derived_seed(derived_seed(seed, campaigns), index)};
@@ -192,8 +195,8 @@ campaign draw_campaign(std::uint64_t seed, std::size_t index, std::optional<fami
     int attempts = 0;
     do {
         if (++attempts > 200) throw std::runtime_error("no size of the effect matters");
-        draw_effects(seed, n, random, c);
-    } while (!matters(c));
+        draw_effects(seed, n, size, random, c);
+    } while (!matters(c, size));
     measure(c, random);
     return c;
 }

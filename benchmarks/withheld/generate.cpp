@@ -23,6 +23,10 @@ int main(int argc, char** argv) {
     app.add_option("--out", out, "folder of the data sets")->required();
     app.add_option("--labels", labels, "file of the labels, outside of --out")->required();
     app.add_option("--family", only, "this family only");
+    double size = 1;
+    app.add_option("--size", size, "multiplies the effects, for a harder check")
+        ->check(CLI::Range(0.01, 1.0))
+        ->capture_default_str();
     CLI11_PARSE(app, argc, argv);
 
     auto const kind = family_named(only);
@@ -40,7 +44,7 @@ int main(int argc, char** argv) {
         std::ofstream table{labels};
         table << labels_header() << '\n';
         for (std::size_t i = 0; i < count; ++i) {
-            campaign c = draw_campaign(seed, i, kind);
+            campaign c = draw_campaign(seed, i, kind, size);
             char id[32];
             std::snprintf(id, sizeof id, "w%04zu", i);
             c.id = id;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "judge.hpp"
+#include "catalogue.hpp"
 #include "places.hpp"
 
 #include <algorithm>
@@ -112,13 +113,32 @@ void judge_places(label const& l, json const& d, judgement& j) {
     j.place_right = l.family == "none" || j.absorbed;
 }
 
+/// Do the intervals that are reported for the true effects hold the true parameters?
+void judge_parameters(label const& l, json const& cause, judgement& j) {
+    auto const reported = member(cause, "parameters");
+    for (auto const& [name, values] : l.effects) {
+        auto const* known = effect_named(name);
+        for (std::size_t i = 0; known != nullptr && i < values.size(); ++i) {
+            auto const full = name + '.' + std::string{known->parameters.at(i).name};
+            auto const lower = number(member(reported, full), 0);
+            auto const upper = number(member(reported, full), 1);
+            if (!lower || !upper) continue;
+            ++j.intervals;
+            j.intervals_hold += *lower <= values[i] && values[i] <= *upper ? 1U : 0U;
+        }
+    }
+}
+
 void judge_causes(label const& l, json const& d, judgement& j) {
     for (auto const& c : member(d, "causes")) {
         auto const effects = names_in(member(c, "effects"));
         // More effects explain no less: their neutral values lie in the priors.
         bool const explains = j.absorbed || (l.family != "outside" && includes(effects, l.names()));
         auto const verdict = member(c, "verdict");
-        if (verdict == "explains" && effects == l.names()) j.truth_explains = true;
+        if (verdict == "explains" && effects == l.names()) {
+            j.truth_explains = true;
+            judge_parameters(l, c, j);
+        }
         if (verdict == "excluded") {
             ++j.proofs;
             if (explains) j.false_proofs.emplace_back("excluded");

@@ -28,6 +28,7 @@ struct judgement {
     std::optional<double> inflation_lower, inflation_upper, inflation_bound; // bound: by the truth
     std::optional<double> shrink_lower, shrink_upper, shrink_true;           // on hold-out data
     std::size_t witnesses_checked = 0;
+    std::size_t intervals = 0, intervals_hold = 0; // of the true effects' parameters
     std::optional<double> seconds;
 };
 

@@ -128,9 +128,11 @@ std::string complaints(std::vector<judgement> const& all) {
 std::string measures(std::vector<judgement> const& all) {
     std::vector<double> width, slack, shrink, shrink_error, seconds;
     counted relations, certified, sound, shrink_held;
-    std::size_t witnesses = 0;
+    std::size_t witnesses = 0, intervals = 0, hold = 0;
     for (auto const& j : all) {
         witnesses += j.witnesses_checked;
+        intervals += j.intervals;
+        hold += j.intervals_hold;
         if (j.seconds) seconds.push_back(*j.seconds);
         if (j.inflation_lower && j.inflation_upper && *j.inflation_lower > 0)
             width.push_back(*j.inflation_upper / *j.inflation_lower);
@@ -161,7 +163,8 @@ std::string measures(std::vector<judgement> const& all) {
          << ", true one held: " << shrink_held.text() << '\n'
          << "seconds a campaign:              " << spread(seconds) << ", in all "
          << std::accumulate(seconds.begin(), seconds.end(), 0.0) << '\n'
-         << "witnesses simulated:             " << witnesses << '\n';
+         << "witnesses simulated:             " << witnesses << '\n'
+         << "effect parameters in their intervals: " << hold << '/' << intervals << '\n';
     return text.str();
 }
 

@@ -37,7 +37,8 @@ json good() {
       "gap": {"verdict": "certified", "inflation": [3.1, 4.2]},
       "relations": [{"equation": "yaw", "sensors": ["r", "psi"], "proved": true}],
       "where": [{"kind": "equation", "name": "yaw", "proved": true}],
-      "causes": [{"effects": ["rudder_lag"], "verdict": "explains", "inflation": [0.9, 0.95]},
+      "causes": [{"effects": ["rudder_lag"], "verdict": "explains", "inflation": [0.9, 0.95],
+                  "parameters": {"rudder_lag.tau": [0.08, 0.12]}},
                  {"effects": ["wind"], "verdict": "excluded", "inflation": [2.4, 2.6]}],
       "answer": {"kind": "effects", "effects": ["rudder_lag"], "indistinguishable": []},
       "shrink": {"fit": [0.99, 1.0], "holdout": [0.98, 1.0]}, "next": null})");
@@ -68,6 +69,8 @@ TEST_CASE("a right diagnosis") {
     CHECK(j.gap_certified);
     CHECK(j.relation_proved);
     CHECK(j.truth_explains == true);
+    CHECK(j.intervals == 1);
+    CHECK(j.intervals_hold == 1);
     CHECK(j.shrink_true == 1.0);
     CHECK(j.inflation_bound == 4.0);
     CHECK(judge(labelled("none", {}), none()).right);
