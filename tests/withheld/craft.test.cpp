@@ -224,6 +224,26 @@ TEST_CASE("yaw and surge effects at one state") {
                WithinAbs(0.25 * lift * 0.22 / 1.297, 1e-12));
     CHECK_THAT(change([](auto& e) { e.rudder_limit = 0.1; })[1],
                WithinAbs(-0.5 * lift * 0.22 / 1.297, 1e-12));
+    // The trim is added behind the limit.
+    CHECK_THAT(change([](auto& e) { e.rudder_limit = 0.1, e.rudder_trim = 0.05; })[1],
+               WithinAbs(-0.25 * lift * 0.22 / 1.297, 1e-12));
+    CHECK(change([](auto& e) { e.friction_anisotropy = 0.5; })[0] == 0);
+
+    // Wind changes the drag of the air alone, not friction and D22.
+    double const c = std::cos(0.3), sn = std::sin(0.3);
+    double const air_u = 1.2 - c * 0.7, air_v = -0.4 + sn * 0.7;
+    double const air_V = std::sqrt(air_u * air_u + air_v * air_v + 0.05 * 0.05);
+    auto const blown = change([](auto& e) { e.wind_x = 0.7; });
+    double const half = 0.5 * 1.225 * 0.6;
+    CHECK_THAT(blown[0], WithinAbs(-half * 0.1276 * (air_V * air_u - V * 1.2) / 1.297, 1e-12));
+    CHECK_THAT(blown[1], WithinAbs(-half * 0.22 * (air_V * air_v + V * 0.4) / 1.297, 1e-12));
+
+    world stribeck = base;
+    stribeck.f.stribeck_rise = 0.8;
+    stribeck.f.stribeck_speed = 0.9;
+    double const more = 0.5 * 0.8 * std::exp(-V * V / 0.81);
+    CHECK_THAT(derivative(stribeck, 0, now, s, s)[1] - plain[1],
+               WithinAbs(more * 0.4 / V / 1.297, 1e-12));
 }
 
 TEST_CASE("sensors") {
