@@ -143,7 +143,7 @@ double shrink(double before, double after) {
 json diagnosed(recording const& data) {
     auto const begin = std::chrono::steady_clock::now();
     auto const base = tried(data, {}, {});
-    bool const explained = base.result.inflation <= 1;
+    bool const explained = base.result.inflation <= good_enough;
     std::vector<candidate> all;
     if (!explained) {
         all = singles(data);
