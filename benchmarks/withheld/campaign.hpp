@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// One campaign: everything that is drawn, the truth and the data.
+#ifndef WITHHELD_CAMPAIGN_HPP
+#define WITHHELD_CAMPAIGN_HPP
+
+#include "craft.hpp"
+#include "manoeuvres.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace withheld {
+
+enum class family { single, weak, wide, pose, pair, outliers, outside, none };
+inline constexpr std::array<std::string_view, 8> family_names{
+    "single", "weak", "wide", "pose", "pair", "outliers", "outside", "none"};
+
+std::optional<family> family_named(std::string_view name);
+
+/// The family of campaign `index`: every run of eleven campaigns holds each family at least once
+/// and single effects three times, in an order that the seed decides.
+family family_of(std::uint64_t seed, std::size_t index);
+
+struct unknown_constant {
+    std::string name, unit;
+    range prior;
+};
+
+struct measured_scenario {
+    scenario plan;
+    channels initial{};            // the true start, within plan.initial
+    std::vector<gust_pulse> gusts; // in truth only
+    std::vector<channels> truth;   // at plan.sample_times
+    std::vector<channels> value;   // what is written
+    std::size_t outliers = 0;      // how many values break their bound
+};
+
+struct campaign {
+    std::string id;
+    family kind = family::none;
+    std::vector<unknown_constant> unknown;
+    double outlier_fraction = 0;
+    std::vector<std::size_t> channels_measured;
+    std::vector<measured_scenario> scenarios;
+
+    constants true_constants;
+    effect_values true_effects;
+    foreign_values true_foreign;
+    std::vector<std::string> effects;  // names, empty for none
+    std::string effects_text = "none"; // with parameters, as in the labels
+    std::string noise;                 // the shape of the noise
+};
+
+inline constexpr channels error_bound{0.02, 0.02, 0.05, 0.02, 0.02, 0.03};
+
+/// floor(fraction n), exact in decimals for fractions of two digits.
+std::size_t outlier_budget(double fraction, std::size_t samples);
+
+/// The truth of one scenario, or another model of it, as a simulation.
+world world_of(campaign const& c, measured_scenario const& s);
+world base_world_of(campaign const& c, measured_scenario const& s);
+
+/// `size` multiplies the effects of the catalogue: below 1 the check becomes harder.
+campaign draw_campaign(std::uint64_t seed, std::size_t index, std::optional<family> only,
+                       double size = 1);
+
+} // namespace withheld
+
+#endif

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "campaign_files.hpp"
+#include "catalogue.hpp"
+#include "fit.hpp"
+#include "measure.hpp"
+#include "recorded.hpp"
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace withheld {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_file(fs::path const& path, std::string const& text) {
+    std::ofstream file{path, std::ios::binary};
+    file << text;
+    if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
+}
+
+std::string interval_text(range r) {
+    return '[' + six_digits(r.lo) + ", " + six_digits(r.hi) + ']';
+}
+
+std::string inputs_text(scenario const& s) {
+    std::string text = "t,W,delta\n";
+    for (std::size_t i = 0; i < s.motor.t.size(); ++i)
+        text += decimal_text(s.motor.t[i]) + ',' + decimal_text(s.motor.value[i]) + ',' +
+                decimal_text(s.rudder.value[i]) + '\n';
+    return text;
+}
+
+std::string measurements_text(campaign const& c, measured_scenario const& s) {
+    std::string text = "t";
+    for (std::size_t const k : c.channels_measured) {
+        std::string const name{channel_names[k]};
+        text += ',' + name + ',' + name + "_err";
+    }
+    for (std::size_t i = 0; i < s.value.size(); ++i) {
+        text += '\n' + decimal_text(s.plan.sample_times[i]);
+        for (std::size_t const k : c.channels_measured)
+            text += ',' + decimal_text(s.value[i][k]) + ',' + decimal_text(error_bound[k]);
+    }
+    return text + '\n';
+}
+
+std::string scenario_text(scenario const& s) {
+    std::string text = R"(    {"name": ")" + s.name + R"(", "role": ")" +
+                       (s.holdout ? "holdout" : "fit") + R"(", "duration": )" +
+                       decimal_text(s.duration) + R"(, "inputs": ")" + s.name +
+                       R"(.inputs.csv", "interpolation": "linear", "measurements": ")" + s.name +
+                       ".measurements.csv\",\n     \"initial\": {";
+    for (std::size_t i = 0; i < channel_count; ++i)
+        text += (i == 0 ? "\"" : ", \"") + std::string{channel_names[i]} +
+                "\": " + interval_text(s.initial[i]);
+    return text + "}}";
+}
+
+std::string dataset_text(campaign const& c) {
+    std::string text = "{\n  \"format\": \"sivid-dataset-1\",\n  \"id\": \"" + c.id +
+                       "\",\n  \"model\": \"hovercraft\",\n  \"parameters\": {";
+    char const* separator = "\n";
+    for (auto const& u : c.unknown) {
+        text += separator;
+        text += "    \"" + u.name + R"(": {"prior": )" + interval_text(u.prior) + R"(, "unit": ")" +
+                u.unit + "\"}";
+        separator = ",\n";
+    }
+    text += "\n  },\n  \"max_outlier_fraction\": " + decimal_text(c.outlier_fraction) +
+            ",\n  \"scenarios\": [";
+    separator = "\n";
+    for (auto const& s : c.scenarios) {
+        text += separator + scenario_text(s.plan);
+        separator = ",\n";
+    }
+    return text + "\n  ]\n}\n";
+}
+
+std::string true_starts(campaign const& c) {
+    std::string text;
+    for (auto const& s : c.scenarios) {
+        text += (text.empty() ? "" : " ") + s.plan.name + '(';
+        for (std::size_t i = 0; i < channel_count; ++i)
+            text += (i == 0 ? "" : ",") + decimal_text(s.initial[i]);
+        text += ')';
+    }
+    return text;
+}
+
+std::string true_gusts(campaign const& c) {
+    std::string text;
+    for (auto const& s : c.scenarios)
+        for (auto const& g : s.gusts)
+            text += (text.empty() ? "" : " ") + s.plan.name + '(' + six_digits(g.begin) + ',' +
+                    six_digits(g.length) + ',' + six_digits(g.force) + ')';
+    return text.empty() ? "-" : text;
+}
+
+/// The least inflation of the base model that a fit finds in the data as they were written.
+double best_inflation_without_effects(fs::path const& folder) {
+    auto const data = read_recording(folder);
+    fit_problem const problem{data, {}};
+    auto result = fit(problem, {}, {});
+    return problem.tighten(result.x);
+}
+
+} // namespace
+
+void write_dataset(campaign const& c, fs::path const& folder) {
+    fs::create_directories(folder);
+    write_file(folder / "dataset.json", dataset_text(c));
+    for (auto const& s : c.scenarios) {
+        write_file(folder / (s.plan.name + ".inputs.csv"), inputs_text(s.plan));
+        write_file(folder / (s.plan.name + ".measurements.csv"), measurements_text(c, s));
+    }
+}
+
+std::string labels_header() {
+    return "case\tfamily\teffects\tparams\tnoise\toutliers\tstarts\tgusts\tfit_base\tfit_true"
+           "\tholdout_base\tholdout_true\tfit_base_best";
+}
+
+std::string label_of(campaign const& c, fs::path const& folder) {
+    std::ostringstream line;
+    line << c.id << '\t' << family_names[static_cast<std::size_t>(c.kind)] << '\t' << c.effects_text
+         << '\t';
+    char const* separator = "";
+    for (auto const& u : c.unknown) {
+        line << separator << u.name << '=' << six_digits(c.true_constants.*constant_named(u.name));
+        separator = " ";
+    }
+    std::size_t outliers = 0;
+    for (auto const& s : c.scenarios) outliers += s.outliers;
+    line << '\t' << c.noise << '\t' << outliers << '\t' << true_starts(c) << '\t' << true_gusts(c);
+    for (part const which : {part::fit, part::holdout})
+        for (bool const with : {false, true})
+            line << '\t' << six_digits(inflation_at_truth(c, with, which));
+    line << '\t' << six_digits(best_inflation_without_effects(folder));
+    return line.str();
+}
+
+} // namespace withheld

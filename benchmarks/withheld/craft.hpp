@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// The hovercraft and everything that may be wrong with its model, written down from the formulas of
+// the documentation alone. Nothing of sivid is used: a mistake in the library's model or integrator
+// must show up as a disagreement with this file.
+#ifndef WITHHELD_CRAFT_HPP
+#define WITHHELD_CRAFT_HPP
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+namespace withheld {
+
+struct constants {
+    double m = 1.297, Iz = 0.058, rho = 1.225, Cd = 0.6, CL = 1.891, Cdelta = 0.1339, D = 0.18;
+    double Su = 0.1276, Sv = 0.22, Sg = 0.04, A = 0.025447, L = 0.30;
+    double Ff = 0.5, eps = 0.05, D11 = 0, D22 = 0.2, D33 = 0.1;
+};
+
+/// The member of a constant's name, null for an unknown name.
+double constants::*constant_named(std::string_view name);
+
+/// The parameters of the catalogue's effects; the values here are the neutral ones.
+struct effect_values {
+    double wind_x = 0, wind_y = 0;
+    double rudder_lag = 0, input_delay = 0, rudder_trim = 0;
+    double thrust_offset = 0, cg_offset = 0;
+    double slope_x = 0, slope_y = 0;
+    double battery_sag = 0, quadratic_yaw_damping = 0, linear_surge_damping = 0, payload = 0;
+    double gyro_bias = 0, heading_bias = 0;
+    double rudder_limit = std::numeric_limits<double>::infinity();
+    double rudder_deadband = 0, position_scale = 0, motor_lag = 0, dry_yaw_friction = 0;
+    double friction_anisotropy = 0, position_latency = 0, thrust_loss = 0;
+};
+
+/// A lateral push of the shape sin^2, smooth at both ends.
+struct gust_pulse {
+    double begin = 0, length = 1, force = 0;
+};
+
+/// Effects that no catalogue has; neutral where zero.
+struct foreign_values {
+    double tether_stiffness = 0, tether_slack = 0; // N/m, m: pulls back to the start when taut
+    double servo_frequency = 0, servo_damping = 0; // rad/s, 1: second order in place of the lag
+    double stribeck_rise = 0, stribeck_speed = 1;  // more dry friction at low speed
+};
+
+/// Samples at increasing times, linear between them, constant outside.
+struct polyline {
+    std::vector<double> t, value;
+    double at(double time) const;
+    double largest_magnitude() const;
+};
+
+struct world {
+    constants c;
+    effect_values e;
+    foreign_values f;
+    std::vector<gust_pulse> gusts;
+    polyline motor, rudder; // W and delta
+};
+
+/// u, v, r, x, y, psi, then the rudder's angle and the motor's speed behind their lags, and the
+/// servo's rate.
+inline constexpr std::size_t state_size = 9;
+using state = std::array<double, state_size>;
+inline constexpr std::size_t channel_count = 6;
+using channels = std::array<double, channel_count>;
+inline constexpr std::array<std::string_view, channel_count> channel_names{"u", "v", "r",
+                                                                           "x", "y", "psi"};
+
+/// The commands at one time: W as recorded, delta behind delay and dead band.
+struct command {
+    double motor = 0, rudder = 0;
+};
+
+/// delta behind a dead band.
+double behind_deadband(double delta, double band);
+
+state derivative(world const& w, double t, command const& now, state const& s, state const& start);
+
+/// What the sensors show of a state; positions are those of a state that may be older.
+channels sensed(world const& w, state const& now, state const& position);
+
+} // namespace withheld
+
+#endif

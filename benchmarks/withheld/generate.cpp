@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Writes campaigns whose effect is withheld: data sets into one folder, the labels elsewhere.
+#include "campaign_files.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+
+int main(int argc, char** argv) {
+    using namespace withheld;
+    CLI::App app{"Draws hovercraft campaigns with a withheld effect."};
+    std::uint64_t seed = 1;
+    std::size_t count = 30;
+    std::string out, labels, only;
+    app.add_option("--seed", seed, "everything is drawn from it")->capture_default_str();
+    app.add_option("--count", count, "number of campaigns")->capture_default_str();
+    app.add_option("--out", out, "folder of the data sets")->required();
+    app.add_option("--labels", labels, "file of the labels, outside of --out")->required();
+    app.add_option("--family", only, "this family only");
+    double size = 1;
+    app.add_option("--size", size, "multiplies the effects, for a harder check")
+        ->check(CLI::Range(0.01, 1.0))
+        ->capture_default_str();
+    CLI11_PARSE(app, argc, argv);
+
+    auto const kind = family_named(only);
+    if (!only.empty() && !kind) {
+        std::cerr << "unknown family " << only << '\n';
+        return 2;
+    }
+    try {
+        auto const inside = std::filesystem::weakly_canonical(labels).lexically_relative(
+            std::filesystem::weakly_canonical(out));
+        if (!inside.empty() && *inside.begin() != "..") {
+            std::cerr << "the labels must not lie in the folder of the data sets\n";
+            return 2;
+        }
+        std::ofstream table{labels};
+        table << labels_header() << '\n';
+        for (std::size_t i = 0; i < count; ++i) {
+            campaign c = draw_campaign(seed, i, kind, size);
+            char id[32];
+            std::snprintf(id, sizeof id, "w%04zu", i);
+            c.id = id;
+            auto const folder = std::filesystem::path{out} / id;
+            write_dataset(c, folder);
+            table << label_of(c, folder) << '\n' << std::flush;
+        }
+        if (!table) throw std::runtime_error("cannot write " + labels);
+    } catch (std::exception const& e) {
+        std::cerr << e.what() << '\n';
+        return 70;
+    }
+    return 0;
+}

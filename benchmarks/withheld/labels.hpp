@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// The labels, opened after the diagnosis.
+#ifndef WITHHELD_LABELS_HPP
+#define WITHHELD_LABELS_HPP
+
+#include "craft.hpp"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace withheld {
+
+struct label {
+    std::string id, family, effects_text;
+    std::vector<std::pair<std::string, std::vector<double>>> effects; // name and parameters
+    std::map<std::string, double> constants_true;
+    std::map<std::string, std::string> more; // further columns by name
+
+    std::set<std::string> names() const;
+    std::optional<double> number(std::string const& column) const; // of a further column
+};
+
+/// Any table whose columns are named and begin with case, family, effects, params.
+std::vector<label> read_labels(std::filesystem::path const& path);
+
+/// The truth that a label describes, without inputs: constants, effects, foreign effects.
+world world_of(label const& l, constants const& fixed);
+/// The true start of a scenario, and its gusts, where the label says so.
+std::optional<channels> true_start(label const& l, std::string const& scenario);
+std::vector<gust_pulse> true_gusts(label const& l, std::string const& scenario);
+
+} // namespace withheld
+
+#endif

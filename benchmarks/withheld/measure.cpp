@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "measure.hpp"
+#include "simulate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace withheld {
+
+world world_of(campaign const& c, measured_scenario const& s) {
+    return {c.true_constants, c.true_effects, c.true_foreign, s.gusts, s.plan.motor, s.plan.rudder};
+}
+
+world base_world_of(campaign const& c, measured_scenario const& s) {
+    return {c.true_constants, {}, {}, {}, s.plan.motor, s.plan.rudder};
+}
+
+double largest_deviation(campaign const& c, effect_values const& e, foreign_values const& f) {
+    double most = 0;
+    for (auto const& s : c.scenarios) {
+        if (s.plan.holdout) continue;
+        // Coarse steps will do to see whether an effect matters.
+        double const step = 5e-3;
+        auto const truth = readings(world_of(c, s), s.initial, s.plan.sample_times, step);
+        world model = base_world_of(c, s);
+        model.e = e;
+        model.f = f;
+        auto const other = readings(model, s.initial, s.plan.sample_times, step);
+        for (std::size_t i = 0; i < truth.size(); ++i)
+            for (std::size_t const k : c.channels_measured)
+                most = std::max(most, std::abs(truth[i][k] - other[i][k]) / error_bound[k]);
+    }
+    return most;
+}
+
+double inflation_of(std::vector<double>& misfits, std::size_t allowed) {
+    if (allowed >= misfits.size()) return 0;
+    auto const place = misfits.begin() + static_cast<std::ptrdiff_t>(allowed);
+    std::nth_element(misfits.begin(), place, misfits.end(), std::greater<>{});
+    return *place;
+}
+
+double inflation_at_truth(campaign const& c, bool with_effects, part which) {
+    double most = 0;
+    for (auto const& s : c.scenarios) {
+        if (s.plan.holdout != (which == part::holdout)) continue;
+        auto const model = with_effects ? s.truth
+                                        : readings(base_world_of(c, s), s.initial,
+                                                   s.plan.sample_times, careful_step);
+        std::vector<double> misfits;
+        for (std::size_t i = 0; i < model.size(); ++i)
+            for (std::size_t const k : c.channels_measured)
+                misfits.push_back(std::abs(s.value[i][k] - model[i][k]) / error_bound[k]);
+        std::size_t const allowed = outlier_budget(c.outlier_fraction, misfits.size());
+        most = std::max(most, inflation_of(misfits, allowed));
+    }
+    return most;
+}
+
+} // namespace withheld

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "noise.hpp"
+#include "simulate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace withheld {
+
+namespace {
+
+enum class shape { uniform, triangular, bell, edges };
+
+/// Within [-1, 1].
+double drawn(shape s, random_source& random) {
+    double const a = random.uniform(-1, 1);
+    switch (s) {
+    case shape::uniform:
+        return a;
+    case shape::triangular:
+        return (a + random.uniform(-1, 1)) / 2;
+    case shape::bell:
+        return std::clamp(random.normal() / 3, -1.0, 1.0);
+    case shape::edges:
+        return std::sin(std::numbers::pi * a); // often close to the bound
+    }
+    return a;
+}
+
+void add_noise(measured_scenario& s, shape noise, double reach, random_source& random) {
+    s.value.assign(s.truth.size(), channels{});
+    for (std::size_t i = 0; i < s.truth.size(); ++i)
+        for (std::size_t k = 0; k < channel_count; ++k) {
+            // Rounding and the integration must not push a sample over its bound.
+            double const room = reach * error_bound[k] - 2e-6;
+            s.value[i][k] = six_decimals(s.truth[i][k] + room * drawn(noise, random));
+        }
+}
+
+/// Single gross errors, some barely over the bound and some huge.
+void add_outliers(measured_scenario& s, campaign const& c, random_source& random) {
+    std::vector<std::pair<std::size_t, std::size_t>> cells;
+    for (std::size_t i = 0; i < s.truth.size(); ++i)
+        for (std::size_t const k : c.channels_measured) cells.emplace_back(i, k);
+    std::size_t const most = outlier_budget(c.outlier_fraction, cells.size());
+    if (most == 0) return;
+    random.shuffle(cells);
+    s.outliers = most - random.below(most / 2 + 1);
+    for (std::size_t n = 0; n < s.outliers; ++n) {
+        auto const [i, k] = cells[n];
+        double const size =
+            error_bound[k] * (random.coin(0.2) ? random.uniform(1.2, 4) : random.uniform(4, 40));
+        s.value[i][k] = six_decimals(s.truth[i][k] + random.sign() * size);
+    }
+}
+
+} // namespace
+
+std::size_t outlier_budget(double fraction, std::size_t samples) {
+    auto const hundredths = static_cast<std::size_t>(std::lround(fraction * 100));
+    return hundredths * samples / 100;
+}
+
+void measure(campaign& c, random_source& random) {
+    double const kind = random.uniform(0, 1);
+    shape const noise = kind < 0.7   ? shape::uniform
+                        : kind < 0.8 ? shape::triangular
+                        : kind < 0.9 ? shape::bell
+                                     : shape::edges;
+    c.noise = noise == shape::uniform      ? "uniform"
+              : noise == shape::triangular ? "triangular"
+              : noise == shape::bell       ? "bell"
+                                           : "edges";
+    // Bounds are mostly stated with a little reserve, sometimes with none.
+    double const reach = random.coin(0.7) ? 0.95 : 1.0;
+    if (reach < 1) c.noise += " 0.95";
+    for (auto& s : c.scenarios) {
+        s.truth = readings(world_of(c, s), s.initial, s.plan.sample_times, careful_step);
+        add_noise(s, noise, reach, random);
+        add_outliers(s, c, random);
+    }
+}
+
+} // namespace withheld

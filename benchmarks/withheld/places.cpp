@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "places.hpp"
+
+#include <map>
+
+namespace withheld {
+
+places places_of(std::string const& effect) {
+    places const rudder{{"sway", "yaw"}, {}, {"delta"}};
+    places const thrust{{"surge", "sway", "yaw"}, {}, {"W"}};
+    places const force{{"surge", "sway"}, {}, {}};
+    places const yaw{{"yaw"}, {}, {}};
+    places const position{{}, {"x", "y"}, {}};
+    static std::map<std::string, places> const table{
+        {"rudder_lag", rudder},
+        {"input_delay", rudder},
+        {"rudder_trim", rudder},
+        {"rudder_saturation", rudder},
+        {"rudder_deadband", rudder},
+        {"wind", force},
+        {"ground_slope", force},
+        {"payload", force},
+        {"battery_sag", thrust},
+        {"motor_lag", thrust},
+        {"thrust_loss_with_speed", thrust},
+        {"cg_offset", {{"surge", "sway", "yaw"}, {}, {}}},
+        {"thrust_offset", yaw},
+        {"quadratic_yaw_damping", yaw},
+        {"dry_yaw_friction", yaw},
+        {"linear_surge_damping", {{"surge"}, {}, {}}},
+        {"friction_anisotropy", {{"sway"}, {}, {}}},
+        {"gyro_bias", {{}, {"r"}, {}}},
+        {"heading_bias", {{}, {"psi"}, {}}},
+        {"position_scale", position},
+        {"position_latency", position},
+        // No catalogue has these.
+        {"gust", {{"sway"}, {}, {}}},
+        {"tether", force},
+        {"stribeck", force},
+        {"servo", rudder}};
+    auto const found = table.find(effect);
+    return found == table.end() ? places{} : found->second;
+}
+
+places places_of(std::set<std::string> const& effects) {
+    places all;
+    for (auto const& e : effects) {
+        auto const p = places_of(e);
+        all.equations.insert(p.equations.begin(), p.equations.end());
+        all.sensors.insert(p.sensors.begin(), p.sensors.end());
+        all.inputs.insert(p.inputs.begin(), p.inputs.end());
+    }
+    return all;
+}
+
+bool holds(places const& all, std::string const& kind, std::string const& name) {
+    if (kind == "equation") return all.equations.contains(name);
+    if (kind == "input") return all.inputs.contains(name);
+    if (kind != "sensor") return false;
+    if (name == "position") return all.sensors.contains("x") || all.sensors.contains("y");
+    return all.sensors.contains(name);
+}
+
+} // namespace withheld

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include "summary.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <numeric>
+#include <sstream>
+
+namespace withheld {
+
+namespace {
+
+struct counted {
+    std::size_t hits = 0, of = 0;
+    void add(bool hit) {
+        hits += hit ? 1U : 0U;
+        ++of;
+    }
+    std::string text() const {
+        if (of == 0) return "-";
+        char buffer[48];
+        std::snprintf(buffer, sizeof buffer, "%zu/%zu %3.0f%%", hits, of,
+                      100.0 * static_cast<double>(hits) / static_cast<double>(of));
+        return buffer;
+    }
+};
+
+struct tally {
+    std::size_t campaigns = 0, false_proofs = 0, proofs = 0;
+    counted right, place, gap, relation, explained, baseline;
+
+    void add(judgement const& j, judgement const* base) {
+        ++campaigns;
+        false_proofs += j.false_proofs.size();
+        proofs += j.proofs;
+        right.add(j.right);
+        if (j.place_right || j.missing) place.add(j.place_right.value_or(false));
+        if (!j.absorbed) {
+            gap.add(j.gap_certified);
+            relation.add(j.relation_proved);
+        }
+        if (j.truth_explains) explained.add(*j.truth_explains);
+        if (base != nullptr) baseline.add(base->right);
+    }
+};
+
+std::string padded(std::string text, std::size_t width) {
+    if (text.size() < width) text.append(width - text.size(), ' ');
+    return text + ' ';
+}
+
+std::string number_text(std::optional<double> const& x, char const* format = "%.6g") {
+    if (!x) return "";
+    char buffer[48];
+    std::snprintf(buffer, sizeof buffer, format, *x);
+    return buffer;
+}
+
+std::string row(std::string const& name, tally const& t) {
+    std::string line = padded(name, 9) + padded(t.right.text(), 13) +
+                       padded(t.baseline.text(), 13) + padded(t.place.text(), 13) +
+                       padded(t.explained.text(), 13) + padded(t.gap.text(), 13) +
+                       padded(t.relation.text(), 13);
+    return line + std::to_string(t.false_proofs) + " of " + std::to_string(t.proofs) + '\n';
+}
+
+/// "median (least .. greatest) of n"
+std::string spread(std::vector<double> all) {
+    if (all.empty()) return "-";
+    std::sort(all.begin(), all.end());
+    char buffer[128];
+    std::snprintf(buffer, sizeof buffer, "median %.4g (%.4g .. %.4g) of %zu", all[all.size() / 2],
+                  all.front(), all.back(), all.size());
+    return buffer;
+}
+
+} // namespace
+
+std::string family_table(std::vector<judgement> const& all,
+                         std::vector<judgement> const& baseline) {
+    std::map<std::string, tally> by_family;
+    tally total;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        auto const* base = baseline.empty() ? nullptr : &baseline[i];
+        by_family[all[i].family].add(all[i], base);
+        total.add(all[i], base);
+    }
+    std::string text = padded("family", 9) + padded("right", 13) + padded("baseline", 13) +
+                       padded("place", 13) + padded("explained", 13) + padded("gap proved", 13) +
+                       padded("relation", 13) + "false proofs\n";
+    for (auto const& [name, t] : by_family) text += row(name, t);
+    return text + row("all", total);
+}
+
+std::string confusion(std::vector<judgement> const& all) {
+    std::map<std::string, std::map<std::string, std::size_t>> counts;
+    for (auto const& j : all) ++counts[j.truth][j.answer];
+    std::string text;
+    for (auto const& [truth, answers] : counts) {
+        text += padded(truth, 46) + "->";
+        for (auto const& [answer, n] : answers) text += "  " + answer + " x" + std::to_string(n);
+        text += '\n';
+    }
+    return text;
+}
+
+std::string complaints(std::vector<judgement> const& all) {
+    std::map<std::string, std::size_t> kinds;
+    std::string text;
+    for (auto const& j : all) {
+        for (auto const& p : j.false_proofs) {
+            ++kinds[p];
+            text += "FALSE PROOF  " + j.id + "  " + p + "  (" + j.truth + ")\n";
+        }
+        if (j.missing) text += "missing      " + j.id + "  " + j.trouble + '\n';
+        if (!j.right && !j.missing)
+            text += "wrong        " + j.id + "  " + j.family + "  " + j.truth + " -> " + j.answer +
+                    '\n';
+    }
+    text += "false proofs by kind:";
+    if (kinds.empty()) text += " none";
+    for (auto const& [kind, n] : kinds) text += "  " + kind + ' ' + std::to_string(n);
+    return text + '\n';
+}
+
+std::string measures(std::vector<judgement> const& all) {
+    std::vector<double> width, slack, shrink, shrink_error, seconds;
+    counted relations, certified, sound, shrink_held;
+    std::size_t witnesses = 0, intervals = 0, hold = 0;
+    for (auto const& j : all) {
+        witnesses += j.witnesses_checked;
+        intervals += j.intervals;
+        hold += j.intervals_hold;
+        if (j.seconds) seconds.push_back(*j.seconds);
+        if (j.inflation_lower && j.inflation_upper && *j.inflation_lower > 0)
+            width.push_back(*j.inflation_upper / *j.inflation_lower);
+        if (j.inflation_lower && j.inflation_bound) {
+            sound.add(*j.inflation_lower <= *j.inflation_bound + 1e-3);
+            slack.push_back(*j.inflation_lower / *j.inflation_bound);
+        }
+        if (!j.absorbed && j.family != "pose" && j.family != "outliers" && j.family != "outside") {
+            relations.add(j.relation_proved);
+            certified.add(j.gap_certified);
+        }
+        if (j.shrink_lower && j.shrink_upper) {
+            shrink.push_back((*j.shrink_lower + *j.shrink_upper) / 2);
+            if (!j.shrink_true) continue;
+            shrink_error.push_back(shrink.back() - *j.shrink_true);
+            shrink_held.add(*j.shrink_lower <= *j.shrink_true + 1e-3 &&
+                            *j.shrink_upper >= *j.shrink_true - 1e-3);
+        }
+    }
+    std::ostringstream text;
+    text << "full channels, no outliers, an effect of the catalogue: gap certified "
+         << certified.text() << ", a relation proved " << relations.text() << '\n'
+         << "inflation, lower <= least known: " << sound.text() << '\n'
+         << "inflation, upper/lower:          " << spread(width) << '\n'
+         << "inflation, lower/least known:    " << spread(slack) << '\n'
+         << "hold-out shrink reported:        " << spread(shrink) << '\n'
+         << "hold-out shrink - true shrink:   " << spread(shrink_error)
+         << ", true one held: " << shrink_held.text() << '\n'
+         << "seconds a campaign:              " << spread(seconds) << ", in all "
+         << std::accumulate(seconds.begin(), seconds.end(), 0.0) << '\n'
+         << "witnesses simulated:             " << witnesses << '\n'
+         << "effect parameters in their intervals: " << hold << '/' << intervals << '\n';
+    return text.str();
+}
+
+std::string csv(std::vector<judgement> const& all) {
+    std::string text =
+        "case,family,truth,answer,right,place,absorbed,false_proofs,proofs,gap_certified,"
+        "relation_proved,truth_explains,inflation_lower,inflation_upper,"
+        "inflation_bound,shrink_lower,shrink_upper,shrink_true,seconds,missing\n";
+    auto const flag = [](bool b) { return b ? "1" : "0"; };
+    auto const maybe = [&](std::optional<bool> const& b) { return b ? flag(*b) : ""; };
+    for (auto const& j : all) {
+        std::string proofs;
+        for (auto const& p : j.false_proofs) proofs += (proofs.empty() ? "" : " ") + p;
+        text += j.id + ',' + j.family + ',' + j.truth + ',' + j.answer + ',' + flag(j.right) + ',' +
+                maybe(j.place_right) + ',' + flag(j.absorbed) + ',' + proofs + ',' +
+                std::to_string(j.proofs) + ',' + flag(j.gap_certified) + ',' +
+                flag(j.relation_proved) + ',' + maybe(j.truth_explains) + ',' +
+                number_text(j.inflation_lower) + ',' + number_text(j.inflation_upper) + ',' +
+                number_text(j.inflation_bound) + ',' + number_text(j.shrink_lower) + ',' +
+                number_text(j.shrink_upper) + ',' + number_text(j.shrink_true) + ',' +
+                number_text(j.seconds, "%.3f") + ',' + flag(j.missing) + '\n';
+    }
+    return text;
+}
+
+} // namespace withheld

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+// The generator's own simulator against numbers and closed forms that do not come from it.
+#include "catalogue.hpp"
+#include "simulate.hpp"
+
+#include "support/catch.hpp"
+
+#include <cmath>
+#include <numbers>
+
+using namespace withheld;
+
+namespace {
+
+polyline steady(double value, double end) { return {{0, end}, {value, value}}; }
+
+/// Fine enough to stand for the function itself.
+template <class F>
+polyline sampled(F const& f, double end) {
+    polyline p;
+    for (int i = 0; i <= 2000; ++i) {
+        p.t.push_back(end * i / 2000);
+        p.value.push_back(f(p.t.back()));
+    }
+    return p;
+}
+
+world calm(double end) {
+    world w;
+    w.motor = steady(0, end);
+    w.rudder = steady(0, end);
+    return w;
+}
+
+/// Without any friction or drag.
+world frictionless(double end) {
+    world w = calm(end);
+    w.c.Ff = w.c.D22 = w.c.D33 = w.c.rho = 0;
+    return w;
+}
+
+void check_state(state const& got, channels const& expected, double tolerance) {
+    for (std::size_t i = 0; i < channel_count; ++i) {
+        CAPTURE(i);
+        CHECK_THAT(got[i], WithinAbs(expected[i], tolerance));
+    }
+}
+
+/// A lively manoeuvre in which everything is at work.
+world lively() {
+    world w;
+    w.motor = sampled([](double t) { return 90 + 20 * std::sin(0.9 * t); }, 3);
+    w.rudder = {{0, 0.5, 1, 1.5, 2, 2.5, 3}, {0.1, 0.4, 0.2, -0.3, -0.1, 0.3, 0.35}};
+    return w;
+}
+
+} // namespace
+
+TEST_CASE("reference table of the three scenarios") {
+    double const half = 6e-4; // the table has three decimals
+    world one = calm(1);
+    one.motor = steady(250, 1);
+    check_state(states_at(one, {0.1, 0, 0, 0, 0, 0}, {1}, careful_step).back(),
+                {7.311, 0, 0, 3.872, 0, 0}, half);
+    check_state(states_at(calm(10), {2, 0, 0, 0, 0, 0}, {10}, careful_step).back(),
+                {0, 0, 0, 4.420, 0, 0}, half);
+    world three = calm(3);
+    three.motor = steady(250.0 / 3, 3);
+    double const pi = std::numbers::pi;
+    three.rudder = sampled([&](double t) { return pi / 12 * (1 + std::sin(pi * t / 2)); }, 3);
+    check_state(states_at(three, {2, 0, 0, 0, 0, 0}, {3}, careful_step).back(),
+                {-1.184, 1.463, -0.315, 7.717, 1.581, -2.356}, half);
+}
+
+TEST_CASE("halving the step changes nothing that counts, with every effect") {
+    std::vector<double> times;
+    for (int i = 1; i <= 30; ++i) times.push_back(0.1 * i);
+    channels const start{1, 0.2, 0.1, 0, 0, 0.3};
+    auto const difference = [&](world const& w, double step) {
+        auto const a = readings(w, start, times, step), b = readings(w, start, times, step / 2);
+        double most = 0;
+        for (std::size_t i = 0; i < times.size(); ++i)
+            for (std::size_t k = 0; k < channel_count; ++k)
+                most = std::max(most, std::abs(a[i][k] - b[i][k]));
+        return most;
+    };
+    auto const base = readings(lively(), start, times, careful_step);
+    random_source random{5};
+    for (auto const& e : catalogue()) {
+        CAPTURE(e.name);
+        world w = lively();
+        draw_size(e, random, 1, 0.4, w.e);
+        // The kink of |r| r, or a lag that runs into a limit, costs orders, not correctness.
+        CHECK(difference(w, careful_step) < 1e-7);
+        auto const changed = readings(w, start, times, careful_step);
+        double most = 0;
+        for (std::size_t i = 0; i < times.size(); ++i)
+            for (std::size_t k = 0; k < channel_count; ++k)
+                most = std::max(most, std::abs(changed[i][k] - base[i][k]) / 0.02);
+        CHECK(most > 1);
+    }
+    world foreign = lively();
+    foreign.f = {0.4, 0.2, 5, 0.3, 1, 0.4};
+    foreign.gusts = {{0.3, 1, 1.2}};
+    CHECK(difference(foreign, careful_step) < 1e-7);
+    // Fourth order: the error falls by 16, a little less exactly measured.
+    world coarse = lively(); // few kinks, so that the steps are those that are asked for
+    coarse.motor = steady(90, 3);
+    CHECK(difference(coarse, 0.05) > 1e-9);
+    CHECK(difference(coarse, 0.025) < difference(coarse, 0.05) / 10);
+}
+
+TEST_CASE("neutral values change nothing") {
+    auto const base = states_at(lively(), {1, 0, 0, 0, 0, 0}, {3}, 1e-3).back();
+    world w = lively();
+    w.e.rudder_limit = 0.4; // never reached from above
+    CHECK(states_at(w, {1, 0, 0, 0, 0, 0}, {3}, 1e-3).back() == base);
+}
+
+TEST_CASE("lags, delay and dead band by their closed forms") {
+    world w = calm(2);
+    w.motor = steady(80, 2);
+    w.rudder = {{0, 2}, {0.1, 0.9}}; // 0.1 + 0.4 t
+    w.e.rudder_lag = 0.2;
+    w.e.motor_lag = 0.3;
+    auto const lagged = states_at(w, {1, 0, 0, 0, 0, 0}, {1.3}, careful_step).back();
+    CHECK_THAT(lagged[6], WithinAbs(0.1 + 0.4 * (1.3 - 0.2 + 0.2 * std::exp(-1.3 / 0.2)), 1e-10));
+    CHECK_THAT(lagged[7], WithinAbs(80 * (1 - std::exp(-1.3 / 0.3)), 1e-8));
+
+    // Delay and dead band come before the lag: the ramp leaves the band at (0.3 - 0.1)/0.4 + 0.25.
+    w.e.input_delay = 0.25;
+    w.e.rudder_deadband = 0.3;
+    auto const behind = states_at(w, {1, 0, 0, 0, 0, 0}, {0.7, 1.3}, careful_step);
+    CHECK_THAT(behind[0][6], WithinAbs(0, 1e-14));
+    double const since = 1.3 - 0.75;
+    CHECK_THAT(behind[1][6], WithinAbs(0.4 * (since - 0.2 + 0.2 * std::exp(-since / 0.2)), 1e-10));
+    w.e.battery_sag = 0.1; // W (1 - k t) goes into the motor's lag
+    auto const sagging = states_at(w, {1, 0, 0, 0, 0, 0}, {1.3}, careful_step).back();
+    double const tail = std::exp(-1.3 / 0.3);
+    CHECK_THAT(sagging[7], WithinAbs(80 * (1 - tail) - 8 * (1.3 - 0.3 * (1 - tail)), 1e-8));
+
+    world servo = calm(2);
+    servo.rudder = {{0, 1e-9, 2}, {0, 0.5, 0.5}};
+    servo.f.servo_frequency = 5;
+    servo.f.servo_damping = 0.3;
+    double const damped = 5 * std::sqrt(1 - 0.09), t = 0.8;
+    double const step =
+        1 - std::exp(-1.5 * t) * (std::cos(damped * t) + 1.5 / damped * std::sin(damped * t));
+    CHECK_THAT(states_at(servo, {1, 0, 0, 0, 0, 0}, {t}, careful_step).back()[6],
+               WithinAbs(0.5 * step, 1e-7));
+}
+
+TEST_CASE("forces by their closed forms") {
+    world w = frictionless(2);
+    w.e.slope_x = 0.03;
+    w.e.slope_y = -0.02;
+    w.e.payload = 0.2; // gravity acts on all of the mass: no influence
+    auto const slid = states_at(w, {0, 0, 0, 0, 0, 0.7}, {2}, careful_step).back();
+    CHECK_THAT(slid[3], WithinAbs(0.03 * 9.81 * 2, 1e-9));
+    CHECK_THAT(slid[4], WithinAbs(-0.02 * 9.81 * 2, 1e-9));
+
+    // Drifting with the wind nothing drags.
+    world drift = calm(2);
+    drift.c.Ff = drift.c.D22 = 0;
+    drift.e.wind_x = 0.6;
+    drift.e.wind_y = -0.8;
+    double const c = std::cos(0.4), s = std::sin(0.4);
+    channels const with{c * 0.6 - s * 0.8, -s * 0.6 - c * 0.8, 0, 0, 0, 0.4};
+    check_state(states_at(drift, with, {2}, careful_step).back(),
+                {with[0], with[1], 0, 1.2, -1.6, 0.4}, 1e-9);
+
+    // A free body turns about its centre of gravity, which moves straight on.
+    world free = frictionless(2);
+    free.e.cg_offset = 0.08;
+    auto const turned = states_at(free, {1, 0, 2, 0, 0, 0}, {2}, careful_step).back();
+    CHECK_THAT(turned[2], WithinAbs(2, 1e-9));
+    CHECK_THAT(turned[3] + 0.08 * std::cos(turned[5]), WithinAbs(0.08 + 2.0, 1e-8));
+    CHECK_THAT(turned[4] + 0.08 * std::sin(turned[5]), WithinAbs(2 * 0.16, 1e-8));
+
+    // A taut spring alone swings.
+    world spring = frictionless(2);
+    spring.f.tether_stiffness = 2;
+    double const omega = std::sqrt(2 / spring.c.m);
+    CHECK_THAT(states_at(spring, {1, 0, 0, 0, 0, 0}, {2}, careful_step).back()[3],
+               WithinAbs(std::sin(2 * omega) / omega, 1e-8));
+
+    // sin^2 has the mean 1/2: the impulse of the gust.
+    world gust = frictionless(2);
+    gust.gusts = {{0.5, 1, 1.2}};
+    CHECK_THAT(states_at(gust, {0, 0, 0, 0, 0, 0}, {2}, careful_step).back()[1],
+               WithinAbs(0.6 / gust.c.m, 1e-9));
+}
+
+TEST_CASE("yaw and surge effects at one state") {
+    state s{};
+    s[0] = 1.2, s[1] = -0.4, s[2] = -0.8, s[5] = 0.3;
+    command const now{90, 0.2};
+    world const base = lively();
+    state const plain = derivative(base, 0, now, s, s);
+    double const thrust = 0.1339 * 1.225 * std::pow(0.18, 4) * 90 * 90;
+    auto const change = [&](auto const& set) {
+        world w = base;
+        set(w.e);
+        state d = derivative(w, 0, now, s, s);
+        for (std::size_t i = 0; i < 3; ++i) d[i] -= plain[i];
+        return d;
+    };
+    CHECK_THAT(change([](auto& e) { e.thrust_offset = 0.01; })[2],
+               WithinAbs(thrust * 0.01 / 0.058, 1e-12));
+    CHECK_THAT(change([](auto& e) { e.quadratic_yaw_damping = 0.1; })[2],
+               WithinAbs(0.1 * 0.64 / 0.058, 1e-12));
+    CHECK_THAT(change([](auto& e) { e.dry_yaw_friction = 0.05; })[2],
+               WithinAbs(0.05 * 0.8 / std::sqrt(0.64 + 1e-4) / 0.058, 1e-12));
+    CHECK_THAT(change([](auto& e) { e.linear_surge_damping = 0.3; })[0],
+               WithinAbs(-0.3 * 1.2 / 1.297, 1e-12));
+    double const V = std::sqrt(1.2 * 1.2 + 0.4 * 0.4 + 0.05 * 0.05);
+    CHECK_THAT(change([](auto& e) { e.friction_anisotropy = 0.5; })[1],
+               WithinAbs(0.5 * 0.5 * 0.4 / V / 1.297, 1e-12));
+    auto const weaker = change([](auto& e) { e.thrust_loss = 0.1; });
+    CHECK_THAT(weaker[0], WithinAbs(-thrust * 0.12 / 1.297, 1e-12));
+    double const lift = 1.891 * thrust * 0.2 / (4 * 0.025447);
+    CHECK_THAT(weaker[2], WithinAbs(0.12 * 0.30 * lift * 0.04 / 0.058, 1e-12));
+    CHECK_THAT(change([](auto& e) { e.rudder_trim = 0.05; })[1],
+               WithinAbs(0.25 * lift * 0.22 / 1.297, 1e-12));
+    CHECK_THAT(change([](auto& e) { e.rudder_limit = 0.1; })[1],
+               WithinAbs(-0.5 * lift * 0.22 / 1.297, 1e-12));
+    // The trim is added behind the limit.
+    CHECK_THAT(change([](auto& e) { e.rudder_limit = 0.1, e.rudder_trim = 0.05; })[1],
+               WithinAbs(-0.25 * lift * 0.22 / 1.297, 1e-12));
+    CHECK(change([](auto& e) { e.friction_anisotropy = 0.5; })[0] == 0);
+
+    // Wind changes the drag of the air alone, not friction and D22.
+    double const c = std::cos(0.3), sn = std::sin(0.3);
+    double const air_u = 1.2 - c * 0.7, air_v = -0.4 + sn * 0.7;
+    double const air_V = std::sqrt(air_u * air_u + air_v * air_v + 0.05 * 0.05);
+    auto const blown = change([](auto& e) { e.wind_x = 0.7; });
+    double const half = 0.5 * 1.225 * 0.6;
+    CHECK_THAT(blown[0], WithinAbs(-half * 0.1276 * (air_V * air_u - V * 1.2) / 1.297, 1e-12));
+    CHECK_THAT(blown[1], WithinAbs(-half * 0.22 * (air_V * air_v + V * 0.4) / 1.297, 1e-12));
+
+    world stribeck = base;
+    stribeck.f.stribeck_rise = 0.8;
+    stribeck.f.stribeck_speed = 0.9;
+    double const more = 0.5 * 0.8 * std::exp(-V * V / 0.81);
+    CHECK_THAT(derivative(stribeck, 0, now, s, s)[1] - plain[1],
+               WithinAbs(more * 0.4 / V / 1.297, 1e-12));
+}
+
+TEST_CASE("sensors") {
+    std::vector<double> const times{0.1, 0.5, 1, 2};
+    channels const start{1, 0, 0, 0.5, -0.5, 0.2};
+    auto const plain = readings(lively(), start, times, careful_step);
+    world w = lively();
+    w.e.gyro_bias = 0.1;
+    w.e.heading_bias = -0.2;
+    w.e.position_scale = 0.05;
+    w.e.position_latency = 0.5;
+    auto const got = readings(w, start, times, careful_step);
+    CHECK_THAT(got[3][2] - plain[3][2], WithinAbs(0.1, 1e-12));
+    CHECK_THAT(got[3][5] - plain[3][5], WithinAbs(-0.2, 1e-12));
+    CHECK_THAT(got[0][3], WithinAbs(1.05 * 0.5, 1e-12)); // before the latency: the start
+    CHECK_THAT(got[2][4], WithinAbs(1.05 * plain[1][4], 1e-9));
+}
