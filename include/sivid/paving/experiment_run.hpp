@@ -301,10 +301,30 @@ private:
     observer<interval> look_;
 };
 
+/// Not inline, so that it can be compiled once and apart from what uses it (SIVID_COMPILED_KERNELS).
+template <std::size_t N, std::size_t D>
+std::unique_ptr<experiment_run> make_taylor_run(flow const& f, experiment const& e,
+                                                record const& samples, run_options const& options) {
+    return std::make_unique<taylor_run<N, D>>(f, e, samples, options);
+}
+
 /// Number of sides of an experiment that have a width.
 [[nodiscard]] inline std::size_t unknown_count(box const& initial, box const& prior) {
     return normalised_unknowns(initial, prior).variables;
 }
+
+#ifdef SIVID_COMPILED_KERNELS
+// The library sivid::kernels holds these: the dear part of every program that identifies.
+#define SIVID_KERNEL(N, D)                                                                         \
+    extern template std::unique_ptr<experiment_run> make_taylor_run<N, D>(                         \
+        flow const&, experiment const&, record const&, run_options const&);
+SIVID_KERNEL(2, 4)
+SIVID_KERNEL(3, 4)
+SIVID_KERNEL(4, 3)
+SIVID_KERNEL(6, 2)
+SIVID_KERNEL(9, 2)
+#undef SIVID_KERNEL
+#endif
 
 } // namespace paving_detail
 
@@ -317,11 +337,11 @@ private:
     using namespace paving_detail;
     auto const unknowns = unknown_count(e.initial, prior);
     if (options.set == carried_set::taylor_model) {
-        if (unknowns <= 2) return std::make_unique<taylor_run<2, 4>>(f, e, samples, options);
-        if (unknowns == 3) return std::make_unique<taylor_run<3, 4>>(f, e, samples, options);
-        if (unknowns == 4) return std::make_unique<taylor_run<4, 3>>(f, e, samples, options);
-        if (unknowns <= 6) return std::make_unique<taylor_run<6, 2>>(f, e, samples, options);
-        if (unknowns <= 9) return std::make_unique<taylor_run<9, 2>>(f, e, samples, options);
+        if (unknowns <= 2) return make_taylor_run<2, 4>(f, e, samples, options);
+        if (unknowns == 3) return make_taylor_run<3, 4>(f, e, samples, options);
+        if (unknowns == 4) return make_taylor_run<4, 3>(f, e, samples, options);
+        if (unknowns <= 6) return make_taylor_run<6, 2>(f, e, samples, options);
+        if (unknowns <= 9) return make_taylor_run<9, 2>(f, e, samples, options);
     }
     return std::make_unique<doubleton_run>(f, e, samples, options);
 }
