@@ -26,6 +26,7 @@ struct heat_map_options {
     std::string title{};
     std::string time_unit = "s";
     std::size_t most_columns = 300; ///< more are joined, each keeps its largest value
+    double largest = 0; ///< the colours' end is not below it: lets maps share their colours
 };
 
 namespace detail {
@@ -80,6 +81,7 @@ inline heat_map joined(heat_map m, std::size_t most) {
         }
     }
     double const full = m.threshold > 0 ? m.threshold : 1;
+    largest = std::isfinite(o.largest) ? std::max(largest, o.largest) : largest;
     double const excess = std::max(largest, 2 * full);
     // Below the threshold linear; above it logarithmic, since a gap may be a hundred times its
     // bound.

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_REPORT_DIAGNOSIS_TABLES_HPP
+#define SIVID_REPORT_DIAGNOSIS_TABLES_HPP
+
+#include <sivid/report/diagnosis_words.hpp>
+#include <sivid/report/page.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+/// The key figures and tables of a diagnosis's page.
+namespace sivid::report {
+
+/// The answer, then its alternatives, then the others in their order; at most so many.
+[[nodiscard]] inline std::vector<candidate_view const*> foremost(diagnosis_view const& v,
+                                                                 std::size_t most) {
+    std::vector<candidate_view const*> out;
+    auto const add = [&](candidate_view const* c) {
+        if (c != nullptr && out.size() < most &&
+            std::find(out.begin(), out.end(), c) == out.end()) {
+            out.push_back(c);
+        }
+    };
+    add(answer_of(v));
+    for (auto const& o : v.indistinguishable) add(find_candidate(v, o));
+    add(find_candidate(v, {})); // the model as it is: what the others are measured by
+    for (candidate_view const& c : v.candidates) add(&c);
+    std::sort(out.begin(), out.end()); // the order of the view: best first
+    return out;
+}
+
+[[nodiscard]] inline std::vector<card> diagnosis_cards(diagnosis_view const& v) {
+    std::vector<card> out;
+    candidate_view const* const base = find_candidate(v, {});
+    if (says_something(v.inflation)) {
+        out.push_back({"bounds must grow by", span_text(v.inflation) + " \xC3\x97",
+                       v.gap == gap_state::present  ? "\xE2\x9C\x93 proved: there is a gap"
+                       : v.gap == gap_state::absent ? "\xE2\x9C\x93 proved: there is no gap"
+                                                    : "\xE2\x9C\x93 proved; a gap is open"});
+    } else if (base != nullptr && is_fitted(base->fitted)) {
+        out.push_back({"bounds must grow by", estimate_text(base->fitted) + " \xC3\x97",
+                       "\xE2\x89\x88 estimate, best fit"});
+    }
+    if (!v.places.empty()) {
+        place_view const& p = v.places.front();
+        std::string const where = window_text(p.where);
+        out.push_back({"where", place_name(p),
+                       std::string{p.proved ? proved_mark : estimate_mark} +
+                           (where.empty() ? "" : ": " + where)});
+    }
+    if (v.answer == answer_state::effects && !v.effects.empty()) {
+        candidate_view const* const c = answer_of(v);
+        std::string numbers;
+        for (std::size_t i = 0; c != nullptr && i < std::min<std::size_t>(2, c->parameters.size());
+             ++i) {
+            numbers += (numbers.empty() ? "" : ", ") + estimate_words(c->parameters[i]);
+        }
+        bool const proved = c != nullptr && c->state == candidate_state::explains;
+        out.push_back(
+            {proved ? "effect (\xE2\x9C\x93 proved to explain)" : "effect (\xE2\x89\x88 likeliest)",
+             names_of(v.effects), numbers});
+    } else if (v.answer == answer_state::unexplained) {
+        out.push_back(
+            {"effect", "none found", count_text(v.candidates.size()) + " candidates tried"});
+    }
+    if (!is_empty(v.shrink_holdout)) {
+        out.push_back({"gap removed, hold-out data", shrink_text(v.shrink_holdout),
+                       "\xE2\x9C\x93 proved; these data chose nothing"});
+    } else if (!is_empty(v.shrink_fit)) {
+        out.push_back({"gap removed, fit data", shrink_text(v.shrink_fit), "\xE2\x9C\x93 proved"});
+    }
+    if (v.seconds > 0) {
+        out.push_back({"time", duration_text(v.seconds), v.interrupted ? "stopped early" : ""});
+    }
+    return out;
+}
+
+/// The answer sentence by sentence, for the reader in a hurry.
+[[nodiscard]] inline std::vector<std::string> diagnosis_statements(diagnosis_view const& v) {
+    std::vector<std::string> out{gap_clause(v) + "."};
+    if (!v.places.empty()) out.push_back(capitalised(place_clause(v.places.front())) + ".");
+    std::size_t excluded = 0, tried = 0;
+    for (candidate_view const& c : v.candidates) {
+        tried += c.effects.empty() ? 0 : 1;
+        excluded += !c.effects.empty() && c.state == candidate_state::excluded ? 1 : 0;
+    }
+    std::string const count = tried == 0 ? ""
+                                         : " Of " + count_text(tried) +
+                                               (tried == 1 ? " candidate, " : " candidates, ") +
+                                               count_text(excluded) + " excluded (proved).";
+    if (v.answer == answer_state::effects && !v.effects.empty()) {
+        out.push_back(capitalised(answer_clause(v)) + "." + count);
+    } else if (v.answer == answer_state::unexplained) {
+        out.push_back("No candidate was found that explains the data: nothing is forced to fit." +
+                      count);
+    }
+    std::string const others = alternatives_clause(v);
+    if (!others.empty()) out.push_back(capitalised(others) + ".");
+    std::string const fit = shrink_clause(v.shrink_fit, "the data used for fitting");
+    std::string const holdout = shrink_clause(v.shrink_holdout, "data that chose nothing");
+    if (!fit.empty() || !holdout.empty()) {
+        out.push_back(capitalised(fit + (fit.empty() || holdout.empty() ? "" : "; ") + holdout) +
+                      ".");
+    }
+    std::string const next = next_words(v);
+    if (!next.empty()) out.push_back("Next: " + next);
+    return out;
+}
+
+[[nodiscard]] inline table places_table(diagnosis_view const& v, std::size_t most = 20) {
+    table t{.columns = {{"place", column_kind::symbol},
+                        {"scenario"},
+                        {"window [s]"},
+                        {"missing"},
+                        {"its shape (estimate)"},
+                        {"known how"},
+                        {"explains as much", column_kind::note}},
+            .rows = {}};
+    for (place_view const& p : v.places) {
+        if (t.rows.size() == most) break;
+        std::string const span = p.where.from < p.where.to
+                                     ? given_text(p.where.from) + " to " + given_text(p.where.to)
+                                     : "";
+        std::string shape = formula_text(p.law);
+        shape += p.regime.empty() ? "" : (shape.empty() ? "where " : ", where ") + p.regime;
+        t.rows.push_back({place_name(p), p.where.scenario, span, missing_text(p), shape,
+                          std::string{p.proved ? proved_mark : estimate_mark},
+                          enumeration(p.alternatives, " or ")});
+    }
+    if (v.places.size() > most) {
+        t.caption = "The first " + count_text(most) + " of " + count_text(v.places.size()) + ".";
+    }
+    return t;
+}
+
+[[nodiscard]] inline table gap_shares_table(diagnosis_view const& v) {
+    table t{.columns = {{"", column_kind::symbol},
+                        {"proved", column_kind::number},
+                        {"best fit (estimate)", column_kind::number}},
+            .rows = {},
+            .caption = "The factor by which the bounds of this scenario or channel must grow."};
+    auto const add = [&](std::string const& kind, share_of_gap const& s) {
+        t.rows.push_back({kind + s.name, says_something(s.inflation) ? span_text(s.inflation) : "",
+                          is_fitted(s.fitted) ? estimate_text(s.fitted) : ""});
+    };
+    for (share_of_gap const& s : v.scenario_gaps) add("scenario ", s);
+    for (share_of_gap const& s : v.channel_gaps) add("channel ", s);
+    return t;
+}
+
+/// Parameters of the foremost candidates.
+[[nodiscard]] inline table causes_table(diagnosis_view const& v, std::size_t most = 12) {
+    table t{.columns = {{"candidate", column_kind::symbol},
+                        {"verdict"},
+                        {"parameter"},
+                        {"best fit (estimate)", column_kind::number},
+                        {"proved hull", column_kind::number},
+                        {"prior", column_kind::number},
+                        {"unit"}},
+            .rows = {}};
+    auto const answer = answer_of(v);
+    for (candidate_view const* c : foremost(v, most)) {
+        bool first = true;
+        for (estimate_view const& e : c->parameters) {
+            if (c == answer && first) t.chosen_row = t.rows.size();
+            t.rows.push_back({first ? names_of(c->effects) : "",
+                              first ? std::string{state_sign(c->state)} + ' ' +
+                                          std::string{state_words(c->state)}
+                                    : "",
+                              e.name,
+                              std::isfinite(e.value) ? rounded_text(e.value, rounding::nearest,
+                                                                    {.significant = 4, .shift = 0})
+                                                     : "?",
+                              is_empty(e.hull)    ? ""
+                              : is_empty(e.prior) ? outward_text(e.hull)
+                                                  : outward_text_within(e.hull, e.prior),
+                              is_empty(e.prior) ? "" : given_text(e.prior), unit_text(e.unit)});
+            first = false;
+        }
+    }
+    t.caption = t.rows.empty() ? ""
+                               : "The hull contains every value that explains the data; without a "
+                                 "hull nothing is proved of the value.";
+    return t;
+}
+
+[[nodiscard]] inline table holdout_table(holdout_view const& h, range const& shrink) {
+    table t{.columns = {{"on data that chose nothing", column_kind::symbol},
+                        {"model as it is", column_kind::number},
+                        {"with the effect", column_kind::number},
+                        {"known how"}},
+            .rows = {}};
+    auto const inflation = [](range const& r) {
+        return says_something(r) ? span_text(r) : std::string{"not bounded"};
+    };
+    std::string const proved{proved_mark}, estimate{estimate_mark};
+    if (says_something(h.inflation_before) || says_something(h.inflation_after)) {
+        t.rows.push_back({"bounds must grow by", inflation(h.inflation_before),
+                          inflation(h.inflation_after), proved});
+    }
+    if (!is_empty(shrink)) t.rows.push_back({"gap removed", "", shrink_text(shrink), proved});
+    auto const number = [](double x) {
+        return std::isfinite(x) ? rounded_text(x, rounding::nearest) : std::string{"?"};
+    };
+    auto const add = [&](std::string const& name, double before, double after,
+                         std::string const& unit, double factor) {
+        if (std::isfinite(before) || std::isfinite(after)) {
+            t.rows.push_back(
+                {name, number(before * factor) + unit, number(after * factor) + unit, estimate});
+        }
+    };
+    for (holdout_view::channel const& c : h.channels) {
+        add("RMSE of " + c.name, c.rmse_before, c.rmse_after, unit_suffix(c.unit), 1);
+    }
+    add("samples in the predicted tube", h.covered_before, h.covered_after, "\xC2\xA0%", 100);
+    add("width of that tube, in bounds", h.width_before, h.width_after, "", 1);
+    return t;
+}
+
+} // namespace sivid::report
+
+#endif
