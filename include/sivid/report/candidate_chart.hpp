@@ -69,6 +69,14 @@ struct candidate_chart_options {
     return low == high ? low : low + " to " + high;
 }
 
+/// Proved bounds of an inflation, with enough digits that a gap is not rounded away.
+[[nodiscard]] inline std::string inflation_text(range const& r) {
+    int digits = 3;
+    for (double left = 0.01; r.lo > 1 && r.lo < 1 + 1.001 * left && digits < 12; left /= 10)
+        ++digits;
+    return span_text(r, digits);
+}
+
 /// A number that is not proved, three digits.
 [[nodiscard]] inline std::string estimate_text(double x) {
     return std::isfinite(x) ? "\xE2\x89\x88\xE2\x80\x89" + rounded_text(x, rounding::nearest) : "?";
@@ -162,9 +170,10 @@ candidate_legend(std::vector<candidate_bar> const& bars) {
     svg out{o.width, bottom + 42, o.title.empty() ? "inflation of the candidates" : o.title};
     auto const note = [](candidate_bar const& b) {
         std::string text{state_words(b.state)};
-        if (says_something(b.proved)) text += ", " + span_text(b.proved);
-        if (!says_something(b.proved) && is_fitted(b.fitted)) {
-            text += ", " + estimate_text(b.fitted) + " (estimate)";
+        if (says_something(b.proved)) text += ", " + inflation_text(b.proved);
+        if (b.state == candidate_state::open && is_fitted(b.fitted)) {
+            text +=
+                ", " + estimate_text(b.fitted) + (says_something(b.proved) ? "" : " (estimate)");
         }
         return text;
     };

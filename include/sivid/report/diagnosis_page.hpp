@@ -67,10 +67,10 @@ inline void add_misfits(page& out, diagnosis_view const& v) {
              .title = "Misfit over time.",
              .caption = "Largest |residual| / bound of the best fit (estimate) in each time span: "
                         "blue is within the bounds, orange with a cross beyond, hatched without a "
-                        "sample. All maps share one colour scale.",
+                        "sample. Suspected outliers are left out. All maps share one colour scale.",
              .layout = panel_layout::pair};
     for (pair const& p : maps) {
-        heat_map_options o{.width = 540, .title = {}, .largest = largest};
+        heat_map_options o{.width = 540, .title = {}, .largest = largest, .key = f.panels.empty()};
         if (!p.before.times.empty()) {
             o.title = p.name + ": model as it is";
             f.panels.push_back(draw_heat_map(p.before, o));
@@ -146,19 +146,25 @@ inline void add_candidates(page& out, diagnosis_view const& v) {
 }
 
 inline void add_motions(page& out, diagnosis_view const& v, bool holdout) {
+    std::vector<comparison_series> all;
+    for (compared_scenario const& s : v.scenarios) {
+        if (s.holdout == holdout) all.insert(all.end(), s.channels.begin(), s.channels.end());
+    }
+    auto legend = comparison_legend(all); // for the first figure, in the words of all
     for (compared_scenario const& s : v.scenarios) {
         if (s.holdout != holdout || s.channels.empty()) continue;
         range time;
         for (comparison_series const& c : s.channels)
             time = hull(time, time_range(plain_series(c)));
         figure f{.panels = {},
-                 .legend = comparison_legend(s.channels),
-                 .title = "Scenario " + s.name + (holdout ? " (hold-out)." : "."),
+                 .legend = std::exchange(legend, {}),
+                 .title = "Scenario " + s.name + ", before and after.",
                  .caption =
                      holdout ? "These data chose nothing: neither effect nor parameters." : ""};
         for (comparison_series const& c : s.channels) {
             f.panels.push_back(draw_comparison_plot(c, {.title = c.name, .time = time}));
         }
+        out.subsection("Scenario " + s.name);
         out.add(f);
     }
 }
@@ -215,8 +221,8 @@ inline void add_basis(page& out, diagnosis_view const& v) {
         "over all parameters of the prior. \xE2\x89\x88 estimate: the best that a search "
         "found; likely, not certain.");
     out.prose("The run took " + duration_text(v.seconds) + "." +
-              (v.command.empty() ? "" : " Command: " + v.command) +
-              (v.machine.empty() ? "" : " Machine: " + v.machine));
+              (v.command.empty() ? "" : " Command: " + v.command + ".") +
+              (v.machine.empty() ? "" : " Machine: " + v.machine + "."));
 }
 
 } // namespace detail
@@ -239,14 +245,14 @@ inline void add_basis(page& out, diagnosis_view const& v) {
                         "the rest may be incomplete.");
     }
     out.warnings(warnings);
-    out.plain_words(diagnosis_statements(v));
+    out.add(summary_table(v));
     detail::add_places(out, v);
     detail::add_misfits(out, v);
     detail::add_missing_rates(out, v);
     detail::add_candidates(out, v);
     detail::add_comparison(out, v);
     detail::add_basis(out, v);
-    out.footer({v.version, v.date, v.machine, v.command});
+    out.footer({v.version, v.date});
     return out;
 }
 

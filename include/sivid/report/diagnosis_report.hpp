@@ -148,10 +148,10 @@ inline comparison_series drawn(channel_data const& c, std::vector<double> const&
         out.measured.push_back({.time = c.times[k],
                                 .value = {y - e, y + e},
                                 .state = suspect ? sample_state::suspect : sample_state::regular});
-        if (k < c.base.size()) {
+        if (k < c.base.size() && !suspect) {
             out.misfit_before.push_back({c.times[k], std::fabs(c.base[k] - y) / e});
         }
-        if (k < c.after.size()) {
+        if (k < c.after.size() && !suspect) {
             out.misfit_after.push_back({c.times[k], std::fabs(c.after[k] - y) / e});
         }
     }

@@ -36,7 +36,7 @@ namespace sivid::report {
     std::vector<card> out;
     candidate_view const* const base = find_candidate(v, {});
     if (says_something(v.inflation)) {
-        out.push_back({"bounds must grow by", span_text(v.inflation) + " \xC3\x97",
+        out.push_back({"bounds must grow by", inflation_text(v.inflation) + " \xC3\x97",
                        v.gap == gap_state::present  ? "\xE2\x9C\x93 proved: there is a gap"
                        : v.gap == gap_state::absent ? "\xE2\x9C\x93 proved: there is no gap"
                                                     : "\xE2\x9C\x93 proved; a gap is open"});
@@ -78,36 +78,41 @@ namespace sivid::report {
     return out;
 }
 
-/// The answer sentence by sentence, for the reader in a hurry.
-[[nodiscard]] inline std::vector<std::string> diagnosis_statements(diagnosis_view const& v) {
-    std::vector<std::string> out{gap_clause(v) + "."};
-    if (!v.places.empty()) out.push_back(capitalised(place_clause(v.places.front())) + ".");
+/// Question and answer, for the reader in a hurry.
+[[nodiscard]] inline table summary_table(diagnosis_view const& v) {
+    table t{.columns = {{"in short", column_kind::symbol}, {""}}, .rows = {}};
+    auto const add = [&](char const* question, std::string const& text) {
+        if (!text.empty()) {
+            t.rows.push_back({question, capitalised(text) + (text.back() == '.' ? "" : ".")});
+        }
+    };
+    add("Is there a gap?", gap_clause(v));
+    if (!v.places.empty()) add("Where?", place_clause(v.places.front()));
     std::size_t excluded = 0, tried = 0;
     for (candidate_view const& c : v.candidates) {
         tried += c.effects.empty() ? 0 : 1;
         excluded += !c.effects.empty() && c.state == candidate_state::excluded ? 1 : 0;
     }
-    std::string const count = tried == 0 ? ""
-                                         : " Of " + count_text(tried) +
-                                               (tried == 1 ? " candidate, " : " candidates, ") +
-                                               count_text(excluded) + " excluded (proved).";
+    std::string const count = tried == 0
+                                  ? ""
+                                  : "; " + count_text(excluded) + " of the " + count_text(tried) +
+                                        " candidates tried are excluded (proved)";
     if (v.answer == answer_state::effects && !v.effects.empty()) {
-        out.push_back(capitalised(answer_clause(v)) + "." + count);
+        add("Which effect?", answer_clause(v) + count);
     } else if (v.answer == answer_state::unexplained) {
-        out.push_back("No candidate was found that explains the data: nothing is forced to fit." +
-                      count);
+        add("Which effect?",
+            "no candidate was found that explains the data; nothing is forced to fit" + count);
     }
-    std::string const others = alternatives_clause(v);
-    if (!others.empty()) out.push_back(capitalised(others) + ".");
+    add("What else may it be?", alternatives_clause(v));
+    if (!v.absorbed.empty()) {
+        add("What stays hidden?",
+            "the priors are wide enough to take up " + words_of(v, v.absorbed));
+    }
     std::string const fit = shrink_clause(v.shrink_fit, "the data used for fitting");
     std::string const holdout = shrink_clause(v.shrink_holdout, "data that chose nothing");
-    if (!fit.empty() || !holdout.empty()) {
-        out.push_back(capitalised(fit + (fit.empty() || holdout.empty() ? "" : "; ") + holdout) +
-                      ".");
-    }
-    std::string const next = next_words(v);
-    if (!next.empty()) out.push_back("Next: " + next);
-    return out;
+    add("How far does it shrink?", fit + (fit.empty() || holdout.empty() ? "" : "; ") + holdout);
+    add("What to measure next?", next_words(v));
+    return t;
 }
 
 [[nodiscard]] inline table places_table(diagnosis_view const& v, std::size_t most = 20) {
@@ -143,12 +148,20 @@ namespace sivid::report {
             .rows = {},
             .caption = "The factor by which the bounds of this scenario or channel must grow."};
     auto const add = [&](std::string const& kind, share_of_gap const& s) {
-        t.rows.push_back({kind + s.name, says_something(s.inflation) ? span_text(s.inflation) : "",
+        t.rows.push_back({kind + s.name,
+                          says_something(s.inflation) ? inflation_text(s.inflation) : "",
                           is_fitted(s.fitted) ? estimate_text(s.fitted) : ""});
     };
     for (share_of_gap const& s : v.scenario_gaps) add("scenario ", s);
     for (share_of_gap const& s : v.channel_gaps) add("channel ", s);
     return t;
+}
+
+/// The text with spaces that do not break.
+[[nodiscard]] inline std::string kept_together(std::string const& text) {
+    std::string out;
+    for (char const c : text) out += c == ' ' ? std::string{"\xC2\xA0"} : std::string(1, c);
+    return out;
 }
 
 /// Parameters of the foremost candidates.
@@ -166,18 +179,16 @@ namespace sivid::report {
         bool first = true;
         for (estimate_view const& e : c->parameters) {
             if (c == answer && first) t.chosen_row = t.rows.size();
-            t.rows.push_back({first ? names_of(c->effects) : "",
-                              first ? std::string{state_sign(c->state)} + ' ' +
-                                          std::string{state_words(c->state)}
-                                    : "",
-                              e.name,
-                              std::isfinite(e.value) ? rounded_text(e.value, rounding::nearest,
-                                                                    {.significant = 4, .shift = 0})
-                                                     : "?",
-                              is_empty(e.hull)    ? ""
-                              : is_empty(e.prior) ? outward_text(e.hull)
-                                                  : outward_text_within(e.hull, e.prior),
-                              is_empty(e.prior) ? "" : given_text(e.prior), unit_text(e.unit)});
+            t.rows.push_back(
+                {first ? names_of(c->effects) : "",
+                 first ? kept_together(std::string{state_sign(c->state)} + ' ' +
+                                       std::string{state_words(c->state)})
+                       : "",
+                 e.name, std::isfinite(e.value) ? rounded_text(e.value, rounding::nearest) : "?",
+                 is_empty(e.hull)    ? ""
+                 : is_empty(e.prior) ? outward_text(e.hull)
+                                     : outward_text_within(e.hull, e.prior),
+                 is_empty(e.prior) ? "" : given_text(e.prior), kept_together(unit_text(e.unit))});
             first = false;
         }
     }
@@ -188,13 +199,13 @@ namespace sivid::report {
 }
 
 [[nodiscard]] inline table holdout_table(holdout_view const& h, range const& shrink) {
-    table t{.columns = {{"on data that chose nothing", column_kind::symbol},
+    table t{.columns = {{"", column_kind::symbol},
                         {"model as it is", column_kind::number},
                         {"with the effect", column_kind::number},
                         {"known how"}},
             .rows = {}};
     auto const inflation = [](range const& r) {
-        return says_something(r) ? span_text(r) : std::string{"not bounded"};
+        return says_something(r) ? inflation_text(r) : std::string{"not bounded"};
     };
     std::string const proved{proved_mark}, estimate{estimate_mark};
     if (says_something(h.inflation_before) || says_something(h.inflation_after)) {

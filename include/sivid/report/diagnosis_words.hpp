@@ -82,7 +82,7 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
 /// "98 to 100 %"; an upper end above 100 is impossible, a missing lower one is said.
 [[nodiscard]] inline std::string shrink_text(range const& share) {
     if (is_empty(share)) return "";
-    number_format const f{.significant = 2, .shift = 2};
+    number_format const f{.significant = 3, .shift = 2};
     std::string const high = rounded_text(share.hi, rounding::up, f);
     if (!std::isfinite(share.lo)) return "at most " + high + "\xC2\xA0%";
     std::string const low = rounded_text(share.lo, rounding::down, f);
@@ -110,7 +110,7 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
     switch (v.gap) {
     case gap_state::present:
         return says_something(v.inflation)
-                   ? "The model and the robot part by " + span_text(v.inflation) +
+                   ? "The model and the robot part by " + inflation_text(v.inflation) +
                          " times the measurement bounds (proved" +
                          (std::isfinite(v.inflation.hi) ? ")"
                           : estimate.empty()            ? ")"
@@ -120,14 +120,14 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
     case gap_state::absent:
         return "No gap: a parameter of the prior explains all data of the fit (proved" +
                std::string{is_finite(v.inflation) && v.inflation.hi > 0
-                               ? "; " + span_text(v.inflation) +
+                               ? "; " + inflation_text(v.inflation) +
                                      " of the measurement bounds are needed"
                                : ""} +
                ")";
     default:
         return "It is open whether the model explains the data: it parts from the robot by " +
                (says_something(v.inflation)
-                    ? span_text(v.inflation) + " times the bounds (proved)" + estimate
+                    ? inflation_text(v.inflation) + " times the bounds (proved)" + estimate
                 : !estimate.empty() ? estimate_text(base->fitted) +
                                           " times the bounds in the best fit found (estimate)"
                                     : "a factor of which nothing is known");
@@ -166,7 +166,11 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
 /// What else it may be, and what would tell; empty when nothing is.
 [[nodiscard]] inline std::string alternatives_clause(diagnosis_view const& v) {
     std::vector<std::string> others;
-    for (auto const& o : v.indistinguishable) others.push_back(words_of(v, o));
+    for (auto const& o : v.indistinguishable) {
+        candidate_view const* const c = find_candidate(v, o);
+        bool const proved = c != nullptr && c->state == candidate_state::explains;
+        others.push_back(words_of(v, o) + (proved ? " (which explains as well, proved)" : ""));
+    }
     if (others.empty()) return "";
     return "the data cannot tell it from " + enumeration(others, " or from ") +
            (v.next ? "; the manoeuvre \xE2\x80\x9C" + v.next->manoeuvre + "\xE2\x80\x9D would"
@@ -199,16 +203,18 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
     if (v.answer == answer_state::unexplained) return gap + "; no candidate explains it";
     if (v.answer == answer_state::nothing || v.effects.empty()) return gap;
     candidate_view const* const c = answer_of(v);
-    bool const proved = c != nullptr && c->state == candidate_state::explains;
-    std::string const alternatives =
-        v.indistinguishable.empty() ? ""
-                                    : ", or " + count_text(v.indistinguishable.size()) +
-                                          (v.indistinguishable.size() == 1 ? " other" : " others");
-    return gap + "; explained by " + names_of(v.effects) + alternatives +
-           (proved ? " (proved)" : " (estimate)");
+    std::string const how =
+        c != nullptr && c->state == candidate_state::explains ? " (proved)" : " (estimate)";
+    std::string const verb = v.effects.size() > 1 ? " explain it" : " explains it";
+    std::size_t const n = v.indistinguishable.size();
+    return gap + "; " + names_of(v.effects) +
+           (c != nullptr && c->state == candidate_state::excluded ? " comes closest" : verb + how) +
+           (n == 0   ? ""
+            : n == 1 ? ", but so may another"
+                     : ", but so may " + count_text(n) + " others");
 }
 
-/// The sign of the banner: all that it says is proved, or something is open, or nothing explains.
+/// The sign of the banner: proved and the only answer, or something is open, or nothing explains.
 [[nodiscard]] inline outcome banner_outcome(diagnosis_view const& v) {
     if (v.answer == answer_state::unexplained) {
         return v.gap == gap_state::present ? outcome::refuted : outcome::undecided;
@@ -218,8 +224,8 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
         return v.gap == gap_state::absent ? outcome::proved : outcome::undecided;
     }
     candidate_view const* const c = answer_of(v);
-    return c != nullptr && c->state == candidate_state::explains ? outcome::proved
-                                                                 : outcome::undecided;
+    bool const proved = c != nullptr && c->state == candidate_state::explains;
+    return proved && v.indistinguishable.empty() ? outcome::proved : outcome::undecided;
 }
 
 /// The whole answer in one sentence.

@@ -27,6 +27,7 @@ struct heat_map_options {
     std::string time_unit = "s";
     std::size_t most_columns = 300; ///< more are joined, each keeps its largest value
     double largest = 0; ///< the colours' end is not below it: lets maps share their colours
+    bool key = true;    ///< draw the colour bar
 };
 
 namespace detail {
@@ -63,7 +64,7 @@ inline heat_map joined(heat_map m, std::size_t most) {
     double const pitch = 26;
     double const bottom =
         top + pitch * static_cast<double>(std::max<std::size_t>(m.rows.size(), 1));
-    svg out{o.width, bottom + 84, o.title.empty() ? m.quantity : o.title};
+    svg out{o.width, bottom + (o.key ? 84 : 42), o.title.empty() ? m.quantity : o.title};
     double label_width = 30;
     for (std::string const& name : m.rows) {
         label_width = std::max(label_width, approximate_text_width(shorten(name, 24), 12));
@@ -140,6 +141,7 @@ inline heat_map joined(heat_map m, std::size_t most) {
     out.text((left + right) / 2, bottom + 33, "time [" + o.time_unit + "]",
              {.size = 11.5, .align = anchor::middle});
 
+    if (!o.key) return out;
     // The colour bar: left half up to the threshold, right half beyond.
     double const bar_y = bottom + 50, bar_width = std::min(260.0, right - left),
                  half = bar_width / 2;
