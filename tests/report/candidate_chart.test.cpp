@@ -19,7 +19,7 @@ TEST_CASE("candidate chart: what is proved and what is estimated is said in word
     CHECK(markup_error(text) == "");
     CHECK_THAT(text, ContainsSubstring(">explains (proved), 0.875 to 0.938<"));
     CHECK_THAT(text, ContainsSubstring(">excluded (proved), 2.50 to 2.63<"));
-    CHECK_THAT(text, ContainsSubstring(">open, \xE2\x89\x88\xE2\x80\x89"
+    CHECK_THAT(text, ContainsSubstring(">open, \xE2\x89\x88\xE2\x80\xAF"
                                        "0.990 (estimate)<"));
     CHECK_THAT(text, ContainsSubstring(">open, at least 1.0"));
     CHECK(occurrences(text, ", best fit</title>") == 4);

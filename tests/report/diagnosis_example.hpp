@@ -168,7 +168,7 @@ inline diagnosis_example hovercraft_diagnosis() {
          {"quadratic_yaw_damping.k", "N m s^2", 0.004, std::nullopt}});
     add({"rudder_deadband"}, excluded, interval(1.62, 1.71), 1.68,
         {{"rudder_deadband.b", "rad", 0.03, std::nullopt}});
-    add({"motor_lag", "thrust_loss_with_speed"}, undecided, interval(1.02, inf), 1.94, {});
+    add({"motor_lag", "thrust_loss_with_speed"}, undecided, interval(0.61, inf), 1.94, {});
     add({"wind"}, excluded, interval(2.41, 2.63), 2.5,
         {{"wind.wx", "m/s", 0.71, std::nullopt}, {"wind.wy", "m/s", -0.2, std::nullopt}});
     for (char const* const name : {"cg_offset", "ground_slope", "battery_sag", "payload",

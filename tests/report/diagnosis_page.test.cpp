@@ -36,7 +36,7 @@ TEST_CASE("diagnosis page: a full page says everything once it is known") {
     check_contained(page);
     CHECK(page.size() < 2'000'000);
     for (auto const* const part :
-         {"Gap (proved); rudder_lag explains it (proved), but so may another",
+         {"Gap (proved); rudder_lag explains the data (proved), but so may another",
           "The model and the robot part by 3.10 to 3.20 times the measurement bounds (proved)",
           "a first-order lag of the rudder, tau = 0.169\xC2\xA0s (0.160 to 0.180, proved), "
           "explains "

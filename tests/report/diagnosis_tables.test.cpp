@@ -45,11 +45,11 @@ TEST_CASE("diagnosis tables: cards say how each figure is known") {
     CHECK(diagnosis_cards({}).empty());
 }
 
-TEST_CASE("diagnosis tables: the summary asks what the diagnosis answers") {
+TEST_CASE("diagnosis tables: the summary point by point") {
     diagnosis_view const v = hovercraft_diagnosis().view();
     auto const t = summary_table(v);
     REQUIRE(t.rows.size() == 6);
-    CHECK(t.rows[2][0] == "Which effect?");
+    CHECK(t.rows[2][0] == "Effect");
     CHECK_THAT(t.rows[2][1], ContainsSubstring("2 of the 12 candidates tried are excluded"));
     CHECK_THAT(t.rows[5][1], EndsWith("(prediction, not proved)."));
     CHECK(summary_table({}).rows.size() == 1);

@@ -19,7 +19,7 @@ double const infinity = std::numeric_limits<double>::infinity();
 TEST_CASE("diagnosis words: the whole answer in one sentence") {
     diagnosis_view v = hovercraft_diagnosis().view();
     v.indistinguishable.clear();
-    CHECK(headline(v) == "Gap (proved); rudder_lag explains it (proved)");
+    CHECK(headline(v) == "Gap (proved); rudder_lag explains the data (proved)");
     CHECK(banner_outcome(v) == outcome::proved);
     CHECK(banner_sentence(v) ==
           "The model and the robot part by 3.10 to 3.20 times the measurement bounds (proved); "
@@ -50,7 +50,7 @@ TEST_CASE("diagnosis words: what is not proved is called an estimate") {
     v.candidates[0].parameters[0].hull = {};
     v.shrink_holdout = {};
     CHECK(banner_outcome(v) == outcome::undecided);
-    CHECK(headline(v) == "Gap (proved); rudder_lag explains it (estimate)");
+    CHECK(headline(v) == "Gap (proved); rudder_lag explains the data (estimate)");
     CHECK_THAT(banner_sentence(v),
                EndsWith("tau = 0.169\xC2\xA0s (estimate), explains all data in the best fit found "
                         "(estimate)."));
@@ -63,7 +63,7 @@ TEST_CASE("diagnosis words: what is not proved is called an estimate") {
     v.inflation = {0, infinity};
     CHECK_THAT(banner_sentence(v),
                StartsWith("It is open whether the model explains the data: it parts from the robot "
-                          "by \xE2\x89\x88\xE2\x80\x89"
+                          "by \xE2\x89\x88\xE2\x80\xAF"
                           "3.15 times the bounds in the best fit found (estimate)"));
 }
 
@@ -73,7 +73,8 @@ TEST_CASE("diagnosis words: pairs, no gap, absorbed effects") {
     v.effects = {"quadratic_yaw_damping", "rudder_lag"};
     CHECK_THAT(answer_clause(v), ContainsSubstring("quadratic_yaw_damping and a first-order lag"));
     CHECK_THAT(answer_clause(v), ContainsSubstring("together explain all data in the best fit"));
-    CHECK(headline(v) == "Gap (proved); quadratic_yaw_damping + rudder_lag explain it (estimate)");
+    CHECK(headline(v) ==
+          "Gap (proved); quadratic_yaw_damping + rudder_lag explain the data (estimate)");
 
     diagnosis_view none;
     none.gap = gap_state::absent;
@@ -121,6 +122,6 @@ TEST_CASE("diagnosis words: relations and places in plain words") {
           "The yaw equation cannot hold, whatever the parameters of the prior (proved).");
     CHECK(place_clause({.kind = "sensor", .name = "r"}) == "the sensor r is suspected (estimate)");
     CHECK(place_clause({.kind = "sensor", .name = "r", .estimate = 0.25, .unit = "rad/s"}) ==
-          "the sensor r is off by \xE2\x89\x88\xE2\x80\x89"
+          "the sensor r is off by \xE2\x89\x88\xE2\x80\xAF"
           "0.250\xC2\xA0rad/s (estimate)");
 }

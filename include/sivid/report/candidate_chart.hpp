@@ -79,7 +79,7 @@ struct candidate_chart_options {
 
 /// A number that is not proved, three digits.
 [[nodiscard]] inline std::string estimate_text(double x) {
-    return std::isfinite(x) ? "\xE2\x89\x88\xE2\x80\x89" + rounded_text(x, rounding::nearest) : "?";
+    return std::isfinite(x) ? "\xE2\x89\x88\xE2\x80\xAF" + rounded_text(x, rounding::nearest) : "?";
 }
 
 namespace detail {

@@ -130,7 +130,7 @@ inline void add_candidates(page& out, diagnosis_view const& v) {
                .title = "What is left of the gap with each candidate.",
                .caption = std::string{"Best first; the answer is set off. \xE2\x9C\x93 proved to "
                                       "explain all data, \xE2\x9C\x95 proved not to for any value "
-                                      "in the prior, ? open: the number is an estimate."} +
+                                      "in the prior, ? open. \xE2\x89\x88 marks an estimate."} +
                           (shown.size() < v.candidates.size()
                                ? " Shown are " + count_text(shown.size()) + " of " +
                                      count_text(v.candidates.size()) + " candidates."
@@ -217,12 +217,12 @@ inline void add_basis(page& out, diagnosis_view const& v) {
     }
     out.subsection("How to read it");
     out.prose(
-        "\xE2\x9C\x93 proved: a theorem under the assumptions above, by validated computation "
+        "\xE2\x9C\x93 proved: a theorem under the assumptions stated, by validated computation "
         "over all parameters of the prior. \xE2\x89\x88 estimate: the best that a search "
         "found; likely, not certain.");
-    out.prose("The run took " + duration_text(v.seconds) + "." +
-              (v.command.empty() ? "" : " Command: " + v.command + ".") +
-              (v.machine.empty() ? "" : " Machine: " + v.machine + "."));
+    out.prose((v.seconds > 0 ? "The run took " + duration_text(v.seconds) + ". " : std::string{}) +
+              (v.command.empty() ? "" : "Command: " + v.command + ". ") +
+              (v.machine.empty() ? "" : "Machine: " + v.machine + "."));
 }
 
 } // namespace detail

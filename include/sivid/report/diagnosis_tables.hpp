@@ -32,6 +32,13 @@ namespace sivid::report {
     return out;
 }
 
+/// Candidates other than the model as it is.
+[[nodiscard]] inline std::size_t effects_tried(diagnosis_view const& v) {
+    return static_cast<std::size_t>(
+        std::count_if(v.candidates.begin(), v.candidates.end(),
+                      [](candidate_view const& c) { return !c.effects.empty(); }));
+}
+
 [[nodiscard]] inline std::vector<card> diagnosis_cards(diagnosis_view const& v) {
     std::vector<card> out;
     candidate_view const* const base = find_candidate(v, {});
@@ -63,8 +70,7 @@ namespace sivid::report {
             {proved ? "effect (\xE2\x9C\x93 proved to explain)" : "effect (\xE2\x89\x88 likeliest)",
              names_of(v.effects), numbers});
     } else if (v.answer == answer_state::unexplained) {
-        out.push_back(
-            {"effect", "none found", count_text(v.candidates.size()) + " candidates tried"});
+        out.push_back({"effect", "none found", count_text(effects_tried(v)) + " candidates tried"});
     }
     if (!is_empty(v.shrink_holdout)) {
         out.push_back({"gap removed, hold-out data", shrink_text(v.shrink_holdout),
@@ -78,7 +84,7 @@ namespace sivid::report {
     return out;
 }
 
-/// Question and answer, for the reader in a hurry.
+/// The answer point by point, for the reader in a hurry.
 [[nodiscard]] inline table summary_table(diagnosis_view const& v) {
     table t{.columns = {{"in short", column_kind::symbol}, {""}}, .rows = {}};
     auto const add = [&](char const* question, std::string const& text) {
@@ -86,11 +92,11 @@ namespace sivid::report {
             t.rows.push_back({question, capitalised(text) + (text.back() == '.' ? "" : ".")});
         }
     };
-    add("Is there a gap?", gap_clause(v));
-    if (!v.places.empty()) add("Where?", place_clause(v.places.front()));
-    std::size_t excluded = 0, tried = 0;
+    add("Gap", gap_clause(v));
+    if (!v.places.empty()) add("Where", place_clause(v.places.front()));
+    std::size_t const tried = effects_tried(v);
+    std::size_t excluded = 0;
     for (candidate_view const& c : v.candidates) {
-        tried += c.effects.empty() ? 0 : 1;
         excluded += !c.effects.empty() && c.state == candidate_state::excluded ? 1 : 0;
     }
     std::string const count = tried == 0
@@ -98,20 +104,19 @@ namespace sivid::report {
                                   : "; " + count_text(excluded) + " of the " + count_text(tried) +
                                         " candidates tried are excluded (proved)";
     if (v.answer == answer_state::effects && !v.effects.empty()) {
-        add("Which effect?", answer_clause(v) + count);
+        add("Effect", answer_clause(v) + count);
     } else if (v.answer == answer_state::unexplained) {
-        add("Which effect?",
+        add("Effect",
             "no candidate was found that explains the data; nothing is forced to fit" + count);
     }
-    add("What else may it be?", alternatives_clause(v));
+    add("Or else", alternatives_clause(v));
     if (!v.absorbed.empty()) {
-        add("What stays hidden?",
-            "the priors are wide enough to take up " + words_of(v, v.absorbed));
+        add("Hidden", "the priors are wide enough to take up " + words_of(v, v.absorbed));
     }
     std::string const fit = shrink_clause(v.shrink_fit, "the data used for fitting");
     std::string const holdout = shrink_clause(v.shrink_holdout, "data that chose nothing");
-    add("How far does it shrink?", fit + (fit.empty() || holdout.empty() ? "" : "; ") + holdout);
-    add("What to measure next?", next_words(v));
+    add("Shrink", fit + (fit.empty() || holdout.empty() ? "" : "; ") + holdout);
+    add("Next", next_words(v));
     return t;
 }
 
@@ -129,7 +134,7 @@ namespace sivid::report {
         std::string const span = p.where.from < p.where.to
                                      ? given_text(p.where.from) + " to " + given_text(p.where.to)
                                      : "";
-        std::string shape = formula_text(p.law);
+        std::string shape = law_text(p.law);
         shape += p.regime.empty() ? "" : (shape.empty() ? "where " : ", where ") + p.regime;
         t.rows.push_back({place_name(p), p.where.scenario, span, missing_text(p), shape,
                           std::string{p.proved ? proved_mark : estimate_mark},
@@ -166,7 +171,7 @@ namespace sivid::report {
 
 /// Parameters of the foremost candidates.
 [[nodiscard]] inline table causes_table(diagnosis_view const& v, std::size_t most = 12) {
-    table t{.columns = {{"candidate", column_kind::symbol},
+    table t{.columns = {{"candidate"},
                         {"verdict"},
                         {"parameter"},
                         {"best fit (estimate)", column_kind::number},
@@ -185,7 +190,7 @@ namespace sivid::report {
                                        std::string{state_words(c->state)})
                        : "",
                  e.name, std::isfinite(e.value) ? rounded_text(e.value, rounding::nearest) : "?",
-                 is_empty(e.hull)    ? ""
+                 is_empty(e.hull) || !(std::isfinite(e.hull.lo) || std::isfinite(e.hull.hi)) ? ""
                  : is_empty(e.prior) ? outward_text(e.hull)
                                      : outward_text_within(e.hull, e.prior),
                  is_empty(e.prior) ? "" : given_text(e.prior), kept_together(unit_text(e.unit))});

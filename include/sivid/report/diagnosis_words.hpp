@@ -184,6 +184,17 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
     return on + "removes " + shrink_text(share) + " of the gap (proved)";
 }
 
+/// The formula of a law for a reader.
+[[nodiscard]] inline std::string law_text(std::string const& law) {
+    std::string out;
+    for (std::size_t i = 0; i < law.size(); ++i) {
+        bool const beside =
+            (i > 0 && law[i - 1] == '*') || (i + 1 < law.size() && law[i + 1] == '*');
+        if (law[i] != ' ' || !beside) out += law[i];
+    }
+    return formula_text(out);
+}
+
 /// Where and how: "the yaw equation in S4, 1.2 to 2 s, lacks -0.42 to -0.18 rad/s^2 (proved)".
 [[nodiscard]] inline std::string place_clause(place_view const& p) {
     std::string const missing = missing_text(p);
@@ -192,7 +203,7 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
     out += !missing.empty() ? (p.kind == "equation" ? " lacks " : " is off by ") + missing
            : p.proved       ? " is broken (proved)"
                             : " is suspected (estimate)";
-    out += p.law.empty() ? "" : ", in the shape of " + formula_text(p.law) + " (estimate)";
+    out += p.law.empty() ? "" : ", in the shape of " + law_text(p.law) + " (estimate)";
     return p.regime.empty() ? out : out + ", where " + p.regime + " (estimate)";
 }
 
@@ -205,7 +216,7 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
     candidate_view const* const c = answer_of(v);
     std::string const how =
         c != nullptr && c->state == candidate_state::explains ? " (proved)" : " (estimate)";
-    std::string const verb = v.effects.size() > 1 ? " explain it" : " explains it";
+    std::string const verb = v.effects.size() > 1 ? " explain the data" : " explains the data";
     std::size_t const n = v.indistinguishable.size();
     return gap + "; " + names_of(v.effects) +
            (c != nullptr && c->state == candidate_state::excluded ? " comes closest" : verb + how) +

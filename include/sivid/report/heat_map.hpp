@@ -83,7 +83,9 @@ inline heat_map joined(heat_map m, std::size_t most) {
     }
     double const full = m.threshold > 0 ? m.threshold : 1;
     largest = std::isfinite(o.largest) ? std::max(largest, o.largest) : largest;
-    double const excess = std::max(largest, 2 * full);
+    // Beyond a thousand times the threshold all is one colour, so that one wild value leaves the
+    // others told apart.
+    double const excess = std::clamp(largest, 2 * full, 1000 * full);
     // Below the threshold linear; above it logarithmic, since a gap may be a hundred times its
     // bound.
     auto const colour = [&](double v) {
@@ -152,7 +154,9 @@ inline heat_map joined(heat_map m, std::size_t most) {
         out.rect(left + half + s * half, bar_y, half / 24 + 0.3, 10, {.fill = high});
     }
     auto const mark = [&](double x, double v, anchor align) {
-        out.text(x, bar_y + 23, rounded_text(v, rounding::nearest, {.significant = 2, .shift = 0}),
+        out.text(x, bar_y + 23,
+                 (largest > v && v == excess ? "\xE2\x89\xA5 " : "") +
+                     rounded_text(v, rounding::nearest, {.significant = 2, .shift = 0}),
                  {.size = 10.5, .align = align, .fill = palette::muted_ink});
     };
     mark(left, 0, anchor::start);
