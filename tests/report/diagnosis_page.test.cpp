@@ -42,8 +42,8 @@ TEST_CASE("diagnosis page: a full page says everything once it is known") {
           "explains "
           "all data (proved)",
           "on data that chose nothing it removes 98.2 to 100\xC2\xA0% of the gap (proved)",
-          "yaw equation", "The yaw equation and the sensors r and psi cannot all hold",
-          "S1: model as it is", "H1 (hold-out): with the effect", "Missing in the sway equation",
+          "yaw equation", "The yaw equation and the sensors r and psi cannot hold together",
+          "S1: model as it is", "H1 (hold-out): with rudder_lag", "Missing in the sway equation",
           "explains (proved)", "excluded (proved)", "RMSE of psi", "samples in the predicted tube",
           "What to measure next", "heading_bias", "The witness", "0.1690125",
           "hovercraft diagnose data/dev000 --out out"}) {
@@ -172,6 +172,6 @@ TEST_CASE("diagnosis page: a gap that nothing explains") {
     check_contained(page);
     CHECK_THAT(page, ContainsSubstring("Gap (proved); no candidate explains it"));
     CHECK_THAT(page, ContainsSubstring("12 are excluded (proved)"));
-    CHECK(page.find("with the effect, best fit") == std::string::npos);
+    CHECK(page.find("with the closest candidate, best fit") == std::string::npos);
     CHECK(page.find("on data that chose nothing it removes") == std::string::npos);
 }

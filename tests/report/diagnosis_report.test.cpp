@@ -65,6 +65,35 @@ TEST_CASE("diagnosis report: plot data become lines, intervals and misfits") {
     CHECK(m.certified[0].value == range{2, 5});
 }
 
+TEST_CASE(
+    "diagnosis report: the model as it is joins the candidates as what they are measured by") {
+    sivid::diagnosis d;
+    d.gap = sivid::gap_verdict::certified;
+    d.inflation = sivid::interval(2, 3);
+    d.causes.resize(1);
+    d.causes[0].effects = {"wind"};
+    diagnosis_view const v = view_of(d, {}, {.base_fitted = 2.5});
+    REQUIRE(v.candidates.size() == 2);
+    CHECK(v.candidates[1].effects.empty());
+    CHECK(v.candidates[1].state == candidate_state::excluded);
+    CHECK(v.candidates[1].inflation == range{2, 3});
+    CHECK(v.candidates[1].fitted == 2.5);
+    d.causes.clear();
+    CHECK(view_of(d).candidates.empty());
+}
+
+TEST_CASE("diagnosis report: a catalogue gives meanings and priors") {
+    sivid::effect e;
+    e.name = "wind";
+    e.about = "steady wind";
+    e.parameters = {{"wx", "m/s", sivid::decimal("-2"), sivid::decimal("2"), {}}};
+    diagnosis_report_options o;
+    describe({e}, o);
+    CHECK(o.meanings.at("wind") == "steady wind");
+    CHECK_THAT(o.priors.at("wind.wx").lower(), WithinAbs(-2, 1e-12));
+    CHECK_THAT(o.priors.at("wind.wx").upper(), WithinAbs(2, 1e-12));
+}
+
 TEST_CASE("diagnosis report: nothing known stays nothing") {
     diagnosis_view const v = view_of(sivid::diagnosis{});
     CHECK(v.gap == gap_state::open);

@@ -4,29 +4,10 @@
 
 #include <sivid/report/diagnosis_tables.hpp>
 
-#include <algorithm>
-#include <limits>
 #include <string>
 
 using namespace sivid::report;
 using namespace sivid_tests;
-
-TEST_CASE("diagnosis tables: the foremost candidates keep their order and never lose the answer") {
-    diagnosis_view v;
-    for (int k = 0; k < 30; ++k) v.candidates.push_back({.effects = {std::to_string(k)}});
-    v.candidates.push_back({});
-    v.answer = answer_state::effects;
-    v.effects = {"25"};
-    v.indistinguishable = {{"20"}, {"not tried"}};
-    auto const few = foremost(v, 6);
-    REQUIRE(few.size() == 6);
-    CHECK(std::is_sorted(few.begin(), few.end()));
-    CHECK(few[0]->effects[0] == "0");
-    CHECK(few[3]->effects[0] == "20");
-    CHECK(few[4]->effects[0] == "25");
-    CHECK(few[5]->effects.empty());
-    CHECK(foremost({}, 6).empty());
-}
 
 TEST_CASE("diagnosis tables: cards say how each figure is known") {
     diagnosis_view v = hovercraft_diagnosis().view();
@@ -64,18 +45,6 @@ TEST_CASE("diagnosis tables: parameters with hull and prior") {
     CHECK(t.rows[1][4] == "");
     CHECK(t.rows[3][0] == ""); // the second parameter of a pair
     CHECK(t.rows[3][6] == "N\xC2\xA0m\xC2\xA0s\xC2\xB2");
-}
-
-TEST_CASE("diagnosis tables: hold-out figures, known and not") {
-    diagnosis_view const v = hovercraft_diagnosis().view();
-    auto const t = holdout_table(*v.candidates[0].holdout, v.shrink_holdout);
-    REQUIRE(t.rows.size() == 10);
-    CHECK(t.rows[1][2] == "98.2 to 100\xC2\xA0%");
-    CHECK(t.rows[8][2] == "97.8\xC2\xA0%");
-    CHECK(holdout_table({}, {}).rows.empty());
-    holdout_view const open{.inflation_before = {3, std::numeric_limits<double>::infinity()}};
-    CHECK(holdout_table(open, {}).rows[0][1] == "at least 3.00");
-    CHECK(holdout_table(open, {}).rows[0][2] == "not bounded");
 }
 
 TEST_CASE("diagnosis tables: places and shares of the gap") {

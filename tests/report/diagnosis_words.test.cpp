@@ -86,6 +86,15 @@ TEST_CASE("diagnosis words: pairs, no gap, absorbed effects") {
     CHECK_THAT(banner_sentence(none), EndsWith("the priors are wide enough to take up payload."));
 }
 
+TEST_CASE("diagnosis words: what is drawn beside the model is named") {
+    diagnosis_view v = hovercraft_diagnosis().view();
+    CHECK(after_words(v) == "with rudder_lag");
+    v.answer = answer_state::unexplained;
+    CHECK(after_words(v) == "with the closest candidate");
+    v.after = "with wind";
+    CHECK(after_words(v) == "with wind");
+}
+
 TEST_CASE("diagnosis words: unexplained says place and law") {
     diagnosis_view v = hovercraft_diagnosis().view();
     v.answer = answer_state::unexplained;
@@ -104,24 +113,8 @@ TEST_CASE("diagnosis words: bounds are printed outward and open ends are said") 
     CHECK(shrink_text({-infinity, 0.5}) == "at most 50.0\xC2\xA0%");
     CHECK(shrink_text({0.98765, 1}) == "98.7 to 100\xC2\xA0%");
     CHECK(shrink_text({}) == "");
+    CHECK(shrink_text({1, 1}) == "100\xC2\xA0%");
+    CHECK(shrink_clause({-infinity, 1}, "x") == ""); // says nothing
     CHECK_THAT(shrink_clause({-0.5, -0.1}, "x"), ContainsSubstring("does not shrink the gap"));
     CHECK(shrink_clause({}, "x") == "");
-}
-
-TEST_CASE("diagnosis words: relations and places in plain words") {
-    relation_view r{"yaw", {"r", "psi"}, true, {}, {"inputs exact"}};
-    for (int k = 0; k < 6; ++k) r.windows.push_back({"S4", 1.0 * k, k + 0.5});
-    CHECK_THAT(relation_words(r),
-               StartsWith("The yaw equation and the sensors r and psi cannot all "
-                          "hold, whatever the parameters of the prior (proved). "
-                          "Shown by S4, 0 to 0.5\xC2\xA0s; "));
-    CHECK_THAT(relation_words(r), EndsWith("and 2 more. It rests on inputs exact."));
-    CHECK(relation_words({"yaw", {"r"}, false, {}, {}}) ==
-          "The yaw equation and the sensor r cannot both hold (estimate, not proved).");
-    CHECK(relation_words({"yaw", {}, true, {}, {}}) ==
-          "The yaw equation cannot hold, whatever the parameters of the prior (proved).");
-    CHECK(place_clause({.kind = "sensor", .name = "r"}) == "the sensor r is suspected (estimate)");
-    CHECK(place_clause({.kind = "sensor", .name = "r", .estimate = 0.25, .unit = "rad/s"}) ==
-          "the sensor r is off by \xE2\x89\x88\xE2\x80\xAF"
-          "0.250\xC2\xA0rad/s (estimate)");
 }

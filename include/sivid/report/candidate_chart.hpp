@@ -71,6 +71,7 @@ struct candidate_chart_options {
 
 /// Proved bounds of an inflation, with enough digits that a gap is not rounded away.
 [[nodiscard]] inline std::string inflation_text(range const& r) {
+    if (!(r.lo > 0) && std::isfinite(r.hi)) return span_text({-INFINITY, r.hi});
     int digits = 3;
     for (double left = 0.01; r.lo > 1 && r.lo < 1 + 1.001 * left && digits < 12; left /= 10)
         ++digits;

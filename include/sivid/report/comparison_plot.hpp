@@ -52,8 +52,10 @@ inline double median_spacing(std::vector<point> const& all) {
 } // namespace detail
 
 /// The legend of comparison plots, with what is in any of them.
+/// @param second  what the second model is
 [[nodiscard]] inline std::vector<legend_entry>
-comparison_legend(std::vector<comparison_series> const& all) {
+comparison_legend(std::vector<comparison_series> const& all,
+                  std::string const& second = "with the effect") {
     bool measured = false, suspect = false, before = false, after = false, tube = false;
     for (comparison_series const& c : all) {
         before = before || !c.before.empty();
@@ -64,14 +66,14 @@ comparison_legend(std::vector<comparison_series> const& all) {
         }
     }
     std::vector<legend_entry> out;
-    auto const add = [&](bool used, symbol mark, char const* label) {
+    auto const add = [&](bool used, symbol mark, std::string const& label) {
         if (used) out.push_back({mark, label});
     };
     add(measured, symbol::measured, "measured interval");
     add(suspect, symbol::suspect, "suspected outlier");
     add(before, symbol::line_before, "model as it is, best fit (estimate)");
-    add(after, symbol::line_after, "model with the effect, best fit (estimate)");
-    add(tube, symbol::tube, "predicted tube with the effect");
+    add(after, symbol::line_after, "model " + second + ", best fit (estimate)");
+    add(tube, symbol::tube, "predicted tube " + second);
     return out;
 }
 

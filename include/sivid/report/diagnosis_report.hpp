@@ -3,7 +3,9 @@
 #define SIVID_REPORT_DIAGNOSIS_REPORT_HPP
 
 #include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/model/effect.hpp>
 #include <sivid/report/diagnosis_page.hpp>
+#include <sivid/report/diagnosis_plot_data.hpp>
 #include <sivid/report/diagnosis_view.hpp>
 #include <sivid/version.hpp>
 
@@ -18,48 +20,6 @@
 
 namespace sivid::report {
 
-/// One channel of one scenario. Any list may be shorter or empty: what is missing is not drawn.
-struct channel_data {
-    std::string name{};
-    std::string unit{};
-    std::vector<double> times{};  ///< of the measurements
-    std::vector<double> values{}; ///< measured
-    std::vector<double> bounds{}; ///< |true - measured| is at most this
-    std::vector<double> base{};   ///< outputs of the model's best fit at `times`
-    std::vector<double> after{};  ///< outputs of the fit with the effect at `times`
-    std::vector<bool> outliers{}; ///< suspected
-    std::vector<double> base_line{}, after_line{}; ///< at the scenario's `line_times`
-    std::vector<tube_piece> tube{};                ///< predicted with the effect
-};
-
-struct scenario_data {
-    std::string name{};
-    bool holdout = false;
-    std::vector<double> line_times{}; ///< finer than the samples; empty: lines join the samples
-    std::vector<channel_data> channels{};
-};
-
-/// The missing rate of one equation in one scenario.
-struct missing_rate_data {
-    std::string equation{};
-    std::string scenario{};
-    std::string unit{};
-    std::vector<double> times{};
-    std::vector<double> values{};      ///< estimate
-    std::vector<double> uncertainty{}; ///< half width of its band, estimate
-    struct window {
-        double from = 0, to = 0;
-        interval missing{}; ///< proved bounds of the mean
-    };
-    std::vector<window> windows{};
-};
-
-/// What the page draws beside the diagnosis.
-struct diagnosis_plot_data {
-    std::vector<scenario_data> scenarios{};
-    std::vector<missing_rate_data> missing_rates{};
-};
-
 struct diagnosis_report_options {
     std::string dataset{};
     std::string model{};
@@ -67,6 +27,8 @@ struct diagnosis_report_options {
         meanings{};                           ///< of effects: "a first-order lag of the rudder"
     std::map<std::string, interval> priors{}; ///< of effect parameters, by name as in `causes`
     std::vector<std::string> absorbed{};      ///< effects that the priors take up
+    double base_fitted = 0; ///< inflation of the best fit of the model as it is; 0: not known
+    std::string after{};    ///< what the plots' second model is; empty: with the answer
     std::vector<std::string> warnings{};
     std::string date{}, machine{}, command{};
 };
@@ -176,6 +138,16 @@ inline missing_rate_series drawn(missing_rate_data const& m) {
 
 } // namespace detail
 
+/// Takes the meanings and priors of a catalogue of effects into the options.
+inline void describe(std::vector<effect> const& catalogue, diagnosis_report_options& options) {
+    for (effect const& e : catalogue) {
+        options.meanings.emplace(e.name, e.about);
+        for (effect_parameter const& p : e.parameters) {
+            options.priors.emplace(e.name + "." + p.name, hull(enclose(p.lower), enclose(p.upper)));
+        }
+    }
+}
+
 /// What the page of a diagnosis shows.
 /// @cost  O(size of the plot data)
 [[nodiscard]] inline diagnosis_view view_of(diagnosis const& d,
@@ -188,6 +160,7 @@ inline missing_rate_series drawn(missing_rate_data const& m) {
                             : d.gap == gap_verdict::certified ? gap_state::present
                                                               : gap_state::open,
                      .inflation = detail::drawn(d.inflation),
+                     .fitted = options.base_fitted,
                      .scenario_gaps = detail::drawn_shares(d.scenario_inflation),
                      .channel_gaps = detail::drawn_shares(d.channel_inflation),
                      .answer = d.answer == answer_kind::none      ? answer_state::nothing
@@ -199,6 +172,7 @@ inline missing_rate_series drawn(missing_rate_data const& m) {
                      .absorbed = options.absorbed,
                      .shrink_fit = detail::drawn(d.shrink_fit),
                      .shrink_holdout = detail::drawn(d.shrink_holdout),
+                     .after = options.after,
                      .assumptions = d.assumptions,
                      .warnings = options.warnings,
                      .interrupted = d.interrupted,
@@ -218,6 +192,16 @@ inline missing_rate_series drawn(missing_rate_data const& m) {
         v.relations.push_back(std::move(out));
     }
     for (cause const& c : d.causes) v.candidates.push_back(detail::drawn(c, options.priors));
+    if (!v.candidates.empty() && find_candidate(v, {}) == nullptr) {
+        // What the others are measured by.
+        v.candidates.push_back({.state = v.gap == gap_state::present  ? candidate_state::excluded
+                                         : v.gap == gap_state::absent ? candidate_state::explains
+                                                                      : candidate_state::open,
+                                .inflation = v.inflation});
+    }
+    for (candidate_view& c : v.candidates) {
+        if (c.effects.empty() && !is_fitted(c.fitted)) c.fitted = v.fitted;
+    }
     if (d.next) {
         v.next = next_experiment_view{d.next->manoeuvre, detail::drawn(d.next->settings),
                                       d.next->separation, d.next->recorded};

@@ -14,24 +14,6 @@
 /// The key figures and tables of a diagnosis's page.
 namespace sivid::report {
 
-/// The answer, then its alternatives, then the others in their order; at most so many.
-[[nodiscard]] inline std::vector<candidate_view const*> foremost(diagnosis_view const& v,
-                                                                 std::size_t most) {
-    std::vector<candidate_view const*> out;
-    auto const add = [&](candidate_view const* c) {
-        if (c != nullptr && out.size() < most &&
-            std::find(out.begin(), out.end(), c) == out.end()) {
-            out.push_back(c);
-        }
-    };
-    add(answer_of(v));
-    for (auto const& o : v.indistinguishable) add(find_candidate(v, o));
-    add(find_candidate(v, {})); // the model as it is: what the others are measured by
-    for (candidate_view const& c : v.candidates) add(&c);
-    std::sort(out.begin(), out.end()); // the order of the view: best first
-    return out;
-}
-
 /// Candidates other than the model as it is.
 [[nodiscard]] inline std::size_t effects_tried(diagnosis_view const& v) {
     return static_cast<std::size_t>(
@@ -41,14 +23,13 @@ namespace sivid::report {
 
 [[nodiscard]] inline std::vector<card> diagnosis_cards(diagnosis_view const& v) {
     std::vector<card> out;
-    candidate_view const* const base = find_candidate(v, {});
     if (says_something(v.inflation)) {
         out.push_back({"bounds must grow by", inflation_text(v.inflation) + " \xC3\x97",
                        v.gap == gap_state::present  ? "\xE2\x9C\x93 proved: there is a gap"
                        : v.gap == gap_state::absent ? "\xE2\x9C\x93 proved: there is no gap"
                                                     : "\xE2\x9C\x93 proved; a gap is open"});
-    } else if (base != nullptr && is_fitted(base->fitted)) {
-        out.push_back({"bounds must grow by", estimate_text(base->fitted) + " \xC3\x97",
+    } else if (is_fitted(base_fitted(v))) {
+        out.push_back({"bounds must grow by", estimate_text(base_fitted(v)) + " \xC3\x97",
                        "\xE2\x89\x88 estimate, best fit"});
     }
     if (!v.places.empty()) {
@@ -72,10 +53,10 @@ namespace sivid::report {
     } else if (v.answer == answer_state::unexplained) {
         out.push_back({"effect", "none found", count_text(effects_tried(v)) + " candidates tried"});
     }
-    if (!is_empty(v.shrink_holdout)) {
+    if (says_shrink(v.shrink_holdout)) {
         out.push_back({"gap removed, hold-out data", shrink_text(v.shrink_holdout),
                        "\xE2\x9C\x93 proved; these data chose nothing"});
-    } else if (!is_empty(v.shrink_fit)) {
+    } else if (says_shrink(v.shrink_fit)) {
         out.push_back({"gap removed, fit data", shrink_text(v.shrink_fit), "\xE2\x9C\x93 proved"});
     }
     if (v.seconds > 0) {
@@ -200,39 +181,6 @@ namespace sivid::report {
     t.caption = t.rows.empty() ? ""
                                : "The hull contains every value that explains the data; without a "
                                  "hull nothing is proved of the value.";
-    return t;
-}
-
-[[nodiscard]] inline table holdout_table(holdout_view const& h, range const& shrink) {
-    table t{.columns = {{"", column_kind::symbol},
-                        {"model as it is", column_kind::number},
-                        {"with the effect", column_kind::number},
-                        {"known how"}},
-            .rows = {}};
-    auto const inflation = [](range const& r) {
-        return says_something(r) ? inflation_text(r) : std::string{"not bounded"};
-    };
-    std::string const proved{proved_mark}, estimate{estimate_mark};
-    if (says_something(h.inflation_before) || says_something(h.inflation_after)) {
-        t.rows.push_back({"bounds must grow by", inflation(h.inflation_before),
-                          inflation(h.inflation_after), proved});
-    }
-    if (!is_empty(shrink)) t.rows.push_back({"gap removed", "", shrink_text(shrink), proved});
-    auto const number = [](double x) {
-        return std::isfinite(x) ? rounded_text(x, rounding::nearest) : std::string{"?"};
-    };
-    auto const add = [&](std::string const& name, double before, double after,
-                         std::string const& unit, double factor) {
-        if (std::isfinite(before) || std::isfinite(after)) {
-            t.rows.push_back(
-                {name, number(before * factor) + unit, number(after * factor) + unit, estimate});
-        }
-    };
-    for (holdout_view::channel const& c : h.channels) {
-        add("RMSE of " + c.name, c.rmse_before, c.rmse_after, unit_suffix(c.unit), 1);
-    }
-    add("samples in the predicted tube", h.covered_before, h.covered_after, "\xC2\xA0%", 100);
-    add("width of that tube, in bounds", h.width_before, h.width_after, "", 1);
     return t;
 }
 

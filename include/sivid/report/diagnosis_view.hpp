@@ -8,6 +8,7 @@
 #include <sivid/report/missing_rate_plot.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <map>
 #include <optional>
@@ -124,6 +125,7 @@ struct diagnosis_view {
 
     gap_state gap = gap_state::open;
     range inflation{}; ///< proved
+    double fitted = 0; ///< inflation of the model's best fit, not proved; 0: no fit
     std::vector<share_of_gap> scenario_gaps{}, channel_gaps{};
     std::vector<place_view> places{}; ///< most important first
     std::vector<relation_view> relations{};
@@ -139,6 +141,7 @@ struct diagnosis_view {
 
     std::vector<missing_rate_series> missing_rates{};
     std::vector<compared_scenario> scenarios{};
+    std::string after{}; ///< what the second model there is; empty: with the answer
 
     std::vector<std::string> assumptions{};
     std::vector<std::string> warnings{};
@@ -166,6 +169,24 @@ struct diagnosis_view {
 [[nodiscard]] inline candidate_view const* answer_of(diagnosis_view const& v) {
     return v.answer == answer_state::effects && !v.effects.empty() ? find_candidate(v, v.effects)
                                                                    : nullptr;
+}
+
+/// The answer, then its alternatives, then the others in their order; at most so many.
+[[nodiscard]] inline std::vector<candidate_view const*> foremost(diagnosis_view const& v,
+                                                                 std::size_t most) {
+    std::vector<candidate_view const*> out;
+    auto const add = [&](candidate_view const* c) {
+        if (c != nullptr && out.size() < most &&
+            std::find(out.begin(), out.end(), c) == out.end()) {
+            out.push_back(c);
+        }
+    };
+    add(answer_of(v));
+    for (auto const& o : v.indistinguishable) add(find_candidate(v, o));
+    add(find_candidate(v, {})); // the model as it is: what the others are measured by
+    for (candidate_view const& c : v.candidates) add(&c);
+    std::sort(out.begin(), out.end()); // the order of the view: best first
+    return out;
 }
 
 } // namespace sivid::report

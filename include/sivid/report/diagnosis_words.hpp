@@ -3,8 +3,8 @@
 #define SIVID_REPORT_DIAGNOSIS_WORDS_HPP
 
 #include <sivid/report/diagnosis_view.hpp>
-#include <sivid/report/identification_words.hpp>
 #include <sivid/report/number_text.hpp>
+#include <sivid/report/place_words.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,27 +16,6 @@
 /// The sentences of a diagnosis's page. What is proved is called so; all else is called an
 /// estimate.
 namespace sivid::report {
-
-inline constexpr std::string_view proved_mark = "\xE2\x9C\x93 proved";
-inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
-
-/// "a, b and c"
-[[nodiscard]] inline std::string enumeration(std::vector<std::string> const& all,
-                                             std::string_view last = " and ") {
-    std::string out;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        out += i == 0 ? "" : i + 1 == all.size() ? std::string{last} : ", ";
-        out += all[i];
-    }
-    return out;
-}
-
-[[nodiscard]] inline std::string capitalised(std::string text) {
-    if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') {
-        text[0] = static_cast<char>(text[0] - 'a' + 'A');
-    }
-    return text;
-}
 
 /// "rudder_lag + wind"; without effects "the model as it is".
 [[nodiscard]] inline std::string names_of(std::vector<std::string> const& effects) {
@@ -54,29 +33,6 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
         words.push_back(known == v.meanings.end() || known->second.empty() ? e : known->second);
     }
     return enumeration(words);
-}
-
-/// "S4, 1.2 to 2 s"
-[[nodiscard]] inline std::string window_text(window_view const& w) {
-    std::string const times = given_text(w.from) + " to " + given_text(w.to) + "\xC2\xA0s";
-    return !(w.from < w.to) ? w.scenario : w.scenario.empty() ? times : w.scenario + ", " + times;
-}
-
-/// "yaw equation", "sensor r", "input delta"
-[[nodiscard]] inline std::string place_name(place_view const& p) {
-    return p.kind == "equation" ? p.name + " equation"
-           : p.kind.empty()     ? p.name
-                                : p.kind + ' ' + p.name;
-}
-
-/// "-0.42 to -0.18 rad/s^2, proved"
-[[nodiscard]] inline std::string missing_text(place_view const& p) {
-    if (!is_empty(p.missing)) {
-        return span_text(p.missing) + unit_suffix(p.unit) + " (proved)";
-    }
-    return p.estimate && std::isfinite(*p.estimate)
-               ? estimate_text(*p.estimate) + unit_suffix(p.unit) + " (estimate)"
-               : std::string{};
 }
 
 /// "98 to 100 %"; an upper end above 100 is impossible, a missing lower one is said.
@@ -100,13 +56,25 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
     return is_finite(e.hull) ? out + " (" + span_text(e.hull) + ", proved)" : out + " (estimate)";
 }
 
+/// What is drawn beside the model as it is: "with rudder_lag".
+[[nodiscard]] inline std::string after_words(diagnosis_view const& v) {
+    return !v.after.empty() ? v.after
+           : v.answer == answer_state::effects && !v.effects.empty()
+               ? "with " + names_of(v.effects)
+               : std::string{"with the closest candidate"};
+}
+
+/// The inflation of the best fit of the model as it is; 0 when there is none.
+[[nodiscard]] inline double base_fitted(diagnosis_view const& v) {
+    candidate_view const* const base = find_candidate(v, {});
+    return is_fitted(v.fitted) || base == nullptr ? v.fitted : base->fitted;
+}
+
 /// The factor in the words of a sentence: "3.1 to 3.2 times the measurement bounds (proved)".
 [[nodiscard]] inline std::string gap_clause(diagnosis_view const& v) {
-    candidate_view const* const base = find_candidate(v, {});
+    double const fitted = base_fitted(v);
     std::string const estimate =
-        base != nullptr && is_fitted(base->fitted)
-            ? ", " + estimate_text(base->fitted) + " in the best fit found (estimate)"
-            : "";
+        is_fitted(fitted) ? ", " + estimate_text(fitted) + " in the best fit found (estimate)" : "";
     switch (v.gap) {
     case gap_state::present:
         return says_something(v.inflation)
@@ -128,9 +96,9 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
         return "It is open whether the model explains the data: it parts from the robot by " +
                (says_something(v.inflation)
                     ? inflation_text(v.inflation) + " times the bounds (proved)" + estimate
-                : !estimate.empty() ? estimate_text(base->fitted) +
-                                          " times the bounds in the best fit found (estimate)"
-                                    : "a factor of which nothing is known");
+                : !estimate.empty()
+                    ? estimate_text(fitted) + " times the bounds in the best fit found (estimate)"
+                    : "a factor of which nothing is known");
     }
 }
 
@@ -177,34 +145,16 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
                    : "");
 }
 
+/// False for a range that says nothing: no lower bound, and an upper one of all of the gap.
+[[nodiscard]] inline bool says_shrink(range const& share) {
+    return !is_empty(share) && (std::isfinite(share.lo) || share.hi < 1);
+}
+
 [[nodiscard]] inline std::string shrink_clause(range const& share, std::string_view data) {
-    if (is_empty(share)) return "";
+    if (!says_shrink(share)) return "";
     std::string const on = "on " + std::string{data} + " it ";
     if (share.hi <= 0) return on + "does not shrink the gap (proved)";
     return on + "removes " + shrink_text(share) + " of the gap (proved)";
-}
-
-/// The formula of a law for a reader.
-[[nodiscard]] inline std::string law_text(std::string const& law) {
-    std::string out;
-    for (std::size_t i = 0; i < law.size(); ++i) {
-        bool const beside =
-            (i > 0 && law[i - 1] == '*') || (i + 1 < law.size() && law[i + 1] == '*');
-        if (law[i] != ' ' || !beside) out += law[i];
-    }
-    return formula_text(out);
-}
-
-/// Where and how: "the yaw equation in S4, 1.2 to 2 s, lacks -0.42 to -0.18 rad/s^2 (proved)".
-[[nodiscard]] inline std::string place_clause(place_view const& p) {
-    std::string const missing = missing_text(p);
-    std::string const where = window_text(p.where);
-    std::string out = "the " + place_name(p) + (where.empty() ? "" : " (" + where + ")");
-    out += !missing.empty() ? (p.kind == "equation" ? " lacks " : " is off by ") + missing
-           : p.proved       ? " is broken (proved)"
-                            : " is suspected (estimate)";
-    out += p.law.empty() ? "" : ", in the shape of " + law_text(p.law) + " (estimate)";
-    return p.regime.empty() ? out : out + ", where " + p.regime + " (estimate)";
 }
 
 [[nodiscard]] inline std::string headline(diagnosis_view const& v) {
@@ -265,31 +215,6 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
     std::string out;
     for (std::string const& p : parts) out += p.empty() ? "" : (out.empty() ? "" : "; ") + p;
     return out + ".";
-}
-
-/// One broken relation in plain words.
-[[nodiscard]] inline std::string relation_words(relation_view const& r) {
-    constexpr std::size_t most = 4;
-    std::string out = "The " + r.equation + " equation";
-    out += r.sensors.empty() ? " cannot hold"
-           : r.sensors.size() == 1
-               ? " and the sensor " + r.sensors[0] + " cannot both hold"
-               : " and the sensors " + enumeration(r.sensors) + " cannot all hold";
-    out +=
-        r.proved ? ", whatever the parameters of the prior (proved)." : " (estimate, not proved).";
-    std::vector<std::string> windows;
-    for (std::size_t i = 0; i < std::min(most, r.windows.size()); ++i) {
-        windows.push_back(window_text(r.windows[i]));
-    }
-    if (!windows.empty()) {
-        std::string list;
-        for (std::string const& w : windows) list += (list.empty() ? "" : "; ") + w;
-        out += " Shown by " + list;
-        out += r.windows.size() > most ? " and " + count_text(r.windows.size() - most) + " more."
-                                       : ".";
-    }
-    if (!r.assumptions.empty()) out += " It rests on " + enumeration(r.assumptions) + ".";
-    return out;
 }
 
 /// What to measure next, in one sentence; empty when nothing is proposed.
