@@ -2,6 +2,7 @@
 #include "report/diagnosis_example.hpp"
 #include "support/catch.hpp"
 
+#include <sivid/model/effects.hpp>
 #include <sivid/report/diagnosis_report.hpp>
 
 #include <cmath>
@@ -83,10 +84,11 @@ TEST_CASE(
 }
 
 TEST_CASE("diagnosis report: a catalogue gives meanings and priors") {
+    using namespace sivid::literals;
     sivid::effect e;
     e.name = "wind";
     e.about = "steady wind";
-    e.parameters = {{"wx", "m/s", sivid::decimal("-2"), sivid::decimal("2"), {}}};
+    e.parameters = {{"wx", "m/s", -2_dec, 2_dec, 0_dec}};
     diagnosis_report_options o;
     describe({e}, o);
     CHECK(o.meanings.at("wind") == "steady wind");

@@ -87,11 +87,13 @@ namespace sivid::report {
 /// The channels of one scenario with both models' lines.
 [[nodiscard]] inline figure motion_figure(compared_scenario const& s) {
     range time;
+    bool both = false;
     for (comparison_series const& c : s.channels) {
+        both = both || !c.after.empty();
         time = hull(time, detail::time_range(detail::plain_series(c)));
     }
     figure f{.panels = {},
-             .title = "Scenario " + s.name + ", before and after.",
+             .title = "Scenario " + s.name + (both ? ", before and after." : "."),
              .caption =
                  s.holdout ? "These data chose nothing: neither effect nor parameters." : ""};
     for (comparison_series const& c : s.channels) {
