@@ -38,6 +38,16 @@ struct identify_command {
 };
 [[nodiscard]] int run(identify_command const& command);
 
+struct diagnose_command {
+    hovercraft craft;
+    std::filesystem::path dataset, out;
+    double budget = 60; ///< [s]
+    bool quiet = false;
+    std::string command_line; ///< for the report's footer
+};
+/// Ends with 0 whatever it finds.
+[[nodiscard]] int run(diagnose_command const& command);
+
 struct generate_command {
     hovercraft craft;
     std::string scenario;
@@ -96,11 +106,6 @@ inline void prepare_folder(std::filesystem::path const& folder) {
             {"D22", "linear damping in sway"},
             {"D33", "linear damping in yaw"}};
 }
-
-/// Today, as 2024-11-20.
-[[nodiscard]] std::string today();
-/// Compiler and number of threads used.
-[[nodiscard]] std::string machine_text();
 
 } // namespace hovercraft_example
 

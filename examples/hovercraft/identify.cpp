@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
+#include "console/console.hpp"
 
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/identification_csv.hpp>
@@ -9,62 +10,12 @@
 #include <sivid/report/identification_report.hpp>
 
 #include <chrono>
-#include <csignal>
 #include <cstdio>
-#include <ctime>
 #include <iostream>
-
-#include <unistd.h>
 
 namespace hovercraft_example {
 
 namespace {
-
-volatile std::sig_atomic_t interrupted = 0;
-
-/// The first Ctrl-C asks for the result so far, the second one ends the program.
-extern "C" void on_interrupt(int) {
-    interrupted = 1;
-    std::signal(SIGINT, SIG_DFL);
-}
-
-/// One line of progress: rewritten in place on a terminal, else a new line now and then.
-class progress_line {
-public:
-    explicit progress_line(bool quiet)
-        : quiet_{quiet}, terminal_{::isatty(STDERR_FILENO) != 0}, begin_{clock::now()} {}
-
-    void note(std::string const& text) {
-        if (quiet_) return;
-        finish();
-        std::fprintf(stderr, "%s\n", text.c_str());
-    }
-    bool operator()(sivid::paving_progress const& p) {
-        auto const now = clock::now();
-        double const pause = terminal_ ? 0.1 : 1.0;
-        if (!quiet_ && (!shown_ || std::chrono::duration<double>(now - last_).count() >= pause)) {
-            last_ = now;
-            shown_ = true;
-            double const time = std::chrono::duration<double>(now - begin_).count();
-            std::fprintf(stderr,
-                         "%s%7.1f s  %8zu boxes  %6zu waiting  inside %9.3g %%  not excluded "
-                         "%9.3g %% of the prior%s",
-                         terminal_ ? "\r" : "", time, p.tested, p.pending, 100 * p.inner,
-                         100 * p.outer, terminal_ ? "" : "\n");
-            std::fflush(stderr);
-        }
-        return interrupted == 0;
-    }
-    void finish() {
-        if (shown_ && terminal_) std::fputc('\n', stderr);
-        shown_ = false;
-    }
-
-private:
-    using clock = std::chrono::steady_clock;
-    bool quiet_, terminal_, shown_ = false;
-    clock::time_point begin_, last_;
-};
 
 sivid::algorithm algorithm_of(std::string const& name) {
     if (name == "report-1") return sivid::algorithm::report_1;
@@ -133,22 +84,6 @@ int exit_code_of(sivid::verdict v) {
 
 } // namespace
 
-std::string today() {
-    auto const now = std::time(nullptr);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y-%m-%d", std::localtime(&now));
-    return text;
-}
-
-std::string machine_text() {
-#if defined(__clang__)
-    std::string const compiler = std::string{"clang "} + __clang_version__;
-#else
-    std::string const compiler = std::string{"g++ "} + __VERSION__;
-#endif
-    return std::string{"one thread, "} + compiler.substr(0, compiler.find(" ("));
-}
-
 int run(identify_command const& c) {
     namespace report = sivid::report;
     auto const model = sivid::record_model(c.craft);
@@ -157,15 +92,17 @@ int run(identify_command const& c) {
     auto const further = sivid::assumptions_of(data);
     prepare_folder(c.out);
 
-    interrupted = 0;
-    std::signal(SIGINT, on_interrupt);
-    progress_line progress(c.quiet);
+    console::watch_interrupts();
+    console::progress_line progress(c.quiet);
     sivid::identify_options options;
     options.algorithm = algorithm_of(c.algorithm);
     options.search.accuracy = c.accuracy;
     if (c.boxes) options.search.boxes = *c.boxes;
     options.search.seconds = c.compare ? 0.6 * c.budget : c.budget;
-    options.search.progress = [&](sivid::paving_progress const& p) { return progress(p); };
+    options.search.progress = [&](sivid::paving_progress const& p) {
+        progress.show(console::paving_words(p));
+        return !console::interrupted();
+    };
     progress.note(std::string{"identifying "} + data.id + " (" + words_of(c.algorithm) +
                   ", at most " + report::duration_text(options.search.seconds) +
                   "; Ctrl-C stops early)");
@@ -173,7 +110,7 @@ int run(identify_command const& c) {
     progress.finish();
 
     std::optional<sivid::identification> baseline;
-    if (c.compare && interrupted == 0) {
+    if (c.compare && !console::interrupted()) {
         auto other = options;
         other.algorithm = sivid::algorithm::report_1;
         other.search.seconds = c.budget - options.search.seconds;
@@ -188,8 +125,8 @@ int run(identify_command const& c) {
                                                 .meanings = constant_meanings(),
                                                 .further_assumptions = further,
                                                 .plane = report::plane_channels{"x", "y", "psi"},
-                                                .date = today(),
-                                                .machine = machine_text(),
+                                                .date = console::today(),
+                                                .machine = console::machine_text(),
                                                 .command = c.command_line};
     auto view = report::view_of(problem, found, motion ? &*motion : nullptr, about);
     if (baseline) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// hovercraft identify | generate | simulate | rank: the reference example on the command line.
+// hovercraft identify | diagnose | generate | simulate | rank: the reference example on the command
+// line.
 #include "commands.hpp"
 
 #include <sivid/io/text_file.hpp>
@@ -115,6 +116,7 @@ public:
     explicit program(std::string command_line) : line_{std::move(command_line)} {
         app_.require_subcommand(1);
         add_identify();
+        add_diagnose();
         add_generate();
         add_simulate();
         add_rank();
@@ -158,6 +160,26 @@ private:
                 identify_.craft = shared_.craft();
                 identify_.command_line = line_;
                 return run(identify_);
+            };
+        });
+    }
+
+    void add_diagnose() {
+        auto* const s = app_.add_subcommand(
+            "diagnose", "where model and robot part, which effect it is, how far the gap shrinks");
+        auto& c = diagnose_;
+        s->add_option("dataset", c.dataset, "folder with dataset.json")->required();
+        s->add_option("--out", c.out, "folder for report.html and diagnosis.json")->required();
+        s->add_option("--budget", c.budget, "seconds")
+            ->check(CLI::Range(0.0, 1e9))
+            ->capture_default_str();
+        s->add_flag("--quiet", c.quiet, "no progress");
+        add_variants(*s, shared_);
+        s->callback([this] {
+            action_ = [this] {
+                diagnose_.craft = shared_.craft();
+                diagnose_.command_line = line_;
+                return run(diagnose_);
             };
         });
     }
@@ -264,6 +286,7 @@ private:
     std::string line_;
     shared_text shared_;
     identify_command identify_;
+    diagnose_command diagnose_;
     generate_command generate_;
     simulate_command simulate_;
     rank_command rank_;

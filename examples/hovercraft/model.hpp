@@ -21,9 +21,9 @@
 /// stay selectable here.
 struct hovercraft {
     static constexpr auto name = "hovercraft";
-    static constexpr auto states = sivid::states({{"u", "m/s", 8},
-                                                  {"v", "m/s", 8},
-                                                  {"r", "rad/s", 6},
+    static constexpr auto states = sivid::states({{"u", "m/s", 8, "surge"},
+                                                  {"v", "m/s", 8, "sway"},
+                                                  {"r", "rad/s", 6, "yaw"},
                                                   {"x", "m", 50},
                                                   {"y", "m", 50},
                                                   {"psi", "rad", 10}});

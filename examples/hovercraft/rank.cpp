@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "rank.hpp"
 #include "commands.hpp"
+#include "console/console.hpp"
 
 #include <sivid/io/text_file.hpp>
 #include <sivid/number/decimal_output.hpp>
@@ -132,8 +133,8 @@ int run(rank_command const& c) {
     compare("r", "important", {"L", "Sg"});
     compare("r", "negligible", {"D22", "Iz", "A"});
     page.add(table);
-    page.footer({std::string{"sivid "} + std::string{sivid::version}, today(), machine_text(),
-                 c.command_line});
+    page.footer({std::string{"sivid "} + std::string{sivid::version}, console::today(),
+                 console::machine_text(), c.command_line});
     for (auto const& row : table.rows)
         if (row[3].find("does not occur") == 0)
             std::cout << "the report calls " << row[1] << " " << row[2] << " for " << row[0]

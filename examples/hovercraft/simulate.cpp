@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
+#include "console/console.hpp"
 
 #include <sivid/enclosure/simulate.hpp>
 #include <sivid/enclosure/tube.hpp>
@@ -209,8 +210,8 @@ int run(simulate_command const& c) {
         std::cout << all[k]->summary() << "\n";
         if (!all[k]->complete()) std::cout << "  " << all[k]->failure() << "\n";
     }
-    page.footer({std::string{"sivid "} + std::string{sivid::version}, today(), machine_text(),
-                 c.command_line});
+    page.footer({std::string{"sivid "} + std::string{sivid::version}, console::today(),
+                 console::machine_text(), c.command_line});
     sivid::write_atomically(c.out / "simulation.html", page.str());
     std::cout << "written: " << (c.out / "simulation.html").string() << "\n";
     return 0;

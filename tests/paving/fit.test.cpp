@@ -2,6 +2,7 @@
 #include <sivid/paving/fit.hpp>
 
 #include "support/catch.hpp"
+#include "support/hovercraft_campaign.hpp"
 #include "support/problems.hpp"
 
 #include <cmath>
@@ -75,4 +76,63 @@ TEST_CASE("a simulation that fails everywhere gives no guess, and ends") {
     auto const found = fitter(problem)();
     CHECK(found.parameters.empty());
     CHECK(found.inflation == HUGE_VAL);
+}
+
+TEST_CASE("the parameters of a simulated hovercraft are found again") {
+    draws d(345);
+    std::map<std::string, double> const truth{
+        {"Sv", 0.236}, {"Sg", 0.051}, {"L", 0.3}, {"m", 1.27}};
+    support::hover_options options{.truth = truth};
+    for (bool const outliers : {false, true}) {
+        options.outlier_fraction = outliers ? 0.07 : 0;
+        auto problem = support::hovercraft_campaign(d, {}, options);
+        problem.choice.fixed["m"] = interval(1.27);
+        fitter fit(problem);
+        auto const found = fit();
+        CHECK(found.inflation < 1);
+        auto const& names = problem.choice.unknown;
+        for (std::size_t j = 0; j < names.size(); ++j) {
+            if (names[j] == "Sv") CHECK(std::abs(found.parameters[j] - 0.236) < 0.004);
+        }
+        CHECK(std::abs(found.parameters[0] * found.parameters[1] - 0.3 * 0.051) < 3e-4); // L Sg
+        auto const again = fit.at(found.parameters, found.starts);
+        CHECK(std::abs(again.inflation - found.inflation) < 1e-9);
+    }
+}
+
+TEST_CASE("unknown delays of an input and of channels are fitted") {
+    draws d(346);
+    for (bool const input : {true, false}) {
+        support::hover_effect effect;
+        if (input) {
+            effect.inputs = [](double t, auto const& recorded) {
+                return support::controls{recorded(t)[0], recorded(std::max(0.0, t - 0.15))[1]};
+            };
+        } else {
+            effect.sensors = [](double t, auto const& at) {
+                auto y = at(t);
+                auto const late = at(std::max(0.0, t - 0.15));
+                y[3] = late[3];
+                y[4] = late[4];
+                return y;
+            };
+        }
+        auto problem = support::hovercraft_campaign(d, effect, {});
+        CHECK(fitter(problem)().inflation > 2);
+        problem.model.about.constants.push_back({"tau", "s", literal{interval(0.0), 0.0}});
+        auto const tau = problem.model.about.constants.size() - 1;
+        if (input) {
+            problem.model.input_delays = {{1, tau}};
+        } else {
+            problem.model.channel_delays = {{3, tau}, {4, tau}};
+        }
+        problem.choice.unknown.push_back("tau");
+        box prior(4);
+        for (std::size_t j = 0; j < 3; ++j) prior[j] = problem.prior[j];
+        prior[3] = support::between(0, 0.5);
+        problem.prior = prior;
+        auto const found = fitter(problem)();
+        CHECK(found.inflation < 1);
+        CHECK(std::abs(found.parameters[3] - 0.15) < 0.02);
+    }
 }

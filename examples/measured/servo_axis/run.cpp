@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "command.hpp"
+#include "console/console.hpp"
 
 #include <sivid/io/explaining_motion.hpp>
 #include <sivid/io/identification_csv.hpp>
@@ -11,67 +12,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
-#include <ctime>
 #include <iostream>
 #include <map>
 #include <system_error>
-
-#include <unistd.h>
 
 namespace servo {
 
 namespace {
 
 namespace report = sivid::report;
-
-volatile std::sig_atomic_t interrupted = 0;
-
-/// The first Ctrl-C asks for the result so far, the second one ends the program.
-extern "C" void on_interrupt(int) {
-    interrupted = 1;
-    std::signal(SIGINT, SIG_DFL);
-}
-
-/// Progress on stderr: one line in place on a terminal, else a new one each second.
-class progress_line {
-public:
-    explicit progress_line(bool quiet)
-        : quiet_{quiet}, terminal_{::isatty(STDERR_FILENO) != 0}, begin_{clock::now()} {}
-
-    void note(std::string const& text) {
-        if (quiet_) return;
-        finish();
-        std::fprintf(stderr, "%7.1f s  %s\n", elapsed(), text.c_str());
-    }
-    bool operator()(sivid::paving_progress const& p) {
-        auto const now = clock::now();
-        double const pause = terminal_ ? 0.1 : 1.0;
-        if (!quiet_ && (!shown_ || std::chrono::duration<double>(now - last_).count() >= pause)) {
-            last_ = now;
-            shown_ = true;
-            std::fprintf(
-                stderr, "%s%7.1f s  %6zu boxes  %6zu waiting  not excluded %9.3g %% of the prior%s",
-                terminal_ ? "\r" : "", elapsed(), p.tested, p.pending, 100 * p.outer,
-                terminal_ ? "" : "\n");
-            std::fflush(stderr);
-        }
-        return interrupted == 0;
-    }
-    void finish() {
-        if (shown_ && terminal_) std::fputc('\n', stderr);
-        shown_ = false;
-    }
-
-private:
-    using clock = std::chrono::steady_clock;
-    [[nodiscard]] double elapsed() const {
-        return std::chrono::duration<double>(clock::now() - begin_).count();
-    }
-    bool quiet_, terminal_, shown_ = false;
-    clock::time_point begin_, last_;
-};
 
 std::string text_of(char const* format, double value) {
     char buffer[64];
@@ -278,22 +228,6 @@ void add_windows(report::page& page, posed_problem const& posed, outcome_of_run 
                in_millimetres(c.bounds.start_velocity) + "/s.");
 }
 
-std::string today() {
-    auto const now = std::time(nullptr);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y-%m-%d", std::localtime(&now));
-    return text;
-}
-
-std::string machine_text() {
-#if defined(__clang__)
-    std::string const compiler = std::string{"clang "} + __clang_version__;
-#else
-    std::string const compiler = std::string{"g++ "} + __VERSION__;
-#endif
-    return std::string{"one thread, "} + compiler.substr(0, compiler.find(" ("));
-}
-
 void print_summary(posed_problem const& posed, outcome_of_run const& o, command const& c) {
     auto const& found = o.found;
     std::cout << "servo axis: " << to_string(found.verdict) << " (" << to_string(found.reason)
@@ -353,14 +287,16 @@ int run(command const& c) {
     auto const posed = pose(record, c);
     prepare_folder(c.out);
 
-    interrupted = 0;
-    std::signal(SIGINT, on_interrupt);
-    progress_line progress(c.quiet);
+    console::watch_interrupts();
+    console::progress_line progress(c.quiet);
     progress.note("identifying M, F_v, F_c and the offset from " +
                   std::to_string(posed.used.size()) + " windows; Ctrl-C stops early");
     outcome_of_run o{identify_axis(
         posed, c.accuracy, c.budget, [&](std::string const& text) { progress.note(text); },
-        [&](sivid::paving_progress const& p) { return progress(p); })};
+        [&](sivid::paving_progress const& p) {
+            progress.show(console::paving_words(p));
+            return !console::interrupted();
+        })};
     progress.finish();
     std::signal(SIGINT, SIG_DFL);
 
@@ -378,8 +314,8 @@ int run(command const& c) {
                                 {.dataset = "EMPS servo axis, " + c.file,
                                  .meanings = meanings(),
                                  .further_assumptions = further,
-                                 .date = today(),
-                                 .machine = machine_text(),
+                                 .date = console::today(),
+                                 .machine = console::machine_text(),
                                  .command = c.command_line});
     complete(view, posed, o, c);
     // A figure of all windows says more than two for each.

@@ -130,6 +130,8 @@ struct named_witness {
 struct holdout_figures {
     inflation_range inflation_before = unknown_inflation();
     inflation_range inflation_after = unknown_inflation();
+    /// The same over all parameters that do as well on the fit data.
+    std::optional<inflation_range> over_fits_before, over_fits_after;
     std::vector<std::string> channels;
     std::vector<double> rmse_before, rmse_after;  ///< one per channel
     double covered_before = 0, covered_after = 0; ///< share of samples inside the predicted tube

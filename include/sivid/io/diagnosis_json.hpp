@@ -145,6 +145,8 @@ private:
         json_.begin_object();
         json_.key("inflation_before").bounds(h->inflation_before);
         json_.key("inflation_after").bounds(h->inflation_after);
+        maybe("over_fits_before", h->over_fits_before);
+        maybe("over_fits_after", h->over_fits_after);
         per_channel("rmse_before", h->channels, h->rmse_before);
         per_channel("rmse_after", h->channels, h->rmse_after);
         json_.key("covered_before").nearest(h->covered_before);

@@ -2,6 +2,7 @@
 #ifndef SIVID_IO_PROBLEM_FROM_DATASET_HPP
 #define SIVID_IO_PROBLEM_FROM_DATASET_HPP
 
+#include <sivid/diagnosis/holdout.hpp>
 #include <sivid/io/dataset_value.hpp>
 #include <sivid/paving/problem.hpp>
 
@@ -13,6 +14,33 @@
 #include <vector>
 
 namespace sivid {
+
+namespace io_detail {
+
+/// The scenarios of one role as experiments.
+inline std::vector<experiment> experiments_of(dataset const& data, model_description const& about,
+                                              scenario_role role,
+                                              std::optional<std::size_t> outliers) {
+    std::vector<experiment> result;
+    for (auto const& s : data.scenarios) {
+        if (s.role != role) continue;
+        if (s.inputs.size() != about.inputs.size() || s.initial.size() != about.states.size()) {
+            throw std::invalid_argument(std::string{"problem_from_dataset: scenario '"} + s.name +
+                                        "' has other inputs or states than the model");
+        }
+        experiment e;
+        e.name = s.name;
+        for (auto const& input : s.inputs) e.inputs.push_back(input.signal);
+        e.initial = box(s.initial.size());
+        for (std::size_t i = 0; i < s.initial.size(); ++i) e.initial[i] = s.initial[i].range;
+        e.measurements = s.measurements;
+        e.outliers = outliers.value_or(data.outlier_budget(s));
+        result.push_back(std::move(e));
+    }
+    return result;
+}
+
+} // namespace io_detail
 
 /// The identification problem that a data set states: its priors, its fixed constants, and one
 /// experiment for each scenario of the role fit. Hold-out scenarios do not enter.
@@ -41,22 +69,15 @@ problem_from_dataset(dataset const& data, recorded_model model,
         if (f.constant >= about.constants.size()) fail("a fixed constant that the model lacks");
         problem.choice.fixed[about.constants[f.constant].name] = f.value;
     }
-    for (auto const& s : data.scenarios) {
-        if (s.role != scenario_role::fit) continue;
-        if (s.inputs.size() != about.inputs.size() || s.initial.size() != about.states.size()) {
-            fail(std::string{"scenario '"} + s.name +
-                 "' has other inputs or states than the model");
-        }
-        experiment e;
-        e.name = s.name;
-        for (auto const& input : s.inputs) e.inputs.push_back(input.signal);
-        e.initial = box(s.initial.size());
-        for (std::size_t i = 0; i < s.initial.size(); ++i) e.initial[i] = s.initial[i].range;
-        e.measurements = s.measurements;
-        e.outliers = outliers.value_or(data.outlier_budget(s));
-        problem.experiments.push_back(std::move(e));
-    }
+    problem.experiments = io_detail::experiments_of(data, about, scenario_role::fit, outliers);
     return problem;
+}
+
+/// The scenarios of the role holdout: they choose nothing.
+/// @given  as for `problem_from_dataset`
+[[nodiscard]] inline holdout holdout_from_dataset(dataset const& data,
+                                                  model_description const& about) {
+    return holdout(io_detail::experiments_of(data, about, scenario_role::holdout, std::nullopt));
 }
 
 /// What a proof about this problem takes for granted of the data set, beyond what the

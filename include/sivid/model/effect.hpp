@@ -85,7 +85,7 @@ public:
                 throw std::invalid_argument("effect: the model has a state '" + name + "'");
             }
         }
-        model_->about.states.push_back({name, unit, limit});
+        model_->about.states.push_back({name, unit, limit, {}});
         model_->added_states.push_back({k, at_begin.in(model_->g)});
         states_.emplace_back(model_->g, model_->g.leaf(operation::state, k));
         rates_.emplace_back(0.0);

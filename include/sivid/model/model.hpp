@@ -28,6 +28,7 @@ struct state_quantity {
     std::string_view name;
     std::string_view unit;
     double limit;
+    std::string_view equation = {}; ///< what its equation is called; its own name by default
 };
 
 /// A constant of a model with its nominal value, an exact decimal.
@@ -111,7 +112,11 @@ concept dynamic_model = requires {
 struct model_description {
     struct state {
         std::string name, unit;
-        double limit = 0; ///< own range: |x| <= limit
+        double limit = 0;       ///< own range: |x| <= limit
+        std::string equation{}; ///< what its equation is called; empty: as the state
+        [[nodiscard]] std::string const& equation_name() const {
+            return equation.empty() ? name : equation;
+        }
     };
     struct item {
         std::string name, unit;
@@ -162,7 +167,8 @@ template <dynamic_model M>
     auto& about = result.about;
     about.name = std::string(M::name);
     for (auto const& s : M::states) {
-        about.states.push_back({std::string(s.name), std::string(s.unit), s.limit});
+        about.states.push_back(
+            {std::string(s.name), std::string(s.unit), s.limit, std::string(s.equation)});
     }
     for (auto const& i : M::inputs) {
         about.inputs.push_back({std::string(i.name), std::string(i.unit)});

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace sivid {
@@ -40,26 +41,21 @@ inline void normalise(normalised_unknowns::side const& s, interval const& part, 
 
 } // namespace paving_detail
 
-/// Re-expands a response about the middle of a part of its box.
-/// @param parameters  a box inside the one that the response was computed for (trusted)
-/// @guarantee  encloses the outputs for all parameters in the part and all starts of the response.
+/// Re-expands a response in d, where q = middle + reach * d for each of its variables.
+/// @given  |middle| + reach <= 1 but for rounding
+/// @guarantee  encloses the outputs for all d in [-1,1]^N.
 ///   Rounding: with |middle| + reach <= 1 each stage is a contraction in the sum norm, so the
 ///   errors of all stages stay below (variables * (2 degree + 8)) units of the polynomial's norm.
 /// @cost  O(monomials * degree * outputs), streaming over the outputs
-[[nodiscard]] inline local_response expand(response const& known, box const& parameters) {
+[[nodiscard]] inline local_response expand(response const& known, std::vector<double> middle,
+                                           std::vector<double> reach) {
     constexpr double unit = std::numeric_limits<double>::epsilon();
     auto const& table = *known.table;
     auto const outputs = known.outputs();
     auto const n = table.variables;
     local_response local;
-    local.middle.assign(n, 0.0);
-    local.reach.assign(n, 1.0);
-    for (std::size_t j = 0; j < parameters.size(); ++j) {
-        auto const& side = known.unknowns.parameters[j];
-        if (side.radius == 0) continue;
-        paving_detail::normalise(side, parameters[j], local.middle[side.variable],
-                                 local.reach[side.variable]);
-    }
+    local.middle = std::move(middle);
+    local.reach = std::move(reach);
     auto c = known.coefficients;
     std::vector<double> norm(outputs, 0.0);
     for (std::size_t m = 0; m < table.size(); ++m) {
@@ -126,6 +122,20 @@ inline void normalise(normalised_unknowns::side const& s, interval const& part, 
         if (!(local.rest[y] >= 0)) local.rest[y] = std::numeric_limits<double>::infinity();
     }
     return local;
+}
+
+/// Re-expands a response about the middle of a part of its box.
+/// @param parameters  a box inside the one that the response was computed for (trusted)
+/// @guarantee  encloses the outputs for all parameters in the part and all starts of the response
+[[nodiscard]] inline local_response expand(response const& known, box const& parameters) {
+    std::vector<double> middle(known.table->variables, 0.0);
+    std::vector<double> reach(known.table->variables, 1.0);
+    for (std::size_t j = 0; j < parameters.size(); ++j) {
+        auto const& side = known.unknowns.parameters[j];
+        if (side.radius == 0) continue;
+        paving_detail::normalise(side, parameters[j], middle[side.variable], reach[side.variable]);
+    }
+    return expand(known, std::move(middle), std::move(reach));
 }
 
 /// Encloses each output that was reached, over a part of the response's box.

@@ -111,6 +111,33 @@ public:
         return p;
     }
 
+    /// A point of p whose image is close to r, as far as p allows; not proved.
+    [[nodiscard]] std::vector<double> approximate_preimage(box p,
+                                                           std::vector<double> const& r) const {
+        box near(r.size());
+        for (std::size_t k = 0; k < r.size(); ++k) {
+            double const slack = 1e-9 * std::abs(r[k]);
+            near[k] = interval_traits<interval>::bounds(r[k] - slack, r[k] + slack);
+        }
+        auto const narrow = [&] {
+            auto const less = backward(p, near);
+            if (!is_empty(less)) p = less;
+        };
+        narrow();
+        // The pivots come last: they take what the other factors leave.
+        for (bool const pivots : {false, true}) {
+            for (std::size_t j = 0; j < p.size(); ++j) {
+                auto const is_pivot =
+                    std::any_of(sides_.begin(), sides_.end(),
+                                [j](side const& s) { return s.product && s.parameter == j; });
+                if (is_pivot != pivots) continue;
+                p[j] = interval(mid(p[j]));
+                narrow();
+            }
+        }
+        return mid(p);
+    }
+
     /// Smear of the original parameters: that of a product, shared by its factors' relative widths.
     [[nodiscard]] std::vector<double> smear(box const& p, box const& r,
                                             std::vector<double> const& reduced) const {

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_HOLDOUT_JUDGEMENT_HPP
+#define SIVID_DIAGNOSIS_HOLDOUT_JUDGEMENT_HPP
+
+#include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/diagnosis/holdout.hpp>
+#include <sivid/diagnosis/resolve_delays.hpp>
+#include <sivid/diagnosis/verification.hpp>
+#include <sivid/paving/data_test.hpp>
+#include <sivid/paving/fit.hpp>
+#include <sivid/paving/holdout_inflation.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// How a fitted candidate does on data that chose nothing.
+struct holdout_judgement {
+    inflation_range at_witness = unknown_inflation(); ///< of the fit's witness
+    /// Over all parameters whose fit inflation is at most the proved upper bound.
+    std::optional<inflation_range> over_fits;
+    std::vector<double> rmse; ///< per channel; NaN: not measured
+    double covered = std::numeric_limits<double>::quiet_NaN();
+    double width = std::numeric_limits<double>::quiet_NaN();
+    approximate_fit run; ///< residuals of the motion at the witness
+};
+
+namespace diagnosis_detail {
+
+/// Share of samples whose bound meets the outputs of the box of parameters, and the mean width of
+/// these outputs over that of the bounds.
+inline void add_tube(identification_problem const& judged, box const& parameters,
+                     holdout_judgement& result) {
+    auto const everything = box_explorer::without_limit(judged);
+    data_test runs(everything, {});
+    std::size_t samples = 0;
+    std::size_t met = 0;
+    double width_sum = 0;
+    for (std::size_t s = 0; s < judged.experiments.size(); ++s) {
+        auto const answer = runs.run(s, judged.experiments[s].initial, parameters);
+        if (answer->outputs() < answer->measurements) return;
+        auto const values = output_ranges(*answer, parameters);
+        for (std::size_t y = 0; y < values.size(); ++y) {
+            if (!is_bounded(values[y])) return;
+            ++samples;
+            met += disjoint(values[y], answer->bounds[y]) ? 0 : 1;
+            width_sum += width(values[y]) / width(answer->bounds[y]);
+        }
+    }
+    if (samples == 0) return;
+    result.covered = static_cast<double>(met) / static_cast<double>(samples);
+    result.width = width_sum / static_cast<double>(samples);
+}
+
+} // namespace diagnosis_detail
+
+/// Judges a fitted candidate by hold-out experiments. Their own starts, nuisances, are fitted;
+/// nothing else is.
+/// @param bound   what was proved about the candidate's fit
+/// @param judged  `holdout::judged_by` of the candidate
+/// @guarantee  `at_witness` and `over_fits` enclose what they say
+[[nodiscard]] inline holdout_judgement judge_by_holdout(screened const& fitted,
+                                                        verified_inflation const& bound,
+                                                        identification_problem const& judged,
+                                                        double seconds) {
+    holdout_judgement result;
+    auto const& p = bound.witness ? bound.witness->parameters : fitted.fit.parameters;
+    if (p.size() != judged.prior.size()) return result;
+    auto there = judged;
+    for (std::size_t j = 0; j < p.size(); ++j) there.prior[j] = interval(p[j]);
+    start_added_states(there);
+    result.run = fitter(there)(p);
+    bool const known_starts =
+        std::all_of(there.experiments.begin(), there.experiments.end(), [](experiment const& e) {
+            return std::all_of(e.initial.begin(), e.initial.end(),
+                               [](interval const& x) { return width(x) < 1e-9; });
+        });
+    result.at_witness = verify_at(there, result.run).range;
+    if (!known_starts) { // another start may do better
+        result.at_witness = interval_traits<interval>::bounds(0, result.at_witness.upper());
+    }
+    bool const delayed = diagnosis_detail::has_delays(judged.model);
+    if (!delayed && bound.witness && bound.range.upper() < detail::infinity) {
+        inflation_bound fit{bound.range, bound.witness, bound.hull, 0, 0, 0};
+        inflation_options options;
+        options.seconds = seconds;
+        auto const proved = holdout_inflation(fitted.problem, fit, judged, options);
+        result.over_fits = proved.over_fits;
+        auto const both = intersect(result.at_witness, proved.at_witness);
+        if (!is_empty(both)) result.at_witness = both;
+    }
+
+    auto const& channels = judged.model.about.channels;
+    std::vector<double> squares(channels.size(), 0.0);
+    std::vector<double> count(channels.size(), 0.0);
+    for (std::size_t s = 0; s < result.run.residuals.size(); ++s) {
+        auto const data = sorted(there.experiments[s].measurements);
+        for (std::size_t k = 0; k < data.size(); ++k) {
+            double const off = result.run.residuals[s][k] * rad(data[k].bound);
+            squares[data[k].channel] += off * off;
+            count[data[k].channel] += 1;
+        }
+    }
+    for (std::size_t y = 0; y < channels.size(); ++y) {
+        result.rmse.push_back(std::sqrt(squares[y] / count[y]));
+    }
+    if (!delayed && bound.hull.size() == p.size()) {
+        diagnosis_detail::add_tube(judged, bound.hull, result);
+    }
+    return result;
+}
+
+} // namespace sivid
+
+#endif

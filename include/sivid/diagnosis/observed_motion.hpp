@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_OBSERVED_MOTION_HPP
+#define SIVID_DIAGNOSIS_OBSERVED_MOTION_HPP
+
+#include <sivid/diagnosis/channel_tube.hpp>
+#include <sivid/diagnosis/declared_variation.hpp>
+#include <sivid/diagnosis/state_samples.hpp>
+#include <sivid/diagnosis/window_integrals.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace sivid {
+
+/// What one experiment says about the states at all times: tubes of the states that were measured,
+/// and cells on a grid that contains all samples and knots of the inputs.
+struct observed_motion {
+    std::string name;
+    std::vector<std::optional<channel_tube>> tubes; ///< one per state; none where unmeasured
+    std::vector<rate_variation> variation;          ///< declared; of measured states
+    std::vector<double> boundaries;                 ///< of the cells
+    std::vector<time_cell> cells;
+
+    [[nodiscard]] std::size_t boundary_at(double t) const {
+        return static_cast<std::size_t>(std::lower_bound(boundaries.begin(), boundaries.end(), t) -
+                                        boundaries.begin());
+    }
+    /// Encloses a state over [from, to]; the whole line where nothing is known.
+    [[nodiscard]] interval state_over(std::size_t i, double from, double to) const {
+        if (!tubes[i] || !tubes[i]->covers(from, to)) return interval_traits<interval>::entire();
+        return tubes[i]->over(from, to);
+    }
+};
+
+namespace diagnosis_detail {
+
+/// The given times, each gap cut into pieces no longer than about `step`.
+inline std::vector<double> refined(std::vector<double> times, double step) {
+    std::sort(times.begin(), times.end());
+    std::vector<double> result;
+    for (std::size_t k = 0; k + 1 < times.size(); ++k) {
+        double const gap = times[k + 1] - times[k];
+        auto const pieces =
+            static_cast<std::size_t>(std::clamp(std::ceil(gap / step - 1e-6), 1.0, 1e3));
+        for (std::size_t p = 0; p < pieces; ++p) {
+            double const t = times[k] + gap * static_cast<double>(p) / static_cast<double>(pieces);
+            if (result.empty() || result.back() < t) result.push_back(t);
+        }
+    }
+    if (result.empty() || result.back() < times.back()) result.push_back(times.back());
+    return result;
+}
+
+} // namespace diagnosis_detail
+
+/// The tubes and cells of one experiment under declared variations.
+/// @param cells_per_gap  cells between two samples
+/// @guarantee  every motion that keeps the bounds of `e` and the variations lies in the cells
+[[nodiscard]] inline observed_motion
+observe_motion(bound_model const& model, box const& prior, experiment const& e,
+               std::vector<std::optional<std::size_t>> const& channels,
+               std::vector<rate_variation> const& variation, std::size_t cells_per_gap) {
+    using traits = interval_traits<interval>;
+    auto const n = model.state_count();
+    observed_motion result;
+    result.name = e.name;
+    result.variation = variation;
+    result.tubes.resize(n);
+    double period = HUGE_VAL;
+    double end = e.begin;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!channels[i]) continue;
+        auto const s = state_samples::of(e, i, *channels[i]);
+        result.tubes[i].emplace(s.times, s.bounds, variation[i]);
+        result.boundaries.insert(result.boundaries.end(), s.times.begin(), s.times.end());
+        if (s.times.size() > 1) period = std::min(period, s.period());
+        end = std::max(end, s.times.back());
+    }
+    if (!(end > e.begin)) return result;
+    for (auto const& input : e.inputs) {
+        auto const* sampled = std::get_if<sampled_signal>(&input);
+        if (sampled == nullptr) continue;
+        for (double const t : sampled->times()) {
+            if (t > e.begin && t < end) result.boundaries.push_back(t);
+        }
+    }
+    result.boundaries = diagnosis_detail::refined(std::move(result.boundaries),
+                                                  period / static_cast<double>(cells_per_gap));
+    for (std::size_t c = 0; c + 1 < result.boundaries.size(); ++c) {
+        time_cell cell{result.boundaries[c], result.boundaries[c + 1], {}};
+        cell.at = {traits::bounds(cell.from, cell.to), box(n), prior, box(e.inputs.size())};
+        for (std::size_t i = 0; i < n; ++i) {
+            cell.at.states[i] = result.state_over(i, cell.from, cell.to);
+        }
+        for (std::size_t u = 0; u < e.inputs.size(); ++u) {
+            cell.at.inputs[u] = input_over(e.inputs[u], cell.from, cell.to);
+        }
+        result.cells.push_back(std::move(cell));
+    }
+    return result;
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_PLACE_HPP
+#define SIVID_DIAGNOSIS_PLACE_HPP
+
+#include <sivid/model/model.hpp>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace sivid {
+
+enum class place_kind {
+    equation,  ///< a rate that depends on constants or inputs
+    kinematic, ///< a rate of states alone
+    sensor,
+    input
+};
+
+/// Something that can be wrong: an equation, a sensor (of one channel, or of several that are
+/// measured together), an input.
+struct place {
+    place_kind kind = place_kind::equation;
+    std::vector<std::size_t> members; ///< a state, channels, or an input
+    std::string name;
+    double cost = 1; ///< how many ordinary places it counts for
+
+    [[nodiscard]] bool is_equation() const {
+        return kind == place_kind::equation || kind == place_kind::kinematic;
+    }
+};
+
+/// How a dynamic equation is called: after its state, as long as nobody knows better.
+[[nodiscard]] inline std::vector<place> places_of(recorded_model const& model,
+                                                  std::vector<bool> const& measured) {
+    std::vector<place> result;
+    auto const& about = model.about;
+    auto const dynamic = [&](std::size_t i) {
+        return (model.g.depends(model.rate[i]) & (on_constant | on_input)) != 0;
+    };
+    auto const identity = [&](std::size_t i) {
+        return model.g[model.rate[i]].op == operation::state;
+    };
+    for (std::size_t i = 0; i < model.rate.size(); ++i) {
+        place p;
+        p.members = {i};
+        p.name = about.states[i].equation_name();
+        if (!dynamic(i)) {
+            p.kind = place_kind::kinematic;
+            p.cost = identity(i) ? 1.5 : 2.5;
+        }
+        result.push_back(std::move(p));
+    }
+    // Channels that show states of one geometry in one unit come from one instrument.
+    auto const geometric = [&](std::size_t channel) {
+        auto const& n = model.g[model.observe[channel]];
+        if (n.op != operation::state) return false;
+        auto const i = static_cast<std::size_t>(n.index);
+        return !dynamic(i) && !identity(i);
+    };
+    std::vector<bool> taken(model.observe.size(), false);
+    for (std::size_t k = 0; k < model.observe.size(); ++k) {
+        if (taken[k] || !measured[k]) continue;
+        place p;
+        p.kind = place_kind::sensor;
+        p.name = about.channels[k].name;
+        for (std::size_t j = k; j < model.observe.size(); ++j) {
+            bool const joins = j == k || (geometric(j) && geometric(k) && measured[j] &&
+                                          about.channels[j].unit == about.channels[k].unit);
+            if (!joins) continue;
+            taken[j] = true;
+            p.members.push_back(j);
+        }
+        result.push_back(std::move(p));
+    }
+    return result;
+}
+
+} // namespace sivid
+
+#endif

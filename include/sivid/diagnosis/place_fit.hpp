@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_PLACE_FIT_HPP
+#define SIVID_DIAGNOSIS_PLACE_FIT_HPP
+
+#include <sivid/diagnosis/missing_rate.hpp>
+#include <sivid/diagnosis/sensor_model.hpp>
+#include <sivid/paving/descent.hpp>
+#include <sivid/paving/suspect_samples.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// Variables by name instead of by column, so that one set of places can start from another's fit.
+struct place_state {
+    std::vector<double> parameters; ///< the model's and the sensors'
+    std::vector<std::vector<double>> starts;
+    /// [experiment][equation][knot]; empty for equations that hold
+    std::vector<std::vector<std::vector<double>>> missing;
+};
+
+/// What a set of places explains when it may be wrong.
+struct place_fit {
+    std::vector<std::size_t> set; ///< indices of places, increasing
+    double cost = 0;
+    double inflation = std::numeric_limits<double>::infinity();
+    double squares = std::numeric_limits<double>::infinity(); ///< sum of squared residuals
+    double freedom = 0;                                       ///< effective number of variables
+    double score = std::numeric_limits<double>::infinity();   ///< 3 squares + freedom ln n
+    place_state state;                                        ///< of the least squares
+    /// Standard deviation of each missing rate, as `state.missing`.
+    std::vector<std::vector<std::vector<double>>> deviation;
+};
+
+/// Fits a problem with some places allowed to be wrong: equations get a piecewise linear missing
+/// rate, sensors scale, latency and offset.
+class place_fitter {
+public:
+    place_fitter(identification_problem const& problem, std::vector<place> places)
+        : places_(std::move(places)),
+          extended_(with_sensor_faults(problem, places_, longest_delay(problem))),
+          campaign_(extended_.problem, knots_of(problem)) {
+        kept_ = without_suspects(campaign_);
+        for (auto const& e : kept_) {
+            for (double const w : e) samples_ += w;
+        }
+    }
+
+    [[nodiscard]] std::vector<place> const& places() const { return places_; }
+    [[nodiscard]] sensor_problem const& extended() const { return extended_; }
+    [[nodiscard]] campaign& simulations() { return campaign_; }
+    [[nodiscard]] residual_lists const& kept() const { return kept_; }
+    void set_scales(std::vector<missing_rate_scale> scales) { scales_ = std::move(scales); }
+    [[nodiscard]] std::vector<missing_rate_scale> const& scales() const { return scales_; }
+
+    /// The problem's own parameters and starts, nothing missing.
+    [[nodiscard]] place_state plain(std::vector<double> const& parameters,
+                                    std::vector<std::vector<double>> const& starts) const {
+        place_state state{parameters, starts, {}};
+        state.parameters.resize(extended_.problem.prior.size(), 0.0);
+        return state;
+    }
+
+    /// @param precise  whether the inflation is wanted, not only the squares
+    [[nodiscard]] place_fit operator()(std::vector<std::size_t> set, place_state const& from,
+                                       bool precise = true) {
+        place_fit result;
+        result.set = std::move(set);
+        release(result.set);
+        for (auto const p : result.set) result.cost += places_[p].cost;
+        descent down(campaign_, prior());
+        descent_point here;
+        if (!down.evaluate(vector_of(from), here)) return result;
+        down.run(here, 2, kept_, {12, 2e-3});
+        auto best = here;
+        result.squares = squares(here.residuals);
+        if (precise && here.inflation > 0.97) {
+            auto polished = here;
+            for (double const power : {4.0, 8.0, 16.0, 32.0}) {
+                if (best.inflation < 0.97 || best.inflation > 8) break;
+                down.run(polished, power, {}, {3, 1e-2}, &best);
+            }
+        }
+        result.inflation = best.inflation;
+        result.state = state_of(here.at);
+        if (down.assemble_plain(here, kept_)) measure(down, result);
+        result.score = 3 * result.squares + result.freedom * std::log(std::max(samples_, 2.0));
+        return result;
+    }
+
+    /// Chooses the variables of a set of places.
+    void release(std::vector<std::size_t> const& set) {
+        std::vector<bool> free(extended_.problem.prior.size(), false);
+        for (std::size_t j = 0; j < extended_.original; ++j) free[j] = true;
+        equations_.clear();
+        for (auto const p : set) {
+            for (auto const j : extended_.faults[p]) free[j] = true;
+            if (places_[p].is_equation()) equations_.push_back(places_[p].members.front());
+        }
+        auto held = mid(extended_.problem.prior);
+        for (std::size_t j = extended_.original; j < held.size(); ++j) held[j] = 0;
+        campaign_.hold(std::move(held));
+        campaign_.release(equations_, free);
+    }
+    [[nodiscard]] std::vector<std::size_t> const& equations() const { return equations_; }
+    [[nodiscard]] regularisation prior() const {
+        regularisation smooth;
+        std::vector<missing_rate_scale> own;
+        for (auto const i : equations_) own.push_back(scales_[i]);
+        for (std::size_t e = 0; e < campaign_.experiments(); ++e) {
+            smooth.push_back(missing_rate_prior(campaign_.knots(e), own, campaign_.free_starts(e)));
+        }
+        return smooth;
+    }
+
+    [[nodiscard]] arrow_vector vector_of(place_state const& s) const {
+        auto z = arrow_vector::like(campaign_.lower(), 0);
+        auto const& free = campaign_.free_parameters();
+        for (std::size_t k = 0; k < free.size(); ++k) {
+            z.global[static_cast<Eigen::Index>(k)] = s.parameters[free[k]];
+        }
+        for (std::size_t e = 0; e < campaign_.experiments(); ++e) {
+            auto const& columns = campaign_.layout(e).start_column;
+            Eigen::Index at = 0;
+            for (std::size_t i = 0; i < columns.size(); ++i) {
+                if (columns[i] != sensitivity_layout::none) z.local[e][at++] = s.starts[e][i];
+            }
+            for (std::size_t k = 0; k < campaign_.knots(e).size(); ++k) {
+                for (auto const i : equations_) {
+                    bool const known = !s.missing.empty() && !s.missing[e][i].empty();
+                    z.local[e][at++] = known ? s.missing[e][i][k] : 0;
+                }
+            }
+        }
+        return z;
+    }
+    [[nodiscard]] place_state state_of(arrow_vector const& z) const {
+        place_state s;
+        s.parameters = campaign_.parameters(z);
+        auto const n = extended_.problem.model.rate.size();
+        for (std::size_t e = 0; e < campaign_.experiments(); ++e) {
+            s.starts.push_back(campaign_.start(e, z));
+            auto const d = campaign_.disturbance(e, z);
+            s.missing.push_back(by_equation(d, campaign_.knots(e).size(), n));
+        }
+        return s;
+    }
+
+private:
+    [[nodiscard]] static double longest_delay(identification_problem const& problem) {
+        double longest = 0;
+        for (auto const& e : problem.experiments) {
+            for (auto const& m : e.measurements) longest = std::max(longest, m.time - e.begin);
+        }
+        return std::min(0.6, 0.25 * longest);
+    }
+    [[nodiscard]] static std::vector<std::vector<double>>
+    knots_of(identification_problem const& problem) {
+        std::vector<std::vector<double>> knots;
+        for (auto const& e : problem.experiments) knots.push_back(missing_rate_knots(e));
+        return knots;
+    }
+    [[nodiscard]] std::vector<std::vector<double>>
+    by_equation(std::vector<double> const& d, std::size_t knots, std::size_t states) const {
+        std::vector<std::vector<double>> result(states);
+        auto const count = equations_.size();
+        for (std::size_t c = 0; c < count; ++c) {
+            for (std::size_t k = 0; k < knots; ++k)
+                result[equations_[c]].push_back(d[k * count + c]);
+        }
+        return result;
+    }
+    [[nodiscard]] double squares(residual_lists const& r) const {
+        double sum = 0;
+        for (std::size_t e = 0; e < r.size(); ++e) {
+            for (std::size_t k = 0; k < r[e].size(); ++k) sum += kept_[e][k] * r[e][k] * r[e][k];
+        }
+        return sum;
+    }
+    /// Effective number of variables, n - tr(H^-1 R), and deviations of the missing rates.
+    void measure(descent& down, place_fit& result) const {
+        auto& system = down.system();
+        arrow_vector step;
+        auto const none = arrow_vector::like(campaign_.lower(), 0);
+        if (!system.solve(1e-9, none, step)) return;
+        auto const smooth = prior();
+        result.freedom = static_cast<double>(campaign_.free_parameters().size());
+        auto const n = extended_.problem.model.rate.size();
+        for (std::size_t e = 0; e < campaign_.experiments(); ++e) {
+            Eigen::MatrixXd const inverse = system.local_inverse(e);
+            Eigen::MatrixXd const r = smooth[e].selfadjointView<Eigen::Lower>();
+            result.freedom += static_cast<double>(inverse.rows()) - inverse.cwiseProduct(r).sum();
+            std::vector<double> own;
+            for (auto k = static_cast<Eigen::Index>(campaign_.free_starts(e)); k < inverse.rows();
+                 ++k) {
+                own.push_back(std::sqrt(std::max(inverse(k, k), 0.0)));
+            }
+            result.deviation.push_back(by_equation(own, campaign_.knots(e).size(), n));
+        }
+    }
+
+    std::vector<place> places_;
+    sensor_problem extended_;
+    campaign campaign_;
+    residual_lists kept_;
+    double samples_ = 0;
+    std::vector<missing_rate_scale> scales_;
+    std::vector<std::size_t> equations_;
+};
+
+} // namespace sivid
+
+#endif

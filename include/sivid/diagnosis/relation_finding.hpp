@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_RELATION_FINDING_HPP
+#define SIVID_DIAGNOSIS_RELATION_FINDING_HPP
+
+#include <sivid/number/interval.hpp>
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sivid {
+
+/// A time window of an experiment.
+struct relation_window {
+    std::string scenario;
+    double from = 0, to = 0;
+
+    friend bool operator==(relation_window const&, relation_window const&) = default;
+};
+
+/// What would have to be added to an equation on the average over a window for it to hold there.
+struct missing_rate {
+    relation_window window;
+    interval value;   ///< certified over the whole prior
+    std::string unit; ///< of the state, per s
+};
+
+/// What was found out about one state equation together with the sensors in its row.
+struct relation_finding {
+    std::size_t equation = 0;
+    std::string name;                  ///< of the state whose rate it is
+    std::vector<std::string> channels; ///< the sensors in the row, if proved
+    /// For no parameter of the prior and no start do the equation and all bounds of these sensors
+    /// hold, if the assumptions do. Nothing is said about which of them fails.
+    bool proved = false;
+    std::vector<std::string> assumptions;
+    std::vector<relation_window> windows; ///< that carry the proof, at most coefficients + 1
+    /// Certified: no parameter fulfils all windows even if each may be off by so many times half of
+    /// what the bounds leave open in it. Not above 0: nothing is proved.
+    double margin = 0;
+    std::optional<missing_rate> missing; ///< of the window in which it is clearest
+    std::string reason;                  ///< why nothing could be tried
+};
+
+/// How relations are examined.
+struct relation_options {
+    double shortest = 0.3, longest = 10; ///< of the windows [s]
+    /// Declared bounds on how much the rate of a state varies from one sample to the next, by the
+    /// state's name, in its unit per s; states that are not named get a default (see
+    /// `declare_variations`).
+    std::map<std::string, double> rate_variation;
+    /// A proof by less than this is not reported: reserve against assumptions that are met barely.
+    double least_margin = 0.02;
+    std::size_t cells_per_gap = 4;    ///< cells between two samples
+    std::size_t most_windows = 20000; ///< for one equation
+};
+
+} // namespace sivid
+
+#endif

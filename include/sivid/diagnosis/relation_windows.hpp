@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_RELATION_WINDOWS_HPP
+#define SIVID_DIAGNOSIS_RELATION_WINDOWS_HPP
+
+#include <sivid/diagnosis/observed_motion.hpp>
+#include <sivid/diagnosis/relation_finding.hpp>
+#include <sivid/diagnosis/relation_row.hpp>
+#include <sivid/diagnosis/weak_windows.hpp>
+#include <sivid/diagnosis/window_integrals.hpp>
+#include <sivid/model/unit.hpp>
+#include <sivid/paving/problem.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// How the integrals of a relation are enclosed.
+enum class window_way {
+    direct,   ///< from the tubes of the states in the row alone
+    by_parts, ///< also by parts, with q' = r for states r in the row: one more sensor, sharper
+    weak      ///< under a bump, where the state itself was not measured but its integral was
+};
+
+/// The equations of a problem over windows of its experiments without an outlier budget.
+class relation_windows {
+    using traits = interval_traits<interval>;
+
+public:
+    /// @param problem  outlives this object
+    /// @throws std::invalid_argument if the problem is not valid
+    relation_windows(identification_problem const& problem, relation_options const& options)
+        : problem_(&problem), options_(options) {
+        problem.require_valid();
+        std::vector<experiment const*> trusted;
+        for (auto const& e : problem.experiments) {
+            if (e.outliers == 0) trusted.push_back(&e);
+        }
+        if (!problem.model.input_delays.empty() || !problem.model.channel_delays.empty()) {
+            obstacle_ = "the model has delays";
+        } else if (trusted.empty()) {
+            obstacle_ = "every experiment has an outlier budget: no window can be trusted";
+        }
+        if (!obstacle_.empty()) return;
+        // The inputs stay leaves, so that all experiments share one graph.
+        std::vector<signal> const open(about().inputs.size(),
+                                       sampled_signal({0.0}, {0.0}, interpolation::linear));
+        model_ = bind(problem.model, problem.choice, open);
+        channels_ = measured_states(model_, trusted);
+        std::vector<rate_scales> scales;
+        for (auto const* e : trusted) {
+            scales.push_back(find_rate_scales(model_, problem.prior, *e, channels_));
+        }
+        auto const laws = declare_variations(model_, scales, options.rate_variation);
+        for (std::size_t e = 0; e < trusted.size(); ++e) {
+            motions_.push_back(observe_motion(model_, problem.prior, *trusted[e], channels_,
+                                              laws[e], options.cells_per_gap));
+        }
+        for (std::size_t q = 0; q < model_.state_count(); ++q) {
+            auto const& n = model_.g[model_.rate[q]];
+            if (n.op != operation::state || !channels_[q]) continue;
+            if (auto const r = static_cast<std::size_t>(n.index); r != q) pairs_.push_back({r, q});
+        }
+    }
+
+    relation_windows(relation_windows const&) = delete; // what is prepared points into the graph
+    relation_windows& operator=(relation_windows const&) = delete;
+
+    [[nodiscard]] model_description const& about() const { return problem_->model.about; }
+    [[nodiscard]] observed_motion const& motion(std::size_t m) const { return motions_[m]; }
+    /// @given  `obstacle(i)` was asked
+    [[nodiscard]] relation_row const& row(std::size_t i) const { return rows_.at(i).row; }
+    [[nodiscard]] std::string rate_unit(std::size_t i) const {
+        return unit(about().states[i].unit).times(unit("s"), -1).text();
+    }
+
+    /// Why equation i cannot be examined; empty if it can.
+    [[nodiscard]] std::string obstacle(std::size_t i) {
+        if (!obstacle_.empty()) return obstacle_;
+        auto const& e = prepared(i);
+        if (!e.row.bounded) return "a coefficient is unbounded over the prior";
+        auto const weak = weak_pair(i);
+        if (!channels_[i] && (!weak || !weak_windows::of(e.set, *weak))) {
+            return "no measurement shows " + about().states[i].name;
+        }
+        for (auto const s : e.row.states) {
+            if (!channels_[s] && s != i) return "no measurement shows " + about().states[s].name;
+        }
+        return {};
+    }
+
+    /// The ways in which equation i can be enclosed, the one with the fewest sensors first.
+    [[nodiscard]] std::vector<window_way> ways(std::size_t i) {
+        if (!channels_[i]) return {window_way::weak};
+        auto const used = pairs_of(i);
+        if (used.empty()) return {window_way::direct};
+        return {window_way::direct, window_way::by_parts};
+    }
+
+    /// All windows between the shortest and the longest; every so many of them if there are too
+    /// many.
+    [[nodiscard]] std::vector<window_row> all(std::size_t i, window_way way) {
+        return windows(i, way, options_.shortest, options_.longest);
+    }
+    /// The windows of about one length.
+    [[nodiscard]] std::vector<window_row> of_length(std::size_t i, window_way way, double length) {
+        std::vector<window_row> result;
+        for (auto& w : windows(i, way, length, 1.2 * length)) {
+            bool const next =
+                result.empty() || result.back().motion != w.motion || result.back().from < w.from;
+            if (next) result.push_back(std::move(w));
+        }
+        return result;
+    }
+
+    /// Sensors and assumptions of a proof.
+    void describe(std::size_t i, window_way way, std::set<std::size_t> const& motions,
+                  bool from_begin, relation_finding& result) const {
+        auto tubes = row(i).states;
+        if (way == window_way::by_parts) {
+            for (auto const& p : pairs_of(i)) add_pair(p, tubes, result);
+        } else if (way == window_way::weak) {
+            add_pair(*weak_pair(i), tubes, result);
+            tubes.erase(i);
+        }
+        for (auto const s : tubes) {
+            std::string text;
+            for (auto const m : motions) {
+                text += (text.empty() ? "" : ", ") + digits(motions_[m].variation[s].variation) +
+                        " " + rate_unit(s) + " in " + motions_[m].name;
+            }
+            result.assumptions.push_back(about().states[s].name + "' varies within " +
+                                         digits(motions_[*motions.begin()].variation[s].period) +
+                                         " s by at most " + text);
+        }
+        if (row(i).uses_inputs) result.assumptions.emplace_back("inputs exact");
+        if (from_begin) result.assumptions.emplace_back("initial states in their boxes");
+        if (way != window_way::weak) tubes.insert(i);
+        for (auto const s : tubes) result.channels.push_back(about().channels[*channels_[s]].name);
+    }
+
+private:
+    struct prepared_equation {
+        relation_row row;
+        integrand_set set;
+        std::vector<window_integrals> integrals; ///< one per experiment with cells
+    };
+
+    [[nodiscard]] prepared_equation& prepared(std::size_t i) {
+        if (auto const found = rows_.find(i); found != rows_.end()) return found->second;
+        auto& e = rows_[i];
+        e.row = make_relation_row(model_.g, model_.rate.at(i), i, problem_->prior);
+        e.set = integrand_set::of(model_.g, e.row.functions, model_.state_count());
+        return e;
+    }
+    /// Pairs that help with equation i: r in its row, q not its own state.
+    [[nodiscard]] std::vector<derivative_pair> pairs_of(std::size_t i) const {
+        std::vector<derivative_pair> result;
+        for (auto const& p : pairs_) {
+            if (p.q != i && channels_[p.r] && row(i).states.count(p.r) > 0) result.push_back(p);
+        }
+        return result;
+    }
+    [[nodiscard]] std::optional<derivative_pair> weak_pair(std::size_t i) const {
+        for (auto const& p : pairs_) {
+            if (p.r == i) return p;
+        }
+        return std::nullopt;
+    }
+    void add_pair(derivative_pair const& p, std::set<std::size_t>& states,
+                  relation_finding& result) const {
+        states.insert(p.q);
+        result.assumptions.push_back(about().states[p.q].name + "' = " + about().states[p.r].name);
+    }
+    /// Six digits, for the text of an assumption.
+    [[nodiscard]] static std::string digits(double x) {
+        std::array<char, 32> text{};
+        auto const end =
+            std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::general, 6);
+        return {text.data(), end.ptr};
+    }
+
+    [[nodiscard]] std::vector<window_row> windows(std::size_t i, window_way way, double shortest,
+                                                  double longest) {
+        auto& e = prepared(i);
+        std::vector<window_row> result;
+        if (way == window_way::weak) {
+            auto const weak = weak_windows::of(e.set, *weak_pair(i));
+            for (std::size_t m = 0; weak && m < motions_.size(); ++m) {
+                auto more = weak->over(motions_[m], m, shortest, longest);
+                std::move(more.begin(), more.end(), std::back_inserter(result));
+            }
+            return result;
+        }
+        if (e.integrals.empty()) {
+            for (auto const& m : motions_) e.integrals.emplace_back(e.set, m.cells, pairs_of(i));
+        }
+        std::size_t total = 0;
+        for (int const pass : {0, 1}) {
+            std::size_t count = 0;
+            auto const stride = total / options_.most_windows + 1;
+            for (std::size_t m = 0; m < motions_.size(); ++m) {
+                auto const& times = motions_[m].tubes[i]->times();
+                for (std::size_t b = 1; b < times.size(); ++b) {
+                    for (std::size_t a = b; a-- > 0;) {
+                        double const length = times[b] - times[a];
+                        if (length > longest * (1 + 1e-9)) break;
+                        if (length < shortest * (1 - 1e-9)) continue;
+                        if (++count % stride != 0 || pass == 0) continue;
+                        window_row w;
+                        w.motion = m;
+                        if (fill(e, a, b, way, w)) result.push_back(std::move(w));
+                    }
+                }
+            }
+            total = count;
+        }
+        return result;
+    }
+
+    [[nodiscard]] bool fill(prepared_equation const& e, std::size_t a, std::size_t b,
+                            window_way way, window_row& w) const {
+        auto const& motion = motions_[w.motion];
+        auto const& tube = *motion.tubes[e.row.equation];
+        auto const& integral = e.integrals[w.motion];
+        w.from = tube.times()[a];
+        w.to = tube.times()[b];
+        w.difference = traits::sub(tube.bound(b), tube.bound(a));
+        w.length = traits::sub(traits::point(w.to), traits::point(w.from));
+        auto const first = motion.boundary_at(w.from);
+        auto const last = motion.boundary_at(w.to);
+        auto const q_at = [&motion](std::size_t q, std::size_t k) {
+            return motion.state_over(q, motion.boundaries[k], motion.boundaries[k]);
+        };
+        for (std::size_t j = 0; j < e.row.functions.size(); ++j) {
+            auto value = integral.direct(j, first, last);
+            if (way == window_way::by_parts && integral.has_parts(j)) {
+                auto const both = intersect(value, integral.by_parts(j, first, last, q_at));
+                if (!is_empty(both)) value = both;
+            }
+            if (!is_bounded(value)) return false;
+            w.a.push_back(value);
+        }
+        return is_bounded(w.difference);
+    }
+
+    identification_problem const* problem_;
+    relation_options options_;
+    std::string obstacle_;
+    bound_model model_;
+    std::vector<std::optional<std::size_t>> channels_;
+    std::vector<observed_motion> motions_;
+    std::vector<derivative_pair> pairs_;
+    std::map<std::size_t, prepared_equation> rows_;
+};
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_COMBINED_POLYNOMIAL_HPP
+#define SIVID_PAVING_COMBINED_POLYNOMIAL_HPP
+
+#include <sivid/paving/response.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// A polynomial with enclosed coefficients over \f$ d \in [-1,1]^n \f$, plus an enclosed constant
+/// that may differ from point to point.
+class combined_polynomial {
+    using traits = interval_traits<interval>;
+
+public:
+    explicit combined_polynomial(std::size_t unknowns) : n_(unknowns) {}
+
+    void add_constant(interval const& c) { constant_ = traits::add(constant_, c); }
+
+    /// Where a variable of a response lies: \f$ q_v = middle + reach \cdot d_{unknown} \f$.
+    struct place {
+        std::size_t unknown = 0;
+        interval middle{0.0};
+        interval reach{1.0};
+    };
+
+    /// Adds \f$ \sum_y weight_y y(q) \f$ of a response's outputs.
+    /// @param weights  (output, weight)
+    /// @param places   one per variable of the response
+    void add(response const& known, std::vector<std::pair<std::size_t, double>> const& weights,
+             std::vector<place> const& places) {
+        auto const& table = *known.table;
+        std::vector<interval> c(table.size(), traits::point(0.0));
+        for (auto const& [y, w] : weights) {
+            auto const weight = traits::point(w);
+            for (std::size_t m = 0; m < table.size(); ++m) {
+                auto const own = traits::point(known.coefficients[m * known.outputs() + y]);
+                c[m] = traits::add(c[m], traits::mul(weight, own));
+            }
+            auto const r = known.radius[y];
+            add_constant(traits::mul(weight, traits::bounds(-r, r)));
+        }
+        for (std::size_t v = 0; v < table.variables; ++v) {
+            auto const& shift = places[v].middle;
+            if (mag(shift) == 0) continue;
+            for (auto const& line : table.lines[v]) { // Horner's scheme, complete
+                for (std::size_t low = 0; low + 1 < line.size(); ++low) {
+                    for (std::size_t k = line.size() - 1; k-- > low;) {
+                        c[line[k]] = traits::add(c[line[k]], traits::mul(shift, c[line[k + 1]]));
+                    }
+                }
+            }
+        }
+        for (std::size_t m = 0; m < table.size(); ++m) {
+            powers e(n_, 0);
+            for (std::size_t v = 0; v < table.variables; ++v) {
+                e[places[v].unknown] = table.exponents[m][v];
+                for (std::size_t k = 0; k < table.exponents[m][v]; ++k) {
+                    c[m] = traits::mul(c[m], places[v].reach);
+                }
+            }
+            auto const [known_term, is_new] = terms_.emplace(std::move(e), c[m]);
+            if (!is_new) known_term->second = traits::add(known_term->second, c[m]);
+        }
+    }
+
+    /// A number that the polynomial nowhere falls below.
+    ///   Squares that outweigh the mixed term of their unknowns absorb it, \f$ |c d_u d_v| \le
+    ///   |c| (\theta d_u^2 + d_v^2/\theta)/2 \f$; what is left splits into the unknowns.
+    /// @cost  O(terms)
+    [[nodiscard]] double lower_bound() const {
+        return std::max(lower_bound(true), lower_bound(false));
+    }
+
+private:
+    using powers = std::vector<std::uint8_t>;
+
+    /// Enclosed sum of what has no unknown, with one bound of each unknown's own part.
+    [[nodiscard]] double lower_bound(bool absorb) const {
+        auto total = constant_;
+        std::vector<double> slope(n_, 0.0);  // at most so large
+        std::vector<double> square(n_, 0.0); // at least so large
+        struct mixed_term {
+            std::size_t u, v;
+            double size;
+        };
+        std::vector<mixed_term> mixed;
+        auto const lose = [&](double size) {
+            total = traits::sub(total, traits::bounds(0.0, size));
+        };
+        for (auto const& [e, c] : terms_) {
+            if (!is_bounded(c)) return -HUGE_VAL;
+            std::size_t degree = 0;
+            bool even = true;
+            for (auto const k : e) {
+                degree += k;
+                even = even && k % 2 == 0;
+            }
+            if (degree == 0) {
+                total = traits::add(total, c);
+                continue;
+            }
+            auto const is_used = [](std::uint8_t k) { return k > 0; };
+            auto const u =
+                static_cast<std::size_t>(std::find_if(e.begin(), e.end(), is_used) - e.begin());
+            if (degree == 1) {
+                slope[u] = mag(c);
+            } else if (degree == 2 && e[u] == 2) {
+                square[u] = lower(c);
+            } else if (degree == 2) {
+                auto const v = static_cast<std::size_t>(
+                    std::find(e.begin() + static_cast<std::ptrdiff_t>(u) + 1, e.end(), 1) -
+                    e.begin());
+                mixed.push_back({u, v, mag(c)});
+            } else {
+                if (!even || !(lower(c) >= 0)) lose(mag(c));
+            }
+        }
+        for (auto const& [u, v, size] : mixed) {
+            double const theta = absorb && square[u] > 0 && square[v] > 0
+                                     ? std::sqrt(square[u] / square[v])
+                                     : 0.0;
+            auto const half = traits::mul(traits::point(0.5), traits::point(size));
+            bool undefined = false;
+            auto const from_u = traits::mul(half, traits::point(theta));
+            auto const from_v = traits::div(half, traits::point(theta), undefined);
+            bool const fits = theta > 0 && !undefined && std::isfinite(mag(from_v)) &&
+                              upper(from_u) <= square[u] && upper(from_v) <= square[v];
+            if (!fits) {
+                lose(size);
+                continue;
+            }
+            square[u] = lower(traits::sub(traits::point(square[u]), from_u));
+            square[v] = lower(traits::sub(traits::point(square[v]), from_v));
+        }
+        for (std::size_t v = 0; v < n_; ++v) {
+            total = traits::add(total, least_of_parabola(slope[v], square[v]));
+        }
+        return is_empty(total) ? -HUGE_VAL : lower(total);
+    }
+
+    /// Encloses the least value of \f$ b d^2 - a |d| \f$ for \f$ |d| \le 1 \f$.
+    [[nodiscard]] static interval least_of_parabola(double a, double b) {
+        if (!(a < 2 * b)) return traits::sub(traits::point(b), traits::point(a));
+        bool undefined = false;
+        auto const four_b = traits::mul(traits::point(4.0), traits::point(b));
+        auto const square = traits::mul(traits::point(a), traits::point(a));
+        return traits::neg(traits::div(square, four_b, undefined));
+    }
+
+    std::size_t n_;
+    interval constant_ = traits::point(0.0);
+    std::map<powers, interval> terms_;
+};
+
+} // namespace sivid
+
+#endif

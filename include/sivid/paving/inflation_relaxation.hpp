@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_INFLATION_RELAXATION_HPP
+#define SIVID_PAVING_INFLATION_RELAXATION_HPP
+
+#include <sivid/paving/combined_polynomial.hpp>
+#include <sivid/paving/local_response.hpp>
+#include <sivid/paving/minimax_lp.hpp>
+#include <sivid/paving/misfit.hpp>
+#include <sivid/paving/response.hpp>
+#include <sivid/space/box.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// What the responses of several experiments say of the inflation over a box of parameters.
+struct inflation_relaxation {
+    double lower = 0;           ///< proved: nowhere in the box is the inflation smaller
+    double slack = 0;           ///< what the curvature may have cost the bound
+    std::vector<double> blur;   ///< per experiment: what its remainders may have cost
+    std::vector<double> smear;  ///< per parameter
+    std::vector<double> point;  ///< parameters where the inflation is about least, not proved
+    std::vector<std::vector<double>> starts; ///< one initial state per experiment, for `point`
+    double approximate_value = std::numeric_limits<double>::infinity(); ///< about, at `point`
+};
+
+/// Bounds the inflation \f$ \max_s (q_s+1)\text{-th largest} |y_i - m_i| / e_i \f$ from below over
+/// a box of parameters, whatever the starts.
+///   For weights w and signs s of measurements of experiments without outliers, \f$ \lambda \ge
+///   \min_d \sum_i w_i s_i (y_i(d) - m_i) / \sum_i w_i e_i \f$: nonlinear terms of different
+///   measurements cancel. The weights are the multipliers of the linearised minimax problem. An
+///   experiment that allows q outliers has q + 1 disjoint groups of measurements each of which
+///   proves the bound, since one of the groups contains no outlier.
+/// @guarantee  `lower` for any weights; each is evaluated by interval arithmetic
+/// @cost  one re-expansion of the responses, some exchanges of the linear program
+class inflation_bounder {
+    using traits = interval_traits<interval>;
+
+public:
+    using responses = std::vector<std::shared_ptr<response const>>;
+
+    /// @param outliers  budget of each experiment
+    /// @param part      inside the boxes that the responses were computed for (trusted)
+    inflation_bounder(responses const& known, std::vector<std::size_t> const& outliers,
+                      box const& part)
+        : known_(&known), outliers_(&outliers), part_(&part), unknowns_(part.size()) {
+        for (auto const& r : known) place(*r);
+        for (auto const& r : known) linearise(*r);
+    }
+
+    /// @param target  a bound that is worth more work with outliers; more is of no use
+    [[nodiscard]] inflation_relaxation operator()(double target) {
+        inflation_relaxation result;
+        result.blur.assign(known_->size(), 0.0);
+        result.smear.assign(part_->size(), 0.0);
+        bool const strict = std::count(outliers_->begin(), outliers_->end(), 0u) > 0;
+        if (strict) {
+            auto const solved = minimax_solver(unknowns_, strict_blocks())();
+            take(result, certified(solved.weights));
+            describe(result, solved.weights);
+            propose(result, solved.point);
+        }
+        for (std::size_t s = 0; s < known_->size(); ++s) {
+            if ((*outliers_)[s] == 0) continue;
+            double const bound = relaxed(s, target);
+            if (bound > result.lower || !strict) spread(result, s);
+            take(result, bound);
+        }
+        if (std::any_of(outliers_->begin(), outliers_->end(), [](auto q) { return q > 0; })) {
+            propose(result, minimax_solver(unknowns_, trimmed_blocks())().point);
+        }
+        return result;
+    }
+
+private:
+    static void take(inflation_relaxation& result, double bound) {
+        if (bound > result.lower) result.lower = std::min(bound, detail::greatest);
+    }
+
+    /// Names the variables of a response: parameters are shared, starts are its own.
+    void place(response const& r) {
+        auto& places = places_.emplace_back(r.table->variables);
+        auto const& u = r.unknowns;
+        bool undefined = false;
+        for (std::size_t j = 0; j < u.parameters.size(); ++j) {
+            auto const& side = u.parameters[j];
+            if (side.radius == 0) continue;
+            auto const radius = traits::point(side.radius);
+            auto const& mine = (*part_)[j];
+            auto const off = traits::sub(traits::point(mid(mine)), traits::point(side.centre));
+            places[side.variable] = {j, traits::div(off, radius, undefined),
+                                     traits::div(traits::point(rad(mine)), radius, undefined)};
+        }
+        for (auto const& side : u.initial) {
+            if (side.radius > 0) places[side.variable].unknown = unknowns_++;
+        }
+    }
+    void linearise(response const& r) {
+        auto const& places = places_[blocks_.size()];
+        auto const& local = locals_.emplace_back(expand(r, *part_));
+        minimax_block block;
+        for (auto const& p : places) block.variable.push_back(p.unknown);
+        auto const count = r.outputs();
+        block.slope = local.slope;
+        block.offset.resize(count);
+        block.margin.resize(count);
+        auto& scale = scales_.emplace_back(count, 0.0);
+        for (std::size_t y = 0; y < count; ++y) {
+            double const e = 0.5 * width(r.bounds[y]);
+            scale[y] = std::isfinite(e) ? 1 / std::max(e, 1e-100) : 0;
+            bool const of_use = scale[y] > 0 && std::isfinite(local.rest[y]);
+            block.offset[y] = of_use ? (local.value[y] - mid(r.bounds[y])) * scale[y] : 0;
+            block.margin[y] =
+                of_use ? local.rest[y] * scale[y] : std::numeric_limits<double>::infinity();
+            for (std::size_t v = 0; v < places.size(); ++v) {
+                auto& slope = block.slope[v * count + y];
+                slope = of_use ? slope * scale[y] : 0;
+            }
+        }
+        blocks_.push_back(std::move(block));
+    }
+
+    /// The experiments that allow no outlier.
+    [[nodiscard]] std::vector<minimax_block> const& strict_blocks() {
+        strict_ = blocks_;
+        for (std::size_t s = 0; s < strict_.size(); ++s) {
+            if ((*outliers_)[s] > 0) strict_[s] = {};
+        }
+        return strict_;
+    }
+    /// All experiments, each without the measurements that are worst in the middle of the box.
+    [[nodiscard]] std::vector<minimax_block> const& trimmed_blocks() {
+        strict_ = blocks_;
+        for (std::size_t s = 0; s < strict_.size(); ++s) {
+            auto& block = strict_[s];
+            std::vector<double> size;
+            for (double const f : block.offset) size.push_back(std::abs(f));
+            if ((*outliers_)[s] == 0) continue;
+            double const limit = largest_after(size, (*outliers_)[s]);
+            for (std::size_t y = 0; y < size.size(); ++y) {
+                if (size[y] > limit) remove(block, y);
+            }
+        }
+        return strict_;
+    }
+    static void remove(minimax_block& block, std::size_t y) {
+        block.margin[y] = std::numeric_limits<double>::infinity();
+    }
+
+    /// The proof: encloses the weighted sum over the box.
+    [[nodiscard]] double certified(std::vector<minimax_weight> const& weights) const {
+        combined_polynomial sum(unknowns_);
+        auto size = traits::point(0.0);
+        auto const half = traits::point(0.5);
+        for (std::size_t s = 0; s < known_->size(); ++s) {
+            auto const& r = *(*known_)[s];
+            std::vector<std::pair<std::size_t, double>> mine;
+            for (auto const& w : weights) {
+                if (w.block != s) continue;
+                double const value = w.value * scales_[s][w.function];
+                auto const weight = traits::mul(half, traits::point(value));
+                auto const [lo, hi] = measured_ends(r.bounds[w.function]);
+                sum.add_constant(traits::neg(traits::mul(weight, traits::add(lo, hi))));
+                size = traits::add(size, traits::abs(traits::mul(weight, traits::sub(hi, lo))));
+                mine.emplace_back(w.function, value);
+            }
+            if (!mine.empty()) sum.add(r, mine, places_[s]);
+        }
+        double const least = sum.lower_bound();
+        if (!(least > 0)) return 0;
+        if (!(upper(size) > 0)) return detail::greatest;
+        bool undefined = false;
+        return lower(traits::div(traits::point(least), traits::point(upper(size)), undefined));
+    }
+
+    /// An experiment with outliers: measurements that prove more than the target one by one, then
+    /// groups of the others; without enough of them, the (q+1)-th best measurement.
+    [[nodiscard]] double relaxed(std::size_t s, double target) const {
+        auto const& r = *(*known_)[s];
+        auto const q = (*outliers_)[s];
+        auto const ranges = output_ranges(r, locals_[s]);
+        std::vector<double> single;
+        for (std::size_t y = 0; y < ranges.size(); ++y) {
+            single.push_back(lower(misfit(ranges[y], r.bounds[y])));
+        }
+        double const simple = largest_after(single, q);
+        if (simple >= target || single.size() <= q) return simple;
+        std::vector<minimax_block> left(blocks_.size());
+        left[s] = blocks_[s];
+        std::size_t groups = 0;
+        for (std::size_t y = 0; y < single.size(); ++y) {
+            if (!(single[y] > target)) continue;
+            ++groups;
+            remove(left[s], y);
+        }
+        for (; groups <= q; ++groups) {
+            auto const solved = minimax_solver(unknowns_, left)();
+            if (!(certified(solved.weights) > target)) return simple;
+            for (auto const& w : solved.weights) remove(left[s], w.function);
+        }
+        return target;
+    }
+
+    /// What loosened the bound, by the measurements that take part in it.
+    void describe(inflation_relaxation& result, std::vector<minimax_weight> const& weights) const {
+        for (auto const& w : weights) {
+            auto const& r = *(*known_)[w.block];
+            auto const& table = *r.table;
+            auto const& local = locals_[w.block];
+            double const size = std::abs(w.value);
+            result.blur[w.block] += size * r.radius[w.function] * scales_[w.block][w.function];
+            result.slack += size * blocks_[w.block].margin[w.function];
+            for (std::size_t m = 0; m < table.size(); ++m) {
+                double c = size * scales_[w.block][w.function] *
+                           std::abs(r.coefficients[m * r.outputs() + w.function]);
+                std::size_t degree = 0;
+                for (std::size_t v = 0; v < table.variables; ++v) {
+                    degree += table.exponents[m][v];
+                    for (std::size_t k = 0; k < table.exponents[m][v]; ++k) c *= local.reach[v];
+                }
+                if (degree < 2) continue;
+                for (std::size_t v = 0; v < table.variables; ++v) {
+                    auto const unknown = places_[w.block][v].unknown;
+                    if (table.exponents[m][v] > 0 && unknown < part_->size()) {
+                        result.smear[unknown] += c;
+                    }
+                }
+            }
+        }
+    }
+    /// The smear of an experiment with outliers: how far the parameters spread its outputs.
+    void spread(inflation_relaxation& result, std::size_t s) const {
+        auto const& block = blocks_[s];
+        auto const count = block.functions();
+        result.smear.assign(part_->size(), 0.0);
+        double slack = 0;
+        double blur = 0;
+        for (std::size_t v = 0; v < block.variable.size(); ++v) {
+            for (std::size_t y = 0; y < count; ++y) {
+                double const size = std::abs(block.slope[v * count + y]);
+                if (block.variable[v] < part_->size()) result.smear[block.variable[v]] += size;
+                slack += size;
+            }
+        }
+        for (std::size_t y = 0; y < count; ++y) {
+            blur += (*known_)[s]->radius[y] * scales_[s][y];
+        }
+        double const n = std::max<double>(1, static_cast<double>(count));
+        result.slack = slack / n;
+        result.blur.assign(known_->size(), 0.0);
+        result.blur[s] = blur / n;
+    }
+
+    /// Keeps a point of the unknowns when the polynomials promise less there.
+    void propose(inflation_relaxation& result, std::vector<double> const& d) const {
+        double worst = 0;
+        std::vector<std::vector<double>> starts;
+        for (std::size_t s = 0; s < known_->size(); ++s) {
+            auto const& r = *(*known_)[s];
+            auto const& local = locals_[s];
+            std::vector<double> q(r.table->variables);
+            for (std::size_t v = 0; v < q.size(); ++v) {
+                q[v] = local.middle[v] + local.reach[v] * d[places_[s][v].unknown];
+            }
+            std::vector<double> values(r.outputs(), 0.0);
+            for (std::size_t m = 0; m < r.table->size(); ++m) {
+                double factor = 1;
+                for (std::size_t v = 0; v < q.size(); ++v) {
+                    for (std::size_t k = 0; k < r.table->exponents[m][v]; ++k) factor *= q[v];
+                }
+                double const* const row = &r.coefficients[m * r.outputs()];
+                for (std::size_t y = 0; y < values.size(); ++y) values[y] += factor * row[y];
+            }
+            for (std::size_t y = 0; y < values.size(); ++y) {
+                values[y] = std::abs(values[y] - mid(r.bounds[y])) * scales_[s][y];
+            }
+            worst = std::max(worst, largest_after(values, (*outliers_)[s]));
+            std::vector<double> x0;
+            for (auto const& side : r.unknowns.initial) {
+                x0.push_back(side.centre + (side.radius > 0 ? side.radius * q[side.variable] : 0));
+            }
+            starts.push_back(std::move(x0));
+        }
+        if (!(worst < result.approximate_value)) return;
+        result.approximate_value = worst;
+        result.starts = std::move(starts);
+        result.point.clear();
+        for (std::size_t j = 0; j < part_->size(); ++j) {
+            auto const& side = (*part_)[j];
+            result.point.push_back(
+                std::clamp(mid(side) + rad(side) * d[j], side.lower(), side.upper()));
+        }
+    }
+
+    responses const* known_;
+    std::vector<std::size_t> const* outliers_;
+    box const* part_;
+    std::size_t unknowns_;
+    std::vector<std::vector<combined_polynomial::place>> places_;
+    std::vector<local_response> locals_;
+    std::vector<std::vector<double>> scales_; ///< 1 / e
+    std::vector<minimax_block> blocks_;       ///< in units of e
+    std::vector<minimax_block> strict_;
+};
+
+} // namespace sivid
+
+#endif
