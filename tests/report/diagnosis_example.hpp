@@ -152,15 +152,18 @@ inline diagnosis_example hovercraft_diagnosis() {
         {{"Sv", "m^2", 0.2203, {}}, {"rudder_lag.tau", "s", 0.1690125, {}}},
         {{"S1", {{"u", "m/s", 0.1, {}}, {"v", "m/s", 0, {}}}}, {"S4", {{"u", "m/s", 2, {}}}}}};
     lag.assumptions = {"the rudder stands still at its commanded angle at t = 0"};
-    lag.holdout = sivid::holdout_figures{interval(5.01, 5.08),
-                                         interval(0.951, 1.07),
-                                         {"u", "v", "r", "x", "y", "psi"},
-                                         {0.061, 0.093, 0.31, 0.12, 0.17, 0.14},
-                                         {0.033, 0.028, 0.027, 0.03, 0.029, 0.017},
-                                         0.412,
-                                         0.978,
-                                         0.71,
-                                         0.84};
+    auto& h = lag.holdout.emplace();
+    h.inflation_before = interval(5.01, 5.08);
+    h.inflation_after = interval(0.951, 1.07);
+    h.over_fits_before = interval(4.6, 5.9);
+    h.over_fits_after = interval(0.93, 1.21);
+    h.channels = {"u", "v", "r", "x", "y", "psi"};
+    h.rmse_before = {0.061, 0.093, 0.31, 0.12, 0.17, 0.14};
+    h.rmse_after = {0.033, 0.028, 0.027, 0.03, 0.029, 0.017};
+    h.covered_before = 0.412;
+    h.covered_after = 0.978;
+    h.width_before = 0.71;
+    h.width_after = 0.84;
     add({"input_delay"}, undecided, interval(0.8, inf), 0.991,
         {{"input_delay.tau", "s", 0.144, std::nullopt}});
     add({"rudder_lag", "quadratic_yaw_damping"}, undecided, sivid::unknown_inflation(), 0.966,

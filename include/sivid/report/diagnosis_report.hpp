@@ -61,7 +61,9 @@ inline holdout_view drawn(holdout_figures const& h) {
         return i < all.size() ? all[i] : std::nan("");
     };
     holdout_view out{.inflation_before = drawn(h.inflation_before),
-                     .inflation_after = drawn(h.inflation_after)};
+                     .inflation_after = drawn(h.inflation_after),
+                     .over_fits_before = drawn(h.over_fits_before),
+                     .over_fits_after = drawn(h.over_fits_after)};
     for (std::size_t i = 0; i < h.channels.size(); ++i) {
         out.channels.push_back({h.channels[i], "", at(h.rmse_before, i), at(h.rmse_after, i)});
     }

@@ -71,6 +71,8 @@ struct relation_view {
 struct holdout_view {
     range inflation_before{};
     range inflation_after{};
+    /// The same over all parameters that do as well on the fit data; empty: not known.
+    range over_fits_before{}, over_fits_after{};
     struct channel {
         std::string name{};
         std::string unit{};

@@ -26,6 +26,10 @@ namespace sivid::report {
         t.rows.push_back({"bounds must grow by", inflation(h.inflation_before),
                           inflation(h.inflation_after), proved});
     }
+    if (says_something(h.over_fits_before) || says_something(h.over_fits_after)) {
+        t.rows.push_back({"the same, over all fits as good", inflation(h.over_fits_before),
+                          inflation(h.over_fits_after), proved});
+    }
     if (says_shrink(shrink)) t.rows.push_back({"gap removed", "", shrink_text(shrink), proved});
     auto const number = [](double x) {
         return std::isfinite(x) ? rounded_text(x, rounding::nearest) : std::string{"?"};
