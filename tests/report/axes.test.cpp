@@ -31,6 +31,13 @@ TEST_CASE("axes: equal aspect makes one unit equally long and keeps the data in 
     CHECK(a.py(1.6) >= a.top() - 1e-9);
 }
 
+TEST_CASE("axes: never a single tick on the upright axis where there is room for more") {
+    axes const a{{"t", "s", {0, 1}}, {"v", "m/s", {-0.42, 0.42}}, {.height = 230}};
+    svg out{360, 230, "test"};
+    a.draw_frame(out);
+    CHECK_THAT(out.str(), ContainsSubstring(">0.2</text>"));
+}
+
 TEST_CASE("axes: degenerate ranges and hostile labels still give a drawing") {
     for (range const r : {range{}, range{NAN, NAN}, range{-INFINITY, INFINITY}, range{4, 4},
                           range{-1e308, 1e308}, range{0.22, 0.22000001}}) {

@@ -11,12 +11,12 @@ using namespace sivid::report;
 
 TEST_CASE("legend: every symbol has a picture of its own") {
     std::set<std::string> pictures;
-    for (int i = 0; i <= static_cast<int>(symbol::window); ++i) {
+    for (int i = 0; i <= static_cast<int>(symbol::estimate); ++i) {
         std::string const text = symbol_picture(static_cast<symbol>(i), "s").str();
         CHECK(sivid_tests::markup_error(text) == "");
         pictures.insert(text);
     }
-    CHECK(pictures.size() == static_cast<std::size_t>(symbol::window) + 1);
+    CHECK(pictures.size() == static_cast<std::size_t>(symbol::estimate) + 1);
 }
 
 TEST_CASE("legend: entries wrap to the width") {

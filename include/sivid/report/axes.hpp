@@ -142,7 +142,11 @@ private:
     }
     void choose_ticks() {
         int const rows = std::clamp(static_cast<int>((bottom_ - top_) / 34), 2, 8);
-        y_ticks_ = nice_ticks(y_.bounds, rows);
+        // A single tick tells no scale.
+        for (int wanted = rows; wanted < rows + 3; ++wanted) {
+            y_ticks_ = nice_ticks(y_.bounds, wanted);
+            if (y_ticks_.ticks.size() > 1) break;
+        }
         label_x_ = std::max(left_ - widest(y_ticks_) - 15, 10.0);
         for (int columns = std::clamp(static_cast<int>((right_ - left_) / 45), 2, 12); columns >= 1;
              --columns) {

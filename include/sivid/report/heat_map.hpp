@@ -26,6 +26,8 @@ struct heat_map_options {
     std::string title{};
     std::string time_unit = "s";
     std::size_t most_columns = 300; ///< more are joined, each keeps its largest value
+    double largest = 0; ///< the colours' end is not below it: lets maps share their colours
+    bool key = true;    ///< draw the colour bar
 };
 
 namespace detail {
@@ -62,7 +64,7 @@ inline heat_map joined(heat_map m, std::size_t most) {
     double const pitch = 26;
     double const bottom =
         top + pitch * static_cast<double>(std::max<std::size_t>(m.rows.size(), 1));
-    svg out{o.width, bottom + 84, o.title.empty() ? m.quantity : o.title};
+    svg out{o.width, bottom + (o.key ? 84 : 42), o.title.empty() ? m.quantity : o.title};
     double label_width = 30;
     for (std::string const& name : m.rows) {
         label_width = std::max(label_width, approximate_text_width(shorten(name, 24), 12));
@@ -80,7 +82,10 @@ inline heat_map joined(heat_map m, std::size_t most) {
         }
     }
     double const full = m.threshold > 0 ? m.threshold : 1;
-    double const excess = std::max(largest, 2 * full);
+    largest = std::isfinite(o.largest) ? std::max(largest, o.largest) : largest;
+    // Beyond a thousand times the threshold all is one colour, so that one wild value leaves the
+    // others told apart.
+    double const excess = std::clamp(largest, 2 * full, 1000 * full);
     // Below the threshold linear; above it logarithmic, since a gap may be a hundred times its
     // bound.
     auto const colour = [&](double v) {
@@ -138,6 +143,7 @@ inline heat_map joined(heat_map m, std::size_t most) {
     out.text((left + right) / 2, bottom + 33, "time [" + o.time_unit + "]",
              {.size = 11.5, .align = anchor::middle});
 
+    if (!o.key) return out;
     // The colour bar: left half up to the threshold, right half beyond.
     double const bar_y = bottom + 50, bar_width = std::min(260.0, right - left),
                  half = bar_width / 2;
@@ -148,7 +154,9 @@ inline heat_map joined(heat_map m, std::size_t most) {
         out.rect(left + half + s * half, bar_y, half / 24 + 0.3, 10, {.fill = high});
     }
     auto const mark = [&](double x, double v, anchor align) {
-        out.text(x, bar_y + 23, rounded_text(v, rounding::nearest, {.significant = 2, .shift = 0}),
+        out.text(x, bar_y + 23,
+                 (largest > v && v == excess ? "\xE2\x89\xA5 " : "") +
+                     rounded_text(v, rounding::nearest, {.significant = 2, .shift = 0}),
                  {.size = 10.5, .align = align, .fill = palette::muted_ink});
     };
     mark(left, 0, anchor::start);

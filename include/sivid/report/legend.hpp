@@ -27,9 +27,19 @@ enum class symbol {
     measured_box, ///< outlined box
     prior,
     hull,
-    heading, ///< arrowhead: not validated
-    window   ///< dashed outline: what a zoom shows
+    heading,          ///< arrowhead: not validated
+    window,           ///< dashed outline: what a zoom shows
+    line_before,      ///< dashed line: the model as it is, not validated
+    line_after,       ///< full line: the model with an effect, not validated
+    certified_window, ///< outlined filled box: proved over a window
+    bar_to_lower,     ///< solid: up to the proved lower bound
+    bar_to_upper,     ///< hatched: between the proved bounds
+    estimate          ///< open circle: not proved
 };
+
+/// The paint of lines that compare two models.
+inline constexpr paint line_before_paint{.stroke = palette::truth, .width = 1.7, .dash = "6 3"};
+inline constexpr paint line_after_paint{.stroke = palette::blue, .width = 1.7};
 
 struct legend_entry {
     symbol mark;
@@ -88,6 +98,11 @@ inline void draw_witness(svg& out, double x, double y, std::string_view tip = {}
     out.path(cross, {.stroke = palette::black, .width = 1.8});
     out.circle(x, y, 2.6, {.fill = palette::paper, .stroke = palette::black, .width = 1.5});
     out.close();
+}
+
+/// A number that is not proved.
+inline void draw_estimate(svg& out, double x, double y, std::string_view tip = {}) {
+    out.circle(x, y, 4.2, {.fill = palette::paper, .stroke = palette::ink, .width = 1.6}, tip);
 }
 
 /// The paint of a region of a paving; undecided is hatched, pending dotted.
@@ -150,6 +165,26 @@ inline void draw_symbol(svg& out, symbol what, double x, double y) {
     }
     case symbol::window:
         out.rect(x + 3, y + 1, 20, 12, {.stroke = palette::blue, .width = 1.3, .dash = "4 2"});
+        break;
+    case symbol::line_before:
+        out.line(x + 1, my, x + 25, my, line_before_paint);
+        break;
+    case symbol::line_after:
+        out.line(x + 1, my, x + 25, my, line_after_paint);
+        break;
+    case symbol::certified_window:
+        out.rect(x + 3, y + 1, 20, 12, {.fill = palette::inside, .opacity = 0.28});
+        out.rect(x + 3, y + 1, 20, 12, {.stroke = palette::inside, .width = 1.6});
+        break;
+    case symbol::bar_to_lower:
+        out.rect(x + 1, y + 2, 24, 10, {.fill = palette::frame});
+        break;
+    case symbol::bar_to_upper:
+        out.rect(x + 1, y + 2, 24, 10,
+                 {.fill = out.hatch("#ffffff", palette::frame), .stroke = palette::frame});
+        break;
+    case symbol::estimate:
+        draw_estimate(out, mx, my);
         break;
     case symbol::inside:
     case symbol::undecided:

@@ -102,7 +102,9 @@ inline void draw_tube(svg& out, axes const& a, std::vector<tube_piece> const& tu
     out.path(edge, {.stroke = palette::tube_edge, .width = 0.8});
 }
 
-inline void draw_reference(svg& out, axes const& a, std::vector<point> const& line) {
+inline void draw_reference(svg& out, axes const& a, std::vector<point> const& line,
+                           paint const& how = {
+                               .stroke = palette::truth, .width = 1.2, .dash = "5 3"}) {
     path_data d;
     bool pen_down = false;
     double last_x = 0, last_y = 0;
@@ -120,7 +122,7 @@ inline void draw_reference(svg& out, axes const& a, std::vector<point> const& li
         last_x = x;
         last_y = y;
     }
-    out.path(d, {.stroke = palette::truth, .width = 1.2, .dash = "5 3"});
+    out.path(d, how);
 }
 
 /// Draws the symbol of a marked sample, or an arrow at the frame when it lies outside.

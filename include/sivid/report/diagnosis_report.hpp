@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_REPORT_DIAGNOSIS_REPORT_HPP
+#define SIVID_REPORT_DIAGNOSIS_REPORT_HPP
+
+#include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/model/effect.hpp>
+#include <sivid/report/diagnosis_page.hpp>
+#include <sivid/report/diagnosis_plot_data.hpp>
+#include <sivid/report/diagnosis_view.hpp>
+#include <sivid/version.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid::report {
+
+struct diagnosis_report_options {
+    std::string dataset{};
+    std::string model{};
+    std::map<std::string, std::string>
+        meanings{};                           ///< of effects: "a first-order lag of the rudder"
+    std::map<std::string, interval> priors{}; ///< of effect parameters, by name as in `causes`
+    std::vector<std::string> absorbed{};      ///< effects that the priors take up
+    double base_fitted = 0; ///< inflation of the best fit of the model as it is; 0: not known
+    std::string after{};    ///< what the plots' second model is; empty: with the answer
+    std::vector<std::string> warnings{};
+    std::string date{}, machine{}, command{};
+};
+
+namespace detail {
+
+inline range drawn(interval const& x) { return {x.lower(), x.upper()}; }
+inline range drawn(std::optional<interval> const& x) { return x ? drawn(*x) : range{}; }
+
+inline estimate_view drawn(named_estimate const& e, std::map<std::string, interval> const& priors) {
+    auto const prior = priors.find(e.name);
+    return {e.name, e.unit, e.value, drawn(e.hull),
+            prior == priors.end() ? range{} : drawn(prior->second)};
+}
+
+inline std::vector<named_value> drawn(std::vector<named_estimate> const& all) {
+    std::vector<named_value> out;
+    for (named_estimate const& e : all) out.push_back({e.name, e.unit, e.value});
+    return out;
+}
+
+inline std::vector<share_of_gap> drawn_shares(std::vector<named_estimate> const& all) {
+    std::vector<share_of_gap> out;
+    for (named_estimate const& e : all) out.push_back({e.name, drawn(e.hull), e.value});
+    return out;
+}
+
+inline holdout_view drawn(holdout_figures const& h) {
+    auto const at = [](std::vector<double> const& all, std::size_t i) {
+        return i < all.size() ? all[i] : std::nan("");
+    };
+    holdout_view out{.inflation_before = drawn(h.inflation_before),
+                     .inflation_after = drawn(h.inflation_after),
+                     .over_fits_before = drawn(h.over_fits_before),
+                     .over_fits_after = drawn(h.over_fits_after)};
+    for (std::size_t i = 0; i < h.channels.size(); ++i) {
+        out.channels.push_back({h.channels[i], "", at(h.rmse_before, i), at(h.rmse_after, i)});
+    }
+    // A tube without width was not computed.
+    if (h.width_before > 0 || h.width_after > 0) {
+        out.covered_before = h.covered_before;
+        out.covered_after = h.covered_after;
+        out.width_before = h.width_before;
+        out.width_after = h.width_after;
+    }
+    return out;
+}
+
+inline candidate_view drawn(cause const& c, std::map<std::string, interval> const& priors) {
+    candidate_view out{.effects = c.effects,
+                       .state = c.verdict == cause_verdict::explains   ? candidate_state::explains
+                                : c.verdict == cause_verdict::excluded ? candidate_state::excluded
+                                                                       : candidate_state::open,
+                       .inflation = drawn(c.inflation),
+                       .fitted = c.fitted_inflation,
+                       .assumptions = c.assumptions};
+    for (named_estimate const& e : c.parameters) out.parameters.push_back(drawn(e, priors));
+    if (c.witness) {
+        witness_view w{.parameters = drawn(c.witness->parameters)};
+        for (auto const& s : c.witness->starts) w.initial.push_back({s.scenario, drawn(s.states)});
+        out.witness = std::move(w);
+    }
+    if (c.holdout) out.holdout = drawn(*c.holdout);
+    return out;
+}
+
+inline std::vector<point> line_of(std::vector<double> const& times, std::vector<double> const& v) {
+    std::vector<point> out;
+    for (std::size_t k = 0; k < std::min(times.size(), v.size()); ++k) {
+        out.push_back({times[k], v[k]});
+    }
+    return out;
+}
+
+inline comparison_series drawn(channel_data const& c, std::vector<double> const& line_times) {
+    comparison_series out{.name = c.name, .unit = c.unit, .tube = c.tube};
+    std::size_t const n = std::min({c.times.size(), c.values.size(), c.bounds.size()});
+    for (std::size_t k = 0; k < n; ++k) {
+        bool const suspect = k < c.outliers.size() && c.outliers[k];
+        double const y = c.values[k], e = c.bounds[k];
+        out.measured.push_back({.time = c.times[k],
+                                .value = {y - e, y + e},
+                                .state = suspect ? sample_state::suspect : sample_state::regular});
+        if (k < c.base.size() && !suspect) {
+            out.misfit_before.push_back({c.times[k], std::fabs(c.base[k] - y) / e});
+        }
+        if (k < c.after.size() && !suspect) {
+            out.misfit_after.push_back({c.times[k], std::fabs(c.after[k] - y) / e});
+        }
+    }
+    out.before = c.base_line.empty() ? line_of(c.times, c.base) : line_of(line_times, c.base_line);
+    out.after =
+        c.after_line.empty() ? line_of(c.times, c.after) : line_of(line_times, c.after_line);
+    return out;
+}
+
+inline missing_rate_series drawn(missing_rate_data const& m) {
+    missing_rate_series out{.equation = m.equation, .scenario = m.scenario, .unit = m.unit};
+    for (std::size_t k = 0; k < std::min(m.times.size(), m.values.size()); ++k) {
+        rate_sample s{.time = m.times[k], .value = m.values[k]};
+        if (k < m.uncertainty.size()) {
+            s.band = {m.values[k] - m.uncertainty[k], m.values[k] + m.uncertainty[k]};
+        }
+        out.estimate.push_back(s);
+    }
+    for (auto const& w : m.windows) out.certified.push_back({w.from, w.to, drawn(w.missing)});
+    return out;
+}
+
+} // namespace detail
+
+/// Takes the meanings and priors of a catalogue of effects into the options.
+inline void describe(std::vector<effect> const& catalogue, diagnosis_report_options& options) {
+    for (effect const& e : catalogue) {
+        options.meanings.emplace(e.name, e.about);
+        for (effect_parameter const& p : e.parameters) {
+            options.priors.emplace(e.name + "." + p.name, hull(enclose(p.lower), enclose(p.upper)));
+        }
+    }
+}
+
+/// What the page of a diagnosis shows.
+/// @cost  O(size of the plot data)
+[[nodiscard]] inline diagnosis_view view_of(diagnosis const& d,
+                                            diagnosis_plot_data const& plots = {},
+                                            diagnosis_report_options const& options = {}) {
+    diagnosis_view v{.dataset = options.dataset,
+                     .model = options.model,
+                     .meanings = options.meanings,
+                     .gap = d.gap == gap_verdict::none        ? gap_state::absent
+                            : d.gap == gap_verdict::certified ? gap_state::present
+                                                              : gap_state::open,
+                     .inflation = detail::drawn(d.inflation),
+                     .fitted = options.base_fitted,
+                     .scenario_gaps = detail::drawn_shares(d.scenario_inflation),
+                     .channel_gaps = detail::drawn_shares(d.channel_inflation),
+                     .answer = d.answer == answer_kind::none      ? answer_state::nothing
+                               : d.answer == answer_kind::effects ? answer_state::effects
+                                                                  : answer_state::unexplained,
+                     .effects = d.effects,
+                     .indistinguishable = d.indistinguishable,
+                     .unobservable = d.unobservable,
+                     .absorbed = options.absorbed,
+                     .shrink_fit = detail::drawn(d.shrink_fit),
+                     .shrink_holdout = detail::drawn(d.shrink_holdout),
+                     .after = options.after,
+                     .assumptions = d.assumptions,
+                     .warnings = options.warnings,
+                     .interrupted = d.interrupted,
+                     .seconds = d.seconds,
+                     .version = std::string{"sivid "} + std::string{version},
+                     .date = options.date,
+                     .machine = options.machine,
+                     .command = options.command};
+    auto const window = [](time_window const& w) { return window_view{w.scenario, w.from, w.to}; };
+    for (suspected_place const& p : d.where) {
+        v.places.push_back({p.kind, p.name, p.proved, window(p.where), detail::drawn(p.missing),
+                            p.estimate, p.unit, p.law, p.regime, p.alternatives});
+    }
+    for (broken_relation_report const& r : d.relations) {
+        relation_view out{r.equation, r.sensors, r.proved, {}, r.assumptions};
+        for (time_window const& w : r.windows) out.windows.push_back(window(w));
+        v.relations.push_back(std::move(out));
+    }
+    for (cause const& c : d.causes) v.candidates.push_back(detail::drawn(c, options.priors));
+    if (!v.candidates.empty() && find_candidate(v, {}) == nullptr) {
+        // What the others are measured by.
+        v.candidates.push_back({.state = v.gap == gap_state::present  ? candidate_state::excluded
+                                         : v.gap == gap_state::absent ? candidate_state::explains
+                                                                      : candidate_state::open,
+                                .inflation = v.inflation});
+    }
+    for (candidate_view& c : v.candidates) {
+        if (c.effects.empty() && !is_fitted(c.fitted)) c.fitted = v.fitted;
+    }
+    if (d.next) {
+        v.next = next_experiment_view{d.next->manoeuvre, detail::drawn(d.next->settings),
+                                      d.next->separation, d.next->recorded};
+    }
+    std::map<std::string, std::string> units;
+    for (scenario_data const& s : plots.scenarios) {
+        compared_scenario out{s.name, s.holdout, {}};
+        for (channel_data const& c : s.channels) {
+            out.channels.push_back(detail::drawn(c, s.line_times));
+            units[c.name] = c.unit;
+        }
+        v.scenarios.push_back(std::move(out));
+    }
+    for (candidate_view& c : v.candidates) {
+        if (!c.holdout) continue;
+        for (auto& channel : c.holdout->channels) channel.unit = units[channel.name];
+    }
+    for (auto const& m : plots.missing_rates) v.missing_rates.push_back(detail::drawn(m));
+    return v;
+}
+
+} // namespace sivid::report
+
+#endif

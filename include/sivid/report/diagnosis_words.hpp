@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_REPORT_DIAGNOSIS_WORDS_HPP
+#define SIVID_REPORT_DIAGNOSIS_WORDS_HPP
+
+#include <sivid/report/diagnosis_view.hpp>
+#include <sivid/report/number_text.hpp>
+#include <sivid/report/place_words.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// The sentences of a diagnosis's page. What is proved is called so; all else is called an
+/// estimate.
+namespace sivid::report {
+
+/// "rudder_lag + wind"; without effects "the model as it is".
+[[nodiscard]] inline std::string names_of(std::vector<std::string> const& effects) {
+    std::string out;
+    for (std::string const& e : effects) out += (out.empty() ? "" : " + ") + e;
+    return out.empty() ? "the model as it is" : out;
+}
+
+/// In words where there are any: "a first-order lag of the rudder and a steady wind".
+[[nodiscard]] inline std::string words_of(diagnosis_view const& v,
+                                          std::vector<std::string> const& effects) {
+    std::vector<std::string> words;
+    for (std::string const& e : effects) {
+        auto const known = v.meanings.find(e);
+        words.push_back(known == v.meanings.end() || known->second.empty() ? e : known->second);
+    }
+    return enumeration(words);
+}
+
+/// "98 to 100 %"; an upper end above 100 is impossible, a missing lower one is said.
+[[nodiscard]] inline std::string shrink_text(range const& share) {
+    if (is_empty(share)) return "";
+    number_format const f{.significant = 3, .shift = 2};
+    std::string const high = rounded_text(share.hi, rounding::up, f);
+    if (!std::isfinite(share.lo)) return "at most " + high + "\xC2\xA0%";
+    std::string const low = rounded_text(share.lo, rounding::down, f);
+    return (low == high ? low : low + " to " + high) + "\xC2\xA0%";
+}
+
+/// "tau = 0.169 s (0.16 to 0.18, proved)"
+[[nodiscard]] inline std::string estimate_words(estimate_view const& e) {
+    std::string const name =
+        e.name.substr(e.name.rfind('.') == std::string::npos ? 0 : e.name.rfind('.') + 1);
+    std::string out = name;
+    out += std::isfinite(e.value)
+               ? " = " + rounded_text(e.value, rounding::nearest) + unit_suffix(e.unit)
+               : "";
+    return is_finite(e.hull) ? out + " (" + span_text(e.hull) + ", proved)" : out + " (estimate)";
+}
+
+/// What is drawn beside the model as it is: "with rudder_lag".
+[[nodiscard]] inline std::string after_words(diagnosis_view const& v) {
+    return !v.after.empty() ? v.after
+           : v.answer == answer_state::effects && !v.effects.empty()
+               ? "with " + names_of(v.effects)
+               : std::string{"with the closest candidate"};
+}
+
+/// The inflation of the best fit of the model as it is; 0 when there is none.
+[[nodiscard]] inline double base_fitted(diagnosis_view const& v) {
+    candidate_view const* const base = find_candidate(v, {});
+    return is_fitted(v.fitted) || base == nullptr ? v.fitted : base->fitted;
+}
+
+/// The factor in the words of a sentence: "3.1 to 3.2 times the measurement bounds (proved)".
+[[nodiscard]] inline std::string gap_clause(diagnosis_view const& v) {
+    double const fitted = base_fitted(v);
+    std::string const estimate =
+        is_fitted(fitted) ? ", " + estimate_text(fitted) + " in the best fit found (estimate)" : "";
+    switch (v.gap) {
+    case gap_state::present:
+        return says_something(v.inflation)
+                   ? "The model and the robot part by " + inflation_text(v.inflation) +
+                         " times the measurement bounds (proved" +
+                         (std::isfinite(v.inflation.hi) ? ")"
+                          : estimate.empty()            ? ")"
+                                                        : ")" + estimate)
+                   : "No parameter of the prior explains the data (proved" + std::string{")"} +
+                         estimate;
+    case gap_state::absent:
+        return "No gap: a parameter of the prior explains all data of the fit (proved" +
+               std::string{is_finite(v.inflation) && v.inflation.hi > 0
+                               ? "; " + inflation_text(v.inflation) +
+                                     " of the measurement bounds are needed"
+                               : ""} +
+               ")";
+    default:
+        return "It is open whether the model explains the data: it parts from the robot by " +
+               (says_something(v.inflation)
+                    ? inflation_text(v.inflation) + " times the bounds (proved)" + estimate
+                : !estimate.empty()
+                    ? estimate_text(fitted) + " times the bounds in the best fit found (estimate)"
+                    : "a factor of which nothing is known");
+    }
+}
+
+/// How the answer stands: "explains all data (proved)".
+[[nodiscard]] inline std::string answer_verdict(diagnosis_view const& v) {
+    candidate_view const* const c = answer_of(v);
+    bool const many = v.effects.size() > 1;
+    std::string const explain = many ? "together explain" : "explains";
+    if (c != nullptr && c->state == candidate_state::explains) {
+        return explain + " all data (proved)";
+    }
+    if (c != nullptr && c->state == candidate_state::excluded) {
+        return std::string{many ? "come" : "comes"} +
+               " closest of what was tried, but cannot explain all data (proved)";
+    }
+    if (c != nullptr && is_fitted(c->fitted) && c->fitted <= 1) {
+        return explain + " all data in the best fit found (estimate)";
+    }
+    return std::string{many ? "are" : "is"} + " the likeliest of what was tried (estimate)";
+}
+
+/// "a first-order lag of the rudder, tau = 0.169 s (0.16 to 0.18, proved), explains all data"
+[[nodiscard]] inline std::string answer_clause(diagnosis_view const& v) {
+    candidate_view const* const c = answer_of(v);
+    std::vector<std::string> numbers;
+    if (c != nullptr) {
+        for (estimate_view const& e : c->parameters) numbers.push_back(estimate_words(e));
+    }
+    return words_of(v, v.effects) + (numbers.empty() ? " " : ", " + enumeration(numbers) + ", ") +
+           answer_verdict(v);
+}
+
+/// What else it may be, and what would tell; empty when nothing is.
+[[nodiscard]] inline std::string alternatives_clause(diagnosis_view const& v) {
+    std::vector<std::string> others;
+    for (auto const& o : v.indistinguishable) {
+        candidate_view const* const c = find_candidate(v, o);
+        bool const proved = c != nullptr && c->state == candidate_state::explains;
+        others.push_back(words_of(v, o) + (proved ? " (which explains as well, proved)" : ""));
+    }
+    if (others.empty()) return "";
+    return "the data cannot tell it from " + enumeration(others, " or from ") +
+           (v.next ? "; the manoeuvre \xE2\x80\x9C" + v.next->manoeuvre + "\xE2\x80\x9D would"
+                   : "");
+}
+
+/// False for a range that says nothing: no lower bound, and an upper one of all of the gap.
+[[nodiscard]] inline bool says_shrink(range const& share) {
+    return !is_empty(share) && (std::isfinite(share.lo) || share.hi < 1);
+}
+
+[[nodiscard]] inline std::string shrink_clause(range const& share, std::string_view data) {
+    if (!says_shrink(share)) return "";
+    std::string const on = "on " + std::string{data} + " it ";
+    if (share.hi <= 0) return on + "does not shrink the gap (proved)";
+    return on + "removes " + shrink_text(share) + " of the gap (proved)";
+}
+
+[[nodiscard]] inline std::string headline(diagnosis_view const& v) {
+    std::string const gap = v.gap == gap_state::absent    ? "No gap (proved)"
+                            : v.gap == gap_state::present ? "Gap (proved)"
+                                                          : "Gap not decided";
+    if (v.answer == answer_state::unexplained) return gap + "; no candidate explains it";
+    if (v.answer == answer_state::nothing || v.effects.empty()) return gap;
+    candidate_view const* const c = answer_of(v);
+    std::string const how =
+        c != nullptr && c->state == candidate_state::explains ? " (proved)" : " (estimate)";
+    std::string const verb = v.effects.size() > 1 ? " explain the data" : " explains the data";
+    std::size_t const n = v.indistinguishable.size();
+    return gap + "; " + names_of(v.effects) +
+           (c != nullptr && c->state == candidate_state::excluded ? " comes closest" : verb + how) +
+           (n == 0   ? ""
+            : n == 1 ? ", but so may another"
+                     : ", but so may " + count_text(n) + " others");
+}
+
+/// The sign of the banner: proved and the only answer, or something is open, or nothing explains.
+[[nodiscard]] inline outcome banner_outcome(diagnosis_view const& v) {
+    if (v.answer == answer_state::unexplained) {
+        return v.gap == gap_state::present ? outcome::refuted : outcome::undecided;
+    }
+    if (v.gap == gap_state::open) return outcome::undecided;
+    if (v.answer == answer_state::nothing) {
+        return v.gap == gap_state::absent ? outcome::proved : outcome::undecided;
+    }
+    candidate_view const* const c = answer_of(v);
+    bool const proved = c != nullptr && c->state == candidate_state::explains;
+    return proved && v.indistinguishable.empty() ? outcome::proved : outcome::undecided;
+}
+
+/// The whole answer in one sentence.
+[[nodiscard]] inline std::string banner_sentence(diagnosis_view const& v) {
+    std::vector<std::string> parts{gap_clause(v)};
+    if (v.answer == answer_state::effects && !v.effects.empty()) {
+        parts.push_back(answer_clause(v));
+        parts.push_back(alternatives_clause(v));
+        parts.push_back(shrink_clause(v.shrink_holdout, "data that chose nothing"));
+    } else if (v.answer == answer_state::unexplained) {
+        auto const excluded =
+            std::count_if(v.candidates.begin(), v.candidates.end(), [](candidate_view const& c) {
+                return !c.effects.empty() && c.state == candidate_state::excluded;
+            });
+        parts.push_back("no candidate was found that explains it" +
+                        (excluded > 0 ? ", " + count_text(static_cast<std::size_t>(excluded)) +
+                                            " are excluded (proved)"
+                                      : std::string{}));
+        if (!v.places.empty()) parts.push_back(place_clause(v.places.front()));
+    } else if (v.gap != gap_state::absent && !v.places.empty()) {
+        parts.push_back(place_clause(v.places.front()));
+    }
+    if (!v.absorbed.empty()) {
+        parts.push_back("the priors are wide enough to take up " + words_of(v, v.absorbed));
+    }
+    std::string out;
+    for (std::string const& p : parts) out += p.empty() ? "" : (out.empty() ? "" : "; ") + p;
+    return out + ".";
+}
+
+/// What to measure next, in one sentence; empty when nothing is proposed.
+[[nodiscard]] inline std::string next_words(diagnosis_view const& v) {
+    if (!v.next) return "";
+    next_experiment_view const& n = *v.next;
+    std::string out =
+        n.recorded ? "Record \xE2\x80\x9C" + n.manoeuvre + "\xE2\x80\x9D again with finer bounds"
+                   : "Drive the manoeuvre \xE2\x80\x9C" + n.manoeuvre + "\xE2\x80\x9D";
+    std::string settings;
+    for (named_value const& s : n.settings) {
+        settings += (settings.empty() ? "" : ", ") + s.name + " = " +
+                    rounded_text(s.value, rounding::nearest) + unit_suffix(s.unit);
+    }
+    out += settings.empty() ? "" : " with " + settings;
+    return out + (std::isfinite(n.separation) && n.separation > 0
+                      ? ": it sets the explanations apart by " + estimate_text(n.separation) +
+                            " measurement bounds (prediction, not proved)."
+                      : ".");
+}
+
+} // namespace sivid::report
+
+#endif

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_REPORT_PLACE_WORDS_HPP
+#define SIVID_REPORT_PLACE_WORDS_HPP
+
+#include <sivid/report/candidate_chart.hpp>
+#include <sivid/report/diagnosis_view.hpp>
+#include <sivid/report/identification_words.hpp>
+#include <sivid/report/number_text.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Places and relations in the words of a diagnosis's page. What is proved is called so; all else
+/// is called an estimate.
+namespace sivid::report {
+
+inline constexpr std::string_view proved_mark = "\xE2\x9C\x93 proved";
+inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
+
+/// "a, b and c"
+[[nodiscard]] inline std::string enumeration(std::vector<std::string> const& all,
+                                             std::string_view last = " and ") {
+    std::string out;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        out += i == 0 ? "" : i + 1 == all.size() ? std::string{last} : ", ";
+        out += all[i];
+    }
+    return out;
+}
+
+[[nodiscard]] inline std::string capitalised(std::string text) {
+    if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') {
+        text[0] = static_cast<char>(text[0] - 'a' + 'A');
+    }
+    return text;
+}
+
+/// "S4, 1.2 to 2 s"
+[[nodiscard]] inline std::string window_text(window_view const& w) {
+    std::string const times = given_text(w.from) + " to " + given_text(w.to) + "\xC2\xA0s";
+    return !(w.from < w.to) ? w.scenario : w.scenario.empty() ? times : w.scenario + ", " + times;
+}
+
+/// "yaw equation", "sensor r", "input delta"
+[[nodiscard]] inline std::string place_name(place_view const& p) {
+    return p.kind == "equation" ? p.name + " equation"
+           : p.kind.empty()     ? p.name
+                                : p.kind + ' ' + p.name;
+}
+
+/// "-0.42 to -0.18 rad/s^2, proved"
+[[nodiscard]] inline std::string missing_text(place_view const& p) {
+    if (!is_empty(p.missing)) {
+        return span_text(p.missing) + unit_suffix(p.unit) + " (proved)";
+    }
+    return p.estimate && std::isfinite(*p.estimate)
+               ? estimate_text(*p.estimate) + unit_suffix(p.unit) + " (estimate)"
+               : std::string{};
+}
+
+/// The formula of a law for a reader.
+[[nodiscard]] inline std::string law_text(std::string const& law) {
+    std::string out;
+    for (std::size_t i = 0; i < law.size(); ++i) {
+        bool const beside =
+            (i > 0 && law[i - 1] == '*') || (i + 1 < law.size() && law[i + 1] == '*');
+        if (law[i] != ' ' || !beside) out += law[i];
+    }
+    return formula_text(out);
+}
+
+/// Where and how: "the yaw equation in S4, 1.2 to 2 s, lacks -0.42 to -0.18 rad/s^2 (proved)".
+[[nodiscard]] inline std::string place_clause(place_view const& p) {
+    std::string const missing = missing_text(p);
+    std::string const where = window_text(p.where);
+    std::string out = "the " + place_name(p) + (where.empty() ? "" : " (" + where + ")");
+    out += !missing.empty() ? (p.kind == "equation" ? " lacks " : " is off by ") + missing
+           : p.proved       ? " is broken (proved)"
+                            : " is suspected (estimate)";
+    out += p.law.empty() ? "" : ", in the shape of " + law_text(p.law) + " (estimate)";
+    return p.regime.empty() ? out : out + ", where " + p.regime + " (estimate)";
+}
+
+/// One broken relation in plain words.
+[[nodiscard]] inline std::string relation_words(relation_view const& r) {
+    constexpr std::size_t most = 4;
+    std::string out = "The " + r.equation + " equation";
+    out += r.sensors.empty()       ? ""
+           : r.sensors.size() == 1 ? " and the sensor " + r.sensors[0]
+                                   : " and the sensors " + enumeration(r.sensors);
+    char const* const together = r.sensors.empty() ? "" : " together";
+    out += r.proved ? std::string{" cannot hold"} + together +
+                          ", whatever the parameters of the prior (proved)."
+           : r.sensors.empty() ? std::string{" seems not to hold (estimate)."}
+                               : std::string{" seem not to hold together (estimate)."};
+    std::vector<std::string> windows;
+    for (std::size_t i = 0; i < std::min(most, r.windows.size()); ++i) {
+        windows.push_back(window_text(r.windows[i]));
+    }
+    if (!windows.empty()) {
+        std::string list;
+        for (std::string const& w : windows) list += (list.empty() ? "" : "; ") + w;
+        out += " Shown by " + list;
+        out += r.windows.size() > most ? " and " + count_text(r.windows.size() - most) + " more."
+                                       : ".";
+    }
+    if (!r.assumptions.empty()) out += " It rests on " + enumeration(r.assumptions) + ".";
+    return out;
+}
+
+} // namespace sivid::report
+
+#endif
