@@ -93,6 +93,19 @@
 #include <sivid/paving/set_test.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/verdict.hpp>
+#include <sivid/diagnosis/broken_relation.hpp>
+#include <sivid/diagnosis/channel_tube.hpp>
+#include <sivid/diagnosis/declared_variation.hpp>
+#include <sivid/diagnosis/graph_range.hpp>
+#include <sivid/diagnosis/linear_refutation.hpp>
+#include <sivid/diagnosis/observed_motion.hpp>
+#include <sivid/diagnosis/relation_finding.hpp>
+#include <sivid/diagnosis/relation_row.hpp>
+#include <sivid/diagnosis/relation_windows.hpp>
+#include <sivid/diagnosis/separation.hpp>
+#include <sivid/diagnosis/state_samples.hpp>
+#include <sivid/diagnosis/weak_windows.hpp>
+#include <sivid/diagnosis/window_integrals.hpp>
 #include <sivid/version.hpp>
 
 #endif // SIVID_SIVID_HPP
