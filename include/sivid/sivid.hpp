@@ -102,6 +102,7 @@
 #include <sivid/diagnosis/relation_finding.hpp>
 #include <sivid/diagnosis/relation_row.hpp>
 #include <sivid/diagnosis/relation_windows.hpp>
+#include <sivid/diagnosis/sensor_discharge.hpp>
 #include <sivid/diagnosis/separation.hpp>
 #include <sivid/diagnosis/state_samples.hpp>
 #include <sivid/diagnosis/weak_windows.hpp>

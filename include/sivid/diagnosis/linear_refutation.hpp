@@ -175,14 +175,18 @@ inline std::optional<small_matrix> inverse(small_matrix a) {
     auto const cost = [&](std::size_t k) {
         return k < rows ? system.bound(k) : k - rows < n ? 0.0 : 1.0;
     };
+    // Right-hand sides a little off zero, each by its own, so that no pivot is degenerate (which
+    // could go in circles).
+    std::vector<double> target(n + 1, 1.0);
+    for (std::size_t j = 0; j < n; ++j) target[j] = 1e-10 * static_cast<double>(j + 1);
     std::vector<std::size_t> basis{first};
     for (std::size_t j = 0; j < n; ++j) {
-        basis.push_back(rows + (system.row(first)[j] > 0 ? j : n + j));
+        bool const above = system.row(first)[j] / system.weight(first) > target[j];
+        basis.push_back(rows + (above ? j : n + j));
     }
     for (std::size_t pivot = 0; pivot < most_pivots; ++pivot) {
         diagnosis_detail::small_matrix b(n + 1);
-        std::vector<double> costs(n + 1), target(n + 1, 0.0);
-        target[n] = 1;
+        std::vector<double> costs(n + 1);
         for (std::size_t k = 0; k <= n; ++k) {
             auto const c = column(basis[k]);
             for (std::size_t i = 0; i <= n; ++i) b(i, k) = c[i];
