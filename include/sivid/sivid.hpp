@@ -125,6 +125,7 @@
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/graph_range.hpp>
 #include <sivid/diagnosis/holdout.hpp>
+#include <sivid/diagnosis/holdout_judgement.hpp>
 #include <sivid/diagnosis/linear_refutation.hpp>
 #include <sivid/diagnosis/manoeuvre.hpp>
 #include <sivid/diagnosis/missing_rate.hpp>
@@ -137,6 +138,7 @@
 #include <sivid/diagnosis/relation_windows.hpp>
 #include <sivid/diagnosis/resolve_delays.hpp>
 #include <sivid/diagnosis/screening.hpp>
+#include <sivid/diagnosis/sensor_discharge.hpp>
 #include <sivid/diagnosis/sensor_model.hpp>
 #include <sivid/diagnosis/separation.hpp>
 #include <sivid/diagnosis/state_samples.hpp>

@@ -8,8 +8,8 @@ using namespace diagnosis_support;
 
 namespace {
 
-/// A continuous function of straight pieces whose rate varies by at most J within `period`: the rate
-/// jumps anywhere, but stays in [-J/2, J/2] around a slow drift of at most J/10 a period.
+/// A continuous function of straight pieces whose rate varies by at most J within `period`: the
+/// rate jumps anywhere, but stays in [-J/2, J/2] around a slow drift of at most J/10 a period.
 struct zigzag {
     std::vector<double> times, values;
 

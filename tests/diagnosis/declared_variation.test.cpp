@@ -42,8 +42,7 @@ TEST_CASE("the default leaves room above what motions do, modelled or not") {
         bool const dry = n % 3 == 0;
         auto const m = pendulum(dry ? d.uniform(0.1, 0.4) : 0); // friction that switches
         auto const model = bound_pendulum(m);
-        std::vector<sampled_signal> const inputs{
-            sine_input(d.uniform(0, 3), d.uniform(0.5, 4), 5)};
+        std::vector<sampled_signal> const inputs{sine_input(d.uniform(0, 3), d.uniform(0.5, 4), 5)};
         auto const truth = simulate(m, {d.uniform(1, 20), d.uniform(0, 0.5), 1}, inputs,
                                     {d.uniform(0.5, 1), d.uniform(-1, 1)}, 5);
         auto const e = measured(d, "S", truth, inputs, {0, 1}, 0.02, noise::uniform);

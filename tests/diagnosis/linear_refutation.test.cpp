@@ -39,8 +39,8 @@ TEST_CASE("what has a solution is never refuted") {
     draws d(6);
     for (int k = 0; k < 300; ++k) {
         auto const n = d.below(6);
-        auto const system = random_system(d, n, 1 + d.below(200), d.coin() ? 1e-9 : 0.3,
-                                          random_point(d, n));
+        auto const system =
+            random_system(d, n, 1 + d.below(200), d.coin() ? 1e-9 : 0.3, random_point(d, n));
         auto const relaxed = least_relaxation(system);
         CHECK(proved_margin(system, relaxed.multipliers) <= 0);
         refutation any; // whatever non-negative multipliers

@@ -48,8 +48,8 @@ TEST_CASE("the grid has all samples and knots, and ends with the samples") {
     e.inputs = {sampled_signal({0.0, 0.13, 0.3, 9.0}, {0, 1, 0, 0}, interpolation::linear)};
     e.initial = box{between(0, 0), between(0, 0)};
     e.measurements = {{0.2, 0, between(0, 1)}, {0.45, 0, between(0, 1)}, {0.4, 1, between(0, 1)}};
-    auto const motion = observe_motion(model, box{between(0, 1)}, e, {{0}, {1}},
-                                       {{0.2, 1}, {0.4, 1}}, 2);
+    auto const motion =
+        observe_motion(model, box{between(0, 1)}, e, {{0}, {1}}, {{0.2, 1}, {0.4, 1}}, 2);
     std::set<double> const grid(motion.boundaries.begin(), motion.boundaries.end());
     for (double const t : {0.0, 0.13, 0.2, 0.3, 0.4, 0.45}) CHECK(grid.count(t) == 1);
     CHECK(motion.boundaries.back() == 0.45);
@@ -67,7 +67,7 @@ TEST_CASE("without measurements there are no cells") {
     experiment e;
     e.inputs = {sampled_signal({0.0}, {0.0}, interpolation::hold)};
     e.initial = box{between(0, 0), between(0, 0)};
-    auto const motion = observe_motion(model, box{between(0, 1)}, e, {{0}, std::nullopt},
-                                       {{1, 1}, {1, 1}}, 4);
+    auto const motion =
+        observe_motion(model, box{between(0, 1)}, e, {{0}, std::nullopt}, {{1, 1}, {1, 1}}, 4);
     CHECK(motion.cells.empty());
 }

@@ -38,12 +38,8 @@ TEST_CASE("only channels that show a state as it is, and were measured, count") 
 
 TEST_CASE("samples begin with the initial box, and agree at equal times") {
     auto e = start_at(between(0, 1));
-    e.measurements = {{2.0, 0, between(1, 2)},
-                      {1.0, 0, between(0, 3)},
-                      {0.0, 0, between(0.5, 4)},
-                      {2.0, 0, between(1.5, 3)},
-                      {2.0, 1, between(7, 8)},
-                      {3.0, 0, between(0, 1)},
+    e.measurements = {{2.0, 0, between(1, 2)},   {1.0, 0, between(0, 3)}, {0.0, 0, between(0.5, 4)},
+                      {2.0, 0, between(1.5, 3)}, {2.0, 1, between(7, 8)}, {3.0, 0, between(0, 1)},
                       {3.0, 0, between(2, 3)}};
     auto const s = state_samples::of(e, 0, 0);
     CHECK(s.times == std::vector<double>{0, 1, 2, 3});

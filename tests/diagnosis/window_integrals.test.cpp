@@ -21,12 +21,12 @@ std::vector<time_cell> circle(draws& d, double end, double h, double e0, double 
             return between(std::min(a, b) - e + shift - h * h, std::max(a, b) + e + shift + h * h);
         };
         cells.push_back({from, to, {}});
-        cells.back().at = {
-            between(from, to),
-            box{side(std::sin(from), std::sin(to), e0), side(std::cos(from), std::cos(to), e1),
-                side(1 + from / 4, 1 + to / 4, 0.01)},
-            {},
-            {}};
+        cells.back().at = {between(from, to),
+                           box{side(std::sin(from), std::sin(to), e0),
+                               side(std::cos(from), std::cos(to), e1),
+                               side(1 + from / 4, 1 + to / 4, 0.01)},
+                           {},
+                           {}};
     }
     return cells;
 }

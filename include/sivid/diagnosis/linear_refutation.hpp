@@ -4,12 +4,10 @@
 
 #include <sivid/number/interval_traits.hpp>
 
-#include <Eigen/Core>
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -84,6 +82,69 @@ struct approximate_relaxation {
     refutation multipliers; ///< at most n + 1 inequalities
 };
 
+namespace diagnosis_detail {
+
+/// A small dense matrix in plain floating point, row by row.
+struct small_matrix {
+    std::size_t n = 0;
+    std::vector<double> entries;
+
+    explicit small_matrix(std::size_t size) : n(size), entries(size * size, 0.0) {}
+    double& operator()(std::size_t i, std::size_t j) { return entries[i * n + j]; }
+    double operator()(std::size_t i, std::size_t j) const { return entries[i * n + j]; }
+
+    [[nodiscard]] std::vector<double> times(std::vector<double> const& x) const {
+        std::vector<double> result(n, 0.0);
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t j = 0; j < n; ++j) result[i] += (*this)(i, j) * x[j];
+        }
+        return result;
+    }
+    [[nodiscard]] std::vector<double> transposed_times(std::vector<double> const& x) const {
+        std::vector<double> result(n, 0.0);
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t j = 0; j < n; ++j) result[j] += (*this)(i, j) * x[i];
+        }
+        return result;
+    }
+};
+
+/// Gauss-Jordan elimination with row pivots; nothing if the matrix is singular in floating point.
+inline std::optional<small_matrix> inverse(small_matrix a) {
+    auto const n = a.n;
+    small_matrix result(n);
+    for (std::size_t i = 0; i < n; ++i) result(i, i) = 1;
+    for (std::size_t k = 0; k < n; ++k) {
+        std::size_t best = k;
+        for (std::size_t i = k + 1; i < n; ++i) {
+            if (std::abs(a(i, k)) > std::abs(a(best, k))) best = i;
+        }
+        if (!(std::abs(a(best, k)) > 0)) return std::nullopt;
+        for (std::size_t j = 0; j < n; ++j) {
+            std::swap(a(k, j), a(best, j));
+            std::swap(result(k, j), result(best, j));
+        }
+        double const pivot = a(k, k);
+        for (std::size_t j = 0; j < n; ++j) {
+            a(k, j) /= pivot;
+            result(k, j) /= pivot;
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+            double const factor = a(i, k);
+            if (i == k || factor == 0) continue;
+            for (std::size_t j = 0; j < n; ++j) {
+                a(i, j) -= factor * a(k, j);
+                result(i, j) -= factor * result(k, j);
+            }
+        }
+    }
+    auto const finite = [](double v) { return std::isfinite(v); };
+    if (!std::all_of(result.entries.begin(), result.entries.end(), finite)) return std::nullopt;
+    return result;
+}
+
+} // namespace diagnosis_detail
+
 /// Solves min t by the simplex method on the dual
 /// \f$ \min b^T y + 1^T \mu : A^T y + \mu - \nu = 0, s^T y = 1, y, \mu, \nu \ge 0 \f$, which has
 /// n + 1 rows only; a basis is at hand: one inequality and a bound of each unknown. Whatever basis
@@ -93,7 +154,6 @@ struct approximate_relaxation {
                                                              std::size_t most_pivots = 500) {
     auto const n = system.unknowns();
     auto const rows = system.size();
-    auto const dim = static_cast<Eigen::Index>(n + 1);
     approximate_relaxation result;
     std::size_t first = rows;
     for (std::size_t i = 0; i < rows && first == rows; ++i) {
@@ -103,69 +163,73 @@ struct approximate_relaxation {
 
     // Columns: inequalities, then the lower and the upper bound of each unknown.
     auto const column = [&](std::size_t k) {
-        Eigen::VectorXd c = Eigen::VectorXd::Zero(dim);
+        std::vector<double> c(n + 1, 0.0);
         if (k < rows) {
-            for (std::size_t j = 0; j < n; ++j) c(static_cast<Eigen::Index>(j)) = system.row(k)[j];
-            c(dim - 1) = system.weight(k);
+            std::copy(system.row(k), system.row(k) + n, c.begin());
+            c[n] = system.weight(k);
         } else {
-            auto const j = (k - rows) % n;
-            c(static_cast<Eigen::Index>(j)) = k - rows < n ? -1 : 1;
+            c[(k - rows) % n] = k - rows < n ? -1 : 1;
         }
         return c;
     };
     auto const cost = [&](std::size_t k) {
         return k < rows ? system.bound(k) : k - rows < n ? 0.0 : 1.0;
     };
+    // Right-hand sides a little off zero, each by its own, so that no pivot is degenerate (which
+    // could go in circles).
+    std::vector<double> target(n + 1, 1.0);
+    for (std::size_t j = 0; j < n; ++j) target[j] = 1e-10 * static_cast<double>(j + 1);
     std::vector<std::size_t> basis{first};
-    for (std::size_t j = 0; j < n; ++j)
-        basis.push_back(rows + (system.row(first)[j] > 0 ? j : n + j));
-
-    Eigen::MatrixXd b(dim, dim);
-    Eigen::VectorXd costs(dim), y(dim), pi(dim);
-    Eigen::VectorXd target = Eigen::VectorXd::Zero(dim);
-    target(dim - 1) = 1;
+    for (std::size_t j = 0; j < n; ++j) {
+        bool const above = system.row(first)[j] / system.weight(first) > target[j];
+        basis.push_back(rows + (above ? j : n + j));
+    }
     for (std::size_t pivot = 0; pivot < most_pivots; ++pivot) {
-        for (Eigen::Index k = 0; k < dim; ++k) {
-            b.col(k) = column(basis[static_cast<std::size_t>(k)]);
-            costs(k) = cost(basis[static_cast<std::size_t>(k)]);
+        diagnosis_detail::small_matrix b(n + 1);
+        std::vector<double> costs(n + 1);
+        for (std::size_t k = 0; k <= n; ++k) {
+            auto const c = column(basis[k]);
+            for (std::size_t i = 0; i <= n; ++i) b(i, k) = c[i];
+            costs[k] = cost(basis[k]);
         }
-        Eigen::PartialPivLU<Eigen::MatrixXd> const lu(b);
-        y = lu.solve(target);
-        pi = b.transpose().partialPivLu().solve(costs);
-        if (!y.allFinite() || !pi.allFinite()) break;
-        result.t = -y.dot(costs);
-        result.z.assign(pi.data(), pi.data() + n);
+        auto const solver = diagnosis_detail::inverse(b);
+        if (!solver) break;
+        auto const y = solver->times(target);
+        auto const pi = solver->transposed_times(costs); // (z, -t)
+        result.t = -pi[n];
+        result.z.assign(pi.begin(), pi.end() - 1);
         result.multipliers.multipliers.clear();
-        for (Eigen::Index k = 0; k < dim; ++k) {
-            auto const id = basis[static_cast<std::size_t>(k)];
-            if (id < rows && y(k) > 0) result.multipliers.multipliers.emplace_back(id, y(k));
+        for (std::size_t k = 0; k <= n; ++k) {
+            if (basis[k] < rows && y[k] > 0) {
+                result.multipliers.multipliers.emplace_back(basis[k], y[k]);
+            }
         }
         // Entering: the inequality that the current z, t violates most, in its own weight.
         double most = 1e-9;
         std::size_t entering = rows + 2 * n;
         for (std::size_t i = 0; i < rows; ++i) {
             double const* const a = system.row(i);
-            double violation = -system.bound(i) + pi(dim - 1) * system.weight(i);
-            for (std::size_t j = 0; j < n; ++j) violation += a[j] * result.z[j];
             double const w = system.weight(i);
+            double violation = pi[n] * w - system.bound(i);
+            for (std::size_t j = 0; j < n; ++j) violation += a[j] * pi[j];
             if (w > 0) violation /= w;
             if (violation > most) most = violation, entering = i;
         }
         for (std::size_t j = 0; j < n; ++j) {
-            if (-result.z[j] > most) most = -result.z[j], entering = rows + j;
-            if (result.z[j] - 1 > most) most = result.z[j] - 1, entering = rows + n + j;
+            if (-pi[j] > most) most = -pi[j], entering = rows + j;
+            if (pi[j] - 1 > most) most = pi[j] - 1, entering = rows + n + j;
         }
         if (entering == rows + 2 * n) break;
-        Eigen::VectorXd const direction = lu.solve(column(entering));
+        auto const direction = solver->times(column(entering));
         double step = HUGE_VAL;
-        Eigen::Index leaving = -1;
-        for (Eigen::Index k = 0; k < dim; ++k) {
-            if (direction(k) <= 1e-12) continue;
-            double const ratio = std::max(y(k), 0.0) / direction(k);
+        std::size_t leaving = n + 1;
+        for (std::size_t k = 0; k <= n; ++k) {
+            if (direction[k] <= 1e-12) continue;
+            double const ratio = std::max(y[k], 0.0) / direction[k];
             if (ratio < step) step = ratio, leaving = k;
         }
-        if (leaving < 0) break;
-        basis[static_cast<std::size_t>(leaving)] = entering;
+        if (leaving > n) break;
+        basis[leaving] = entering;
     }
     for (auto& z : result.z) z = std::clamp(z, 0.0, 1.0);
     return result;

@@ -23,8 +23,11 @@ namespace sivid {
 struct observed_motion {
     std::string name;
     std::vector<std::optional<channel_tube>> tubes; ///< one per state; none where unmeasured
-    std::vector<rate_variation> variation;          ///< declared; of measured states
-    std::vector<double> boundaries;                 ///< of the cells
+    /// The same by the sensor alone, without the initial state: a constant error of the sensor then
+    /// shifts the tube and does not bend it.
+    std::vector<std::optional<channel_tube>> sensed;
+    std::vector<rate_variation> variation; ///< declared; of measured states
+    std::vector<double> boundaries;        ///< of the cells
     std::vector<time_cell> cells;
 
     [[nodiscard]] std::size_t boundary_at(double t) const {
@@ -72,12 +75,15 @@ observe_motion(bound_model const& model, box const& prior, experiment const& e,
     result.name = e.name;
     result.variation = variation;
     result.tubes.resize(n);
+    result.sensed.resize(n);
     double period = HUGE_VAL;
     double end = e.begin;
     for (std::size_t i = 0; i < n; ++i) {
         if (!channels[i]) continue;
         auto const s = state_samples::of(e, i, *channels[i]);
         result.tubes[i].emplace(s.times, s.bounds, variation[i]);
+        auto const alone = state_samples::sensed(e, *channels[i]);
+        if (!alone.times.empty()) result.sensed[i].emplace(alone.times, alone.bounds, variation[i]);
         result.boundaries.insert(result.boundaries.end(), s.times.begin(), s.times.end());
         if (s.times.size() > 1) period = std::min(period, s.period());
         end = std::max(end, s.times.back());

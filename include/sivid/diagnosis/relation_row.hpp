@@ -28,6 +28,7 @@ struct relation_row {
     std::set<std::size_t> states;   ///< that the functions contain
     bool bounded = true;            ///< all ranges are
     bool uses_inputs = false;
+    bool kinematic = false; ///< a function of states only
     /// Inequalities between coefficients, from quotients of which the prior knows more than of the
     /// coefficients one by one: (row in z, bound).
     std::vector<std::pair<std::vector<double>, double>> ratios;
@@ -80,6 +81,7 @@ inline void add_ratios(relation_row& row, graph_range const& atoms) {
                                                     box const& prior) {
     relation_row row;
     row.equation = equation;
+    row.kinematic = (g.depends(rate) & ~on_state) == 0;
     auto const split = separate(g, rate);
     std::vector<node_id> factors;
     for (auto const& t : split.terms) {

@@ -181,6 +181,13 @@ private:
         states.insert(p.q);
         result.assumptions.push_back(about().states[p.q].name + "' = " + about().states[p.r].name);
     }
+    /// What the differences of the equation's own state are taken from. A kinematic equation is one
+    /// between sensors: the initial state is left out, lest a constant error of the state's sensor
+    /// (which the equation cannot see) be taken for one of the equation.
+    [[nodiscard]] static std::optional<channel_tube> const& own_tube(relation_row const& row,
+                                                                     observed_motion const& m) {
+        return row.kinematic ? m.sensed[row.equation] : m.tubes[row.equation];
+    }
     /// Six digits, for the text of an assumption.
     [[nodiscard]] static std::string digits(double x) {
         std::array<char, 32> text{};
@@ -209,7 +216,8 @@ private:
             std::size_t count = 0;
             auto const stride = total / options_.most_windows + 1;
             for (std::size_t m = 0; m < motions_.size(); ++m) {
-                auto const& times = motions_[m].tubes[i]->times();
+                if (!own_tube(e.row, motions_[m])) continue;
+                auto const& times = own_tube(e.row, motions_[m])->times();
                 for (std::size_t b = 1; b < times.size(); ++b) {
                     for (std::size_t a = b; a-- > 0;) {
                         double const length = times[b] - times[a];
@@ -230,7 +238,7 @@ private:
     [[nodiscard]] bool fill(prepared_equation const& e, std::size_t a, std::size_t b,
                             window_way way, window_row& w) const {
         auto const& motion = motions_[w.motion];
-        auto const& tube = *motion.tubes[e.row.equation];
+        auto const& tube = *own_tube(e.row, motion);
         auto const& integral = e.integrals[w.motion];
         w.from = tube.times()[a];
         w.to = tube.times()[b];
@@ -241,9 +249,13 @@ private:
         auto const q_at = [&motion](std::size_t q, std::size_t k) {
             return motion.state_over(q, motion.boundaries[k], motion.boundaries[k]);
         };
+        bool parts = way == window_way::by_parts;
+        for (auto const& p : pairs_of(e.row.equation)) {
+            parts = parts && motion.sensed[p.q] && motion.sensed[p.q]->covers(w.from, w.to);
+        }
         for (std::size_t j = 0; j < e.row.functions.size(); ++j) {
             auto value = integral.direct(j, first, last);
-            if (way == window_way::by_parts && integral.has_parts(j)) {
+            if (parts && integral.has_parts(j)) {
                 auto const both = intersect(value, integral.by_parts(j, first, last, q_at));
                 if (!is_empty(both)) value = both;
             }

@@ -32,27 +32,20 @@ measured_states(bound_model const& model, std::vector<experiment const*> const& 
     return result;
 }
 
-/// What bounds of one state an experiment gives, in the order of time; first at its begin.
+/// What bounds of one state an experiment gives, in the order of time.
 struct state_samples {
     std::vector<double> times;
     std::vector<interval> bounds;
 
-    /// The initial side and the measurements of one channel. Several at the same time are
-    /// intersected as far as they agree; the later one wins where they do not.
+    /// The measurements of one channel. Several at the same time are intersected as far as they
+    /// agree; the later one wins where they do not.
+    [[nodiscard]] static state_samples sensed(experiment const& e, std::size_t channel) {
+        return state_samples{}.with(e, channel);
+    }
+    /// The initial side of a state and the measurements of the channel that shows it.
     [[nodiscard]] static state_samples of(experiment const& e, std::size_t state,
                                           std::size_t channel) {
-        state_samples result{{e.begin}, {e.initial[state]}};
-        for (auto const& m : sorted(e.measurements)) {
-            if (m.channel != channel) continue;
-            if (m.time == result.times.back()) {
-                auto const both = intersect(m.bound, result.bounds.back());
-                result.bounds.back() = is_empty(both) ? m.bound : both;
-            } else {
-                result.times.push_back(m.time);
-                result.bounds.push_back(m.bound);
-            }
-        }
-        return result;
+        return state_samples{{e.begin}, {e.initial[state]}}.with(e, channel);
     }
 
     /// The median of the gaps; 1 if there is none.
@@ -104,6 +97,19 @@ struct state_samples {
     }
 
 private:
+    [[nodiscard]] state_samples with(experiment const& e, std::size_t channel) && {
+        for (auto const& m : sorted(e.measurements)) {
+            if (m.channel != channel) continue;
+            if (!times.empty() && m.time == times.back()) {
+                auto const both = intersect(m.bound, bounds.back());
+                bounds.back() = is_empty(both) ? m.bound : both;
+            } else {
+                times.push_back(m.time);
+                bounds.push_back(m.bound);
+            }
+        }
+        return std::move(*this);
+    }
     [[nodiscard]] interval secant(std::size_t a, std::size_t b) const {
         return (bounds[b] - bounds[a]) / (times[b] - times[a]);
     }

@@ -45,8 +45,8 @@ private:
 /// measured while q with \f$ q' = r \f$ was: multiplied by a bump w and integrated by parts,
 ///   \f[ \int w'' q = \sum_j \theta_j (\int w \psi_j - \kappa_j \int w' q), \quad
 ///       \phi_j = \psi_j + \kappa_j r \f]
-/// in which r stands no longer. It needs \f$ \phi_j \f$ that are affine in r with constant slopes
-/// \f$ \kappa_j \f$.
+/// in which r stands no longer, and a constant error of q does not either. It needs \f$ \phi_j \f$
+/// that are affine in r with constant slopes \f$ \kappa_j \f$.
 class weak_windows {
     using traits = interval_traits<interval>;
 
@@ -70,7 +70,7 @@ public:
     [[nodiscard]] std::vector<window_row> over(observed_motion const& motion, std::size_t index,
                                                double shortest, double longest) const {
         std::vector<window_row> result;
-        auto const& tube = motion.tubes[pair_.q];
+        auto const& tube = motion.sensed[pair_.q];
         if (!tube || motion.cells.empty()) return result;
         auto const psi = functions_without_r(motion);
         auto const& times = tube->times();
