@@ -21,11 +21,11 @@ namespace sivid {
 
 /// What the responses of several experiments say of the inflation over a box of parameters.
 struct inflation_relaxation {
-    double lower = 0;           ///< proved: nowhere in the box is the inflation smaller
-    double slack = 0;           ///< what the curvature may have cost the bound
-    std::vector<double> blur;   ///< per experiment: what its remainders may have cost
-    std::vector<double> smear;  ///< per parameter
-    std::vector<double> point;  ///< parameters where the inflation is about least, not proved
+    double lower = 0;          ///< proved: nowhere in the box is the inflation smaller
+    double slack = 0;          ///< what the curvature may have cost the bound
+    std::vector<double> blur;  ///< per experiment: what its remainders may have cost
+    std::vector<double> smear; ///< per parameter
+    std::vector<double> point; ///< parameters where the inflation is about least, not proved
     std::vector<std::vector<double>> starts; ///< one initial state per experiment, for `point`
     double approximate_value = std::numeric_limits<double>::infinity(); ///< about, at `point`
 };
