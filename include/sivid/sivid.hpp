@@ -98,6 +98,7 @@
 #include <sivid/paving/holdout_inflation.hpp>
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/inflation.hpp>
+#include <sivid/paving/inflation_certificate.hpp>
 #include <sivid/paving/inflation_relaxation.hpp>
 #include <sivid/paving/inflation_search.hpp>
 #include <sivid/paving/invert.hpp>

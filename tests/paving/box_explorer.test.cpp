@@ -25,9 +25,8 @@ TEST_CASE("a box of which nothing is known is integrated in parts that cover it"
     explorer.learn(boxes, always);
     CHECK(boxes.size() == explorer.at_once());
     CHECK(explorer.integrations() == boxes.size());
-    std::sort(boxes.begin(), boxes.end(), [](auto const& a, auto const& b) {
-        return a.set[0].lower() < b.set[0].lower();
-    });
+    std::sort(boxes.begin(), boxes.end(),
+              [](auto const& a, auto const& b) { return a.set[0].lower() < b.set[0].lower(); });
     double reached = 0.25;
     for (auto const& b : boxes) {
         CHECK(b.set[0].lower() == reached);

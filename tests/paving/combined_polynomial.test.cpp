@@ -144,7 +144,8 @@ TEST_CASE("nonlinear terms of different outputs cancel") {
     draws d(82);
     auto known = random_response(d, 2, 1, 0);
     auto const& table = *known.table;
-    for (std::size_t m = 0; m < table.size(); ++m) known.coefficients[2 * m + 1] = known.coefficients[2 * m];
+    for (std::size_t m = 0; m < table.size(); ++m)
+        known.coefficients[2 * m + 1] = known.coefficients[2 * m];
     combined_polynomial sum(3);
     sum.add_constant(interval(1.0));
     std::vector<combined_polynomial::place> places;
@@ -154,15 +155,17 @@ TEST_CASE("nonlinear terms of different outputs cancel") {
 }
 
 TEST_CASE("parabolas and paraboloids are bounded by their minimum") {
-    CHECK_THAT(of_one({0, 1, 1, 0, 0}).lower_bound(), WithinAbs(-0.25, 1e-9));  // within
-    CHECK_THAT(of_one({0, 4, 1, 0, 0}).lower_bound(), WithinAbs(-3, 1e-9));     // at an end
-    CHECK_THAT(of_one({0, 1, -1, 0, 0}).lower_bound(), WithinAbs(-2, 1e-9));    // concave
-    CHECK_THAT(of_one({2, 0, 0, 0, 1}).lower_bound(), WithinAbs(2, 1e-9));      // even
-    CHECK_THAT(of_one({2, 0, 0, 1, -1}).lower_bound(), WithinAbs(0, 1e-9));     // the rest one by one
-    CHECK_THAT(of_two({1, 0, 0, 1, 1, 1}).lower_bound(), WithinAbs(1, 1e-9));   // the mixed term is absorbed
+    CHECK_THAT(of_one({0, 1, 1, 0, 0}).lower_bound(), WithinAbs(-0.25, 1e-9)); // within
+    CHECK_THAT(of_one({0, 4, 1, 0, 0}).lower_bound(), WithinAbs(-3, 1e-9));    // at an end
+    CHECK_THAT(of_one({0, 1, -1, 0, 0}).lower_bound(), WithinAbs(-2, 1e-9));   // concave
+    CHECK_THAT(of_one({2, 0, 0, 0, 1}).lower_bound(), WithinAbs(2, 1e-9));     // even
+    CHECK_THAT(of_one({2, 0, 0, 1, -1}).lower_bound(), WithinAbs(0, 1e-9)); // the rest one by one
+    CHECK_THAT(of_two({1, 0, 0, 1, 1, 1}).lower_bound(),
+               WithinAbs(1, 1e-9)); // the mixed term is absorbed
     CHECK_THAT(of_two({1, 0, 0, 4, 2, 0.25}).lower_bound(), WithinAbs(1, 1e-9)); // just so
-    CHECK_THAT(of_two({1, 0, 0, 1, 3, 1}).lower_bound(), WithinAbs(-2, 1e-9));  // it is not
-    CHECK_THAT(of_two({1, 2, 2, 1, 1, 1}).lower_bound(), WithinAbs(-2, 1e-9));  // and costs no more at a corner
+    CHECK_THAT(of_two({1, 0, 0, 1, 3, 1}).lower_bound(), WithinAbs(-2, 1e-9));   // it is not
+    CHECK_THAT(of_two({1, 2, 2, 1, 1, 1}).lower_bound(),
+               WithinAbs(-2, 1e-9)); // and costs no more at a corner
 }
 
 TEST_CASE("what is not finite proves nothing") {
@@ -173,7 +176,10 @@ TEST_CASE("what is not finite proves nothing") {
         auto known = random_response(d, 1, 1, 0);
         known.radius[0] = radius;
         combined_polynomial sum(3);
-        sum.add(known, {{0, 1.0}}, {{0, interval(0.0), interval(1.0)}, {1, interval(0.0), interval(1.0)}, {2, interval(0.0), interval(1.0)}});
+        sum.add(known, {{0, 1.0}},
+                {{0, interval(0.0), interval(1.0)},
+                 {1, interval(0.0), interval(1.0)},
+                 {2, interval(0.0), interval(1.0)}});
         CHECK(sum.lower_bound() == -HUGE_VAL);
     }
 }

@@ -63,9 +63,9 @@ TEST_CASE("the range over all fits contains, and about equals, what samples show
                 double least = HUGE_VAL;
                 double most = 0;
                 for (double p = 0.25; p < 3; p += 1e-4) {
-                    double const here = std::max(std::abs(std::exp(-p) - 0.5),
-                                                 std::abs(std::exp(-2 * p) - 0.16)) /
-                                        half_width;
+                    double const here =
+                        std::max(std::abs(std::exp(-p) - 0.5), std::abs(std::exp(-2 * p) - 0.16)) /
+                        half_width;
                     if (here > fitted.value.upper()) continue;
                     double const there = holdout_at(p, spread, outliers);
                     least = std::min(least, there);
@@ -94,8 +94,8 @@ TEST_CASE("the range over all fits contains, and about equals, what samples show
 TEST_CASE("planted problems: every fit lies in the hold-out's range") {
     draws d(431);
     for (std::size_t model = 0; model < support::planted_models; ++model) {
-        auto const planted = support::tightened(
-            support::plant(d, model, {.experiments = 2, .samples = 10}), 2);
+        auto const planted =
+            support::tightened(support::plant(d, model, {.experiments = 2, .samples = 10}), 2);
         auto fit = planted;
         fit.problem.experiments.pop_back();
         auto holdout = planted.problem;
@@ -123,8 +123,7 @@ TEST_CASE("planted problems: every fit lies in the hold-out's range") {
             auto p = w;
             for (std::size_t j = 0; j < p.size(); ++j) {
                 double const reach = std::pow(10, -d.uniform(0, 4)) * width(fitted.hull[j]);
-                p[j] = std::clamp(p[j] + d.uniform(-1, 1) * reach,
-                                  planted.problem.prior[j].lower(),
+                p[j] = std::clamp(p[j] + d.uniform(-1, 1) * reach, planted.problem.prior[j].lower(),
                                   planted.problem.prior[j].upper());
             }
             auto one = fit;

@@ -94,11 +94,11 @@ TEST_CASE("two measurements of a decay: the inflation has a closed form") {
 TEST_CASE("only the verdict: the search stops as soon as it is proved") {
     auto options = brief();
     options.only_verdict = true;
-    auto const gap = bound_inflation(support::decay(between(0.25, 3), 0.5, 0.125, 0.0078125),
-                                     nullptr, options);
+    auto const gap =
+        bound_inflation(support::decay(between(0.25, 3), 0.5, 0.125, 0.0078125), nullptr, options);
     CHECK(gap.value.lower() > 1);
-    auto const none = bound_inflation(support::decay(between(0.25, 3), 0.5, 0.25, 0.0078125),
-                                      nullptr, options);
+    auto const none =
+        bound_inflation(support::decay(between(0.25, 3), 0.5, 0.25, 0.0078125), nullptr, options);
     CHECK(none.value.upper() <= 1);
     REQUIRE(none.witness);
     CHECK(std::count(none.witness->violated[0].begin(), none.witness->violated[0].end(), true) ==
@@ -179,8 +179,8 @@ TEST_CASE("parameters that are known, and measurements that say nothing") {
 TEST_CASE("a problem restricted to some measurements has no larger inflation") {
     auto const problem = support::decay(between(0.25, 3), 0.5, 0.125, 0.0078125);
     auto const whole = bound_inflation(problem, nullptr, brief());
-    auto const first = restricted_to(
-        problem, [](std::size_t, measurement const& m) { return m.time < 1.5; });
+    auto const first =
+        restricted_to(problem, [](std::size_t, measurement const& m) { return m.time < 1.5; });
     REQUIRE(first.experiments.size() == 1);
     CHECK(first.experiments[0].measurements.size() == 1);
     auto const part = bound_inflation(first, nullptr, brief());

@@ -87,8 +87,8 @@ TEST_CASE("no point of the box has a smaller inflation than the relaxation prove
     draws d(91);
     std::size_t useful = 0;
     for (int trial = 0; trial < 150; ++trial) {
-        random_experiments const e(d, 1 + d.below(3), 2 + d.below(10), std::pow(10, -d.uniform(0, 3)),
-                                   d.coin() ? 0 : 0.05, d.below(3));
+        random_experiments const e(d, 1 + d.below(3), 2 + d.below(10),
+                                   std::pow(10, -d.uniform(0, 3)), d.coin() ? 0 : 0.05, d.below(3));
         auto part = e.prior;
         for (std::size_t j = 0; j < 2; ++j) {
             double const share = std::pow(10, -d.uniform(0, 2));
@@ -115,8 +115,7 @@ TEST_CASE("no point of the box has a smaller inflation than the relaxation prove
         std::vector<double> x0;
         for (std::size_t s = 0; s < e.known.size(); ++s) {
             auto const& side = e.known[s]->unknowns.initial[0];
-            x0.push_back(side.radius > 0 ? (found.starts[s][0] - side.centre) / side.radius
-                                         : 0);
+            x0.push_back(side.radius > 0 ? (found.starts[s][0] - side.centre) / side.radius : 0);
             CHECK(std::abs(x0.back()) <= 1 + 1e-9);
         }
         check(found.point, x0);

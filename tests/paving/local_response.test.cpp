@@ -273,3 +273,31 @@ TEST_CASE("measurements that were not reached count neither for nor against") {
     r.known.allowed = 1;
     REQUIRE(assess(r.known, part).refuted);
 }
+
+TEST_CASE("a response with variables fixed one by one: ranges contain the polynomial") {
+    draws d(4);
+    for (int trial = 0; trial < 40; ++trial) {
+        random_response r(d, 3, d.coin() ? 0.05 : 1);
+        r.known.bounds.assign(3, interval(0.0));
+        std::vector<double> middle;
+        std::vector<double> reach;
+        for (std::size_t v = 0; v < 3; ++v) {
+            reach.push_back(d.coin() ? 0 : d.uniform(0, 1));
+            middle.push_back(d.uniform(reach[v] - 1, 1 - reach[v]));
+        }
+        auto const ranges = output_ranges(r.known, expand(r.known, middle, reach));
+        for (int sample = 0; sample < 10; ++sample) {
+            std::vector<rational> q;
+            for (std::size_t v = 0; v < 3; ++v) {
+                q.push_back(rational(middle[v]) +
+                            rational(reach[v]) * rational(d.in(between(-1, 1))));
+            }
+            for (std::size_t y = 0; y < 3; ++y) {
+                auto const exact = r.value(y, q);
+                rational const radius(r.known.radius[y]);
+                CHECK(contains_exactly(ranges[y], exact + radius));
+                CHECK(contains_exactly(ranges[y], exact - radius));
+            }
+        }
+    }
+}

@@ -41,8 +41,7 @@ TEST_CASE("the descent finds what the bounds allow, and says truly what it found
                     CHECK(contains(planted.problem.experiments[e].initial, found.starts[e]));
                     CHECK(found.residuals[e].size() == 12);
                 }
-                double const there =
-                    support::inflation_of(planted, found.parameters, found.starts);
+                double const there = support::inflation_of(planted, found.parameters, found.starts);
                 CHECK_THAT(found.inflation, WithinAbs(there, 1e-4));
                 ++tried;
                 // Outliers leave local minima.

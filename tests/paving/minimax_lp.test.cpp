@@ -96,7 +96,8 @@ double by_vertices(std::size_t n, std::vector<minimax_block> const& blocks) {
             if (within) best = std::min(best, height(blocks, d));
         }
         std::size_t k = n + 1; // the next subset
-        while (k-- > 0 && chosen[k] == rows.size() - (n + 1 - k)) {}
+        while (k-- > 0 && chosen[k] == rows.size() - (n + 1 - k)) {
+        }
         if (k > n) return best;
         ++chosen[k];
         for (std::size_t l = k + 1; l <= n; ++l) chosen[l] = chosen[l - 1] + 1;

@@ -165,3 +165,22 @@ TEST_CASE("identification through a reduction contains the truth and claims noth
         }
     }
 }
+
+TEST_CASE("every reduced point has an original one close to its image") {
+    draws d(375);
+    auto const s = products();
+    auto const map = reduction::find(s.problem, s.structure);
+    REQUIRE(map);
+    for (int trial = 0; trial < 50; ++trial) {
+        auto const r = mid(map->forward(point_box(d.in(s.problem.prior))));
+        auto const p = map->approximate_preimage(s.problem.prior, r);
+        CHECK(contains(s.problem.prior, p));
+        auto const back = mid(map->forward(point_box(p)));
+        REQUIRE(back.size() == r.size());
+        for (std::size_t k = 0; k < r.size(); ++k) CHECK_THAT(back[k], WithinAbs(r[k], 1e-8));
+    }
+    // A point that is the image of none: still within the prior.
+    auto const far = map->approximate_preimage(
+        s.problem.prior, std::vector<double>(map->problem().prior.size(), 99));
+    CHECK(contains(s.problem.prior, far));
+}

@@ -65,7 +65,8 @@ inline double decay_inflation(interval const& prior, double m1, double m2, doubl
     double best = HUGE_VAL;
     for (int k = 0; k <= 2'000'000; ++k) {
         double const p = prior.lower() + (prior.upper() - prior.lower()) * k / 2e6;
-        best = std::min(best, std::max(std::abs(std::exp(-p) - m1), std::abs(std::exp(-2 * p) - m2)));
+        best =
+            std::min(best, std::max(std::abs(std::exp(-p) - m1), std::abs(std::exp(-2 * p) - m2)));
     }
     return best / e;
 }

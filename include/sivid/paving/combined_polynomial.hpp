@@ -124,9 +124,8 @@ private:
             }
         }
         for (auto const& [u, v, size] : mixed) {
-            double const theta = absorb && square[u] > 0 && square[v] > 0
-                                     ? std::sqrt(square[u] / square[v])
-                                     : 0.0;
+            double const theta =
+                absorb && square[u] > 0 && square[v] > 0 ? std::sqrt(square[u] / square[v]) : 0.0;
             auto const half = traits::mul(traits::point(0.5), traits::point(size));
             bool undefined = false;
             auto const from_u = traits::mul(half, traits::point(theta));

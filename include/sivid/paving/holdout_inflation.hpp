@@ -32,9 +32,10 @@ struct holdout_bound {
 /// Over a box of parameters, the largest over the experiments of the (q+1)-th largest misfit, from
 /// above, when each experiment starts at the given state.
 /// @guarantee  an upper bound of \f$ \max_p \min_{x_0} \f$: these starts are some starts
-[[nodiscard]] inline double inflation_from_above(
-    inflation_bounder::responses const& known, std::vector<std::size_t> const& outliers,
-    box const& part, std::vector<std::vector<double>> const& starts) {
+[[nodiscard]] inline double inflation_from_above(inflation_bounder::responses const& known,
+                                                 std::vector<std::size_t> const& outliers,
+                                                 box const& part,
+                                                 std::vector<std::vector<double>> const& starts) {
     constexpr double within = 1 - 1e-12; // in the decimal box, not only in its enclosure
     double worst = 0;
     for (std::size_t s = 0; s < known.size(); ++s) {
@@ -165,8 +166,7 @@ private:
         b.most = std::min(
             b.most, inflation_from_above(own_known, own_outliers, b.set,
                                          own.starts.empty() ? middles(own_known) : own.starts));
-        double const tolerance =
-            share_ * (std::isfinite(b.most) ? b.most : std::max(b.least, 1.0));
+        double const tolerance = share_ * (std::isfinite(b.most) ? b.most : std::max(b.least, 1.0));
         double const fit_tolerance = share_ * fit_upper_;
         double unclear = fits.slack;
         for (double const blur : fits.blur) unclear += blur;

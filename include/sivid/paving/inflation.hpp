@@ -21,7 +21,7 @@ namespace sivid {
 struct inflation_options {
     double relative_width = 0.05; ///< stop when upper - lower is at most this share of upper
     double seconds = 3;
-    bool only_verdict = false; ///< stop as soon as lower > 1 or upper <= 1
+    bool only_verdict = false;        ///< stop as soon as lower > 1 or upper <= 1
     std::function<bool()> keep_going; ///< false stops the search with what is proved until then
     data_test_options test;
 };
@@ -155,8 +155,7 @@ private:
         promise_ = found;
     }
     /// Descends from a point of the working problem and verifies where that leads.
-    void improve(std::vector<double> const& point,
-                 std::vector<std::vector<double>> const& starts) {
+    void improve(std::vector<double> const& point, std::vector<std::vector<double>> const& starts) {
         double const begin = elapsed();
         auto const better = fit_(point, starts, [this] { return in_time(); });
         if (better.parameters.empty()) {
@@ -167,8 +166,10 @@ private:
         improving_ += elapsed() - begin;
     }
     void verify(std::vector<double> const& point, std::vector<std::vector<double>> starts) {
-        verified_witness candidate{
-            map_ ? map_->approximate_preimage(problem_->prior, point) : point, std::move(starts), {}};
+        verified_witness candidate{map_ ? map_->approximate_preimage(problem_->prior, point)
+                                        : point,
+                                   std::move(starts),
+                                   {}};
         move_inside(candidate.parameters, problem_->prior);
         for (std::size_t s = 0; s < candidate.starts.size(); ++s) {
             move_inside(candidate.starts[s], problem_->experiments[s].initial);

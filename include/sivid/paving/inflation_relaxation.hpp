@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_INFLATION_RELAXATION_HPP
 #define SIVID_PAVING_INFLATION_RELAXATION_HPP
 
-#include <sivid/paving/combined_polynomial.hpp>
+#include <sivid/paving/inflation_certificate.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/minimax_lp.hpp>
 #include <sivid/paving/misfit.hpp>
@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -21,11 +20,11 @@ namespace sivid {
 
 /// What the responses of several experiments say of the inflation over a box of parameters.
 struct inflation_relaxation {
-    double lower = 0;           ///< proved: nowhere in the box is the inflation smaller
-    double slack = 0;           ///< what the curvature may have cost the bound
-    std::vector<double> blur;   ///< per experiment: what its remainders may have cost
-    std::vector<double> smear;  ///< per parameter
-    std::vector<double> point;  ///< parameters where the inflation is about least, not proved
+    double lower = 0;          ///< proved: nowhere in the box is the inflation smaller
+    double slack = 0;          ///< what the curvature may have cost the bound
+    std::vector<double> blur;  ///< per experiment: what its remainders may have cost
+    std::vector<double> smear; ///< per parameter
+    std::vector<double> point; ///< parameters where the inflation is about least, not proved
     std::vector<std::vector<double>> starts; ///< one initial state per experiment, for `point`
     double approximate_value = std::numeric_limits<double>::infinity(); ///< about, at `point`
 };
@@ -43,15 +42,14 @@ class inflation_bounder {
     using traits = interval_traits<interval>;
 
 public:
-    using responses = std::vector<std::shared_ptr<response const>>;
+    using responses = response_list;
 
     /// @param outliers  budget of each experiment
     /// @param part      inside the boxes that the responses were computed for (trusted)
     inflation_bounder(responses const& known, std::vector<std::size_t> const& outliers,
                       box const& part)
-        : known_(&known), outliers_(&outliers), part_(&part), unknowns_(part.size()) {
-        for (auto const& r : known) place(*r);
-        for (auto const& r : known) linearise(*r);
+        : known_(&known), outliers_(&outliers), part_(&part), unknowns_(known, part) {
+        for (std::size_t s = 0; s < known.size(); ++s) linearise(s);
     }
 
     /// @param target  a bound that is worth more work with outliers; more is of no use
@@ -61,7 +59,7 @@ public:
         result.smear.assign(part_->size(), 0.0);
         bool const strict = std::count(outliers_->begin(), outliers_->end(), 0u) > 0;
         if (strict) {
-            auto const solved = minimax_solver(unknowns_, strict_blocks())();
+            auto const solved = minimax_solver(unknowns_.count, strict_blocks())();
             take(result, certified(solved.weights));
             describe(result, solved.weights);
             propose(result, solved.point);
@@ -73,7 +71,7 @@ public:
             take(result, bound);
         }
         if (std::any_of(outliers_->begin(), outliers_->end(), [](auto q) { return q > 0; })) {
-            propose(result, minimax_solver(unknowns_, trimmed_blocks())().point);
+            propose(result, minimax_solver(unknowns_.count, trimmed_blocks())().point);
         }
         return result;
     }
@@ -83,26 +81,9 @@ private:
         if (bound > result.lower) result.lower = std::min(bound, detail::greatest);
     }
 
-    /// Names the variables of a response: parameters are shared, starts are its own.
-    void place(response const& r) {
-        auto& places = places_.emplace_back(r.table->variables);
-        auto const& u = r.unknowns;
-        bool undefined = false;
-        for (std::size_t j = 0; j < u.parameters.size(); ++j) {
-            auto const& side = u.parameters[j];
-            if (side.radius == 0) continue;
-            auto const radius = traits::point(side.radius);
-            auto const& mine = (*part_)[j];
-            auto const off = traits::sub(traits::point(mid(mine)), traits::point(side.centre));
-            places[side.variable] = {j, traits::div(off, radius, undefined),
-                                     traits::div(traits::point(rad(mine)), radius, undefined)};
-        }
-        for (auto const& side : u.initial) {
-            if (side.radius > 0) places[side.variable].unknown = unknowns_++;
-        }
-    }
-    void linearise(response const& r) {
-        auto const& places = places_[blocks_.size()];
+    void linearise(std::size_t s) {
+        auto const& r = *(*known_)[s];
+        auto const& places = unknowns_.places[s];
         auto const& local = locals_.emplace_back(expand(r, *part_));
         minimax_block block;
         for (auto const& p : places) block.variable.push_back(p.unknown);
@@ -153,30 +134,12 @@ private:
         block.margin[y] = std::numeric_limits<double>::infinity();
     }
 
-    /// The proof: encloses the weighted sum over the box.
     [[nodiscard]] double certified(std::vector<minimax_weight> const& weights) const {
-        combined_polynomial sum(unknowns_);
-        auto size = traits::point(0.0);
-        auto const half = traits::point(0.5);
-        for (std::size_t s = 0; s < known_->size(); ++s) {
-            auto const& r = *(*known_)[s];
-            std::vector<std::pair<std::size_t, double>> mine;
-            for (auto const& w : weights) {
-                if (w.block != s) continue;
-                double const value = w.value * scales_[s][w.function];
-                auto const weight = traits::mul(half, traits::point(value));
-                auto const [lo, hi] = measured_ends(r.bounds[w.function]);
-                sum.add_constant(traits::neg(traits::mul(weight, traits::add(lo, hi))));
-                size = traits::add(size, traits::abs(traits::mul(weight, traits::sub(hi, lo))));
-                mine.emplace_back(w.function, value);
-            }
-            if (!mine.empty()) sum.add(r, mine, places_[s]);
+        std::vector<measurement_weight> measured;
+        for (auto const& w : weights) { // the program's functions are in units of e
+            measured.push_back({w.block, w.function, w.value * scales_[w.block][w.function]});
         }
-        double const least = sum.lower_bound();
-        if (!(least > 0)) return 0;
-        if (!(upper(size) > 0)) return detail::greatest;
-        bool undefined = false;
-        return lower(traits::div(traits::point(least), traits::point(upper(size)), undefined));
+        return certified_inflation(*known_, unknowns_, measured);
     }
 
     /// An experiment with outliers: measurements that prove more than the target one by one, then
@@ -200,7 +163,7 @@ private:
             remove(left[s], y);
         }
         for (; groups <= q; ++groups) {
-            auto const solved = minimax_solver(unknowns_, left)();
+            auto const solved = minimax_solver(unknowns_.count, left)();
             if (!(certified(solved.weights) > target)) return simple;
             for (auto const& w : solved.weights) remove(left[s], w.function);
         }
@@ -226,7 +189,7 @@ private:
                 }
                 if (degree < 2) continue;
                 for (std::size_t v = 0; v < table.variables; ++v) {
-                    auto const unknown = places_[w.block][v].unknown;
+                    auto const unknown = unknowns_.places[w.block][v].unknown;
                     if (table.exponents[m][v] > 0 && unknown < part_->size()) {
                         result.smear[unknown] += c;
                     }
@@ -266,7 +229,7 @@ private:
             auto const& local = locals_[s];
             std::vector<double> q(r.table->variables);
             for (std::size_t v = 0; v < q.size(); ++v) {
-                q[v] = local.middle[v] + local.reach[v] * d[places_[s][v].unknown];
+                q[v] = local.middle[v] + local.reach[v] * d[unknowns_.places[s][v].unknown];
             }
             std::vector<double> values(r.outputs(), 0.0);
             for (std::size_t m = 0; m < r.table->size(); ++m) {
@@ -301,8 +264,7 @@ private:
     responses const* known_;
     std::vector<std::size_t> const* outliers_;
     box const* part_;
-    std::size_t unknowns_;
-    std::vector<std::vector<combined_polynomial::place>> places_;
+    shared_unknowns unknowns_;
     std::vector<local_response> locals_;
     std::vector<std::vector<double>> scales_; ///< 1 / e
     std::vector<minimax_block> blocks_;       ///< in units of e

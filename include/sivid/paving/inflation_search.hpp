@@ -24,8 +24,8 @@ struct inflation_box : explored_box {
 };
 
 /// Branch and bound over boxes of parameters, the one with the least proved inflation first.
-///   A box hands its responses to its halves, which re-expand them; an experiment is integrated anew
-///   for a part when remainders, or an end before all measurements, hold the bound back.
+///   A box hands its responses to its halves, which re-expand them; an experiment is integrated
+///   anew for a part when remainders, or an end before all measurements, hold the bound back.
 /// @guarantee  every parameter of the prior lies in a waiting box, or its inflation is at least
 ///             `lower()` and more than the bound above which boxes were dropped
 class inflation_search {

@@ -83,8 +83,8 @@ public:
     }
 
 private:
-    [[nodiscard]] std::vector<double>
-    joined(std::vector<double> z, std::vector<std::vector<double>> const& starts) const {
+    [[nodiscard]] std::vector<double> joined(std::vector<double> z,
+                                             std::vector<std::vector<double>> const& starts) const {
         for (auto const& x0 : starts) z.insert(z.end(), x0.begin(), x0.end());
         for (std::size_t k = 0; k < z.size(); ++k) {
             z[k] = std::clamp(z[k], sides_[k].lower(), sides_[k].upper());
@@ -93,8 +93,7 @@ private:
     }
     [[nodiscard]] std::vector<double> start_of(std::size_t e, std::vector<double> const& z) const {
         auto const from = z.begin() + static_cast<std::ptrdiff_t>(first_start_[e]);
-        return {from,
-                from + static_cast<std::ptrdiff_t>(problem_->experiments[e].initial.size())};
+        return {from, from + static_cast<std::ptrdiff_t>(problem_->experiments[e].initial.size())};
     }
     /// Where an unknown may go in one step.
     [[nodiscard]] interval around(std::vector<double> const& z, std::size_t k, double reach) const {
@@ -164,9 +163,9 @@ private:
             }
             for (std::size_t k = 0; k < z.size(); ++k) {
                 auto const own = k - first_start_[e];
-                bool const is_mine = k < problem_->prior.size() ||
-                                     (k >= first_start_[e] &&
-                                      own < problem_->experiments[e].initial.size());
+                bool const is_mine =
+                    k < problem_->prior.size() ||
+                    (k >= first_start_[e] && own < problem_->experiments[e].initial.size());
                 if (!is_mine || !(rad(around(z, k, reach)) > 0)) continue;
                 double const d = 1e-5 * width(sides_[k]);
                 auto other = z;

@@ -19,15 +19,15 @@ struct measured_ends {
     /// @given  bounded
     explicit measured_ends(interval const& bound) : lower(bound.lower()), upper(bound.upper()) {
         if (!(bound.lower() < bound.upper())) return;
-        lower = interval_traits<interval>::bounds(
-            bound.lower(), std::nextafter(bound.lower(), detail::infinity));
-        upper = interval_traits<interval>::bounds(
-            std::nextafter(bound.upper(), -detail::infinity), bound.upper());
+        lower = interval_traits<interval>::bounds(bound.lower(),
+                                                  std::nextafter(bound.lower(), detail::infinity));
+        upper = interval_traits<interval>::bounds(std::nextafter(bound.upper(), -detail::infinity),
+                                                  bound.upper());
     }
 };
 
-/// Encloses \f$ |y - m| / e \f$ for all y in `output`, where m is the middle and e the half width of
-/// the measured bound: by which factor the bound must grow to contain y.
+/// Encloses \f$ |y - m| / e \f$ for all y in `output`, where m is the middle and e the half width
+/// of the measured bound: by which factor the bound must grow to contain y.
 ///   A bound that is not bounded cannot grow: the misfit is 0 within and infinite outside.
 [[nodiscard]] inline interval misfit(interval const& output, interval const& bound) {
     using traits = interval_traits<interval>;
@@ -46,9 +46,9 @@ struct measured_ends {
     };
     double const least = mig(off);
     double const most = mag(off);
-    double const from = least == 0          ? 0.0
-                        : upper(size) > 0   ? lower(quotient(least, upper(size)))
-                                            : detail::greatest;
+    double const from = least == 0        ? 0.0
+                        : upper(size) > 0 ? lower(quotient(least, upper(size)))
+                                          : detail::greatest;
     double const to = most == 0         ? 0.0
                       : lower(size) > 0 ? upper(quotient(most, lower(size)))
                                         : detail::infinity;

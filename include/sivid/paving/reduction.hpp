@@ -127,9 +127,9 @@ public:
         // The pivots come last: they take what the other factors leave.
         for (bool const pivots : {false, true}) {
             for (std::size_t j = 0; j < p.size(); ++j) {
-                auto const is_pivot =
-                    std::any_of(sides_.begin(), sides_.end(),
-                                [j](side const& s) { return s.product && s.parameter == j; });
+                auto const is_pivot = std::any_of(sides_.begin(), sides_.end(), [j](side const& s) {
+                    return s.product && s.parameter == j;
+                });
                 if (is_pivot != pivots) continue;
                 p[j] = interval(mid(p[j]));
                 narrow();
