@@ -51,9 +51,9 @@ struct missing_rate_scale {
 
 /// The quadratic form sum d^2/size^2 + sum (delta d)^2/(walk^2 delta t) of several equations whose
 /// knot values alternate, after `starts` other variables.
-[[nodiscard]] inline Eigen::MatrixXd missing_rate_prior(std::vector<double> const& knots,
-                                                        std::vector<missing_rate_scale> const& scales,
-                                                        std::size_t starts) {
+[[nodiscard]] inline Eigen::MatrixXd
+missing_rate_prior(std::vector<double> const& knots, std::vector<missing_rate_scale> const& scales,
+                   std::size_t starts) {
     auto const count = scales.size();
     auto const n = static_cast<Eigen::Index>(starts + knots.size() * count);
     Eigen::MatrixXd r = Eigen::MatrixXd::Zero(n, n);

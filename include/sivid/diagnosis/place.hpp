@@ -11,7 +11,7 @@
 namespace sivid {
 
 enum class place_kind {
-    equation, ///< a rate that depends on constants or inputs
+    equation,  ///< a rate that depends on constants or inputs
     kinematic, ///< a rate of states alone
     sensor,
     input

@@ -5,6 +5,7 @@
 #include <sivid/diagnosis/missing_rate.hpp>
 #include <sivid/diagnosis/sensor_model.hpp>
 #include <sivid/paving/descent.hpp>
+#include <sivid/paving/minimax.hpp>
 #include <sivid/paving/suspect_samples.hpp>
 
 #include <algorithm>
@@ -66,9 +67,7 @@ public:
         return state;
     }
 
-    /// @param precise  whether the inflation is wanted, not only the squares
-    [[nodiscard]] place_fit operator()(std::vector<std::size_t> set, place_state const& from,
-                                       bool precise = true) {
+    [[nodiscard]] place_fit operator()(std::vector<std::size_t> set, place_state const& from) {
         place_fit result;
         result.set = std::move(set);
         release(result.set);
@@ -76,14 +75,22 @@ public:
         descent down(campaign_, prior());
         descent_point here;
         if (!down.evaluate(vector_of(from), here)) return result;
-        down.run(here, 2, kept_, {12, 2e-3});
+        down.run(here, 2, kept_, {7, 1e-2});
+        if (squares(here.residuals) < 10 * samples_) down.run(here, 2, kept_, {8, 2e-3});
         auto best = here;
         result.squares = squares(here.residuals);
-        if (precise && here.inflation > 0.97) {
+        // Where all residuals are within 1 the squares are within their number.
+        bool const possible = result.squares < 1.25 * samples_ + 20;
+        if (possible && here.inflation > 0.97) {
             auto polished = here;
             for (double const power : {4.0, 8.0, 16.0, 32.0}) {
-                if (best.inflation < 0.97 || best.inflation > 8) break;
+                if (best.inflation < 0.97) break;
                 down.run(polished, power, {}, {3, 1e-2}, &best);
+            }
+            if (best.inflation > 1 && best.inflation < 1.2) {
+                auto polish = best;
+                minimax(campaign_).run(polish, units(), 4, 1e-2, 1);
+                if (polish.inflation < best.inflation) best = std::move(polish);
             }
         }
         result.inflation = best.inflation;
@@ -165,13 +172,13 @@ private:
         for (auto const& e : problem.experiments) knots.push_back(missing_rate_knots(e));
         return knots;
     }
-    [[nodiscard]] std::vector<std::vector<double>> by_equation(std::vector<double> const& d,
-                                                               std::size_t knots,
-                                                               std::size_t states) const {
+    [[nodiscard]] std::vector<std::vector<double>>
+    by_equation(std::vector<double> const& d, std::size_t knots, std::size_t states) const {
         std::vector<std::vector<double>> result(states);
         auto const count = equations_.size();
         for (std::size_t c = 0; c < count; ++c) {
-            for (std::size_t k = 0; k < knots; ++k) result[equations_[c]].push_back(d[k * count + c]);
+            for (std::size_t k = 0; k < knots; ++k)
+                result[equations_[c]].push_back(d[k * count + c]);
         }
         return result;
     }
@@ -181,6 +188,20 @@ private:
             for (std::size_t k = 0; k < r[e].size(); ++k) sum += kept_[e][k] * r[e][k] * r[e][k];
         }
         return sum;
+    }
+    /// Ranges of the variables; of missing rates, their scale.
+    [[nodiscard]] arrow_vector units() const {
+        auto unit = campaign_.upper();
+        unit.for_each(
+            [](double& u, double lo) { u = std::isfinite(lo) ? std::max(u - lo, 1e-12) : 0; },
+            campaign_.lower());
+        for (std::size_t e = 0; e < campaign_.experiments(); ++e) {
+            auto at = static_cast<Eigen::Index>(campaign_.free_starts(e));
+            for (std::size_t k = 0; k < campaign_.knots(e).size(); ++k) {
+                for (auto const i : equations_) unit.local[e][at++] = scales_[i].size;
+            }
+        }
+        return unit;
     }
     /// Effective number of variables, n - tr(H^-1 R), and deviations of the missing rates.
     void measure(descent& down, place_fit& result) const {

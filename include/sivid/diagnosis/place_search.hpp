@@ -5,7 +5,6 @@
 #include <sivid/diagnosis/place_fit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <map>
 #include <utility>
@@ -14,17 +13,16 @@
 namespace sivid {
 
 struct place_search_options {
-    double seconds = 4;        ///< no new set is begun after
-    double equal_score = 12;   ///< sets whose scores differ by less are equal alternatives
-    double much_better = 30;   ///< by what a superset's score must be better to start from it
+    std::size_t most_sets = 80; ///< no new set is begun after so many
+    double equal_score = 12;    ///< sets whose scores differ by less are equal alternatives
+    double much_better = 30;    ///< by what a superset's score must be better to start from it
 };
 
 /// Which smallest set of places, allowed to be wrong, explains the data.
 class place_search {
 public:
     place_search(place_fitter& fit, place_state base, place_search_options options = {})
-        : fit_(&fit), base_(std::move(base)), options_(options),
-          begin_(std::chrono::steady_clock::now()) {}
+        : fit_(&fit), base_(std::move(base)), options_(options) {}
 
     /// Every set that was tried, in order of its cost.
     [[nodiscard]] std::vector<place_fit> const& tried() const { return tried_; }
@@ -76,10 +74,7 @@ public:
     }
 
 private:
-    [[nodiscard]] bool late() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count() >
-               options_.seconds;
-    }
+    [[nodiscard]] bool late() const { return tried_.size() >= options_.most_sets; }
     [[nodiscard]] place_fit* find(std::vector<std::size_t> const& set) {
         auto const at = index_.find(set);
         return at == index_.end() ? nullptr : &tried_[at->second];
@@ -100,7 +95,8 @@ private:
         }
         auto result = (*fit_)(set, *from);
         // A start that did not lead anywhere: the base once more.
-        if (result.inflation > 1 && from != &base_ && result.score > 0.9 * score && set.size() > 1) {
+        if (result.inflation > 1 && from != &base_ && result.score > 0.9 * score &&
+            set.size() > 1) {
             auto again = (*fit_)(set, base_);
             if (again.score < result.score) result = std::move(again);
         }
@@ -114,7 +110,8 @@ private:
             }
         }
     }
-    void triples(std::vector<std::size_t> const& sensors, std::vector<std::size_t> const& equations) {
+    void triples(std::vector<std::size_t> const& sensors,
+                 std::vector<std::size_t> const& equations) {
         for (std::size_t a = 0; a < equations.size(); ++a) {
             for (std::size_t b = a + 1; b < equations.size(); ++b) {
                 for (auto const s : sensors) try_set({s, equations[a], equations[b]});
@@ -184,7 +181,6 @@ private:
     place_fitter* fit_;
     place_state base_;
     place_search_options options_;
-    std::chrono::steady_clock::time_point begin_;
     std::vector<place_fit> tried_;
     std::map<std::vector<std::size_t>, std::size_t> index_;
     std::size_t best_ = 0;

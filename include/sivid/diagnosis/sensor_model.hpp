@@ -50,7 +50,8 @@ struct sensor_problem {
         if (places[p].kind != place_kind::sensor) continue;
         auto const fault = "sensor " + places[p].name;
         result.faults[p].push_back(sides.size());
-        auto const scale = g.leaf(operation::constant, add(fault + " scale", "1", interval(-0.6, 0.6)));
+        auto const scale =
+            g.leaf(operation::constant, add(fault + " scale", "1", interval(-0.6, 0.6)));
         bool const late = std::none_of(
             model.channel_delays.begin(), model.channel_delays.end(), [&](time_delay const& d) {
                 auto const& own = places[p].members;

@@ -18,8 +18,9 @@ namespace sivid {
 
 /// What a run returns; reused from run to run.
 struct simulated_outputs {
-    std::vector<double> values;   ///< one per request
-    std::vector<double> jacobian; ///< requests x columns, row by row
+    std::vector<double> values;     ///< one per request
+    std::vector<double> jacobian;   ///< requests x columns, row by row
+    std::vector<std::size_t> reach; ///< per request: its columns from there on are zero
 };
 
 /// States, rates and inputs at the points of the mesh, for those who want to look at a run.
@@ -85,6 +86,7 @@ public:
         out.values.assign(mesh_.requests().size(), 0.0);
         if (sensitive_) {
             out.jacobian.assign(mesh_.requests().size() * layout.columns, 0.0);
+            out.reach.assign(mesh_.requests().size(), 0);
             sensitivity_.start(*model_, layout);
         }
         fresh_ = false;
@@ -234,6 +236,7 @@ private:
         for (auto const r : mesh_.observed(k)) {
             auto const channel = mesh_.requests()[r].channel;
             double* row = out.jacobian.data() + r * stride;
+            out.reach[r] = active_;
             for (auto const& e : f.by_state) {
                 if (e.row != channel) continue;
                 double const a = memory[e.slot];
