@@ -30,7 +30,7 @@ public:
     /// @param fit  of a set with at least one equation
     law_search(place_fitter& fitter, place_fit const& fit) : campaign_(&fitter.simulations()) {
         fitter.release(fit.set);
-        equations_ = fitter.equations();
+        targets_ = fitter.targets();
         at_ = fitter.vector_of(fit.state);
         auto const smooth = fitter.prior();
         residual_lists r;
@@ -58,43 +58,12 @@ public:
     }
     [[nodiscard]] std::vector<knot_trace> const& traces() const { return traces_; }
 
-    /// Laws for equation number `c` of the set; best first.
-    [[nodiscard]] std::vector<ranked_law> for_equation(std::size_t c,
-                                                       std::vector<law> const& laws) {
+    /// Laws for number `c` of the targets of the set; best first.
+    [[nodiscard]] std::vector<ranked_law> for_target(std::size_t c, std::vector<law> const& laws) {
         prepare([c](std::size_t i) { return i == c; });
         return rank(laws, [&](std::size_t e, std::vector<double> const& f) {
             return column(e, c, [&](std::size_t k) { return f[k]; });
         });
-    }
-    /// Laws for an error of input `i` that reaches all equations of the set in the model's own
-    /// ratio.
-    [[nodiscard]] std::vector<ranked_law> for_input(std::size_t i, std::vector<law> const& laws) {
-        prepare([](std::size_t) { return true; });
-        return rank(laws, [&](std::size_t e, std::vector<double> const& f) {
-            auto const& t = traces_[e];
-            auto const inputs = t.inputs.front().size();
-            Eigen::VectorXd sum = Eigen::VectorXd::Zero(residuals_[e].size());
-            for (std::size_t c = 0; c < equations_.size(); ++c) {
-                sum += column(e, c, [&](std::size_t k) {
-                    return t.by_input[k][equations_[c] * inputs + i] * f[k];
-                });
-            }
-            return sum;
-        });
-    }
-    /// Squares left when every equation of the set follows its own law.
-    [[nodiscard]] double together(std::vector<law const*> const& own) {
-        prepare([](std::size_t) { return true; });
-        std::vector<std::vector<Eigen::VectorXd>> columns;
-        for (std::size_t c = 0; c < own.size(); ++c) {
-            for (auto const& f : own[c]->functions) {
-                auto& v = columns.emplace_back();
-                for (std::size_t e = 0; e < residuals_.size(); ++e) {
-                    v.push_back(column(e, c, [&](std::size_t k) { return f[e][k]; }));
-                }
-            }
-        }
-        return squares_with(columns);
     }
 
 private:
@@ -108,7 +77,7 @@ private:
         return sum;
     }
     [[nodiscard]] Eigen::Index knot_column(std::size_t e, std::size_t k, std::size_t c) const {
-        return static_cast<Eigen::Index>(campaign_->free_starts(e) + k * equations_.size() + c);
+        return static_cast<Eigen::Index>(campaign_->free_starts(e) + k * targets_.size() + c);
     }
 
     /// The system of everything that adapts, without the equations that laws replace.
@@ -121,7 +90,7 @@ private:
             auto const starts = static_cast<Eigen::Index>(campaign_->free_starts(e));
             for (Eigen::Index j = 0; j < locals_[e]; ++j) {
                 auto const c = static_cast<std::size_t>(j - starts) %
-                               std::max<std::size_t>(equations_.size(), 1);
+                               std::max<std::size_t>(targets_.size(), 1);
                 if (j < starts || !replaced(c)) kept_columns_[e].push_back(j);
             }
             size += static_cast<Eigen::Index>(kept_columns_[e].size());
@@ -237,7 +206,7 @@ private:
     bool valid_ = false;
     double samples_ = 0, base_ = 0;
     arrow_vector at_;
-    std::vector<std::size_t> equations_;
+    std::vector<std::size_t> targets_;
     std::vector<Eigen::VectorXd> residuals_, lines_;
     std::vector<Eigen::MatrixXd> jacobians_, smooth_, designs_;
     std::vector<knot_trace> traces_;

@@ -64,8 +64,9 @@ struct place_options {
 
 namespace diagnosis_detail {
 
-/// Typical sizes of the rates along a motion: four times their root mean square. An equation that
-/// rests is as uncertain as the others of its unit, or as its errors within a second.
+/// Of states, then of inputs. Typical sizes of the rates along a motion: four times their root mean
+/// square. An equation that rests is as uncertain as the others of its unit, or as its errors
+/// within a second.
 [[nodiscard]] inline std::vector<missing_rate_scale> rate_scales(campaign& c,
                                                                  arrow_vector const& z) {
     auto const& about = c.problem().model.about;
@@ -93,6 +94,16 @@ namespace diagnosis_detail {
         double const own = std::sqrt(squares[i] / std::max(count, 1.0));
         double const unit = std::sqrt(largest / std::max(count, 1.0));
         double const size = std::max({4 * own, 2 * unit, 20 * error});
+        scales.push_back({size, 2.0 / 3 * size});
+    }
+    for (std::size_t i = 0; i < about.inputs.size(); ++i) {
+        double largest = 0;
+        for (auto const& e : c.problem().experiments) {
+            auto const* samples = std::get_if<sampled_signal>(&e.inputs[i]);
+            if (samples == nullptr) continue;
+            for (double const u : samples->values()) largest = std::max(largest, std::abs(u));
+        }
+        double const size = largest > 0 ? largest : 1;
         scales.push_back({size, 2.0 / 3 * size});
     }
     return scales;
@@ -160,15 +171,21 @@ private:
         return named == options_.equation_names.end() ? state : named->second;
     }
     [[nodiscard]] std::string label(place const& p) const {
-        return p.kind == place_kind::sensor ? "sensor " + p.name : equation_name(p.name);
+        return p.kind == place_kind::sensor  ? "sensor " + p.name
+               : p.kind == place_kind::input ? "input " + p.name
+                                             : equation_name(p.name);
     }
 
     void search(place_estimate& result) {
         std::vector<bool> measured(problem_->model.observe.size(), false);
+        std::vector<bool> sampled(problem_->model.about.inputs.size(), true);
         for (auto const& e : problem_->experiments) {
             for (auto const& m : e.measurements) measured[m.channel] = true;
+            for (std::size_t i = 0; i < sampled.size(); ++i) {
+                sampled[i] = sampled[i] && std::holds_alternative<sampled_signal>(e.inputs[i]);
+            }
         }
-        place_fitter fit(*problem_, places_of(problem_->model, measured));
+        place_fitter fit(*problem_, places_of(problem_->model, measured, sampled));
         auto const base = fit.plain(result.base.parameters, result.base.starts);
         fit.release({});
         fit.set_scales(diagnosis_detail::rate_scales(fit.simulations(), fit.vector_of(base)));
@@ -190,25 +207,32 @@ private:
             estimated_place p;
             p.kind = where.kind;
             p.members = where.members;
-            p.name = where.kind == place_kind::sensor ? where.name : equation_name(where.name);
+            p.name = where.name;
             p.loss = loss;
-            if (where.is_equation()) {
-                equation(p, where.members.front(), best, fit);
-            } else {
+            if (where.is_sensor()) {
                 sensor(p, index, best, fit, result.base);
+            } else {
+                missing(p, best, fit);
             }
             result.places.push_back(std::move(p));
         }
         name_laws(result, best, fit);
     }
 
-    void equation(estimated_place& p, std::size_t state, place_fit const& best,
-                  place_fitter& fit) const {
-        p.unit = problem_->model.about.states[state].unit + "/s";
+    void missing(estimated_place& p, place_fit const& best, place_fitter& fit) const {
+        auto const& about = problem_->model.about;
+        auto target = p.members.front();
+        if (p.kind == place_kind::input) {
+            p.unit = about.inputs[target].unit;
+            target += about.states.size();
+        } else {
+            p.unit = about.states[target].unit + "/s";
+            p.name = equation_name(p.name);
+        }
         for (std::size_t e = 0; e < problem_->experiments.size(); ++e) {
             if (best.deviation.size() <= e) continue;
             p.rates.push_back({problem_->experiments[e].name, fit.simulations().knots(e),
-                               best.state.missing[e][state], best.deviation[e][state]});
+                               best.state.missing[e][target], best.deviation[e][target]});
         }
         diagnosis_detail::locate(p, p.rates);
     }
@@ -274,53 +298,23 @@ private:
 
     void name_laws(place_estimate& result, place_fit const& best, place_fitter& fit) const {
         law_search laws(fit, best);
-        auto const equations = fit.equations();
-        if (equations.empty() || !laws.valid()) return;
+        auto const targets = fit.targets();
+        if (targets.empty() || !laws.valid()) return;
         law_library const library(problem_->model, laws.traces());
-        auto const list = library.for_rates();
-        std::vector<law const*> own;
-        for (std::size_t c = 0; c < equations.size(); ++c) {
-            auto const ranked = laws.for_equation(c, list);
+        auto const states = problem_->model.about.states.size();
+        for (std::size_t c = 0; c < targets.size(); ++c) {
+            bool const input = targets[c] >= states;
+            auto const list = input ? library.for_input(targets[c] - states) : library.for_rates();
+            auto const ranked = laws.for_target(c, list);
             if (ranked.empty()) return;
-            own.push_back(&list[ranked.front().index]);
             for (auto& p : result.places) {
-                bool const mine = p.kind != place_kind::sensor && p.members.front() == equations[c];
-                if (!mine) continue;
-                p.law = own.back()->text;
-                p.regime = own.back()->regime;
+                if (p.kind == place_kind::sensor || (p.kind == place_kind::input) != input)
+                    continue;
+                if (p.members.front() != (input ? targets[c] - states : targets[c])) continue;
+                p.law = list[ranked.front().index].text;
+                p.regime = list[ranked.front().index].regime;
             }
         }
-        if (equations.size() > 1) blame_input(result, best, laws, library, own, equations.size());
-    }
-
-    /// Several equations that miss one law in the model's own ratio: the input is wrong.
-    void blame_input(place_estimate& result, place_fit const& best, law_search& laws,
-                     law_library const& library, std::vector<law const*> const& own,
-                     std::size_t equations) const {
-        double const apart = laws.together(own);
-        double const price = std::log(1000.0) / 3 * static_cast<double>(equations - 1);
-        estimated_place found;
-        double least = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 0; i < problem_->model.about.inputs.size(); ++i) {
-            auto const list = library.for_input(i);
-            auto const ranked = laws.for_input(i, list);
-            if (ranked.empty() || !(ranked.front().squares < least)) continue;
-            least = ranked.front().squares;
-            found.kind = place_kind::input;
-            found.members = {i};
-            found.name = problem_->model.about.inputs[i].name;
-            found.unit = problem_->model.about.inputs[i].unit;
-            found.law = list[ranked.front().index].text;
-            found.regime = list[ranked.front().index].regime;
-        }
-        if (!(least < apart + price) || !(least < 4 * best.squares + 100)) return;
-        auto const& first = result.places.front();
-        found.loss = first.loss;
-        found.scenario = first.scenario;
-        found.from = first.from;
-        found.to = first.to;
-        found.missing = std::numeric_limits<double>::quiet_NaN();
-        result.places.insert(result.places.begin(), std::move(found));
     }
 
     identification_problem const* problem_;

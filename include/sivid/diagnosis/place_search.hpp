@@ -38,21 +38,24 @@ public:
 
     void run() {
         auto const& places = fit_->places();
-        std::vector<std::size_t> equations, kinematics, sensors;
+        std::vector<std::size_t> equations, others, sensors;
         for (std::size_t p = 0; p < places.size(); ++p) {
-            (places[p].kind == place_kind::sensor      ? sensors
-             : places[p].kind == place_kind::kinematic ? kinematics
-                                                       : equations)
+            (places[p].kind == place_kind::sensor     ? sensors
+             : places[p].kind == place_kind::equation ? equations
+                                                      : others)
                 .push_back(p);
         }
         try_set({});
         for (std::size_t p = 0; p < places.size(); ++p) try_set({p});
-        if (!explained(1)) {
+        if (!explained(1.5)) {
             pairs(equations, equations);
             pairs(sensors, equations);
             pairs(sensors, sensors);
-            for (auto const k : kinematics) {
+        }
+        if (!explained(2)) {
+            for (auto const k : others) {
                 if (places[k].cost < 2) pairs({k}, equations);
+                if (places[k].kind == place_kind::input) pairs({k}, sensors);
             }
         }
         if (!explained(2.5)) {
