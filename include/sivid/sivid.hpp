@@ -127,11 +127,15 @@
 #include <sivid/diagnosis/graph_range.hpp>
 #include <sivid/diagnosis/holdout.hpp>
 #include <sivid/diagnosis/holdout_judgement.hpp>
+#include <sivid/diagnosis/knot_trace.hpp>
+#include <sivid/diagnosis/law.hpp>
+#include <sivid/diagnosis/law_search.hpp>
 #include <sivid/diagnosis/linear_refutation.hpp>
 #include <sivid/diagnosis/manoeuvre.hpp>
 #include <sivid/diagnosis/missing_rate.hpp>
 #include <sivid/diagnosis/observed_motion.hpp>
 #include <sivid/diagnosis/place.hpp>
+#include <sivid/diagnosis/place_estimate.hpp>
 #include <sivid/diagnosis/place_fit.hpp>
 #include <sivid/diagnosis/place_search.hpp>
 #include <sivid/diagnosis/relation_finding.hpp>

@@ -3,6 +3,7 @@
 #define SIVID_DIAGNOSIS_PLACE_HPP
 
 #include <sivid/model/model.hpp>
+#include <sivid/model/rewrite.hpp>
 
 #include <cstddef>
 #include <string>
@@ -25,14 +26,17 @@ struct place {
     std::string name;
     double cost = 1; ///< how many ordinary places it counts for
 
-    [[nodiscard]] bool is_equation() const {
-        return kind == place_kind::equation || kind == place_kind::kinematic;
-    }
+    [[nodiscard]] bool is_sensor() const { return kind == place_kind::sensor; }
 };
 
-/// How a dynamic equation is called: after its state, as long as nobody knows better.
+/// All places of a model. Equations are called after their states.
+///   Geometry is seldom wrong: a kinematic equation counts for more, and so does an input, which
+///   moves several equations at once.
+/// @param measured  per channel
+/// @param sampled   per input: whether it was recorded, and not a formula
 [[nodiscard]] inline std::vector<place> places_of(recorded_model const& model,
-                                                  std::vector<bool> const& measured) {
+                                                  std::vector<bool> const& measured,
+                                                  std::vector<bool> const& sampled) {
     std::vector<place> result;
     auto const& about = model.about;
     auto const dynamic = [&](std::size_t i) {
@@ -50,6 +54,13 @@ struct place {
             p.cost = identity(i) ? 1.5 : 2.5;
         }
         result.push_back(std::move(p));
+    }
+    auto const needed = reachable(model.g, model.rate);
+    for (std::size_t k = 0; k < model.g.size(); ++k) {
+        auto const& n = model.g.nodes()[k];
+        auto const i = static_cast<std::size_t>(n.index);
+        if (!needed[k] || n.op != operation::input || !sampled[i]) continue;
+        result.push_back({place_kind::input, {i}, about.inputs[i].name, 1.5});
     }
     // Channels that show states of one geometry in one unit come from one instrument.
     auto const geometric = [&](std::size_t channel) {

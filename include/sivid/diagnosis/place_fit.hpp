@@ -5,6 +5,7 @@
 #include <sivid/diagnosis/missing_rate.hpp>
 #include <sivid/diagnosis/sensor_model.hpp>
 #include <sivid/paving/descent.hpp>
+#include <sivid/paving/minimax.hpp>
 #include <sivid/paving/suspect_samples.hpp>
 
 #include <algorithm>
@@ -20,7 +21,7 @@ namespace sivid {
 struct place_state {
     std::vector<double> parameters; ///< the model's and the sensors'
     std::vector<std::vector<double>> starts;
-    /// [experiment][equation][knot]; empty for equations that hold
+    /// [experiment][state, or state count + input][knot]; empty for what holds
     std::vector<std::vector<std::vector<double>>> missing;
 };
 
@@ -66,9 +67,7 @@ public:
         return state;
     }
 
-    /// @param precise  whether the inflation is wanted, not only the squares
-    [[nodiscard]] place_fit operator()(std::vector<std::size_t> set, place_state const& from,
-                                       bool precise = true) {
+    [[nodiscard]] place_fit operator()(std::vector<std::size_t> set, place_state const& from) {
         place_fit result;
         result.set = std::move(set);
         release(result.set);
@@ -76,14 +75,22 @@ public:
         descent down(campaign_, prior());
         descent_point here;
         if (!down.evaluate(vector_of(from), here)) return result;
-        down.run(here, 2, kept_, {12, 2e-3});
+        down.run(here, 2, kept_, {7, 1e-2});
+        if (squares(here.residuals) < 10 * samples_) down.run(here, 2, kept_, {8, 2e-3});
         auto best = here;
         result.squares = squares(here.residuals);
-        if (precise && here.inflation > 0.97) {
+        // Where all residuals are within 1 the squares are within their number.
+        bool const possible = result.squares < 1.25 * samples_ + 20;
+        if (possible && here.inflation > 0.97) {
             auto polished = here;
             for (double const power : {4.0, 8.0, 16.0, 32.0}) {
-                if (best.inflation < 0.97 || best.inflation > 8) break;
+                if (best.inflation < 0.97) break;
                 down.run(polished, power, {}, {3, 1e-2}, &best);
+            }
+            if (best.inflation > 1 && best.inflation < 1.2) {
+                auto polish = best;
+                minimax(campaign_).run(polish, units(), 4, 1e-2, 1);
+                if (polish.inflation < best.inflation) best = std::move(polish);
             }
         }
         result.inflation = best.inflation;
@@ -97,21 +104,26 @@ public:
     void release(std::vector<std::size_t> const& set) {
         std::vector<bool> free(extended_.problem.prior.size(), false);
         for (std::size_t j = 0; j < extended_.original; ++j) free[j] = true;
-        equations_.clear();
+        targets_.clear();
         for (auto const p : set) {
             for (auto const j : extended_.faults[p]) free[j] = true;
-            if (places_[p].is_equation()) equations_.push_back(places_[p].members.front());
+            auto const inputs = extended_.problem.model.rate.size();
+            auto const first = places_[p].members.front();
+            if (!places_[p].is_sensor()) {
+                targets_.push_back(places_[p].kind == place_kind::input ? inputs + first : first);
+            }
         }
         auto held = mid(extended_.problem.prior);
         for (std::size_t j = extended_.original; j < held.size(); ++j) held[j] = 0;
         campaign_.hold(std::move(held));
-        campaign_.release(equations_, free);
+        campaign_.release(targets_, free);
     }
-    [[nodiscard]] std::vector<std::size_t> const& equations() const { return equations_; }
+    /// What has a missing rate (or input): states, and state count + inputs.
+    [[nodiscard]] std::vector<std::size_t> const& targets() const { return targets_; }
     [[nodiscard]] regularisation prior() const {
         regularisation smooth;
         std::vector<missing_rate_scale> own;
-        for (auto const i : equations_) own.push_back(scales_[i]);
+        for (auto const i : targets_) own.push_back(scales_[i]);
         for (std::size_t e = 0; e < campaign_.experiments(); ++e) {
             smooth.push_back(missing_rate_prior(campaign_.knots(e), own, campaign_.free_starts(e)));
         }
@@ -131,7 +143,7 @@ public:
                 if (columns[i] != sensitivity_layout::none) z.local[e][at++] = s.starts[e][i];
             }
             for (std::size_t k = 0; k < campaign_.knots(e).size(); ++k) {
-                for (auto const i : equations_) {
+                for (auto const i : targets_) {
                     bool const known = !s.missing.empty() && !s.missing[e][i].empty();
                     z.local[e][at++] = known ? s.missing[e][i][k] : 0;
                 }
@@ -142,13 +154,18 @@ public:
     [[nodiscard]] place_state state_of(arrow_vector const& z) const {
         place_state s;
         s.parameters = campaign_.parameters(z);
-        auto const n = extended_.problem.model.rate.size();
+        auto const n = target_count();
         for (std::size_t e = 0; e < campaign_.experiments(); ++e) {
             s.starts.push_back(campaign_.start(e, z));
             auto const d = campaign_.disturbance(e, z);
-            s.missing.push_back(by_equation(d, campaign_.knots(e).size(), n));
+            s.missing.push_back(by_target(d, campaign_.knots(e).size(), n));
         }
         return s;
+    }
+
+    /// States and inputs.
+    [[nodiscard]] std::size_t target_count() const {
+        return extended_.problem.model.rate.size() + extended_.problem.model.about.inputs.size();
     }
 
 private:
@@ -166,12 +183,11 @@ private:
         return knots;
     }
     [[nodiscard]] std::vector<std::vector<double>>
-    by_equation(std::vector<double> const& d, std::size_t knots, std::size_t states) const {
+    by_target(std::vector<double> const& d, std::size_t knots, std::size_t states) const {
         std::vector<std::vector<double>> result(states);
-        auto const count = equations_.size();
+        auto const count = targets_.size();
         for (std::size_t c = 0; c < count; ++c) {
-            for (std::size_t k = 0; k < knots; ++k)
-                result[equations_[c]].push_back(d[k * count + c]);
+            for (std::size_t k = 0; k < knots; ++k) result[targets_[c]].push_back(d[k * count + c]);
         }
         return result;
     }
@@ -182,6 +198,20 @@ private:
         }
         return sum;
     }
+    /// Ranges of the variables; of missing rates, their scale.
+    [[nodiscard]] arrow_vector units() const {
+        auto unit = campaign_.upper();
+        unit.for_each(
+            [](double& u, double lo) { u = std::isfinite(lo) ? std::max(u - lo, 1e-12) : 0; },
+            campaign_.lower());
+        for (std::size_t e = 0; e < campaign_.experiments(); ++e) {
+            auto at = static_cast<Eigen::Index>(campaign_.free_starts(e));
+            for (std::size_t k = 0; k < campaign_.knots(e).size(); ++k) {
+                for (auto const i : targets_) unit.local[e][at++] = scales_[i].size;
+            }
+        }
+        return unit;
+    }
     /// Effective number of variables, n - tr(H^-1 R), and deviations of the missing rates.
     void measure(descent& down, place_fit& result) const {
         auto& system = down.system();
@@ -190,7 +220,7 @@ private:
         if (!system.solve(1e-9, none, step)) return;
         auto const smooth = prior();
         result.freedom = static_cast<double>(campaign_.free_parameters().size());
-        auto const n = extended_.problem.model.rate.size();
+        auto const n = target_count();
         for (std::size_t e = 0; e < campaign_.experiments(); ++e) {
             Eigen::MatrixXd const inverse = system.local_inverse(e);
             Eigen::MatrixXd const r = smooth[e].selfadjointView<Eigen::Lower>();
@@ -200,7 +230,7 @@ private:
                  ++k) {
                 own.push_back(std::sqrt(std::max(inverse(k, k), 0.0)));
             }
-            result.deviation.push_back(by_equation(own, campaign_.knots(e).size(), n));
+            result.deviation.push_back(by_target(own, campaign_.knots(e).size(), n));
         }
     }
 
@@ -210,7 +240,7 @@ private:
     residual_lists kept_;
     double samples_ = 0;
     std::vector<missing_rate_scale> scales_;
-    std::vector<std::size_t> equations_;
+    std::vector<std::size_t> targets_;
 };
 
 } // namespace sivid

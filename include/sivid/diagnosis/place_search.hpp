@@ -5,7 +5,6 @@
 #include <sivid/diagnosis/place_fit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <map>
 #include <utility>
@@ -14,19 +13,16 @@
 namespace sivid {
 
 struct place_search_options {
-    double seconds = 4;      ///< no new set is begun after
-    double equal_score = 12; ///< sets whose scores differ by less are equal alternatives
-    double much_better = 30; ///< by what a superset's score must be better to start from it
+    std::size_t most_sets = 80; ///< no new set is begun after so many
+    double equal_score = 12;    ///< sets whose scores differ by less are equal alternatives
+    double much_better = 30;    ///< by what a superset's score must be better to start from it
 };
 
 /// Which smallest set of places, allowed to be wrong, explains the data.
 class place_search {
 public:
     place_search(place_fitter& fit, place_state base, place_search_options options = {})
-        : fit_(&fit),
-          base_(std::move(base)),
-          options_(options),
-          begin_(std::chrono::steady_clock::now()) {}
+        : fit_(&fit), base_(std::move(base)), options_(options) {}
 
     /// Every set that was tried, in order of its cost.
     [[nodiscard]] std::vector<place_fit> const& tried() const { return tried_; }
@@ -42,21 +38,24 @@ public:
 
     void run() {
         auto const& places = fit_->places();
-        std::vector<std::size_t> equations, kinematics, sensors;
+        std::vector<std::size_t> equations, others, sensors;
         for (std::size_t p = 0; p < places.size(); ++p) {
-            (places[p].kind == place_kind::sensor      ? sensors
-             : places[p].kind == place_kind::kinematic ? kinematics
-                                                       : equations)
+            (places[p].kind == place_kind::sensor     ? sensors
+             : places[p].kind == place_kind::equation ? equations
+                                                      : others)
                 .push_back(p);
         }
         try_set({});
         for (std::size_t p = 0; p < places.size(); ++p) try_set({p});
-        if (!explained(1)) {
+        if (!explained(1.5)) {
             pairs(equations, equations);
             pairs(sensors, equations);
             pairs(sensors, sensors);
-            for (auto const k : kinematics) {
+        }
+        if (!explained(2)) {
+            for (auto const k : others) {
                 if (places[k].cost < 2) pairs({k}, equations);
+                if (places[k].kind == place_kind::input) pairs({k}, sensors);
             }
         }
         if (!explained(2.5)) {
@@ -78,10 +77,7 @@ public:
     }
 
 private:
-    [[nodiscard]] bool late() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count() >
-               options_.seconds;
-    }
+    [[nodiscard]] bool late() const { return tried_.size() >= options_.most_sets; }
     [[nodiscard]] place_fit* find(std::vector<std::size_t> const& set) {
         auto const at = index_.find(set);
         return at == index_.end() ? nullptr : &tried_[at->second];
@@ -188,7 +184,6 @@ private:
     place_fitter* fit_;
     place_state base_;
     place_search_options options_;
-    std::chrono::steady_clock::time_point begin_;
     std::vector<place_fit> tried_;
     std::map<std::vector<std::size_t>, std::size_t> index_;
     std::size_t best_ = 0;

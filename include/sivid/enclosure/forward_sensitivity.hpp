@@ -16,8 +16,9 @@ struct sensitivity_layout {
     static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
     std::vector<std::size_t> parameter_column; ///< one per parameter, `none` when held
     std::vector<std::size_t> start_column;     ///< one per state, `none` when held
-    /// Equations with an additive rate d(t), piecewise linear between the simulator's knots. The
-    /// columns of knot k follow `first_disturbance` + k * disturbed.size().
+    /// What has an additive d(t), piecewise linear between the simulator's knots: the rate of a
+    /// state (by its index), or an input (state count + its index; late inputs after the delay).
+    /// The columns of knot k follow `first_disturbance` + k * disturbed.size().
     std::vector<std::size_t> disturbed;
     std::size_t first_disturbance = 0;
     std::size_t columns = 0;
@@ -118,11 +119,21 @@ private:
             }
         }
         auto const count = layout_->disturbed.size();
-        for (std::size_t e = 0; e < count; ++e) {
-            auto const row = layout_->disturbed[e] * stride_;
-            auto const c = layout_->first_disturbance + hat_ * count + e;
-            slope_[row + c] += 1 - stage.late_share;
-            if (hat_ + 1 < knots_) slope_[row + c + count] += stage.late_share;
+        for (std::size_t d = 0; d < count; ++d) {
+            auto const target = layout_->disturbed[d];
+            auto const c = layout_->first_disturbance + hat_ * count + d;
+            auto const push = [&](std::size_t row, double a) {
+                slope_[row * stride_ + c] += a * (1 - stage.late_share);
+                if (hat_ + 1 < knots_) slope_[row * stride_ + c + count] += a * stage.late_share;
+            };
+            if (target < model_->states()) {
+                push(target, 1);
+                continue;
+            }
+            for (std::size_t e = 0; e < rate.by_input.size(); ++e) {
+                if (rate.by_input[e].column != target - model_->states()) continue;
+                push(rate.by_input[e].row, stage.by_input[e]);
+            }
         }
     }
 

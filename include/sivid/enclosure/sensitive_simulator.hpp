@@ -18,8 +18,9 @@ namespace sivid {
 
 /// What a run returns; reused from run to run.
 struct simulated_outputs {
-    std::vector<double> values;   ///< one per request
-    std::vector<double> jacobian; ///< requests x columns, row by row
+    std::vector<double> values;     ///< one per request
+    std::vector<double> jacobian;   ///< requests x columns, row by row
+    std::vector<std::size_t> reach; ///< per request: its columns from there on are zero
 };
 
 /// States, rates and inputs at the points of the mesh, for those who want to look at a run.
@@ -85,6 +86,7 @@ public:
         out.values.assign(mesh_.requests().size(), 0.0);
         if (sensitive_) {
             out.jacobian.assign(mesh_.requests().size() * layout.columns, 0.0);
+            out.reach.assign(mesh_.requests().size(), 0);
             sensitivity_.start(*model_, layout);
         }
         fresh_ = false;
@@ -137,21 +139,29 @@ private:
         if (hat_ + 1 >= knots_.size()) return 0;
         return std::clamp((t - knots_[hat_]) / (knots_[hat_ + 1] - knots_[hat_]), 0.0, 1.0);
     }
+    /// Value of disturbance number d of the layout.
+    [[nodiscard]] double disturbance(std::size_t d, double t) const {
+        auto const count = layout_->disturbed.size();
+        double const late = share(t);
+        double const early = (1 - late) * (*disturbance_)[hat_ * count + d];
+        return late > 0 ? early + late * (*disturbance_)[(hat_ + 1) * count + d] : early;
+    }
     void write_arguments(std::vector<double>& memory, double t,
                          std::vector<double> const& x) const {
         memory[0] = t;
         std::copy(x.begin(), x.end(), memory.begin() + 1);
         auto const at = model_->shape().input();
         for (auto const i : model_->used_inputs()) memory[at + i] = mesh_.input(piece_, i, t);
+        auto const n = model_->states();
+        for (std::size_t d = 0; d < layout_->disturbed.size(); ++d) {
+            auto const target = layout_->disturbed[d];
+            if (target >= n) memory[at + target - n] += disturbance(d, t);
+        }
     }
     void add_disturbance(double t, std::vector<double>& rate) const {
-        auto const count = layout_->disturbed.size();
-        if (count == 0) return;
-        double const late = share(t);
-        for (std::size_t e = 0; e < count; ++e) {
-            double d = (1 - late) * (*disturbance_)[hat_ * count + e];
-            if (late > 0) d += late * (*disturbance_)[(hat_ + 1) * count + e];
-            rate[layout_->disturbed[e]] += d;
+        for (std::size_t d = 0; d < layout_->disturbed.size(); ++d) {
+            auto const target = layout_->disturbed[d];
+            if (target < rate.size()) rate[target] += disturbance(d, t);
         }
     }
     void evaluate(double t, std::vector<double> const& x, stage& s) {
@@ -234,6 +244,7 @@ private:
         for (auto const r : mesh_.observed(k)) {
             auto const channel = mesh_.requests()[r].channel;
             double* row = out.jacobian.data() + r * stride;
+            out.reach[r] = active_;
             for (auto const& e : f.by_state) {
                 if (e.row != channel) continue;
                 double const a = memory[e.slot];
@@ -244,7 +255,20 @@ private:
                 auto const c = layout_->parameter_column[e.column];
                 if (e.row == channel && c != sensitivity_layout::none) row[c] += memory[e.slot];
             }
+            look_through_inputs(channel, t, row);
             look_late(mesh_.requests()[r], t, row);
+        }
+    }
+    void look_through_inputs(std::size_t channel, double t, double* row) const {
+        auto const count = layout_->disturbed.size();
+        for (std::size_t d = 0; d < count; ++d) {
+            for (auto const& e : model_->observe().by_input) {
+                if (e.row != channel || e.column + model_->states() != layout_->disturbed[d])
+                    continue;
+                auto const c = layout_->first_disturbance + hat_ * count + d;
+                row[c] += (1 - share(t)) * observe_memory_[e.slot];
+                if (hat_ + 1 < knots_.size()) row[c + count] += share(t) * observe_memory_[e.slot];
+            }
         }
     }
     /// d y(t - tau) / d tau = -y'(t - tau), and likewise through a late input.

@@ -66,6 +66,7 @@ public:
     }
 
     [[nodiscard]] identification_problem const& problem() const { return *problem_; }
+    [[nodiscard]] plain_model const& model(std::size_t e) const { return *models_[e]; }
     [[nodiscard]] std::size_t experiments() const { return simulators_.size(); }
     [[nodiscard]] std::vector<std::size_t> const& outliers() const { return outliers_; }
     [[nodiscard]] std::vector<double> const& knots(std::size_t e) const {
@@ -175,6 +176,22 @@ public:
                 static_cast<Eigen::Index>(simulators_[e].requests().size()),
                 static_cast<Eigen::Index>(layouts_[e].columns)};
     }
+    /// Adds J' diag(root^2) J to the lower triangle of a square part of a matrix. Disturbances act
+    /// on what comes later only, so early rows are short.
+    template <class Square>
+    void add_gram(std::size_t e, Eigen::VectorXd const& root, Square&& to) {
+        auto const j = derivatives(e);
+        auto const& reach = outputs_[e].reach;
+        Eigen::Index const together = 48;
+        for (Eigen::Index first = 0; first < j.rows(); first += together) {
+            auto const rows = std::min(together, j.rows() - first);
+            auto const begin = reach.begin() + first;
+            auto const n = static_cast<Eigen::Index>(*std::max_element(begin, begin + rows));
+            scaled_ = root.segment(first, rows).asDiagonal() * j.block(first, 0, rows, n);
+            to.topLeftCorner(n, n).template selfadjointView<Eigen::Lower>().rankUpdate(
+                scaled_.transpose());
+        }
+    }
     [[nodiscard]] bool trace(std::size_t e, arrow_vector const& z, simulated_trace& seen) {
         simulated_outputs out;
         return simulators_[e](start(e, z), parameters(z), disturbance(e, z), layouts_[e], false,
@@ -246,6 +263,7 @@ private:
     std::vector<double> held_;
     arrow_vector lower_, upper_;
     std::vector<simulated_outputs> outputs_;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> scaled_;
 };
 
 } // namespace sivid

@@ -156,9 +156,8 @@ private:
                 root[k] = std::sqrt(w * curvature);
                 force[k] = w * r[i];
             }
-            scaled_ = root.asDiagonal() * j;
             auto& n = system_.matrix(e);
-            n.selfadjointView<Eigen::Lower>().rankUpdate(scaled_.transpose());
+            campaign_->add_gram(e, root, n);
             system_.side(e) = j.transpose() * force;
             if (smooth_.empty()) continue;
             auto const l = n.rows() - g;
@@ -186,7 +185,6 @@ private:
     regularisation smooth_;
     double balance_ = 1;
     arrow_system system_;
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> scaled_;
 };
 
 } // namespace sivid

@@ -21,7 +21,10 @@ public:
     explicit minimax(campaign& c) : campaign_(&c), descent_(c) {}
 
     /// @param unit  per variable: the radius of a trust region of size 1
-    void run(descent_point& here, arrow_vector const& unit, int rounds = 10, double enough = 2e-3) {
+    /// @param enough   ends when a round gains a smaller share
+    /// @param reached  ends at this inflation
+    void run(descent_point& here, arrow_vector const& unit, int rounds = 10, double enough = 2e-3,
+             double reached = 0) {
         double radius = 0.1;
         int small = 0;
         for (int round = 0; round < rounds; ++round) {
@@ -45,7 +48,7 @@ public:
                 small = gained < enough * here.inflation ? small + 1 : 0;
                 here = std::move(trial);
             }
-            if (!improved || small > 0) return;
+            if (!improved || small > 0 || here.inflation <= reached) return;
         }
     }
 
@@ -223,9 +226,8 @@ private:
             weight += d1 + d2;
             push += mu / s1 + mu / s2;
         }
-        scaled_ = root.asDiagonal() * j;
         auto& m = system_.matrix(e);
-        m.bottomRightCorner(n, n).selfadjointView<Eigen::Lower>().rankUpdate(scaled_.transpose());
+        campaign_->add_gram(e, root, m.bottomRightCorner(n, n));
         m.col(0).tail(n) += j.transpose() * skew;
         m(0, 0) += weight;
         system_.side(e).tail(n) += j.transpose() * force;
@@ -268,7 +270,6 @@ private:
     descent descent_;
     arrow_system system_;
     std::vector<Eigen::VectorXd> lines_; ///< r + J d
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> scaled_;
 };
 
 } // namespace sivid

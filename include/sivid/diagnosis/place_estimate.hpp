@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_PLACE_ESTIMATE_HPP
+#define SIVID_DIAGNOSIS_PLACE_ESTIMATE_HPP
+
+#include <sivid/diagnosis/law_search.hpp>
+#include <sivid/diagnosis/place_search.hpp>
+#include <sivid/paving/fit.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// A missing rate d(t) of one equation in one scenario, with its uncertainty.
+struct estimated_rate {
+    std::string scenario;
+    std::vector<double> times, values, deviations;
+};
+
+/// A place where model and data part, estimated and not proved.
+struct estimated_place {
+    place_kind kind = place_kind::equation;
+    std::vector<std::size_t> members; ///< states, channels or the input
+    std::string name;
+    double loss = 0;         ///< what the score loses without it
+    std::string scenario;    ///< where it is seen best
+    double from = 0, to = 0; ///< [s]
+    double missing = 0;      ///< mean missing rate there, or the sensor's fault
+    double deviation = 0;    ///< its standard deviation; 0 when not known
+    std::string unit;
+    std::string law;    ///< "" when none stands out
+    std::string regime; ///< "" when everywhere
+    std::vector<estimated_rate> rates;
+};
+
+/// One set of places that was allowed to be wrong.
+struct tried_places {
+    std::vector<std::string> names; ///< sensors as "sensor r"
+    double inflation = 0, score = 0, cost = 0;
+};
+
+/// Where a model departs from its data.
+struct place_estimate {
+    approximate_fit base;                ///< without anything missing
+    std::vector<estimated_place> places; ///< most important first; empty when nothing is missing
+    double inflation = 0;                ///< that is left with these places
+    std::vector<tried_places> tried;
+    std::vector<std::vector<std::string>> alternatives; ///< sets that do as well
+    double seconds = 0;
+};
+
+struct place_options {
+    place_search_options search;
+    /// Names of dynamic equations by their states, where they have other ones ("u" -> "surge").
+    std::map<std::string, std::string> equation_names;
+};
+
+namespace diagnosis_detail {
+
+/// Of states, then of inputs. Typical sizes of the rates along a motion: four times their root mean
+/// square. An equation that rests is as uncertain as the others of its unit, or as its errors
+/// within a second.
+[[nodiscard]] inline std::vector<missing_rate_scale> rate_scales(campaign& c,
+                                                                 arrow_vector const& z) {
+    auto const& about = c.problem().model.about;
+    std::vector<double> squares(about.states.size(), 0.0);
+    double count = 0;
+    for (std::size_t e = 0; e < c.experiments(); ++e) {
+        simulated_trace seen;
+        if (!c.trace(e, z, seen)) continue;
+        for (auto const& rate : seen.rates) {
+            for (std::size_t i = 0; i < rate.size(); ++i) squares[i] += rate[i] * rate[i];
+            ++count;
+        }
+    }
+    std::vector<missing_rate_scale> scales;
+    double error = std::numeric_limits<double>::infinity();
+    for (std::size_t e = 0; e < c.experiments(); ++e) {
+        for (double const r : c.radii(e)) error = std::min(error, r);
+    }
+    for (std::size_t i = 0; i < squares.size(); ++i) {
+        double largest = squares[i];
+        for (std::size_t j = 0; j < squares.size(); ++j) {
+            if (about.states[j].unit == about.states[i].unit)
+                largest = std::max(largest, squares[j]);
+        }
+        double const own = std::sqrt(squares[i] / std::max(count, 1.0));
+        double const unit = std::sqrt(largest / std::max(count, 1.0));
+        double const size = std::max({4 * own, 2 * unit, 20 * error});
+        scales.push_back({size, 2.0 / 3 * size});
+    }
+    for (std::size_t i = 0; i < about.inputs.size(); ++i) {
+        double largest = 0;
+        for (auto const& e : c.problem().experiments) {
+            auto const* samples = std::get_if<sampled_signal>(&e.inputs[i]);
+            if (samples == nullptr) continue;
+            for (double const u : samples->values()) largest = std::max(largest, std::abs(u));
+        }
+        double const size = largest > 0 ? largest : 1;
+        scales.push_back({size, 2.0 / 3 * size});
+    }
+    return scales;
+}
+
+/// The stretch in which a missing rate stands out most from its uncertainty.
+inline void locate(estimated_place& p, std::vector<estimated_rate> const& rates) {
+    double most = -1;
+    for (auto const& r : rates) {
+        std::vector<double> clear;
+        for (std::size_t k = 0; k < r.values.size(); ++k) {
+            clear.push_back(std::abs(r.values[k]) / std::max(r.deviations[k], 1e-300));
+        }
+        if (clear.empty()) continue;
+        auto const top =
+            static_cast<std::size_t>(std::max_element(clear.begin(), clear.end()) - clear.begin());
+        if (!(clear[top] > most)) continue;
+        most = clear[top];
+        auto first = top;
+        auto last = top;
+        auto const belongs = [&](std::size_t k) {
+            return clear[k] > 0.5 * clear[top] && r.values[k] * r.values[top] > 0;
+        };
+        while (first > 0 && belongs(first - 1)) --first;
+        while (last + 1 < clear.size() && belongs(last + 1)) ++last;
+        if (first == last) last + 1 < clear.size() ? ++last : --first;
+        double sum = 0;
+        double spread = 0;
+        for (auto k = first; k <= last; ++k) {
+            sum += r.values[k];
+            spread = std::max(spread, r.deviations[k]);
+        }
+        p.scenario = r.scenario;
+        p.from = r.times[first];
+        p.to = r.times[last];
+        p.missing = sum / static_cast<double>(last - first + 1);
+        p.deviation = spread;
+    }
+}
+
+} // namespace diagnosis_detail
+
+/// Where does the model depart from the data, and how? Nothing is reported when some parameters
+/// explain all of it.
+/// @cost  some tens of fits, each of them some ten simulations with sensitivities
+class place_estimator {
+public:
+    explicit place_estimator(identification_problem const& problem, place_options options = {})
+        : problem_(&problem), options_(std::move(options)) {}
+
+    [[nodiscard]] place_estimate operator()() {
+        auto const begin = std::chrono::steady_clock::now();
+        place_estimate result;
+        result.base = fitter(*problem_)();
+        result.inflation = result.base.inflation;
+        if (!(result.base.inflation <= 1) && !result.base.parameters.empty()) search(result);
+        result.seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        return result;
+    }
+
+private:
+    [[nodiscard]] std::string equation_name(std::string const& state) const {
+        auto const named = options_.equation_names.find(state);
+        return named == options_.equation_names.end() ? state : named->second;
+    }
+    [[nodiscard]] std::string label(place const& p) const {
+        return p.kind == place_kind::sensor  ? "sensor " + p.name
+               : p.kind == place_kind::input ? "input " + p.name
+                                             : equation_name(p.name);
+    }
+
+    void search(place_estimate& result) {
+        std::vector<bool> measured(problem_->model.observe.size(), false);
+        std::vector<bool> sampled(problem_->model.about.inputs.size(), true);
+        for (auto const& e : problem_->experiments) {
+            for (auto const& m : e.measurements) measured[m.channel] = true;
+            for (std::size_t i = 0; i < sampled.size(); ++i) {
+                sampled[i] = sampled[i] && std::holds_alternative<sampled_signal>(e.inputs[i]);
+            }
+        }
+        place_fitter fit(*problem_, places_of(problem_->model, measured, sampled));
+        auto const base = fit.plain(result.base.parameters, result.base.starts);
+        fit.release({});
+        fit.set_scales(diagnosis_detail::rate_scales(fit.simulations(), fit.vector_of(base)));
+        place_search sets(fit, base, options_.search);
+        sets.run();
+        auto const names = [&](std::vector<std::size_t> const& set) {
+            std::vector<std::string> list;
+            for (auto const p : set) list.push_back(label(fit.places()[p]));
+            return list;
+        };
+        for (auto const& t : sets.tried()) {
+            result.tried.push_back({names(t.set), t.inflation, t.score, t.cost});
+        }
+        for (auto const& a : sets.alternatives()) result.alternatives.push_back(names(a));
+        auto const best = sets.best();
+        result.inflation = best.inflation;
+        for (auto const& [index, loss] : sets.ranking()) {
+            auto const& where = fit.places()[index];
+            estimated_place p;
+            p.kind = where.kind;
+            p.members = where.members;
+            p.name = where.name;
+            p.loss = loss;
+            if (where.is_sensor()) {
+                sensor(p, index, best, fit, result.base);
+            } else {
+                missing(p, best, fit);
+            }
+            result.places.push_back(std::move(p));
+        }
+        name_laws(result, best, fit);
+    }
+
+    void missing(estimated_place& p, place_fit const& best, place_fitter& fit) const {
+        auto const& about = problem_->model.about;
+        auto target = p.members.front();
+        if (p.kind == place_kind::input) {
+            p.unit = about.inputs[target].unit;
+            target += about.states.size();
+        } else {
+            p.unit = about.states[target].unit + "/s";
+            p.name = equation_name(p.name);
+        }
+        for (std::size_t e = 0; e < problem_->experiments.size(); ++e) {
+            if (best.deviation.size() <= e) continue;
+            p.rates.push_back({problem_->experiments[e].name, fit.simulations().knots(e),
+                               best.state.missing[e][target], best.deviation[e][target]});
+        }
+        diagnosis_detail::locate(p, p.rates);
+    }
+
+    /// A sensor's fault is named after what of it moves the channel most.
+    void sensor(estimated_place& p, std::size_t index, place_fit const& best, place_fitter& fit,
+                approximate_fit const& base) const {
+        auto const& faults = fit.extended().faults[index];
+        auto const offsets = p.members.size();
+        double const scale = best.state.parameters[faults.front()];
+        bool const late = faults.size() > offsets + 1;
+        double const delay = late ? best.state.parameters[faults[1]] : 0;
+        // The member and scenario that the fault explains most.
+        double most = -1;
+        double by_scale = 0, by_delay = 0, by_offset = 0;
+        for (std::size_t e = 0; e < problem_->experiments.size(); ++e) {
+            auto const& requests = fit.simulations().requests(e);
+            for (std::size_t m = 0; m < offsets; ++m) {
+                double sum = 0;
+                double low = HUGE_VAL, high = -HUGE_VAL, steep = 0, before = 0, since = 0;
+                bool any = false;
+                for (std::size_t k = 0; k < requests.size(); ++k) {
+                    if (requests[k].channel != p.members[m]) continue;
+                    sum += base.residuals[e][k] * base.residuals[e][k];
+                    double const y = fit.simulations().centres(e)[k];
+                    low = std::min(low, y);
+                    high = std::max(high, y);
+                    if (any) {
+                        steep = std::max(steep, std::abs(y - before) /
+                                                    std::max(requests[k].time - since, 1e-12));
+                    }
+                    any = true;
+                    before = y;
+                    since = requests[k].time;
+                }
+                if (!any) continue;
+                by_scale =
+                    std::max(by_scale, std::abs(scale) * std::max(std::abs(low), std::abs(high)));
+                by_delay = std::max(by_delay, delay * steep);
+                double const offset = best.state.parameters[faults[faults.size() - offsets + m]];
+                by_offset = std::max(by_offset, std::abs(offset));
+                if (!(sum > most)) continue;
+                most = sum;
+                p.scenario = problem_->experiments[e].name;
+                p.from = problem_->experiments[e].begin;
+                p.to = since;
+                p.name = problem_->model.about.channels[p.members[m]].name;
+                p.unit = problem_->model.about.channels[p.members[m]].unit;
+                p.missing = offset;
+                p.law = "offset";
+            }
+        }
+        if (by_scale > by_offset && by_scale >= by_delay) {
+            p.law = "scale";
+            p.missing = scale;
+            p.unit = "1";
+        } else if (by_delay > by_offset) {
+            p.law = "latency";
+            p.missing = delay;
+            p.unit = "s";
+        }
+    }
+
+    void name_laws(place_estimate& result, place_fit const& best, place_fitter& fit) const {
+        law_search laws(fit, best);
+        auto const targets = fit.targets();
+        if (targets.empty() || !laws.valid()) return;
+        law_library const library(problem_->model, laws.traces());
+        auto const states = problem_->model.about.states.size();
+        for (std::size_t c = 0; c < targets.size(); ++c) {
+            bool const input = targets[c] >= states;
+            auto const list = input ? library.for_input(targets[c] - states) : library.for_rates();
+            auto const ranked = laws.for_target(c, list);
+            if (ranked.empty()) return;
+            for (auto& p : result.places) {
+                if (p.kind == place_kind::sensor || (p.kind == place_kind::input) != input)
+                    continue;
+                if (p.members.front() != (input ? targets[c] - states : targets[c])) continue;
+                p.law = list[ranked.front().index].text;
+                p.regime = list[ranked.front().index].regime;
+            }
+        }
+    }
+
+    identification_problem const* problem_;
+    place_options options_;
+};
+
+[[nodiscard]] inline place_estimate estimate_places(identification_problem const& problem,
+                                                    place_options options = {}) {
+    return place_estimator(problem, std::move(options))();
+}
+
+} // namespace sivid
+
+#endif
