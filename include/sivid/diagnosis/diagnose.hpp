@@ -7,6 +7,7 @@
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/holdout_judgement.hpp>
 #include <sivid/diagnosis/manoeuvre.hpp>
+#include <sivid/diagnosis/place_estimate.hpp>
 #include <sivid/diagnosis/screening.hpp>
 #include <sivid/diagnosis/verification.hpp>
 
@@ -31,6 +32,8 @@ struct diagnosis_options {
     std::vector<manoeuvre> menu{}; ///< from which the next experiment is proposed
     /// Called with what is being done; false ends with what is known so far.
     std::function<bool(std::string const&)> progress{};
+    /// Called once it is known whether there is a gap, and where.
+    std::function<void(std::string const&)> first_sentence{};
 };
 
 /// A diagnosis with the fits behind it, for pictures and for judging by hold-out data.
@@ -41,6 +44,8 @@ struct diagnosis_run {
     std::vector<screened> candidates; ///< the model itself first
     std::size_t answer = 0;           ///< index of the candidate that is the answer
     verified_inflation base_bound, answer_bound;
+    std::vector<relation_finding> findings; ///< the broken relations
+    place_estimate places;
     std::optional<holdout_judgement> holdout_before, holdout_after;
 };
 
@@ -66,6 +71,8 @@ public:
         measure_gap(tried);
         if (d.gap != gap_verdict::none && !stopped_) {
             find_relations();
+            find_places();
+            announce();
             tried.run();
             run_.candidates = tried.candidates();
             decide(tried);
@@ -124,11 +131,60 @@ private:
 
     void find_relations() {
         if (!go_on("proving which equations cannot hold")) return;
-        for (auto const& f : find_broken_relations(run_.base)) {
+        run_.findings = find_broken_relations(run_.base);
+        for (auto const& f : run_.findings) {
             broken_relation_report r{f.name, f.channels, f.proved, f.assumptions, {}};
             for (auto const& w : f.windows) r.windows.push_back({w.scenario, w.from, w.to});
             run_.result.relations.push_back(std::move(r));
         }
+    }
+
+    void find_places() {
+        if (!go_on("looking where the model departs from the data")) return;
+        run_.places = estimate_places(run_.base);
+        for (auto const& p : run_.places.places) {
+            suspected_place s;
+            s.kind = p.kind == place_kind::sensor  ? "sensor"
+                     : p.kind == place_kind::input ? "input"
+                                                   : "equation";
+            s.name = p.name;
+            s.where = {p.scenario, p.from, p.to};
+            s.estimate = p.missing;
+            s.unit = p.unit;
+            s.law = p.law;
+            s.regime = p.regime;
+            prove(s);
+            run_.result.where.push_back(std::move(s));
+        }
+        if (run_.result.where.empty()) return;
+        for (auto const& set : run_.places.alternatives) {
+            std::string text;
+            for (auto const& name : set) text += (text.empty() ? "" : " and ") + name;
+            run_.result.where.front().alternatives.push_back(text);
+        }
+    }
+    /// A place whose relation is proved broken gets the proof's window and missing rate.
+    void prove(suspected_place& s) const {
+        for (auto const& f : run_.findings) {
+            bool const concerns = s.kind == "equation" && f.name == s.name;
+            if (!concerns) continue;
+            s.proved = f.proved;
+            if (!f.missing) return;
+            s.missing = f.missing->value;
+            s.where = {f.missing->window.scenario, f.missing->window.from, f.missing->window.to};
+        }
+    }
+    /// The first sentence, early: whether there is a gap, and where.
+    void announce() {
+        if (!options_.first_sentence) return;
+        auto const& d = run_.result;
+        std::string text = d.gap == gap_verdict::certified
+                               ? "a gap is proved"
+                               : "no parameter was found that explains the data";
+        for (std::size_t k = 0; k < d.where.size(); ++k) {
+            text += (k == 0 ? ": " : ", ") + d.where[k].kind + " " + d.where[k].name;
+        }
+        options_.first_sentence(text);
     }
 
     [[nodiscard]] std::vector<std::string> names_of(candidate const& c) const {
@@ -228,7 +284,12 @@ private:
                 }
             }
         }
-        for (std::size_t k = 0; k < order_.size(); ++k) {
+        std::vector<std::size_t> open(order_.size());
+        for (std::size_t k = 0; k < open.size(); ++k) open[k] = k;
+        std::stable_sort(open.begin(), open.end(), [&](std::size_t a, std::size_t b) {
+            return d.causes[a].effects.size() < d.causes[b].effects.size();
+        });
+        for (auto const k : open) {
             auto const& s = run_.candidates[order_[k]];
             auto& c = d.causes[k];
             if (c.verdict == cause_verdict::explains) continue;
