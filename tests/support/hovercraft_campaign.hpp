@@ -7,7 +7,7 @@
 #include "support/models.hpp"
 #include "support/random.hpp"
 
-#include <hovercraft/model.hpp>
+#include "../../examples/hovercraft/model.hpp"
 #include <sivid/paving/problem.hpp>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ struct hover_effect {
 };
 
 struct hover_options {
-    std::map<std::string, double> truth; ///< overrides of constants
+    std::map<std::string, double> truth = {}; ///< overrides of constants
     std::map<std::string, sivid::interval> priors{
         {"Sv", between(0.2, 0.25)}, {"Sg", between(0.0042, 0.0754)}, {"L", between(0.25, 0.35)}};
     bool uncertain_starts = false;

@@ -22,6 +22,8 @@ struct ranked_law {
     std::size_t index = 0;                                    ///< into the list of laws
     double squares = std::numeric_limits<double>::infinity(); ///< left, with regularisation
     double score = std::numeric_limits<double>::infinity();   ///< 3 squares + functions ln n
+    /// Share of what the free missing rate gains that the law gains too.
+    double share = 0;
 };
 
 /// Linear least squares about the fit of a set of places.
@@ -171,6 +173,7 @@ private:
         }
         Eigen::VectorXd const rest = factor_.solve(side_);
         double const without = base_ - side_.dot(rest);
+        if (n == 0) return without;
         Eigen::MatrixXd const solved = factor_.solve(b);
         Eigen::MatrixXd left = gram - b.transpose() * solved;
         Eigen::VectorXd const pull = slope - b.transpose() * rest;
@@ -182,6 +185,11 @@ private:
                                                Column const& column_of) {
         std::vector<ranked_law> result;
         if (factor_.info() != Eigen::Success) return result;
+        double const without = squares_with({});
+        double whole = 0; // with the free missing rates
+        for (std::size_t e = 0; e < residuals_.size(); ++e) {
+            whole += residuals_[e].squaredNorm() + at_.local[e].dot(smooth_[e] * at_.local[e]);
+        }
         for (std::size_t k = 0; k < laws.size(); ++k) {
             std::vector<std::vector<Eigen::VectorXd>> columns;
             for (auto const& f : laws[k].functions) {
@@ -192,6 +200,8 @@ private:
             own.index = k;
             own.squares = squares_with(columns);
             if (!std::isfinite(own.squares)) continue;
+            double const gain = without - whole;
+            own.share = gain > 0 ? (without - own.squares) / gain : 0;
             double const terms =
                 static_cast<double>(columns.size()) + (laws[k].regime.empty() ? 0 : 1);
             own.score = 3 * own.squares + terms * std::log(std::max(samples_, 2.0));

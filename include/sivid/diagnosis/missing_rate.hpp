@@ -50,7 +50,7 @@ struct missing_rate_scale {
 };
 
 /// The quadratic form sum d^2/size^2 + sum (delta d)^2/(walk^2 delta t) of several equations whose
-/// knot values alternate, after `starts` other variables.
+/// knot values alternate, after `starts` other variables: the lower triangle.
 [[nodiscard]] inline Eigen::MatrixXd
 missing_rate_prior(std::vector<double> const& knots, std::vector<missing_rate_scale> const& scales,
                    std::size_t starts) {

@@ -306,7 +306,8 @@ private:
             bool const input = targets[c] >= states;
             auto const list = input ? library.for_input(targets[c] - states) : library.for_rates();
             auto const ranked = laws.for_target(c, list);
-            if (ranked.empty()) return;
+            // A shape that no law has is better left without a name.
+            if (ranked.empty() || ranked.front().share < 0.8) continue;
             for (auto& p : result.places) {
                 if (p.kind == place_kind::sensor || (p.kind == place_kind::input) != input)
                     continue;
