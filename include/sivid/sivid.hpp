@@ -97,6 +97,7 @@
 #include <sivid/diagnosis/channel_tube.hpp>
 #include <sivid/diagnosis/declared_variation.hpp>
 #include <sivid/diagnosis/graph_range.hpp>
+#include <sivid/diagnosis/integrand_set.hpp>
 #include <sivid/diagnosis/linear_refutation.hpp>
 #include <sivid/diagnosis/observed_motion.hpp>
 #include <sivid/diagnosis/relation_finding.hpp>
@@ -105,6 +106,7 @@
 #include <sivid/diagnosis/sensor_discharge.hpp>
 #include <sivid/diagnosis/separation.hpp>
 #include <sivid/diagnosis/state_samples.hpp>
+#include <sivid/diagnosis/time_cell.hpp>
 #include <sivid/diagnosis/weak_windows.hpp>
 #include <sivid/diagnosis/window_integrals.hpp>
 #include <sivid/version.hpp>

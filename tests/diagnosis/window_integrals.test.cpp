@@ -158,19 +158,4 @@ TEST_CASE("a drift averages out, a departure counts by its mean") {
     time_cell thin{0, 1, {between(0, 1), box{between(1, 1.01)}, {}, {}}, {}};
     thin.lines = {cell_line::of(1, 1.01, interval(0.0)), cell_line::of(0, 1, interval(0.0))};
     CHECK(width(window_integrals(set, {thin}, {}).direct(0, 0, 1)) < 1e-4);
-    auto const still = cell_line::still(between(1, 3));
-    CHECK(still.centre == 2);
-    CHECK(still.drift == 0);
-    CHECK(equal(still.spread, between(-1, 1)));
-}
-
-TEST_CASE("derivatives that are zero are found to be so") {
-    graph g;
-    expression const x(g, g.leaf(operation::state, 0));
-    expression const y(g, g.leaf(operation::state, 1));
-    auto const f = (-(0.25 * x) / interval_traits<interval>::bounds(0.5, 0.6) + 1 / y).in(g);
-    auto const set = integrand_set::of(g, {f}, 2, 0);
-    CHECK(g.is_literal(set.slopes[0][0]));
-    CHECK(set.uses(0, 0));
-    CHECK(set.uses(0, 1));
 }

@@ -5,7 +5,7 @@
 #include <sivid/diagnosis/channel_tube.hpp>
 #include <sivid/diagnosis/declared_variation.hpp>
 #include <sivid/diagnosis/state_samples.hpp>
-#include <sivid/diagnosis/window_integrals.hpp>
+#include <sivid/diagnosis/time_cell.hpp>
 
 #include <algorithm>
 #include <cmath>

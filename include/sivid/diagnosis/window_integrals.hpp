@@ -3,126 +3,16 @@
 #define SIVID_DIAGNOSIS_WINDOW_INTEGRALS_HPP
 
 #include <sivid/diagnosis/graph_range.hpp>
-#include <sivid/model/differentiate.hpp>
-#include <sivid/model/rewrite.hpp>
+#include <sivid/diagnosis/integrand_set.hpp>
+#include <sivid/diagnosis/time_cell.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <utility>
 #include <vector>
 
 namespace sivid {
-
-/// A state that is the exact derivative of another one: \f$ q' = r \f$.
-struct derivative_pair {
-    std::size_t r = 0, q = 0;
-};
-
-namespace diagnosis_detail {
-
-/// The same expression in which a product with 0 is 0 even where the other factor is not defined
-/// everywhere; for derivatives, which are only used where their function is defined.
-inline node_id without_zero_products(graph& g, node_id i, std::map<node_id, node_id>& done) {
-    if (auto const found = done.find(i); found != done.end()) return found->second;
-    auto const n = g[i]; // a copy: building moves the nodes
-    auto result = i;
-    if (!is_leaf(n.op)) {
-        auto const a = without_zero_products(g, n.a, done);
-        if (is_binary(n.op)) {
-            auto const b = without_zero_products(g, n.b, done);
-            bool const zero = n.op == operation::mul && (g.is(a, 0) || g.is(b, 0));
-            bool const none = n.op == operation::div && g.is(a, 0);
-            result = zero || none ? g.constant(0.0) : g.binary(n.op, a, b);
-        } else {
-            result = n.op == operation::pown ? g.pown(a, n.index) : g.unary(n.op, a);
-        }
-    }
-    return done[i] = result;
-}
-
-} // namespace diagnosis_detail
-
-/// Functions of time, states and inputs with what their enclosures need: partial derivatives by
-/// states, inputs and time, and which of them are differentiable in Clarke's sense (no jumps).
-struct integrand_set {
-    graph const* g = nullptr;
-    std::vector<node_id> functions;
-    std::vector<std::vector<node_id>> slopes; ///< [function][states, then inputs, then time]
-    std::vector<bool> continuous;
-
-    /// Adds the derivatives to `g`, which must outlive the set.
-    [[nodiscard]] static integrand_set of(graph& g, std::vector<node_id> const& functions,
-                                          std::size_t states, std::size_t inputs) {
-        integrand_set result;
-        result.functions = functions;
-        std::vector<node_id> x;
-        for (std::size_t i = 0; i < states; ++i) x.push_back(g.leaf(operation::state, i));
-        for (std::size_t i = 0; i < inputs; ++i) x.push_back(g.leaf(operation::input, i));
-        x.push_back(g.leaf(operation::time, 0));
-        for (auto const f : functions) {
-            auto const needed = reachable(g, {f});
-            bool jumps = false;
-            for (std::size_t k = 0; k < needed.size(); ++k) {
-                jumps = jumps || (needed[k] && g.nodes()[k].op == operation::sign);
-            }
-            result.continuous.push_back(!jumps);
-        }
-        result.slopes = differentiate(g, functions, x);
-        std::map<node_id, node_id> done;
-        for (auto& row : result.slopes) {
-            for (auto& d : row) d = diagnosis_detail::without_zero_products(g, d, done);
-        }
-        result.g = &g;
-        return result;
-    }
-    [[nodiscard]] bool uses(std::size_t f, std::size_t state) const {
-        return !g->is(slopes[f][state], 0);
-    }
-};
-
-/// A quantity over one cell of time: a straight line that passes `centre` in the middle of the cell
-/// and rises by `drift` along it, plus something in `spread`, plus something whose modulus is at
-/// most `departure` on the average.
-struct cell_line {
-    double centre = 0, drift = 0;
-    interval spread{0.0};
-    double departure = 0;
-
-    /// From what is open beside the line from `start` to `end`.
-    [[nodiscard]] static cell_line of(double start, double end, interval const& beside,
-                                      double departure = 0) {
-        using traits = interval_traits<interval>;
-        double const centre = start + (end - start) / 2;
-        auto const sum = traits::add(traits::point(start), traits::point(end));
-        auto const middle = traits::mul(traits::point(0.5), sum);
-        auto const drift = traits::sub(traits::point(end), traits::point(start));
-        return {centre, mag(drift), traits::add(beside, traits::sub(middle, traits::point(centre))),
-                departure};
-    }
-    /// Without a drift.
-    [[nodiscard]] static cell_line still(interval const& range) {
-        double const centre = mid(range);
-        return {centre, 0.0, interval_traits<interval>::sub(range, interval(centre)), 0.0};
-    }
-};
-
-/// What is known over one cell of time.
-struct time_cell {
-    double from = 0, to = 0;
-    leaf_ranges at;               ///< all leaves in the cell; unknown constants over their prior
-    std::vector<cell_line> lines; ///< of states, then inputs, then time
-
-    /// Lines without drift, from ranges alone.
-    [[nodiscard]] static time_cell still(double from, double to, leaf_ranges const& at) {
-        time_cell result{from, to, at, {}};
-        for (auto const& x : at.states) result.lines.push_back(cell_line::still(x));
-        for (auto const& u : at.inputs) result.lines.push_back(cell_line::still(u));
-        result.lines.push_back(cell_line::still(at.time));
-        return result;
-    }
-};
 
 /// Encloses \f$ \int_{t_a}^{t_b} \phi_j dt \f$ between any two boundaries of a grid of cells.
 ///   Directly: each cell contributes its length times the mean of \f$ \phi_j \f$, which lies in the
