@@ -127,6 +127,7 @@
 #include <sivid/diagnosis/graph_range.hpp>
 #include <sivid/diagnosis/holdout.hpp>
 #include <sivid/diagnosis/holdout_judgement.hpp>
+#include <sivid/diagnosis/integrand_set.hpp>
 #include <sivid/diagnosis/knot_trace.hpp>
 #include <sivid/diagnosis/law.hpp>
 #include <sivid/diagnosis/law_search.hpp>
@@ -147,6 +148,7 @@
 #include <sivid/diagnosis/sensor_model.hpp>
 #include <sivid/diagnosis/separation.hpp>
 #include <sivid/diagnosis/state_samples.hpp>
+#include <sivid/diagnosis/time_cell.hpp>
 #include <sivid/diagnosis/verification.hpp>
 #include <sivid/diagnosis/weak_windows.hpp>
 #include <sivid/diagnosis/window_integrals.hpp>

@@ -81,6 +81,32 @@ TEST_CASE("the tube is the bounds at samples and an arch between them") {
     CHECK_FALSE(tube.covers(2, 3.5));
 }
 
+TEST_CASE("beside a line only the width is left, and the departure on the average") {
+    draws d(50);
+    for (int n = 0; n < 100; ++n) {
+        double const most = d.uniform(0, 10);
+        double const slope = d.uniform(-20, 20);
+        channel_tube const tube({0.0, 1.0}, {around(0, 0.1), around(slope, 0.1)}, {1.0, most});
+        double const from = d.uniform(0, 0.9);
+        double const to = d.uniform(from + 0.01, 1);
+        auto const [beside, departure] = tube.beside_line(from, to, slope * from, slope * to);
+        CHECK(beside.lower() <= -0.1 + 1e-9);
+        CHECK(beside.upper() >= 0.1 - 1e-9);
+        CHECK(width(beside) < 0.2001);
+        double sum = 0;
+        for (int k = 0; k < 1000; ++k) {
+            double const s = from + (to - from) * (k + 0.5) / 1000;
+            sum += most * s * (1 - s) / 1000;
+        }
+        CHECK_THAT(departure, WithinAbs(sum, 1e-5));
+        CHECK(departure >= sum * (1 - 1e-6));
+    }
+    channel_tube const tube({0.0, 1.0, 2.0}, {around(0, 1), around(0, 1), around(0, 1)}, {1, 1});
+    CHECK_THROWS_AS(tube.beside_line(0.5, 1.5, 0, 0), std::invalid_argument);
+    CHECK_THROWS_AS(tube.beside_line(0.5, 0.5, 0, 0), std::invalid_argument);
+    CHECK_THROWS_AS(tube.beside_line(1.5, 2.5, 0, 0), std::invalid_argument);
+}
+
 TEST_CASE("the worst case is reached: two slopes that meet") {
     // Rate -J/2 then J/2, meeting in the middle of a gap.
     double const most = 4;

@@ -7,6 +7,7 @@
 #include <sivid/model/effects.hpp>
 #include <sivid/paving/problem.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -52,6 +53,7 @@ struct truth {
         return 0.0;
     };
     std::function<double(double)> seen_position = [](double p) { return p; };
+    double delay = 0; ///< of the input
 };
 
 /// Measured every 0.1 s for 4 s, within +-0.02 m and +-0.03 m/s; the deviations alternate and fill
@@ -70,7 +72,8 @@ inline sivid::experiment experiment(std::size_t e, truth const& real) {
     result.initial = sivid::box{interval(0.0), interval(v0)};
     double p = 0, v = v0;
     auto const rate = [&](double t, double w) {
-        return real.k * u.approximate(t) - w / 4 + real.missing(t, w, u.approximate(t));
+        double const force = u.approximate(std::max(0.0, t - real.delay));
+        return real.k * force - w / 4 + real.missing(t, w, force);
     };
     double const h = 1e-3;
     for (int step = 1; step <= 4000; ++step) {

@@ -47,6 +47,10 @@ TEST_CASE("samples begin with the initial box, and agree at equal times") {
     CHECK(equal(s.bounds[1], between(0, 3)));
     CHECK(equal(s.bounds[2], between(1.5, 2)));
     CHECK(equal(s.bounds[3], between(2, 3))); // they contradict each other: the later one
+    auto const alone = state_samples::sensed(e, 0);
+    CHECK(alone.times == s.times);
+    CHECK(equal(alone.bounds[0], between(0.5, 4))); // without the initial state
+    CHECK(state_samples::sensed(e, 2).times.empty());
     CHECK(s.period() == 1);
     CHECK(equal(*s.near(0.5), between(0, 3)));
     CHECK_FALSE(s.near(-1));

@@ -32,7 +32,7 @@ struct bench {
         bind(model, {{"p0", "p1"}, {}}, {sampled_signal({0.0}, {0.0}, interpolation::linear)});
     box prior{between(0, 10), between(0, 1)};
     relation_row row = make_relation_row(bound.g, bound.rate[1], 1, prior);
-    integrand_set set = integrand_set::of(bound.g, row.functions, 2);
+    integrand_set set = integrand_set::of(bound.g, row.functions, 2, 0);
 };
 
 } // namespace
@@ -86,6 +86,6 @@ TEST_CASE("functions that are not affine in the rate have no weak form") {
                                      });
     auto bound = bind(m, {{"p0"}, {}}, {});
     auto const row = make_relation_row(bound.g, bound.rate[1], 1, box{between(0, 1)});
-    auto const set = integrand_set::of(bound.g, row.functions, 2);
+    auto const set = integrand_set::of(bound.g, row.functions, 2, 0);
     CHECK_FALSE(weak_windows::of(set, {1, 0}));
 }

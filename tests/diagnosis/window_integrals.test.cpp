@@ -20,13 +20,13 @@ std::vector<time_cell> circle(draws& d, double end, double h, double e0, double 
             double const shift = off(e);
             return between(std::min(a, b) - e + shift - h * h, std::max(a, b) + e + shift + h * h);
         };
-        cells.push_back({from, to, {}});
-        cells.back().at = {between(from, to),
-                           box{side(std::sin(from), std::sin(to), e0),
-                               side(std::cos(from), std::cos(to), e1),
-                               side(1 + from / 4, 1 + to / 4, 0.01)},
-                           {},
-                           {}};
+        cells.push_back(time_cell::still(
+            from, to,
+            {between(from, to),
+             box{side(std::sin(from), std::sin(to), e0), side(std::cos(from), std::cos(to), e1),
+                 side(1 + from / 4, 1 + to / 4, 0.01)},
+             {},
+             {}}));
     }
     return cells;
 }
@@ -67,7 +67,7 @@ TEST_CASE("windows enclose the integrals, directly and by parts") {
     draws d(12);
     for (int n = 0; n < 12; ++n) {
         bench b;
-        auto const set = integrand_set::of(b.g, b.functions, 3);
+        auto const set = integrand_set::of(b.g, b.functions, 3, 0);
         auto const cells = circle(d, 6, 0.025, d.uniform(0, 0.05), d.uniform(0, 0.1));
         std::vector<derivative_pair> const pairs{{1, 0}};
         window_integrals const integrals(set, cells, pairs);
@@ -97,7 +97,7 @@ TEST_CASE("windows enclose the integrals, directly and by parts") {
 TEST_CASE("by parts, an error along the window becomes one at its ends") {
     draws d(13);
     bench b;
-    auto const set = integrand_set::of(b.g, b.functions, 3);
+    auto const set = integrand_set::of(b.g, b.functions, 3, 0);
     auto const cells = circle(d, 6, 0.025, 0.01, 0.1);
     window_integrals const integrals(set, cells, {{1, 0}});
     auto const q_at = [](std::size_t, std::size_t k) {
@@ -115,9 +115,10 @@ TEST_CASE("by parts, an error along the window becomes one at its ends") {
 TEST_CASE("a cell in which nothing is known spoils the windows that contain it, no others") {
     draws d(14);
     bench b;
-    auto const set = integrand_set::of(b.g, b.functions, 3);
+    auto const set = integrand_set::of(b.g, b.functions, 3, 0);
     auto cells = circle(d, 1, 0.1, 0.01, 0.1);
     cells[5].at.states[2] = interval_traits<interval>::entire();
+    cells[5] = time_cell::still(cells[5].from, cells[5].to, cells[5].at);
     window_integrals const integrals(set, cells, {{1, 0}});
     CHECK(is_bounded(integrals.direct(1, 0, 5)));
     CHECK(is_entire(integrals.direct(1, 3, 7)));
@@ -127,13 +128,34 @@ TEST_CASE("a cell in which nothing is known spoils the windows that contain it, 
     CHECK(none.has_parts(0));
 }
 
-TEST_CASE("derivatives that are zero are found to be so") {
+TEST_CASE("a drift averages out, a departure counts by its mean") {
+    draws d(15);
     graph g;
     expression const x(g, g.leaf(operation::state, 0));
-    expression const y(g, g.leaf(operation::state, 1));
-    auto const f = (-(0.25 * x) / interval_traits<interval>::bounds(0.5, 0.6) + 1 / y).in(g);
-    auto const set = integrand_set::of(g, {f}, 2);
-    CHECK(g.is_literal(set.slopes[0][0]));
-    CHECK(set.uses(0, 0));
-    CHECK(set.uses(0, 1));
+    auto const f = sqr(x).in(g);
+    auto const set = integrand_set::of(g, {f}, 1, 0);
+    for (int n = 0; n < 200; ++n) {
+        // x(t) = a + b t + c(t) + e on [0, 1], |c| at most m on the average.
+        double const a = d.uniform(-2, 2), b = d.uniform(-1, 1), m = d.uniform(0, 0.2);
+        double const e = d.uniform(-0.1, 0.1);
+        double const shape = d.uniform(0.1, 1); // c is 0 but for a share of the time
+        double const height = (d.coin() ? 1 : -1) * m / shape;
+        time_cell cell{0, 1, {between(0, 1), box{between(-6, 6)}, {}, {}}, {}};
+        cell.lines = {cell_line::of(a, a + b, between(-0.1, 0.1), m),
+                      cell_line::of(0, 1, interval(0.0))};
+        window_integrals const integrals(set, {cell}, {});
+        double sum = 0;
+        for (int k = 0; k < 2000; ++k) {
+            double const t = (k + 0.5) / 2000;
+            double const v = a + b * t + e + (t < shape ? height : 0.0);
+            sum += v * v / 2000;
+        }
+        auto const range = integrals.direct(0, 0, 1);
+        CHECK(range.lower() - 1e-3 <= sum);
+        CHECK(sum <= range.upper() + 1e-3);
+    }
+    // Without spread: second order in the drift.
+    time_cell thin{0, 1, {between(0, 1), box{between(1, 1.01)}, {}, {}}, {}};
+    thin.lines = {cell_line::of(1, 1.01, interval(0.0)), cell_line::of(0, 1, interval(0.0))};
+    CHECK(width(window_integrals(set, {thin}, {}).direct(0, 0, 1)) < 1e-4);
 }

@@ -88,33 +88,58 @@ public:
         return sivid::is_empty(result) ? bounds_.back() : result;
     }
 
+    /// What is open, over a time within one gap, beside the straight line from `start` at `from` to
+    /// `end` at `to`: the chord's part, and an upper bound of the mean departure from the chord,
+    /// \f$ J h \, \overline{s (1 - s)} \f$.
+    /// @given  no sample strictly between `from` and `to` (checked)
+    [[nodiscard]] std::pair<interval, double> beside_line(double from, double to, double start,
+                                                          double end) const {
+        auto const k = gap_at(from);
+        if (!(from < to) || !covers(from, to) || times_[k + 1] < to) {
+            throw std::invalid_argument("channel_tube: not within one gap");
+        }
+        bool undefined = false;
+        auto const s0 = place(k, from);
+        auto const s1 = place(k, to);
+        auto const first = traits::mul(traits::point(0.5), traits::add(s0, s1));
+        auto const squares =
+            traits::add(traits::add(traits::sqr(s0), traits::mul(s0, s1)), traits::sqr(s1));
+        auto const mean = traits::sub(first, traits::div(squares, traits::point(3.0), undefined));
+        return {traits::hull(traits::sub(chord(k, s0), traits::point(start)),
+                             traits::sub(chord(k, s1), traits::point(end))),
+                traits::mul(traits::point(bend_[k]), mean).upper()};
+    }
+
 private:
     [[nodiscard]] std::size_t gap_at(double t) const {
         auto const after = std::upper_bound(times_.begin(), times_.end(), t);
         return after == times_.begin() ? 0 : static_cast<std::size_t>(after - times_.begin()) - 1;
     }
-    [[nodiscard]] interval in_gap(std::size_t k, double from, double to) const {
+    /// (t - t_k)/h.
+    [[nodiscard]] interval place(std::size_t k, double t) const {
         bool undefined = false;
-        auto const one = traits::point(1.0);
-        auto const unit = traits::bounds(0.0, 1.0);
         auto const h = traits::sub(traits::point(times_[k + 1]), traits::point(times_[k]));
-        auto const place = [&](double t) {
-            auto const s = traits::sub(traits::point(t), traits::point(times_[k]));
-            return traits::intersect(traits::div(s, h, undefined), unit);
-        };
-        auto const chord = [&](interval const& s) {
-            return traits::add(traits::mul(traits::sub(one, s), bounds_[k]),
-                               traits::mul(s, bounds_[k + 1]));
-        };
-        auto const s0 = place(from);
-        auto const s1 = place(to);
-        auto const arch = [&](interval const& s) {
-            return traits::mul(s, traits::sub(one, s)).upper();
+        auto const s = traits::sub(traits::point(t), traits::point(times_[k]));
+        return traits::intersect(traits::div(s, h, undefined), traits::bounds(0.0, 1.0));
+    }
+    [[nodiscard]] interval chord(std::size_t k, interval const& s) const {
+        return traits::add(traits::mul(traits::sub(traits::point(1.0), s), bounds_[k]),
+                           traits::mul(s, bounds_[k + 1]));
+    }
+    /// The greatest departure from the chord between two places, upward.
+    [[nodiscard]] double arch(std::size_t k, interval const& s0, interval const& s1) const {
+        auto const height = [](interval const& s) {
+            return traits::mul(s, traits::sub(traits::point(1.0), s)).upper();
         };
         double const highest =
-            s0.lower() <= 0.5 && 0.5 <= s1.upper() ? 0.25 : std::max(arch(s0), arch(s1));
-        auto const off = traits::mul(traits::point(bend_[k]), traits::point(highest)).upper();
-        return traits::add(traits::hull(chord(s0), chord(s1)), traits::bounds(-off, off));
+            s0.lower() <= 0.5 && 0.5 <= s1.upper() ? 0.25 : std::max(height(s0), height(s1));
+        return traits::mul(traits::point(bend_[k]), traits::point(highest)).upper();
+    }
+    [[nodiscard]] interval in_gap(std::size_t k, double from, double to) const {
+        auto const s0 = place(k, from);
+        auto const s1 = place(k, to);
+        auto const off = arch(k, s0, s1);
+        return traits::add(traits::hull(chord(k, s0), chord(k, s1)), traits::bounds(-off, off));
     }
 
     std::vector<double> times_;

@@ -5,7 +5,7 @@
 #include <sivid/diagnosis/channel_tube.hpp>
 #include <sivid/diagnosis/declared_variation.hpp>
 #include <sivid/diagnosis/state_samples.hpp>
-#include <sivid/diagnosis/window_integrals.hpp>
+#include <sivid/diagnosis/time_cell.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -60,6 +60,19 @@ inline std::vector<double> refined(std::vector<double> times, double step) {
     return result;
 }
 
+/// An input over a cell within one piece: samples run along a line, formulas count as still.
+inline cell_line input_line(signal const& s, double from, double to) {
+    using traits = interval_traits<interval>;
+    auto const* sampled = std::get_if<sampled_signal>(&s);
+    if (sampled == nullptr) return cell_line::still(input_over(s, from, to));
+    auto const piece = sampled->piece(from);
+    auto const first = sampled->value<interval>(piece, traits::point(from));
+    auto const last = sampled->value<interval>(piece, traits::point(to));
+    return cell_line::of(mid(first), mid(last),
+                         traits::hull(traits::sub(first, traits::point(mid(first))),
+                                      traits::sub(last, traits::point(mid(last)))));
+}
+
 } // namespace diagnosis_detail
 
 /// The tubes and cells of one experiment under declared variations.
@@ -99,14 +112,28 @@ observe_motion(bound_model const& model, box const& prior, experiment const& e,
     result.boundaries = diagnosis_detail::refined(std::move(result.boundaries),
                                                   period / static_cast<double>(cells_per_gap));
     for (std::size_t c = 0; c + 1 < result.boundaries.size(); ++c) {
-        time_cell cell{result.boundaries[c], result.boundaries[c + 1], {}};
-        cell.at = {traits::bounds(cell.from, cell.to), box(n), prior, box(e.inputs.size())};
+        double const from = result.boundaries[c];
+        double const to = result.boundaries[c + 1];
+        leaf_ranges at{traits::bounds(from, to), box(n), prior, box(e.inputs.size())};
+        std::vector<cell_line> lines;
         for (std::size_t i = 0; i < n; ++i) {
-            cell.at.states[i] = result.state_over(i, cell.from, cell.to);
+            at.states[i] = result.state_over(i, from, to);
+            if (!is_bounded(at.states[i])) {
+                lines.push_back(cell_line::still(at.states[i]));
+                continue;
+            }
+            auto const& tube = *result.tubes[i];
+            double const first = mid(tube.over(from, from));
+            double const last = mid(tube.over(to, to));
+            auto const [beside, departure] = tube.beside_line(from, to, first, last);
+            lines.push_back(cell_line::of(first, last, beside, departure));
         }
         for (std::size_t u = 0; u < e.inputs.size(); ++u) {
-            cell.at.inputs[u] = input_over(e.inputs[u], cell.from, cell.to);
+            at.inputs[u] = input_over(e.inputs[u], from, to);
+            lines.push_back(diagnosis_detail::input_line(e.inputs[u], from, to));
         }
+        lines.push_back(cell_line::of(from, to, interval(0.0)));
+        time_cell cell{from, to, std::move(at), std::move(lines)};
         result.cells.push_back(std::move(cell));
     }
     return result;

@@ -53,7 +53,7 @@ struct relation_options {
     std::map<std::string, double> rate_variation;
     /// A proof by less than this is not reported: reserve against assumptions that are met barely.
     double least_margin = 0.02;
-    std::size_t cells_per_gap = 4;    ///< cells between two samples
+    std::size_t cells_per_gap = 6;    ///< cells between two samples
     std::size_t most_windows = 20000; ///< for one equation
 };
 

@@ -159,7 +159,8 @@ private:
         if (auto const found = rows_.find(i); found != rows_.end()) return found->second;
         auto& e = rows_[i];
         e.row = make_relation_row(model_.g, model_.rate.at(i), i, problem_->prior);
-        e.set = integrand_set::of(model_.g, e.row.functions, model_.state_count());
+        e.set = integrand_set::of(model_.g, e.row.functions, model_.state_count(),
+                                  about().inputs.size());
         return e;
     }
     /// Pairs that help with equation i: r in its row, q not its own state.

@@ -3,93 +3,22 @@
 #define SIVID_DIAGNOSIS_WINDOW_INTEGRALS_HPP
 
 #include <sivid/diagnosis/graph_range.hpp>
-#include <sivid/model/differentiate.hpp>
-#include <sivid/model/rewrite.hpp>
+#include <sivid/diagnosis/integrand_set.hpp>
+#include <sivid/diagnosis/time_cell.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <utility>
 #include <vector>
 
 namespace sivid {
 
-/// A state that is the exact derivative of another one: \f$ q' = r \f$.
-struct derivative_pair {
-    std::size_t r = 0, q = 0;
-};
-
-namespace diagnosis_detail {
-
-/// The same expression in which a product with 0 is 0 even where the other factor is not defined
-/// everywhere; for derivatives, which are only used where their function is defined.
-inline node_id without_zero_products(graph& g, node_id i, std::map<node_id, node_id>& done) {
-    if (auto const found = done.find(i); found != done.end()) return found->second;
-    auto const n = g[i]; // a copy: building moves the nodes
-    auto result = i;
-    if (!is_leaf(n.op)) {
-        auto const a = without_zero_products(g, n.a, done);
-        if (is_binary(n.op)) {
-            auto const b = without_zero_products(g, n.b, done);
-            bool const zero = n.op == operation::mul && (g.is(a, 0) || g.is(b, 0));
-            bool const none = n.op == operation::div && g.is(a, 0);
-            result = zero || none ? g.constant(0.0) : g.binary(n.op, a, b);
-        } else {
-            result = n.op == operation::pown ? g.pown(a, n.index) : g.unary(n.op, a);
-        }
-    }
-    return done[i] = result;
-}
-
-} // namespace diagnosis_detail
-
-/// Functions of time, states and inputs with what their enclosures need: partial derivatives by the
-/// states, and which of them are differentiable in Clarke's sense (no jumps).
-struct integrand_set {
-    graph const* g = nullptr;
-    std::vector<node_id> functions;
-    std::vector<std::vector<node_id>> slopes; ///< [function][state]
-    std::vector<bool> continuous;
-
-    /// Adds the derivatives to `g`, which must outlive the set.
-    [[nodiscard]] static integrand_set of(graph& g, std::vector<node_id> const& functions,
-                                          std::size_t states) {
-        integrand_set result;
-        result.functions = functions;
-        std::vector<node_id> x;
-        for (std::size_t i = 0; i < states; ++i) x.push_back(g.leaf(operation::state, i));
-        for (auto const f : functions) {
-            auto const needed = reachable(g, {f});
-            bool jumps = false;
-            for (std::size_t k = 0; k < needed.size(); ++k) {
-                jumps = jumps || (needed[k] && g.nodes()[k].op == operation::sign);
-            }
-            result.continuous.push_back(!jumps);
-        }
-        result.slopes = differentiate(g, functions, x);
-        std::map<node_id, node_id> done;
-        for (auto& row : result.slopes) {
-            for (auto& d : row) d = diagnosis_detail::without_zero_products(g, d, done);
-        }
-        result.g = &g;
-        return result;
-    }
-    [[nodiscard]] bool uses(std::size_t f, std::size_t state) const {
-        return !g->is(slopes[f][state], 0);
-    }
-};
-
-/// What is known over one cell of time.
-struct time_cell {
-    double from = 0, to = 0;
-    leaf_ranges at; ///< the states in the cell; unknown constants over their prior
-};
-
 /// Encloses \f$ \int_{t_a}^{t_b} \phi_j dt \f$ between any two boundaries of a grid of cells.
-///   Directly: each cell contributes its length times the range of \f$ \phi_j \f$, which is the
-///   natural range cut with the mean value form. By parts, for pairs \f$ q' = r \f$:
-///   \f[ \int \phi = \int (\phi - g r) + [g q] - \int g' q \f]
+///   Directly: each cell contributes its length times the mean of \f$ \phi_j \f$, which lies in the
+///   natural range and in the mean value form; there a drift averages out but for the width of the
+///   slope: the mean of D v lies in \f$ [D] spread + rad [D] drift/4 + mag [D] departure \f$. By
+///   parts, for pairs \f$ q' = r \f$: \f[ \int \phi = \int (\phi - g r) + [g q] - \int g' q \f]
 ///   with a known g(t) near \f$ \partial\phi/\partial r \f$, piecewise linear and slow, so that the
 ///   first integrand hardly depends on r, and the others need the bounds of q, once at each end,
 ///   where those of r would count all along the window.
@@ -157,18 +86,25 @@ public:
     }
 
 private:
-    /// Ranges over one cell: of the function; with all r frozen at their centres; of its slopes in
-    /// r.
+    /// Means over one cell: of the function; with all r frozen at their centres. Slopes in r.
     struct cell_ranges {
         interval whole, frozen;
         std::vector<interval> slopes;
-        std::vector<double> centres;
     };
     /// Running sums of the lower and of the upper ends, each enclosed.
     struct prefix_sums {
         std::vector<interval> lower, upper;
         std::vector<std::size_t> unbounded;
     };
+
+    /// Encloses the mean over a cell of D v for a slope D(t) in `slope` and v(t) along the line.
+    [[nodiscard]] static interval mean_product(interval const& slope, cell_line const& v) {
+        auto const drift = traits::mul(traits::point(rad(slope)),
+                                       traits::mul(traits::point(0.25), traits::point(v.drift)));
+        auto const apart = traits::mul(traits::point(mag(slope)), traits::point(v.departure));
+        double const off = traits::add(drift, apart).upper();
+        return traits::add(traits::mul(slope, v.spread), traits::bounds(-off, off));
+    }
 
     [[nodiscard]] std::vector<std::vector<cell_ranges>>
     evaluate(integrand_set const& set, std::vector<time_cell> const& cells) const {
@@ -182,12 +118,17 @@ private:
         for (auto const& cell : cells) {
             natural.evaluate(cell.at);
             auto at_centre = cell.at;
-            auto at_frozen = cell.at;
-            std::vector<double> centre = mid(cell.at.states);
-            at_centre.states = point_box(centre);
-            for (auto const& pair : pairs_) {
-                at_frozen.states[pair.r] = traits::point(centre[pair.r]);
+            auto const states = cell.at.states.size();
+            auto const inputs = cell.at.inputs.size();
+            for (std::size_t k = 0; k < states; ++k) {
+                at_centre.states[k] = traits::point(cell.lines[k].centre);
             }
+            for (std::size_t k = 0; k < inputs; ++k) {
+                at_centre.inputs[k] = traits::point(cell.lines[states + k].centre);
+            }
+            at_centre.time = traits::point(cell.lines.back().centre);
+            auto at_frozen = cell.at;
+            for (auto const& pair : pairs_) at_frozen.states[pair.r] = at_centre.states[pair.r];
             centred.evaluate(at_centre);
             frozen.evaluate(at_frozen);
             for (std::size_t j = 0; j < count; ++j) {
@@ -196,30 +137,28 @@ private:
                 r.whole = natural.value(f);
                 r.frozen = frozen.value(f);
                 bool smooth = set.continuous[j] && !natural.undefined(f);
-                auto off = traits::point(0.0);
-                auto off_frozen = traits::point(0.0);
-                for (std::size_t k = 0; k < centre.size(); ++k) {
+                auto mean = centred.value(f);
+                auto mean_frozen = mean;
+                for (std::size_t k = 0; k < cell.lines.size(); ++k) {
                     if (!set.uses(j, k)) continue;
                     auto const slope = set.slopes[j][k];
-                    smooth = smooth && !natural.undefined(slope);
-                    auto const shift =
-                        traits::mul(natural.value(slope),
-                                    traits::sub(cell.at.states[k], traits::point(centre[k])));
-                    off = traits::add(off, shift);
+                    auto const& range = natural.value(slope);
+                    smooth = smooth && !natural.undefined(slope) && is_bounded(range);
+                    if (!smooth) break;
+                    auto const shift = mean_product(range, cell.lines[k]);
+                    mean = traits::add(mean, shift);
                     bool const held = std::any_of(pairs_.begin(), pairs_.end(),
                                                   [k](auto const& pair) { return pair.r == k; });
-                    if (!held) off_frozen = traits::add(off_frozen, shift);
+                    if (!held) mean_frozen = traits::add(mean_frozen, shift);
                 }
                 if (smooth) {
-                    auto const middle = centred.value(f);
-                    r.whole = traits::intersect(r.whole, traits::add(middle, off));
-                    r.frozen = traits::intersect(r.frozen, traits::add(middle, off_frozen));
+                    r.whole = traits::intersect(r.whole, mean);
+                    r.frozen = traits::intersect(r.frozen, mean_frozen);
                 } else {
                     r.frozen = traits::entire();
                 }
                 for (auto const& pair : pairs_) {
                     r.slopes.push_back(natural.value(set.slopes[j][pair.r]));
-                    r.centres.push_back(centre[pair.r]);
                 }
                 result[j].push_back(std::move(r));
             }
@@ -265,12 +204,14 @@ private:
         auto const g0 = traits::point(weight[c]);
         auto const g1 = traits::point(weight[c + 1]);
         auto const h = traits::sub(traits::point(cell.to), traits::point(cell.from));
-        auto const centre = traits::point(r.centres[p]);
-        auto const remainder = traits::mul(traits::sub(r.slopes[p], traits::hull(g0, g1)),
-                                           traits::sub(cell.at.states[pairs_[p].r], centre));
+        auto const& line_r = cell.lines[pairs_[p].r];
+        auto const& line_q = cell.lines[pairs_[p].q];
+        auto const remainder = mean_product(traits::sub(r.slopes[p], traits::hull(g0, g1)), line_r);
         auto const mean = traits::mul(traits::point(0.5), traits::add(g0, g1));
-        auto const inner = traits::sub(remainder, traits::mul(mean, centre));
-        auto const change = traits::mul(traits::sub(g1, g0), cell.at.states[pairs_[p].q]);
+        auto const inner = traits::sub(remainder, traits::mul(mean, traits::point(line_r.centre)));
+        auto const mean_q = traits::add(traits::add(traits::point(line_q.centre), line_q.spread),
+                                        traits::bounds(-line_q.departure, line_q.departure));
+        auto const change = traits::mul(traits::sub(g1, g0), mean_q);
         return traits::sub(traits::mul(h, inner), change);
     }
 

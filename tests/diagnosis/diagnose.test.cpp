@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/diagnosis/diagnose.hpp>
+
+#include "diagnosis/small_catalogue.hpp"
+#include "support/catch.hpp"
+
+using namespace sivid;
+
+namespace {
+
+diagnosis_run run(small_campaign::truth const& real, diagnosis_options options = {}) {
+    return diagnose(small_campaign::problem(real), small_campaign::catalogue(), std::move(options));
+}
+using names = std::vector<std::string>;
+
+} // namespace
+
+TEST_CASE("a model that explains its data has no gap, and that is proved") {
+    auto const d = run({}).result;
+    CHECK(d.gap == gap_verdict::none);
+    CHECK(d.inflation.upper() <= 1);
+    CHECK(d.answer == answer_kind::none);
+    CHECK(d.where.empty());
+    CHECK(d.relations.empty());
+    CHECK_FALSE(d.shrink_fit);
+}
+
+TEST_CASE("a missing drag is found, proved and sized, and holds on data that chose nothing") {
+    auto const real = small_campaign::with_drag(0.3);
+    std::string first;
+    diagnosis_options options;
+    options.first_sentence = [&](std::string const& text) { first = text; };
+    auto all = run(real, options);
+    judge_by_holdout(all, holdout({small_campaign::experiment(2, real)}));
+    auto const& d = all.result;
+    CHECK(d.gap == gap_verdict::certified);
+    CHECK(d.inflation.lower() > 1);
+    CHECK(width(d.inflation) < 0.1 * d.inflation.upper());
+    CHECK_THAT(first, ContainsSubstring("a gap is proved: equation v"));
+    CHECK(d.answer == answer_kind::effects);
+    CHECK(d.effects == names{"quadratic"});
+    REQUIRE_FALSE(d.where.empty());
+    CHECK(d.where[0].name == "v");
+    REQUIRE_FALSE(d.causes.empty());
+    auto const& c = d.causes.front();
+    CHECK(c.verdict == cause_verdict::explains);
+    CHECK(c.inflation.upper() <= 1);
+    CHECK(std::abs(c.parameters[0].value - 0.3) < 0.05);
+    REQUIRE(c.witness);
+    CHECK(c.witness->parameters[1].name == "quadratic.k");
+    CHECK(c.witness->starts[0].states[0].name == "p");
+    REQUIRE(d.shrink_fit);
+    CHECK(d.shrink_fit->lower() == 1);
+    REQUIRE(c.holdout);
+    CHECK(c.holdout->inflation_before.lower() > 1);
+    CHECK(c.holdout->inflation_after.upper() <= 1);
+    CHECK(d.shrink_holdout->lower() == 1);
+    // Nothing that is true was excluded.
+    for (auto const& other : d.causes) {
+        bool const has_truth = std::count(other.effects.begin(), other.effects.end(), "quadratic");
+        if (has_truth) CHECK(other.verdict != cause_verdict::excluded);
+    }
+}
+
+TEST_CASE("a delay is found and its witness verified") {
+    auto const d = run(small_campaign::with_delay(0.2)).result;
+    CHECK(d.effects == names{"late"});
+    CHECK(d.causes.front().verdict == cause_verdict::explains);
+    CHECK(d.causes.front().assumptions.size() == 1);
+}
+
+TEST_CASE("what no catalogue has stays unexplained") {
+    small_campaign::truth gust;
+    gust.missing = [](double t, double, double) { return t > 1 && t < 1.6 ? 1.5 : 0.0; };
+    auto const d = run(gust).result;
+    CHECK(d.gap == gap_verdict::certified);
+    CHECK(d.answer == answer_kind::unexplained);
+    REQUIRE_FALSE(d.where.empty());
+    CHECK(d.where[0].name == "v");
+    CHECK(d.effects.empty());
+}
+
+TEST_CASE("a diagnosis can be stopped at any moment and says so") {
+    for (int most : {0, 1, 3, 8}) {
+        int calls = 0;
+        diagnosis_options options;
+        options.progress = [&](std::string const&) { return ++calls <= most; };
+        auto const d = run(small_campaign::with_drag(0.3), options).result;
+        CHECK(d.interrupted);
+        CHECK(d.gap != gap_verdict::none);
+    }
+    auto const d = run(small_campaign::with_drag(0.3), {.seconds = 0}).result;
+    CHECK(d.interrupted);
+    CHECK(d.gap == gap_verdict::undecided);
+}

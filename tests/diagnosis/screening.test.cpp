@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/diagnosis/screening.hpp>
+
+#include "diagnosis/small_catalogue.hpp"
+#include "support/catch.hpp"
+
+using namespace sivid;
+
+namespace {
+
+screening screened_campaign(small_campaign::truth const& real, screening_options options = {}) {
+    screening s(small_campaign::problem(real), small_campaign::catalogue(), std::move(options));
+    s.run();
+    return s;
+}
+std::vector<std::size_t> answer(screening const& s) {
+    auto const figures = s.figures();
+    auto const c = choose(figures, s.measurements());
+    REQUIRE(c.explained);
+    return figures[c.best].effects;
+}
+
+} // namespace
+
+TEST_CASE("screening finds the effect that is missing, and its size") {
+    auto const drag = screened_campaign(small_campaign::with_drag(0.3));
+    CHECK(drag.candidates()[0].figures.inflation > 1.5);
+    CHECK(answer(drag) == std::vector<std::size_t>{0});
+    auto const* found = drag.find({0});
+    REQUIRE(found != nullptr);
+    CHECK(found->problem.choice.unknown[1] == "quadratic.k");
+    CHECK(std::abs(found->fit.parameters[1] - 0.3) < 0.05);
+
+    CHECK(answer(screened_campaign(small_campaign::with_slope(0.2))) ==
+          std::vector<std::size_t>{1});
+    CHECK(answer(screened_campaign(small_campaign::with_scale(0.15))) ==
+          std::vector<std::size_t>{2});
+    auto const late = screened_campaign(small_campaign::with_delay(0.2));
+    CHECK(answer(late) == std::vector<std::size_t>{3});
+    CHECK(std::abs(late.find({3})->fit.parameters[1] - 0.2) < 0.02);
+}
+
+TEST_CASE("without anything missing the model itself is the answer") {
+    CHECK(answer(screened_campaign({})).empty());
+}
+
+TEST_CASE("two effects are found as a pair") {
+    auto real = small_campaign::with_drag(0.3);
+    real.seen_position = small_campaign::with_scale(0.15).seen_position;
+    CHECK(answer(screened_campaign(real)) == std::vector<std::size_t>{0, 2});
+}
+
+TEST_CASE("screening can be stopped and keeps what it has") {
+    int calls = 0;
+    screening_options options;
+    options.progress = [&calls](std::string const& what) {
+        CHECK_FALSE(what.empty());
+        return ++calls < 3;
+    };
+    auto const s = screened_campaign(small_campaign::with_drag(0.3), options);
+    CHECK(s.stopped());
+    CHECK(s.candidates().size() == 2);
+    CHECK(screened_campaign({}, {.seconds = 0}).candidates().empty());
+}
