@@ -105,6 +105,15 @@
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/suspect_samples.hpp>
 #include <sivid/paving/verdict.hpp>
+#include <sivid/diagnosis/knot_trace.hpp>
+#include <sivid/diagnosis/law.hpp>
+#include <sivid/diagnosis/law_search.hpp>
+#include <sivid/diagnosis/missing_rate.hpp>
+#include <sivid/diagnosis/place.hpp>
+#include <sivid/diagnosis/place_estimate.hpp>
+#include <sivid/diagnosis/place_fit.hpp>
+#include <sivid/diagnosis/place_search.hpp>
+#include <sivid/diagnosis/sensor_model.hpp>
 #include <sivid/version.hpp>
 
 #endif // SIVID_SIVID_HPP
