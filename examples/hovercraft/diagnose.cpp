@@ -54,6 +54,16 @@ report::diagnosis_plot_data plot_data(sivid::diagnosis_run const& run, sivid::ho
 
 report::range range_of(sivid::interval const& x) { return {x.lower(), x.upper()}; }
 
+/// A share in percent, as a range where its bounds differ to the eye.
+std::string percent(sivid::interval const& share) {
+    auto const text = [](double v) {
+        return report::rounded_text(100 * v, report::rounding::nearest);
+    };
+    auto const low = text(share.lower());
+    auto const high = text(share.upper());
+    return low == high ? low + " %" : low + " to " + high + " %";
+}
+
 std::string joined(std::vector<std::string> const& all) {
     std::string text;
     for (auto const& s : all) text += (text.empty() ? "" : " + ") + s;
@@ -84,7 +94,7 @@ void print_summary(sivid::diagnosis const& d, std::string const& id,
     }
     if (d.shrink_holdout) {
         std::cout << "  on data that chose nothing the gap shrinks by "
-                  << report::percent_interval(range_of(*d.shrink_holdout)) << "\n";
+                  << percent(*d.shrink_holdout) << "\n";
     }
     std::cout << "  " << report::duration_text(d.seconds)
               << "; written: " << (out / "report.html").string()

@@ -117,6 +117,7 @@
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/suspect_samples.hpp>
 #include <sivid/paving/verdict.hpp>
+<<<<<<< HEAD
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/broken_relation.hpp>
 #include <sivid/diagnosis/candidate.hpp>
@@ -135,10 +136,17 @@
 #include <sivid/diagnosis/manoeuvre.hpp>
 #include <sivid/diagnosis/missing_rate.hpp>
 #include <sivid/diagnosis/observed_motion.hpp>
+=======
+#include <sivid/diagnosis/knot_trace.hpp>
+#include <sivid/diagnosis/law.hpp>
+#include <sivid/diagnosis/law_search.hpp>
+#include <sivid/diagnosis/missing_rate.hpp>
+>>>>>>> where
 #include <sivid/diagnosis/place.hpp>
 #include <sivid/diagnosis/place_estimate.hpp>
 #include <sivid/diagnosis/place_fit.hpp>
 #include <sivid/diagnosis/place_search.hpp>
+<<<<<<< HEAD
 #include <sivid/diagnosis/relation_finding.hpp>
 #include <sivid/diagnosis/relation_row.hpp>
 #include <sivid/diagnosis/relation_windows.hpp>
@@ -152,6 +160,9 @@
 #include <sivid/diagnosis/verification.hpp>
 #include <sivid/diagnosis/weak_windows.hpp>
 #include <sivid/diagnosis/window_integrals.hpp>
+=======
+#include <sivid/diagnosis/sensor_model.hpp>
+>>>>>>> where
 #include <sivid/version.hpp>
 
 #endif // SIVID_SIVID_HPP

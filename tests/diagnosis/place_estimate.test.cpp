@@ -39,7 +39,7 @@ TEST_CASE("equation, sensor and input are told apart") {
         CHECK(found.inflation <= 1);
         CHECK(p.rates.size() == 5);
         CHECK(p.from < p.to);
-        CHECK(std::abs(p.missing) > p.deviation);
+        CHECK(std::abs(p.missing) > 3 * p.deviation);
     }
     SECTION("a late position") {
         support::hover_effect effect;

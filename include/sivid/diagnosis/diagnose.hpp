@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -148,7 +149,7 @@ private:
                      : p.kind == place_kind::input ? "input"
                                                    : "equation";
             s.name = p.name;
-            s.where = {p.scenario, p.from, p.to};
+            s.where = {p.scenario, shown_time(p.from), shown_time(p.to)};
             s.estimate = p.missing;
             s.unit = p.unit;
             s.law = p.law;
@@ -163,6 +164,8 @@ private:
             run_.result.where.front().alternatives.push_back(text);
         }
     }
+    /// Sums of sampling periods lose their last digits.
+    [[nodiscard]] static double shown_time(double t) { return std::round(t * 1e9) / 1e9; }
     /// A place whose relation is proved broken gets the proof's window and missing rate.
     void prove(suspected_place& s) const {
         for (auto const& f : run_.findings) {
@@ -216,13 +219,21 @@ private:
                          [&](std::size_t a, std::size_t b) { return place_of(a) < place_of(b); });
         for (auto const i : order_) d.causes.push_back(cause_of(run_.candidates[i]));
     }
-    /// The answer, then what cannot be told from it, then explaining ones, then by inflation.
+    /// The answer, then what cannot be told from it, then by inflation; last what only adds to an
+    /// answer that explains.
     [[nodiscard]] double place_of(std::size_t i) const {
         if (i == run_.answer) return -3;
         for (std::size_t k = 0; k < others_.size(); ++k) {
             if (others_[k] == i) return -2 + 0.1 * static_cast<double>(k);
         }
-        return run_.candidates[i].figures.inflation;
+        double const inflation = run_.candidates[i].figures.inflation;
+        return adds_to_answer(i) ? 1e6 + inflation : std::min(inflation, 1e6);
+    }
+    [[nodiscard]] bool adds_to_answer(std::size_t i) const {
+        auto const& answer = run_.candidates[run_.answer].figures;
+        auto const& all = run_.candidates[i].figures.effects;
+        return answer.explains() && i != run_.answer &&
+               std::includes(all.begin(), all.end(), answer.effects.begin(), answer.effects.end());
     }
     [[nodiscard]] cause cause_of(screened const& s) const {
         cause c;
@@ -270,7 +281,8 @@ private:
         for (std::size_t k = 0; k < order_.size(); ++k) {
             auto const& s = run_.candidates[order_[k]];
             auto& c = d.causes[k];
-            bool const of_interest = s.figures.explains() || order_[k] == run_.answer;
+            bool const of_interest =
+                place_of(order_[k]) < 0 || (s.figures.explains() && !adds_to_answer(order_[k]));
             if (of_interest) {
                 if (!go_on("verifying a witness")) return;
                 auto proved = verify_at(s.problem, s.fit);
@@ -294,6 +306,7 @@ private:
             auto& c = d.causes[k];
             if (c.verdict == cause_verdict::explains) continue;
             if (diagnosis_detail::has_delays(s.problem.model)) continue;
+            if (s.figures.explains()) continue; // nothing to refute
             double const spent = seconds() - begin;
             if (spent > options_.verify_seconds) return;
             if (!go_on("excluding " + c.effects.front())) return;

@@ -109,38 +109,46 @@ namespace diagnosis_detail {
     return scales;
 }
 
-/// The stretch in which a missing rate stands out most from its uncertainty.
-inline void locate(estimated_place& p, std::vector<estimated_rate> const& rates) {
+/// The stretch, of any length, over which the mean of a missing rate stands out most from its
+/// uncertainty.
+/// @param covariances  per experiment, of `count` alternating targets, of which this is number `c`
+inline void locate(estimated_place& p, std::vector<Eigen::MatrixXd> const& covariances,
+                   std::size_t count, std::size_t c) {
     double most = -1;
-    for (auto const& r : rates) {
-        std::vector<double> clear;
-        for (std::size_t k = 0; k < r.values.size(); ++k) {
-            clear.push_back(std::abs(r.values[k]) / std::max(r.deviations[k], 1e-300));
+    for (std::size_t e = 0; e < std::min(p.rates.size(), covariances.size()); ++e) {
+        auto const& r = p.rates[e];
+        auto const n = static_cast<Eigen::Index>(r.times.size());
+        Eigen::VectorXd weight = Eigen::VectorXd::Zero(n); // of the trapezoidal rule
+        for (Eigen::Index k = 0; k + 1 < n; ++k) {
+            auto const i = static_cast<std::size_t>(k);
+            weight[k] += 0.5 * (r.times[i + 1] - r.times[i]);
+            weight[k + 1] += 0.5 * (r.times[i + 1] - r.times[i]);
         }
-        if (clear.empty()) continue;
-        auto const top =
-            static_cast<std::size_t>(std::max_element(clear.begin(), clear.end()) - clear.begin());
-        if (!(clear[top] > most)) continue;
-        most = clear[top];
-        auto first = top;
-        auto last = top;
-        auto const belongs = [&](std::size_t k) {
-            return clear[k] > 0.5 * clear[top] && r.values[k] * r.values[top] > 0;
+        auto const at = [&](Eigen::Index k) {
+            return k * static_cast<Eigen::Index>(count) + static_cast<Eigen::Index>(c);
         };
-        while (first > 0 && belongs(first - 1)) --first;
-        while (last + 1 < clear.size() && belongs(last + 1)) ++last;
-        if (first == last) last + 1 < clear.size() ? ++last : --first;
-        double sum = 0;
-        double spread = 0;
-        for (auto k = first; k <= last; ++k) {
-            sum += r.values[k];
-            spread = std::max(spread, r.deviations[k]);
+        for (Eigen::Index first = 0; first < n; ++first) {
+            double length = 0, sum = 0, variance = 0;
+            for (Eigen::Index last = first; last < n; ++last) {
+                double cross = 0;
+                for (Eigen::Index k = first; k < last; ++k) {
+                    cross += weight[k] * covariances[e](at(k), at(last));
+                }
+                variance +=
+                    weight[last] * (2 * cross + weight[last] * covariances[e](at(last), at(last)));
+                length += weight[last];
+                sum += weight[last] * r.values[static_cast<std::size_t>(last)];
+                if (last == first || !(variance > 0)) continue;
+                double const clear = std::abs(sum) / std::sqrt(variance);
+                if (!(clear > most)) continue;
+                most = clear;
+                p.scenario = r.scenario;
+                p.from = r.times[static_cast<std::size_t>(first)];
+                p.to = r.times[static_cast<std::size_t>(last)];
+                p.missing = sum / length;
+                p.deviation = std::sqrt(variance) / length;
+            }
         }
-        p.scenario = r.scenario;
-        p.from = r.times[first];
-        p.to = r.times[last];
-        p.missing = sum / static_cast<double>(last - first + 1);
-        p.deviation = spread;
     }
 }
 
@@ -166,6 +174,8 @@ public:
     }
 
 private:
+    static constexpr double plain_share = 0.8; ///< of the gain: what a law must reach to be named
+
     [[nodiscard]] std::string equation_name(std::string const& state) const {
         auto const named = options_.equation_names.find(state);
         return named == options_.equation_names.end() ? state : named->second;
@@ -174,6 +184,32 @@ private:
         return p.kind == place_kind::sensor  ? "sensor " + p.name
                : p.kind == place_kind::input ? "input " + p.name
                                              : equation_name(p.name);
+    }
+
+    [[nodiscard]] std::vector<std::string> names_of_set(place_fitter const& fit,
+                                                        std::vector<std::size_t> const& set) const {
+        std::vector<std::string> list;
+        for (auto const p : set) list.push_back(label(fit.places()[p]));
+        return list;
+    }
+    /// A faulty input whose error follows no law, or is a mere gain, which parameters imitate.
+    [[nodiscard]] bool doubtful_input(place_fit const& best, place_fitter& fit) const {
+        auto const states = problem_->model.about.states.size();
+        fit.release(best.set);
+        auto const targets = fit.targets();
+        for (std::size_t c = 0; c < targets.size(); ++c) {
+            if (targets[c] < states) continue;
+            law_search laws(fit, best);
+            if (!laws.valid()) return true;
+            auto const list =
+                law_library(problem_->model, laws.traces()).for_input(targets[c] - states);
+            auto const ranked = laws.for_target(c, list);
+            if (ranked.empty() || ranked.front().share < plain_share) return true;
+            if (list[ranked.front().index].text ==
+                problem_->model.about.inputs[targets[c] - states].name)
+                return true;
+        }
+        return false;
     }
 
     void search(place_estimate& result) {
@@ -191,17 +227,24 @@ private:
         fit.set_scales(diagnosis_detail::rate_scales(fit.simulations(), fit.vector_of(base)));
         place_search sets(fit, base, options_.search);
         sets.run();
-        auto const names = [&](std::vector<std::size_t> const& set) {
-            std::vector<std::string> list;
-            for (auto const p : set) list.push_back(label(fit.places()[p]));
-            return list;
-        };
-        for (auto const& t : sets.tried()) {
-            result.tried.push_back({names(t.set), t.inflation, t.score, t.cost});
+        auto best = sets.best();
+        if (doubtful_input(best, fit)) {
+            auto const doubtful = names_of_set(fit, best.set);
+            sets.run(false);
+            if (sets.best().inflation <= 1) {
+                best = sets.best();
+                result.alternatives.push_back(doubtful);
+            } else {
+                sets.run();
+            }
         }
-        for (auto const& a : sets.alternatives()) result.alternatives.push_back(names(a));
-        auto const best = sets.best();
+        for (auto const& t : sets.tried()) {
+            result.tried.push_back({names_of_set(fit, t.set), t.inflation, t.score, t.cost});
+        }
+        for (auto const& a : sets.alternatives())
+            result.alternatives.push_back(names_of_set(fit, a));
         result.inflation = best.inflation;
+        auto const covariances = fit.covariances(best);
         for (auto const& [index, loss] : sets.ranking()) {
             auto const& where = fit.places()[index];
             estimated_place p;
@@ -212,14 +255,15 @@ private:
             if (where.is_sensor()) {
                 sensor(p, index, best, fit, result.base);
             } else {
-                missing(p, best, fit);
+                missing(p, best, fit, covariances);
             }
             result.places.push_back(std::move(p));
         }
         name_laws(result, best, fit);
     }
 
-    void missing(estimated_place& p, place_fit const& best, place_fitter& fit) const {
+    void missing(estimated_place& p, place_fit const& best, place_fitter& fit,
+                 std::vector<Eigen::MatrixXd> const& covariances) const {
         auto const& about = problem_->model.about;
         auto target = p.members.front();
         if (p.kind == place_kind::input) {
@@ -234,7 +278,10 @@ private:
             p.rates.push_back({problem_->experiments[e].name, fit.simulations().knots(e),
                                best.state.missing[e][target], best.deviation[e][target]});
         }
-        diagnosis_detail::locate(p, p.rates);
+        auto const& targets = fit.targets();
+        auto const c = static_cast<std::size_t>(std::find(targets.begin(), targets.end(), target) -
+                                                targets.begin());
+        diagnosis_detail::locate(p, covariances, targets.size(), c);
     }
 
     /// A sensor's fault is named after what of it moves the channel most.
@@ -307,7 +354,7 @@ private:
             auto const list = input ? library.for_input(targets[c] - states) : library.for_rates();
             auto const ranked = laws.for_target(c, list);
             // A shape that no law has is better left without a name.
-            if (ranked.empty() || ranked.front().share < 0.8) continue;
+            if (ranked.empty() || ranked.front().share < plain_share) continue;
             for (auto& p : result.places) {
                 if (p.kind == place_kind::sensor || (p.kind == place_kind::input) != input)
                     continue;

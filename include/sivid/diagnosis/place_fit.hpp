@@ -89,7 +89,7 @@ public:
             }
             if (best.inflation > 1 && best.inflation < 1.2) {
                 auto polish = best;
-                minimax(campaign_).run(polish, units(), 4, 1e-2, 1);
+                minimax(campaign_).run(polish, units(), 8, 2e-3, 0.999);
                 if (polish.inflation < best.inflation) best = std::move(polish);
             }
         }
@@ -97,6 +97,26 @@ public:
         result.state = state_of(here.at);
         if (down.assemble_plain(here, kept_)) measure(down, result);
         result.score = 3 * result.squares + result.freedom * std::log(std::max(samples_, 2.0));
+        return result;
+    }
+
+    /// Covariances of the missing rates of a fit, per experiment: [knot * targets + target].
+    [[nodiscard]] std::vector<Eigen::MatrixXd> covariances(place_fit const& fit) {
+        std::vector<Eigen::MatrixXd> result;
+        release(fit.set);
+        descent down(campaign_, prior());
+        descent_point here;
+        arrow_vector step;
+        auto const none = arrow_vector::like(campaign_.lower(), 0);
+        if (!down.evaluate(vector_of(fit.state), here) || !down.assemble_plain(here, kept_) ||
+            !down.system().solve(1e-9, none, step)) {
+            return result;
+        }
+        for (std::size_t e = 0; e < campaign_.experiments(); ++e) {
+            Eigen::MatrixXd const all = down.system().local_inverse(e);
+            auto const n = all.rows() - static_cast<Eigen::Index>(campaign_.free_starts(e));
+            result.emplace_back(all.bottomRightCorner(n, n));
+        }
         return result;
     }
 

@@ -36,7 +36,13 @@ public:
         return alternatives_;
     }
 
-    void run() {
+    /// @param inputs  whether an input may be blamed. When one was, but its error has no plain law,
+    ///                parameters and an input that makes up for them may imitate any force: then
+    ///                run once more without.
+    void run(bool inputs = true) {
+        inputs_ = inputs;
+        ranking_.clear();
+        alternatives_.clear();
         auto const& places = fit_->places();
         std::vector<std::size_t> equations, others, sensors;
         for (std::size_t p = 0; p < places.size(); ++p) {
@@ -44,6 +50,12 @@ public:
              : places[p].kind == place_kind::equation ? equations
                                                       : others)
                 .push_back(p);
+        }
+        if (!inputs_) {
+            others.erase(
+                std::remove_if(others.begin(), others.end(),
+                               [&](auto p) { return places[p].kind == place_kind::input; }),
+                others.end());
         }
         try_set({});
         for (std::size_t p = 0; p < places.size(); ++p) try_set({p});
@@ -121,9 +133,15 @@ private:
             }
         }
     }
+    /// Whether a set may be chosen.
+    [[nodiscard]] bool allowed(place_fit const& f) const {
+        return inputs_ || std::none_of(f.set.begin(), f.set.end(), [this](auto p) {
+                   return fit_->places()[p].kind == place_kind::input;
+               });
+    }
     [[nodiscard]] bool explained(double cost) const {
-        return std::any_of(tried_.begin(), tried_.end(), [cost](place_fit const& f) {
-            return f.cost <= cost && f.inflation <= 1;
+        return std::any_of(tried_.begin(), tried_.end(), [&](place_fit const& f) {
+            return f.cost <= cost && f.inflation <= 1 && allowed(f);
         });
     }
     /// Local minima are real: a set may do better from where a superset ended.
@@ -149,7 +167,8 @@ private:
     }
     void choose() {
         best_ = 0;
-        auto const better = [](place_fit const& a, place_fit const& b) {
+        auto const better = [this](place_fit const& a, place_fit const& b) {
+            if (allowed(a) != allowed(b)) return allowed(a);
             bool const holds_a = a.inflation <= 1;
             bool const holds_b = b.inflation <= 1;
             if (holds_a != holds_b) return holds_a;
@@ -187,6 +206,7 @@ private:
     std::vector<place_fit> tried_;
     std::map<std::vector<std::size_t>, std::size_t> index_;
     std::size_t best_ = 0;
+    bool inputs_ = true;
     std::vector<std::pair<std::size_t, double>> ranking_;
     std::vector<std::vector<std::size_t>> alternatives_;
 };

@@ -247,7 +247,7 @@ private:
         for (auto const& d : f.by_state) {
             double const slope = std::abs(memory[d.slot]);
             if (!(slope > 1e-9) || !std::isfinite(slope)) continue;
-            double const tolerance = 3e-4 * finest[d.row] / slope;
+            double const tolerance = 5e-5 * finest[d.row] / slope;
             auto& own = result[d.column];
             own = own == 1e-6 ? tolerance : std::min(own, tolerance);
         }
