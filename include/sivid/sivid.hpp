@@ -117,14 +117,15 @@
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/suspect_samples.hpp>
 #include <sivid/paving/verdict.hpp>
-<<<<<<< HEAD
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/broken_relation.hpp>
 #include <sivid/diagnosis/candidate.hpp>
 #include <sivid/diagnosis/channel_tube.hpp>
 #include <sivid/diagnosis/declared_variation.hpp>
+#include <sivid/diagnosis/describe_candidate.hpp>
 #include <sivid/diagnosis/diagnose.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/diagnosis/graph_range.hpp>
 #include <sivid/diagnosis/holdout.hpp>
 #include <sivid/diagnosis/holdout_judgement.hpp>
@@ -136,17 +137,10 @@
 #include <sivid/diagnosis/manoeuvre.hpp>
 #include <sivid/diagnosis/missing_rate.hpp>
 #include <sivid/diagnosis/observed_motion.hpp>
-=======
-#include <sivid/diagnosis/knot_trace.hpp>
-#include <sivid/diagnosis/law.hpp>
-#include <sivid/diagnosis/law_search.hpp>
-#include <sivid/diagnosis/missing_rate.hpp>
->>>>>>> where
 #include <sivid/diagnosis/place.hpp>
 #include <sivid/diagnosis/place_estimate.hpp>
 #include <sivid/diagnosis/place_fit.hpp>
 #include <sivid/diagnosis/place_search.hpp>
-<<<<<<< HEAD
 #include <sivid/diagnosis/relation_finding.hpp>
 #include <sivid/diagnosis/relation_row.hpp>
 #include <sivid/diagnosis/relation_windows.hpp>
@@ -160,9 +154,6 @@
 #include <sivid/diagnosis/verification.hpp>
 #include <sivid/diagnosis/weak_windows.hpp>
 #include <sivid/diagnosis/window_integrals.hpp>
-=======
-#include <sivid/diagnosis/sensor_model.hpp>
->>>>>>> where
 #include <sivid/version.hpp>
 
 #endif // SIVID_SIVID_HPP

@@ -49,6 +49,13 @@ TEST_CASE("a missing drag is found, proved and sized, and holds on data that cho
     REQUIRE(c.witness);
     CHECK(c.witness->parameters[1].name == "quadratic.k");
     CHECK(c.witness->starts[0].states[0].name == "p");
+    REQUIRE(d.scenario_inflation.size() == 2);
+    REQUIRE(d.channel_inflation.size() == 2);
+    for (auto const* parts : {&d.scenario_inflation, &d.channel_inflation}) {
+        for (auto const& part : *parts) {
+            CHECK(part.hull->lower() <= d.inflation.upper()); // a part is never worse
+        }
+    }
     REQUIRE(d.shrink_fit);
     CHECK(d.shrink_fit->lower() == 1);
     REQUIRE(c.holdout);

@@ -50,6 +50,18 @@ TEST_CASE("two effects are found as a pair") {
     CHECK(answer(screened_campaign(real)) == std::vector<std::size_t>{0, 2});
 }
 
+TEST_CASE("an effect that the channels cannot show is silent") {
+    auto problem = small_campaign::problem(small_campaign::with_drag(0.3));
+    for (auto& e : problem.experiments) {
+        std::erase_if(e.measurements, [](measurement const& m) { return m.channel == 0; });
+    }
+    screening s(problem, small_campaign::catalogue());
+    s.run();
+    CHECK(s.find({2})->silent); // the scale of a sensor that was not recorded
+    CHECK_FALSE(s.find({0})->silent);
+    CHECK_FALSE(s.find({3})->silent);
+}
+
 TEST_CASE("screening can be stopped and keeps what it has") {
     int calls = 0;
     screening_options options;

@@ -2,53 +2,19 @@
 #ifndef SIVID_DIAGNOSIS_DIAGNOSE_HPP
 #define SIVID_DIAGNOSIS_DIAGNOSE_HPP
 
-#include <sivid/diagnosis/broken_relation.hpp>
-#include <sivid/diagnosis/candidate.hpp>
-#include <sivid/diagnosis/diagnosis.hpp>
-#include <sivid/diagnosis/holdout_judgement.hpp>
-#include <sivid/diagnosis/manoeuvre.hpp>
-#include <sivid/diagnosis/place_estimate.hpp>
-#include <sivid/diagnosis/screening.hpp>
-#include <sivid/diagnosis/verification.hpp>
+#include <sivid/diagnosis/describe_candidate.hpp>
+#include <sivid/diagnosis/diagnosis_run.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace sivid {
-
-struct diagnosis_options {
-    double seconds = 60;       ///< for everything; what is not finished then stays undecided
-    double gap_seconds = 2;    ///< for the certified inflation
-    double verify_seconds = 5; ///< for the verdicts on candidates
-    screening_options screening{};
-    choice_options choice{};
-    std::vector<manoeuvre> menu{}; ///< from which the next experiment is proposed
-    /// Called with what is being done; false ends with what is known so far.
-    std::function<bool(std::string const&)> progress{};
-    /// Called once it is known whether there is a gap, and where.
-    std::function<void(std::string const&)> first_sentence{};
-};
-
-/// A diagnosis with the fits behind it, for pictures and for judging by hold-out data.
-struct diagnosis_run {
-    diagnosis result;
-    identification_problem base;
-    std::vector<effect> catalogue;
-    std::vector<screened> candidates; ///< the model itself first
-    std::size_t answer = 0;           ///< index of the candidate that is the answer
-    verified_inflation base_bound, answer_bound;
-    std::vector<relation_finding> findings; ///< the broken relations
-    place_estimate places;
-    std::optional<holdout_judgement> holdout_before, holdout_after;
-};
 
 /// Diagnoses one campaign step by step.
 class diagnostician {
@@ -79,6 +45,7 @@ public:
             decide(tried);
             verify_candidates();
             propose();
+            measure_parts();
         } else {
             run_.candidates = tried.candidates();
         }
@@ -190,12 +157,6 @@ private:
         options_.first_sentence(text);
     }
 
-    [[nodiscard]] std::vector<std::string> names_of(candidate const& c) const {
-        std::vector<std::string> names;
-        for (auto const e : c.effects) names.push_back(run_.catalogue[e].name);
-        return names;
-    }
-
     void decide(screening const& tried) {
         auto& d = run_.result;
         auto const figures = tried.figures();
@@ -207,17 +168,25 @@ private:
             }
         } else {
             run_.answer = chosen.best;
-            d.effects = names_of(figures[chosen.best]);
+            d.effects = names_of(figures[chosen.best], run_.catalogue);
             d.answer = d.effects.empty() ? answer_kind::none : answer_kind::effects;
             for (auto const o : chosen.others) {
-                d.indistinguishable.push_back(names_of(figures[o]));
+                d.indistinguishable.push_back(names_of(figures[o], run_.catalogue));
                 others_.push_back(o);
             }
         }
-        for (std::size_t i = 1; i < run_.candidates.size(); ++i) order_.push_back(i);
+        for (std::size_t i = 1; i < run_.candidates.size(); ++i) {
+            order_.push_back(i);
+            auto const& c = run_.candidates[i];
+            if (c.silent && c.figures.effects.size() == 1) {
+                d.unobservable.push_back(run_.catalogue[c.figures.effects.front()].name);
+            }
+        }
         std::stable_sort(order_.begin(), order_.end(),
                          [&](std::size_t a, std::size_t b) { return place_of(a) < place_of(b); });
-        for (auto const i : order_) d.causes.push_back(cause_of(run_.candidates[i]));
+        for (auto const i : order_)
+            d.causes.push_back(cause_of(run_.candidates[i], run_.catalogue, run_.base.prior.size(),
+                                        tried.measurements()));
     }
     /// The answer, then what cannot be told from it, then by inflation; last what only adds to an
     /// answer that explains.
@@ -235,45 +204,6 @@ private:
         return answer.explains() && i != run_.answer &&
                std::includes(all.begin(), all.end(), answer.effects.begin(), answer.effects.end());
     }
-    [[nodiscard]] cause cause_of(screened const& s) const {
-        cause c;
-        c.effects = names_of(s.figures);
-        c.fitted_inflation = s.figures.inflation;
-        c.score = s.figures.score(measurements());
-        auto const& about = s.problem.model.about;
-        for (std::size_t j = run_.base.prior.size(); j < s.fit.parameters.size(); ++j) {
-            auto const& name = s.problem.choice.unknown[j];
-            c.parameters.push_back(
-                {name, about.constants[index_of(about.constants, name, "constant")].unit,
-                 s.fit.parameters[j], std::nullopt});
-        }
-        return c;
-    }
-    [[nodiscard]] std::size_t measurements() const {
-        std::size_t n = 0;
-        for (auto const& e : run_.base.experiments) n += e.measurements.size();
-        return n;
-    }
-    [[nodiscard]] named_witness named(screened const& s, verified_witness const& w) const {
-        named_witness result;
-        auto const& about = s.problem.model.about;
-        for (std::size_t j = 0; j < w.parameters.size(); ++j) {
-            auto const& name = s.problem.choice.unknown[j];
-            result.parameters.push_back(
-                {name, about.constants[index_of(about.constants, name, "constant")].unit,
-                 w.parameters[j], std::nullopt});
-        }
-        for (std::size_t e = 0; e < w.starts.size(); ++e) {
-            named_witness::start start{s.problem.experiments[e].name, {}};
-            for (std::size_t i = 0; i < w.starts[e].size(); ++i) {
-                start.states.push_back(
-                    {about.states[i].name, about.states[i].unit, w.starts[e][i], std::nullopt});
-            }
-            result.starts.push_back(std::move(start));
-        }
-        return result;
-    }
-
     /// Witnesses for what explains, proofs of emptiness for what does not.
     void verify_candidates() {
         auto& d = run_.result;
@@ -289,7 +219,9 @@ private:
                 c.inflation = interval_traits<interval>::bounds(0, proved.range.upper());
                 c.assumptions = proved.assumptions;
                 if (proved.range.upper() <= 1) c.verdict = cause_verdict::explains;
-                if (proved.witness) c.witness = named(s, *proved.witness);
+                if (proved.witness)
+                    c.witness =
+                        named(s.problem, proved.witness->parameters, proved.witness->starts);
                 if (order_[k] == run_.answer) {
                     run_.answer_bound = std::move(proved);
                     sharpen_answer(s, c);
@@ -338,11 +270,37 @@ private:
         d.shrink_fit = shrink(d.inflation, bound.range);
     }
 
+    /// The inflation of each scenario and each channel alone.
+    void measure_parts() {
+        if (diagnosis_detail::has_delays(run_.base.model)) return;
+        auto const measure = [&](std::string const& name, auto const& keep,
+                                 std::vector<named_estimate>& to) {
+            auto const part = restricted_to(run_.base, keep);
+            if (part.experiments.empty() || !go_on("measuring the gap of " + name)) return;
+            inflation_options search;
+            search.seconds = std::min(left(), 0.4);
+            auto const proved = bound_inflation(part, nullptr, search);
+            to.push_back({name, "1", proved.value.upper(), proved.value});
+        };
+        auto& d = run_.result;
+        double const begin = seconds();
+        auto const in_time = [&] { return seconds() - begin < options_.parts_seconds; };
+        for (std::size_t s = 0; s < run_.base.experiments.size() && in_time(); ++s) {
+            measure(
+                run_.base.experiments[s].name,
+                [s](std::size_t e, measurement const&) { return e == s; }, d.scenario_inflation);
+        }
+        auto const& channels = run_.base.model.about.channels;
+        for (std::size_t y = 0; y < channels.size() && in_time(); ++y) {
+            measure(
+                channels[y].name, [y](std::size_t, measurement const& m) { return m.channel == y; },
+                d.channel_inflation);
+        }
+    }
+
     void propose() {
         auto& d = run_.result;
-        if (others_.empty() || !go_on("looking for a manoeuvre that tells candidates apart")) {
-            return;
-        }
+        if (others_.empty() || !go_on("looking for a manoeuvre that tells rivals apart")) return;
         std::vector<screened const*> rivals{&run_.candidates[run_.answer]};
         for (auto const o : others_) rivals.push_back(&run_.candidates[o]);
         std::vector<double> errors(run_.base.model.about.channels.size(), 0.0);
@@ -362,35 +320,6 @@ private:
     bool stopped_ = false;
     clock::time_point begin_ = clock::now();
 };
-
-/// Judges the model and the answer of a diagnosis by hold-out data and adds the figures: the only
-/// place where such data are read, after everything is chosen.
-inline void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds = 4) {
-    if (data.empty() || run.candidates.empty()) return;
-    auto const& base = run.candidates.front();
-    auto const before = judge_by_holdout(
-        base, run.base_bound, data.judged_by(base, run.base, run.catalogue), seconds / 2);
-    run.holdout_before = before;
-    if (run.result.causes.empty()) return;
-    auto const& answer = run.candidates[run.answer];
-    auto const after = judge_by_holdout(
-        answer, run.answer_bound, data.judged_by(answer, run.base, run.catalogue), seconds / 2);
-    run.holdout_after = after;
-    holdout_figures figures;
-    figures.inflation_before = before.at_witness;
-    figures.inflation_after = after.at_witness;
-    figures.over_fits_before = before.over_fits;
-    figures.over_fits_after = after.over_fits;
-    for (auto const& c : run.base.model.about.channels) figures.channels.push_back(c.name);
-    figures.rmse_before = before.rmse;
-    figures.rmse_after = after.rmse;
-    figures.covered_before = before.covered;
-    figures.covered_after = after.covered;
-    figures.width_before = before.width;
-    figures.width_after = after.width;
-    run.result.shrink_holdout = shrink(figures.inflation_before, figures.inflation_after);
-    run.result.causes.front().holdout = std::move(figures);
-}
 
 /// Says whether a model explains a campaign; if not, by how much it misses, and which effects of a
 /// catalogue explain what is missing.

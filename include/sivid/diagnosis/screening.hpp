@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -21,6 +22,7 @@ struct screened {
     candidate figures;
     identification_problem problem;
     approximate_fit fit;
+    bool silent = false; ///< no value of the effect's parameters moves a measured output
 };
 
 struct screening_options {
@@ -84,7 +86,7 @@ public:
             return;
         }
         screened s{{effects, 0, {}, {}}, affected(base_, chosen), {}};
-        s.fit = fit(s.problem, effects);
+        s.fit = fit(s.problem, effects, s.silent);
         s.figures.inflation = s.fit.inflation;
         s.figures.squares = s.fit.squares;
         s.figures.unknowns = s.problem.prior.size();
@@ -105,7 +107,7 @@ private:
     /// a part of the candidate was fitted: an effect that sleeps (a saturation that is never
     /// reached, say) has no slope to follow.
     [[nodiscard]] approximate_fit fit(identification_problem const& problem,
-                                      std::vector<std::size_t> const& effects) const {
+                                      std::vector<std::size_t> const& effects, bool& silent) const {
         auto narrowed = problem;
         for (std::size_t j = base_.prior.size(); j < narrowed.prior.size(); ++j) {
             // A lag of no time is a limit; fits keep a little away from it.
@@ -158,6 +160,7 @@ private:
                 parameters[j] = side.lower() + share * (side.upper() - side.lower());
             }
             auto const here = descend.at(parameters, starts);
+            silent = (n == 0 || silent) && alike(here.residuals, known->fit.residuals);
             if (from.empty() || here.inflation < best.inflation) {
                 best = here;
                 from = parameters;
@@ -165,6 +168,16 @@ private:
         }
         auto found = descend(from);
         return found.inflation < best.inflation ? found : best;
+    }
+    [[nodiscard]] static bool alike(std::vector<std::vector<double>> const& a,
+                                    std::vector<std::vector<double>> const& b) {
+        if (a.size() != b.size()) return false;
+        for (std::size_t e = 0; e < a.size(); ++e) {
+            for (std::size_t k = 0; k < a[e].size(); ++k) {
+                if (!(std::abs(a[e][k] - b[e][k]) < 1e-5)) return false;
+            }
+        }
+        return true;
     }
     /// The likeliest candidate tried whose effects are all among these.
     [[nodiscard]] screened const* best_part_of(std::vector<std::size_t> const& effects) const {
