@@ -39,6 +39,8 @@
 #include <sivid/space/matrix.hpp>
 #include <sivid/space/orthogonal_frame.hpp>
 #include <sivid/space/vec.hpp>
+#include <sivid/measurement/error_bound.hpp>
+#include <sivid/measurement/quantisation.hpp>
 #include <sivid/measurement/record.hpp>
 #include <sivid/measurement/signal.hpp>
 #include <sivid/model/arithmetic.hpp>
@@ -125,6 +127,7 @@
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/graph_range.hpp>
 #include <sivid/diagnosis/holdout.hpp>
+#include <sivid/diagnosis/holdout_judgement.hpp>
 #include <sivid/diagnosis/linear_refutation.hpp>
 #include <sivid/diagnosis/manoeuvre.hpp>
 #include <sivid/diagnosis/missing_rate.hpp>
