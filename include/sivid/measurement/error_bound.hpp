@@ -32,8 +32,9 @@ struct error_bound_proposal {
 ///   \f$ q + \max(1.25 \max |e|, 4 \sigma) \f$,  \f$ \sigma \f$ = 1.4826 median |e|
 /// The residual of a sample is divided by \f$ \sqrt{1 - h} \f$, h its leverage, so that white noise
 /// keeps its standard deviation. Residuals beyond 6 sigma + 2 q are outliers, and no neighbour is
-/// judged by them. Windows across gaps (wider than twice the usual) and the three samples at either
-/// end do not count.
+/// judged by them; when they are more than 5 % of all samples the motion is not resolved, and all
+/// count. Windows across gaps (wider than twice the usual) and the three samples at either end do
+/// not count.
 /// @given  as many values as times, finite, times strictly increasing (checked)
 /// @guarantee  none for the instrument: an offset, a drift, a wrong scale and noise slower than
 /// seven
@@ -67,15 +68,15 @@ struct error_bound_proposal {
         result.spread = fit.spread();
         if (fit.leave_out_farthest(far * result.spread + 2 * result.quantum) == 0) break;
     }
+    bool const unresolved = 20 * fit.left_out() > times.size();
+    if (unresolved)
+        fit = detail::local_residuals{times, values}; // these are no outliers: all count
     result.outliers = fit.left_out();
     result.support = fit.support();
     if (result.support < least_support)
         return refuse("only " + std::to_string(result.support) +
                       " samples have three neighbours on either side without a gap; at least " +
                       std::to_string(least_support) + " are needed");
-    if (5 * result.outliers > result.support)
-        return refuse("more than a sixth of the samples are far from their neighbours: the motion "
-                      "is not resolved");
     result.spread = fit.spread();
     result.largest_residual = fit.largest();
     result.bound =
@@ -94,6 +95,11 @@ struct error_bound_proposal {
     if (result.outliers > 0)
         result.assumptions.push_back("the samples that were left out are outliers: the bound does "
                                      "not hold for them, allow for their share");
+    if (unresolved)
+        result.assumptions.push_back(
+            "more than 5 % of the samples are far from their neighbours: motion that the samples "
+            "do "
+            "not resolve, or noise of another kind; all count, and the bound is that much larger");
     return result;
 }
 

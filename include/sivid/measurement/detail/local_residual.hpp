@@ -27,11 +27,14 @@ public:
     static constexpr std::size_t half = 3;
 
     local_residuals(std::vector<double> const& times, std::vector<double> const& values)
-        : times_{times}, values_{values}, out_(times.size(), false), residual_(times.size(), none) {
+        : times_{&times},
+          values_{&values},
+          out_(times.size(), false),
+          residual_(times.size(), none) {
         std::vector<double> spans;
-        for (std::size_t k = half; k + half < times_.size(); ++k) spans.push_back(span(k));
+        for (std::size_t k = half; k + half < times_->size(); ++k) spans.push_back(span(k));
         widest_ = 2 * median(spans);
-        for (std::size_t k = 0; k < times_.size(); ++k) update(k);
+        for (std::size_t k = 0; k < times_->size(); ++k) update(k);
     }
 
     /// 1.4826 median |e|.
@@ -50,7 +53,7 @@ public:
     /// @returns how many
     std::size_t leave_out_farthest(double limit) {
         std::vector<std::size_t> found;
-        for (std::size_t k = 0; k < times_.size(); ++k) {
+        for (std::size_t k = 0; k < times_->size(); ++k) {
             double const e = std::abs(residual_[k]);
             if (!(e > limit)) continue; // not those without a residual
             bool first = true;
@@ -70,9 +73,11 @@ private:
 
     [[nodiscard]] std::size_t from(std::size_t k) const { return k < half ? 0 : k - half; }
     [[nodiscard]] std::size_t to(std::size_t k) const {
-        return std::min(k + half + 1, times_.size());
+        return std::min(k + half + 1, times_->size());
     }
-    [[nodiscard]] double span(std::size_t k) const { return times_[k + half] - times_[k - half]; }
+    [[nodiscard]] double span(std::size_t k) const {
+        return (*times_)[k + half] - (*times_)[k - half];
+    }
 
     [[nodiscard]] std::vector<double> sizes() const {
         std::vector<double> result;
@@ -84,14 +89,14 @@ private:
     /// Fits the window of sample k by orthogonal polynomials of the local time.
     void update(std::size_t k) {
         residual_[k] = none;
-        if (out_[k] || k < half || k + half >= times_.size() || span(k) > widest_) return;
+        if (out_[k] || k < half || k + half >= times_->size() || span(k) > widest_) return;
         std::array<double, 2 * half + 1> s{}, y{};
         std::size_t n = 0, centre = 0;
         for (auto j = k - half; j <= k + half; ++j) {
             if (out_[j]) continue;
             if (j == k) centre = n;
-            s[n] = (times_[j] - times_[k]) / span(k);
-            y[n++] = values_[j] - values_[k];
+            s[n] = ((*times_)[j] - (*times_)[k]) / span(k);
+            y[n++] = (*values_)[j] - (*values_)[k];
         }
         if (n < 5) return; // three coefficients need some samples to spare
         double fitted = 0, leverage = 0;
@@ -120,8 +125,8 @@ private:
         return sum;
     }
 
-    std::vector<double> const& times_;
-    std::vector<double> const& values_;
+    std::vector<double> const* times_;
+    std::vector<double> const* values_;
     std::vector<bool> out_;
     std::vector<double> residual_;
     double widest_ = 0;
