@@ -41,16 +41,17 @@ public:
     /// changes nothing.
     step operator()(std::int64_t raw) {
         if (raw < -range_ / 2 || raw >= range_) return {};
-        if (!last_) {
+        if (!started_) {
+            started_ = true;
             last_ = raw;
             count_ = raw;
             return {true, false, false, count_};
         }
-        auto way = (raw - *last_) % range_;
+        auto way = (raw - last_) % range_;
         if (way < -range_ / 2) way += range_;
         if (way > range_ / 2) way -= range_;
         if (way == range_ / 2 || way == -range_ / 2) return {};
-        step const result{true, way != raw - *last_, way > range_ / 4 || way < -range_ / 4,
+        step const result{true, way != raw - last_, way > range_ / 4 || way < -range_ / 4,
                           count_ + way};
         last_ = raw;
         count_ = result.count;
@@ -59,8 +60,8 @@ public:
 
 private:
     std::int64_t range_;
-    std::optional<std::int64_t> last_;
-    std::int64_t count_ = 0;
+    bool started_ = false;
+    std::int64_t last_ = 0, count_ = 0;
 };
 
 /// The time stamps of a log: how far it is from one to the next, also through the end of the
