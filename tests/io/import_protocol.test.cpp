@@ -30,6 +30,7 @@ TEST_CASE("notes of one kind, scenario, field and reason become one") {
     auto const json = nlohmann::json::parse(p.json());
     CHECK(json["format"] == "sivid-import-1");
     CHECK(json["scenarios"][0]["measurements"] == 30);
+    CHECK(json["scenarios"][0]["duration"] == "1.5");
     CHECK(json["notes"][0]["count"] == 4);
     CHECK(json["notes"][0]["lines"] == nlohmann::json::parse("[[3,5],[7,7]]"));
     CHECK(json["notes"][2]["lines"].empty());
@@ -59,6 +60,18 @@ TEST_CASE("proposed bounds are told with what they rest on") {
     auto const json = nlohmann::json::parse(p.json());
     CHECK(json["bounds"][0]["scenarios"][0]["support"] == 300);
     CHECK(json["bounds"][0]["scenarios"][1]["refusal"] == "too short");
+}
+
+TEST_CASE("the JSON is UTF-8 whatever the names are") {
+    import_protocol p;
+    p.dataset = "\xC3\xBC \xE2\x82\xAC \xF0\x9F\x98\x80"; // valid ones stay
+    p.add(kind::dropped, "A\xC3", "\xED\xA0\x80", "\xFF\x80 \xE0\x80\x80 \xF5 \xC0\xAF");
+    for (int i = 0; i < 256; ++i)
+        p.add(kind::changed, std::string(1, static_cast<char>(i)), "", "\xE2\x82");
+    auto const json = nlohmann::json::parse(p.json());
+    CHECK(json["dataset"] == p.dataset);
+    CHECK(json["notes"][0]["scenario"] == "A?");
+    CHECK(json["notes"][0]["reason"] == "?? ??? ? ??");
 }
 
 TEST_CASE("lines as ranges") {

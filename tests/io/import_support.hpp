@@ -35,7 +35,7 @@ inline constexpr std::string_view csv_mapping = R"({
       "initial": { "h": [0, 1] } } ]
 }
 )";
-inline constexpr std::string_view csv_table = "time,pump,level,bound\n"
+inline constexpr std::string_view small_table = "time,pump,level,bound\n"
                                               "0,1.5,100,1\n"
                                               "100,1.5,101,2\n"
                                               "200,2.5,,3\n"

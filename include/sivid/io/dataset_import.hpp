@@ -8,7 +8,6 @@
 #include <sivid/measurement/error_bound.hpp>
 
 #include <algorithm>
-#include <cstddef>
 #include <map>
 #include <string>
 #include <utility>

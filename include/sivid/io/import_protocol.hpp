@@ -118,19 +118,28 @@ public:
     [[nodiscard]] std::string json() const {
         using layout = json_writer::layout;
         json_writer j;
-        j.begin_object().key("format").string("sivid-import-1").key("dataset").string(dataset);
-        j.key("mapping").string(mapping).key("scenarios").begin_array();
+        j.begin_object()
+            .key("format")
+            .string("sivid-import-1")
+            .key("dataset")
+            .string(utf8(dataset));
+        j.key("mapping").string(utf8(mapping)).key("scenarios").begin_array();
         for (auto const& s : scenarios) {
-            j.begin_object(layout::one_line).key("name").string(s.name).key("role").string(s.role);
-            j.key("file").string(s.file).key("lines").integer(s.lines);
+            j.begin_object(layout::one_line)
+                .key("name")
+                .string(utf8(s.name))
+                .key("role")
+                .string(s.role);
+            j.key("file").string(utf8(s.file)).key("lines").integer(s.lines);
             j.key("first").integer(s.first).key("last").integer(s.last);
-            j.key("rows").integer(s.rows).key("measurements").integer(s.measurements).end_object();
+            j.key("rows").integer(s.rows).key("measurements").integer(s.measurements);
+            j.key("duration").string(s.duration).end_object();
         }
         j.end_array().key("notes").begin_array();
         for (auto const& n : notes_) {
             j.begin_object(layout::one_line).key("kind").string(word(n.what));
-            j.key("scenario").string(n.scenario).key("field").string(n.field);
-            j.key("reason").string(n.reason).key("count").integer(n.lines.size());
+            j.key("scenario").string(utf8(n.scenario)).key("field").string(utf8(n.field));
+            j.key("reason").string(utf8(n.reason)).key("count").integer(n.lines.size());
             j.key("lines").begin_array();
             for (auto const& [first, last] : ranges(n.lines))
                 j.begin_array().integer(first).integer(last).end_array();
@@ -138,16 +147,20 @@ public:
         }
         j.end_array().key("bounds").begin_array();
         for (auto const& b : bounds) {
-            j.begin_object().key("quantity").string(b.quantity).key("unit").string(b.unit);
+            j.begin_object()
+                .key("quantity")
+                .string(utf8(b.quantity))
+                .key("unit")
+                .string(utf8(b.unit));
             j.key("bound").string(b.bound).key("scenarios").begin_array();
             for (auto const& [name, p] : b.scenarios) {
-                j.begin_object(layout::one_line).key("scenario").string(name);
+                j.begin_object(layout::one_line).key("scenario").string(utf8(name));
                 j.key("bound").nearest(p.bound).key("quantum").nearest(p.quantum);
                 j.key("spread").nearest(p.spread);
                 j.key("largest_residual").nearest(p.largest_residual);
                 j.key("support").integer(p.support).key("outliers").integer(p.outliers);
                 j.key("refusal").string(p.refusal).key("assumptions").begin_array();
-                for (auto const& a : p.assumptions) j.string(a);
+                for (auto const& a : p.assumptions) j.string(utf8(a));
                 j.end_array().end_object();
             }
             j.end_array().end_object();
@@ -156,6 +169,30 @@ public:
     }
 
 private:
+    /// The text with '?' for each byte that is not UTF-8: a shortened or foreign name.
+    static std::string utf8(std::string const& text) {
+        std::string result;
+        for (std::size_t i = 0; i < text.size();) {
+            auto const lead = static_cast<unsigned char>(text[i]);
+            std::size_t const length = lead < 0x80                   ? 1
+                                       : lead >= 0xC2 && lead < 0xE0 ? 2
+                                       : lead >= 0xE0 && lead < 0xF0 ? 3
+                                       : lead >= 0xF0 && lead < 0xF5 ? 4
+                                                                     : 0;
+            bool valid = length > 0 && i + length <= text.size();
+            for (std::size_t k = 1; valid && k < length; ++k)
+                valid = (static_cast<unsigned char>(text[i + k]) & 0xC0) == 0x80;
+            // Longer forms than needed, and the surrogates.
+            auto const second = valid && length > 2 ? static_cast<unsigned char>(text[i + 1]) : 0;
+            if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) ||
+                (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F))
+                valid = false;
+            result += valid ? text.substr(i, length) : "?";
+            i += valid ? length : 1;
+        }
+        return result;
+    }
+
     static std::string number(double x) { return rounded_digits(x).text(); }
     /// Three digits, to be read.
     static exact_decimal rounded_digits(double x) {

@@ -22,7 +22,9 @@ namespace sivid {
 /// a the time of the last line that counts, b of this one, c of the next one with another time, and
 /// "y goes on from x" when y follows x by at most longest_gap, through the end of the counter or
 /// not:
-/// - b goes on from a: the line counts, unless c goes on from a and not from b.
+/// - b goes on from a: the line counts, unless c goes on from a and not from b. Then b is wrong, or
+/// c
+///   if the line after it goes on from b as well: both are dropped.
 /// - else c goes on from b and not from a: the stream went on at b. b > a is a gap; b < a a
 /// restart.
 /// - else the line is dropped.
@@ -47,7 +49,8 @@ public:
         std::vector<std::size_t> next(lines_.size(), lines_.size());
         for (auto i = lines_.size(); i-- > 1;)
             next[i - 1] = lines_[i].time == lines_[i - 1].time ? next[i] : i;
-        for (std::size_t i = 0; i < lines_.size() && !ended_; ++i) place(i, next[i]);
+        next.push_back(lines_.size());
+        for (std::size_t i = 0; i < lines_.size() && !ended_; ++i) place(i, next);
         return std::move(stretches_);
     }
 
@@ -79,8 +82,7 @@ private:
     void scan(recorded_line const& l) {
         constexpr std::size_t longest = 4096;
         auto const plain = without_blanks(l.text);
-        if (plain.empty()) return drop(l.number, "blank");
-        if (plain.front() == '#') return drop(l.number, "comment");
+        if (plain.empty() || plain.front() == '#') return drop(l.number, "blank or comment");
         if (!l.ended) return drop(l.number, "the last line has no end: it may be cut");
         if (l.text.size() > longest) return drop(l.number, "longer than 4096 characters");
         auto const cells = split_cells(l.text, s_.form.separator);
@@ -108,14 +110,18 @@ private:
         lines_.push_back(std::move(result));
     }
 
-    /// Decides about a line, given the next one with another time.
-    void place(std::size_t i, std::size_t next) {
+    /// Decides about a line, given for each the next one with another time.
+    void place(std::size_t i, std::vector<std::size_t> const& next) {
         auto const& b = lines_[i];
-        auto const* c = next < lines_.size() ? &lines_[next].time : nullptr;
+        if (i < doubtful_until_)
+            return drop(b.number, "goes back behind the line before, and either time may be wrong");
+        auto const time_at = [&](std::size_t k) {
+            return k < lines_.size() ? &lines_[k].time : nullptr;
+        };
+        auto const *c = time_at(next[i]), *d = time_at(next[next[i]]);
         bool const c_from_b = c != nullptr && stamps_.goes_on(b.time, *c);
         if (stretches_.empty()) {
-            if (c != nullptr && !c_from_b)
-                return drop(b.number, "no start: the next line does not go on from its time");
+            if (!c_from_b) return drop(b.number, "no start: no next line goes on from its time");
             return begin(b);
         }
         auto const& a = *last_;
@@ -125,9 +131,14 @@ private:
                                       : "same time as the line before it, which counts");
         bool const c_from_a = c != nullptr && stamps_.goes_on(a.time, *c);
         if (stamps_.goes_on(a.time, b.time)) {
-            if (c_from_a && !c_from_b)
+            if (c_from_a && !c_from_b) {
+                bool const either = d != nullptr && stamps_.goes_on(b.time, *d);
+                if (either) doubtful_until_ = next[next[i]];
                 return drop(b.number,
-                            "the next line goes on from the line before, not from this time");
+                            either
+                                ? "the next line goes back behind it, and either time may be wrong"
+                                : "the next line goes on from the line before, not from this time");
+            }
             if (b.time < a.time)
                 protocol_.add(kind::decided, s_.name, "",
                               text_of("the counter wraps from ", a.time.text(), " to ",
@@ -217,6 +228,7 @@ private:
     stamped_line const* last_ = nullptr;
     exact_decimal elapsed_; ///< time in ticks, followed beyond the counter's end
     std::vector<recorded_table> stretches_;
+    std::size_t doubtful_until_ = 0;
     bool ended_ = false;
 };
 
