@@ -98,3 +98,48 @@ TEST_CASE("the worked example of a serial stream") {
     write_import(r, folder.path() / "out");
     CHECK(read_dataset(folder.path() / "out", r.names).scenarios.size() == 2);
 }
+
+TEST_CASE("docs/importing.md quotes what the examples give") {
+    std::string const root{SIVID_SOURCE_DIR};
+    auto const page = read_text(root + "/docs/importing.md");
+    std::string shown, files;
+    for (auto const* name : {"german_logger", "serial_stream"}) {
+        shown += example(name).protocol.text();
+        for (auto const* file : {"/mapping.json", "/motor.csv", "/pendulum.log"})
+            if (auto const path = root + "/examples/import/" + name + file; fs::exists(path))
+                files += read_text(path);
+    }
+    std::size_t quoted = 0;
+    for (auto const& line : lines_of(page)) {
+        for (auto const* head :
+             {"  dropped: ", "  changed: ", "  decided: ", "  assumed: ", "scenario "})
+            if (line.text.starts_with(head)) {
+                CAPTURE(line.text);
+                CHECK(shown.find(line.text) != std::string::npos);
+                ++quoted;
+            }
+        if (!line.text.empty() && line.text.front() >= '0' && line.text.front() <= '9') {
+            CAPTURE(line.text);
+            CHECK(files.find(line.text) != std::string::npos);
+            ++quoted;
+        }
+    }
+    CHECK(quoted > 10);
+    // The table's mapping stands there in full.
+    auto const from = page.find("```json\n") + 8;
+    auto const in_page =
+        json_builder{"page"}.parse(page.substr(from, page.find("```\n", from) - from));
+    auto const in_file = read_json(root + "/examples/import/german_logger/mapping.json");
+    CHECK(in_page.at("scenarios").elements().size() == in_file.at("scenarios").elements().size());
+    CHECK(in_page.at("id").string() == in_file.at("id").string());
+    auto const factor = [](json_value const& j) {
+        return j.at("scenarios")
+            .elements()[0]
+            .at("channels")
+            .at("omega")
+            .at("factor")
+            .elements()[1]
+            .number();
+    };
+    CHECK(factor(in_page) == factor(in_file));
+}

@@ -8,6 +8,7 @@
 #include <sivid/measurement/error_bound.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <map>
 #include <string>
 #include <utility>
@@ -65,7 +66,7 @@ private:
                                    ? std::vector{read_recorded_table(s, text, protocol)}
                                    : read_serial_log(s, text, protocol);
         bool const only = stretches.size() == 1;
-        std::size_t made = 0;
+        auto const before = open_.size();
         for (std::size_t i = 0; i < stretches.size(); ++i) {
             auto const name = only ? s.name : s.name + "-" + std::to_string(i + 1);
             try {
@@ -77,7 +78,6 @@ private:
                                  text_of("no scenario can be made: ", e.problem()), row.line);
                 continue;
             }
-            ++made;
             auto& last = open_.back();
             last.after_break = i > 0;
             if (last.after_break)
@@ -97,7 +97,7 @@ private:
             summary.duration = exact_decimal::shortest(*nearest(last.duration)).text();
             protocol.scenarios.push_back(std::move(summary));
         }
-        if (made == 0)
+        if (open_.size() == before)
             throw input_error{{.file = s.file.string()},
                               "no stretch of the log makes a scenario",
                               "check the columns, \"longest_gap\", \"gap\" and \"restart\""};
