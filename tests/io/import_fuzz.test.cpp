@@ -93,7 +93,7 @@ std::string rich_log(generator& random) {
     unsigned t = 65000;
     for (int i = 0; i < 80; ++i) {
         t = i == 60 ? 3 : (t + 10) % 65536;
-        auto const count = (65400 + 8 * i + random() % 4) % 65536;
+        auto const count = (65400u + 8u * static_cast<unsigned>(i) + random() % 4) % 65536;
         text += std::to_string(t) + "," + std::to_string(i % 256) + "," +
                 (i % 17 == 5 ? std::string{"nan"} : std::to_string(count)) + "\r\n";
     }
