@@ -39,6 +39,8 @@
 #include <sivid/space/matrix.hpp>
 #include <sivid/space/orthogonal_frame.hpp>
 #include <sivid/space/vec.hpp>
+#include <sivid/measurement/error_bound.hpp>
+#include <sivid/measurement/quantisation.hpp>
 #include <sivid/measurement/record.hpp>
 #include <sivid/measurement/signal.hpp>
 #include <sivid/model/arithmetic.hpp>

@@ -104,6 +104,52 @@ TEST_CASE("exact_decimal agrees with integers in a random sample") {
     }
 }
 
+TEST_CASE("products of decimals are exact") {
+    CHECK(dec("0.1").times(dec("0.2")) == dec("0.02"));
+    CHECK(dec("-35.15065188").times(dec("2.538628")) == dec("-89.23442908082064"));
+    CHECK(dec("0").times(dec("-3")) == dec("0"));
+    CHECK(dec("99999999999999999999").times(dec("99999999999999999999e-20")) ==
+          dec("99999999999999999998.00000000000000000001"));
+    std::mt19937_64 random{5};
+    std::uniform_int_distribution<std::int64_t> draw{-2000000000, 2000000000};
+    for (int i = 0; i < 2000; ++i) {
+        auto const a = draw(random), b = draw(random);
+        CHECK(dec(std::to_string(a)).times(dec(std::to_string(b) + "e-7")) ==
+              dec(std::to_string(a * b) + "e-7"));
+    }
+}
+
+TEST_CASE("quotients of decimals are enclosed as tightly as the digits allow") {
+    auto const check = [](char const* x, std::size_t n, std::size_t digits, char const* lower,
+                          char const* upper) {
+        CAPTURE(x, n, digits);
+        auto const [lo, hi] = dec(x).divided_by(n, digits);
+        CHECK(lo == dec(lower));
+        CHECK(hi == dec(upper));
+    };
+    check("0", 7, 3, "0", "0");
+    check("1", 4, 3, "0.25", "0.25");
+    check("1", 4, 2, "0.25", "0.25");
+    check("1", 4, 1, "0.2", "0.3");
+    check("5", 1023, 5, "0.0048875", "0.0048876");
+    check("-5", 1023, 5, "-0.0048876", "-0.0048875");
+    check("2", 3, 4, "0.6666", "0.6667");
+    check("999999", 1, 3, "999000", "1000000");
+    check("123456e3", 1, 6, "123456000", "123456000");
+    check("123456e3", 1, 2, "120000000", "130000000");
+    check("1e-300", 1000000000000000000, 1, "1e-318", "1e-318");
+    std::mt19937_64 random{6};
+    for (int i = 0; i < 2000; ++i) {
+        auto const x = dec(std::to_string(static_cast<std::int64_t>(random() >> 14) - (1LL << 49)));
+        auto const n = 1 + static_cast<std::size_t>(random() % 1000000);
+        auto const [lo, hi] = x.divided_by(n, 20);
+        CHECK_FALSE(x < lo.times(n));
+        CHECK_FALSE(hi.times(n) < x);
+        auto const size = x.is_negative() ? -x : x; // 20 digits: at most 1e-19 of the quotient
+        CHECK_FALSE(size.times(dec("1e-19")) < (hi - lo).times(n));
+    }
+}
+
 TEST_CASE("decimals become the tightest intervals") {
     auto const tenth = *sivid::enclose(dec("0.1"));
     CHECK(sivid::upper(tenth) == 0.1); // the double lies above the decimal

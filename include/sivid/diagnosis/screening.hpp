@@ -5,6 +5,7 @@
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/candidate.hpp>
 #include <sivid/paving/fit.hpp>
+#include <sivid/paving/minimax_fit.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -58,6 +59,7 @@ public:
     void run() {
         try_one({});
         for (std::size_t e = 0; e < catalogue_.size(); ++e) try_one({e});
+        polish();
         auto singles = ranked_singles();
         bool const explained = std::any_of(tried_.begin(), tried_.end(),
                                            [](screened const& s) { return s.figures.explains(); });
@@ -68,6 +70,26 @@ public:
                 if (b == a) continue;
                 try_one({std::min(a, b), std::max(a, b)});
             }
+        }
+        polish();
+    }
+
+    /// Descends on from every fit that misses an explanation by little: which side of 1 the largest
+    /// misfit ends on decides what explains.
+    void polish() {
+        constexpr double close = 1.05;
+        for (auto& s : tried_) {
+            bool const delayed =
+                !s.problem.model.input_delays.empty() || !s.problem.model.channel_delays.empty();
+            double const before = s.figures.inflation;
+            if (delayed || !(before > 1 && before < close) || seconds() > options_.seconds)
+                continue;
+            auto better = minimax_fitter(s.problem)(s.fit.parameters, s.fit.starts,
+                                                    [this] { return !stopped_; });
+            if (!(better.inflation < before)) continue;
+            better.squares = s.fit.squares;
+            s.fit = std::move(better);
+            s.figures.inflation = s.fit.inflation;
         }
     }
 

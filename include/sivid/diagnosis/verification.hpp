@@ -39,10 +39,12 @@ inline double clamped_into(double x, interval const& side) {
 
 /// Encloses the inflation at one point: parameters and delays are those of the guess, so are the
 /// starts but for those that follow from the parameters.
+/// @param options  `options.witness` says how the runs are made
 /// @guarantee  upper <= 1: the parameters explain the data, under `assumptions`
 /// @cost  one validated run per experiment
 [[nodiscard]] inline verified_inflation verify_at(identification_problem const& problem,
-                                                  approximate_fit const& guess) {
+                                                  approximate_fit const& guess,
+                                                  data_test_options const& options = {}) {
     verified_inflation result;
     if (guess.parameters.size() != problem.prior.size()) return result;
     auto at = problem;
@@ -78,7 +80,7 @@ inline double clamped_into(double x, interval const& side) {
         resolved.problem.choice.unknown.push_back(name);
     }
     auto const everything = box_explorer::without_limit(resolved.problem);
-    data_test runs(everything, {});
+    data_test runs(everything, options);
     verified_witness witness{point.parameters, point.starts, {}};
     for (std::size_t s = 0; s < starts.size(); ++s) {
         auto const& initial = resolved.problem.experiments[s].initial;

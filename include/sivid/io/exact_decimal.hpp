@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace sivid {
 
@@ -143,6 +144,59 @@ public:
         result.digits_.assign(reversed.rbegin(), reversed.rend());
         result.normalise();
         return result;
+    }
+
+    /// x y, exactly.
+    /// @cost  the product of the counts of digits
+    [[nodiscard]] exact_decimal times(exact_decimal const& y) const {
+        exact_decimal result;
+        if (is_zero() || y.is_zero()) return result;
+        std::vector<unsigned> sums(digits_.size() + y.digits_.size(), 0); // last digit first
+        for (std::size_t i = 0; i < digits_.size(); ++i) {
+            auto const d = static_cast<unsigned>(digits_[digits_.size() - 1 - i] - '0');
+            for (std::size_t j = 0; j < y.digits_.size(); ++j)
+                sums[i + j] += d * static_cast<unsigned>(y.digits_[y.digits_.size() - 1 - j] - '0');
+        }
+        for (std::size_t i = 0; i + 1 < sums.size(); ++i) {
+            sums[i + 1] += sums[i] / 10;
+            sums[i] %= 10;
+        }
+        for (auto s = sums.rbegin(); s != sums.rend(); ++s)
+            result.digits_ += static_cast<char>('0' + *s);
+        result.negative_ = negative_ != y.negative_;
+        result.exponent_ = exponent_ + y.exponent_;
+        result.normalise();
+        return result;
+    }
+
+    /// The tightest pair lower <= x / n <= upper of decimals with at most so many digits; both are
+    /// the quotient where it has no more.
+    /// @given  0 < n <= 1e18, digits > 0 (trusted)
+    [[nodiscard]] std::pair<exact_decimal, exact_decimal> divided_by(std::size_t n,
+                                                                     std::size_t digits) const {
+        exact_decimal near;
+        if (is_zero()) return {near, near};
+        near.negative_ = negative_;
+        near.exponent_ = exponent_ + static_cast<long>(digits_.size());
+        std::size_t rest = 0, i = 0;
+        while ((i < digits_.size() || rest != 0) && near.digits_.size() < digits) {
+            rest =
+                rest * 10 + (i < digits_.size() ? static_cast<std::size_t>(digits_[i] - '0') : 0);
+            ++i;
+            --near.exponent_;
+            if (!near.digits_.empty() || rest >= n)
+                near.digits_ += static_cast<char>('0' + rest / n);
+            rest %= n;
+        }
+        bool const exact = rest == 0 && i >= digits_.size();
+        exact_decimal last; // one unit of the last digit, away from zero
+        last.negative_ = negative_;
+        last.digits_ = "1";
+        last.exponent_ = near.exponent_;
+        near.normalise();
+        if (exact) return {near, near};
+        auto const far = near + last;
+        return negative_ ? std::pair{far, near} : std::pair{near, far};
     }
 
     /// floor(x) for 0 <= x < 1e18.

@@ -23,7 +23,7 @@ struct data_test_options {
     /// How a guessed point is verified: first-order sets with fine steps, which kinks do not stop.
     run_options witness{.enclosure = {.order = 14,
                                       .tolerance = 1e-11,
-                                      .relative_tolerance = 1e-3,
+                                      .relative_tolerance = 1e-5,
                                       .minimum_step = 1e-6},
                         .set = carried_set::doubleton};
     /// Contract boxes by the dependence of the outputs on the parameters, and decide parts of a box

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IO_MAPPING_ENTRIES_HPP
+#define SIVID_IO_MAPPING_ENTRIES_HPP
+
+#include <sivid/io/import_mapping.hpp>
+#include <sivid/io/json_document.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+/// The small entries of a mapping: names, words, ranges, columns, counters. Each either gives what
+/// it says or throws input_error with the entry's pointer.
+namespace sivid::mapping_entries {
+
+/// A name that can head a column of a table and be part of a file name.
+[[nodiscard]] inline std::string name(json_value const& entry, std::string const& text) {
+    auto const plain = [](char c) {
+        auto const byte = static_cast<unsigned char>(c);
+        return (byte >= '0' && byte <= '9') || (byte >= 'A' && byte <= 'Z') ||
+               (byte >= 'a' && byte <= 'z') || byte == '_' || byte == '-' || byte == '.' ||
+               byte >= 0x80;
+    };
+    if (text.empty() || text.size() > 100 || text.front() == '.' || text == "t" ||
+        !std::all_of(text.begin(), text.end(), plain))
+        entry.fail(text_of("the name ", in_quotes(text), " cannot stand in a table"),
+                   "use letters, digits, - and _, at most 100, and not just t");
+    return text;
+}
+
+/// The index of the text in a list of two.
+[[nodiscard]] inline std::size_t choice(json_value const& entry,
+                                        std::pair<char const*, char const*> const& words) {
+    auto const& text = entry.string();
+    if (text == words.first) return 0;
+    if (text == words.second) return 1;
+    entry.fail(text_of("found ", in_quotes(text)),
+               std::string{"write "} + words.first + " or " + words.second);
+}
+
+/// [lower, upper] with lower <= upper.
+[[nodiscard]] inline stated_range range(json_value const& entry) {
+    auto const& ends = entry.elements();
+    if (ends.size() != 2) entry.fail("not two numbers", "write [lower, upper]");
+    auto const lower = ends[0].number(), upper = ends[1].number();
+    if (upper < lower) entry.fail("lower is above upper", "write [lower, upper]");
+    return {lower, upper, *enclose(lower, upper)};
+}
+
+/// A whole number from `least` to `most`.
+[[nodiscard]] inline std::size_t whole(json_value const& entry, std::size_t least,
+                                       std::size_t most) {
+    auto const x = entry.number();
+    auto const limit = [](std::size_t n) { return *exact_decimal::parse(std::to_string(n)); };
+    if (x < limit(least) || limit(most) < x || !(limit(x.floor()) == x))
+        entry.fail(text_of(x.text(), " is no whole number from ", std::to_string(least), " to ",
+                           std::to_string(most)),
+                   "correct it");
+    return x.floor();
+}
+
+/// A heading, or the number of a column from 1.
+[[nodiscard]] inline column_reference column(json_value const& entry) {
+    column_reference result;
+    result.place = entry.place();
+    if (entry.type() == json_value::kind::number)
+        result.number = whole(entry, 1, 100'000);
+    else
+        result.heading = entry.string();
+    return result;
+}
+
+/// Bits of a counter that wraps.
+[[nodiscard]] inline unsigned counter_bits(json_value const& entry) {
+    return static_cast<unsigned>(whole(entry, 8, 48));
+}
+
+/// A decimal above 0.
+[[nodiscard]] inline exact_decimal positive(json_value const& entry, char const* remedy) {
+    auto const x = entry.number();
+    if (!x.is_positive() || !(*nearest(x) > 0)) entry.fail("not above 0", remedy);
+    return x;
+}
+
+/// A text of one character.
+[[nodiscard]] inline char character(json_value const& entry, std::string const& allowed,
+                                    char const* remedy) {
+    auto const& text = entry.any_string();
+    if (text.size() != 1 || allowed.find(text.front()) == std::string::npos)
+        entry.fail(text_of("found ", in_quotes(text)), remedy);
+    return text.front();
+}
+
+} // namespace sivid::mapping_entries
+
+#endif // SIVID_IO_MAPPING_ENTRIES_HPP

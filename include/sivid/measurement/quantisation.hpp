@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_MEASUREMENT_QUANTISATION_HPP
+#define SIVID_MEASUREMENT_QUANTISATION_HPP
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace sivid {
+
+/// How many different values there are, counted up to `most`.
+[[nodiscard]] inline std::size_t distinct_count(std::vector<double> const& values,
+                                                std::size_t most) {
+    std::vector<double> seen;
+    for (double const v : values) {
+        if (std::find(seen.begin(), seen.end(), v) == seen.end()) seen.push_back(v);
+        if (seen.size() >= most) break;
+    }
+    return seen.size();
+}
+
+/// The largest step of which all differences of the values are whole multiples, within the rounding
+/// of doubles; 0 when there is none above 1e-9 of the largest magnitude, or no two different
+/// values. The true step of the instrument divides it: short records may show a multiple.
+/// @given  finite values (trusted)
+/// @cost  n log n
+[[nodiscard]] inline double quantisation_step(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    if (values.empty()) return 0;
+    double const size = std::max(std::abs(values.front()), std::abs(values.back()));
+    double const tolerance = 1e-12 * size, smallest = 1e-9 * size;
+    // Differences of the sorted values, the smallest first, so that remainders stay accurate.
+    std::vector<double> gaps;
+    for (std::size_t i = 1; i < values.size(); ++i)
+        if (values[i] - values[i - 1] > tolerance) gaps.push_back(values[i] - values[i - 1]);
+    std::sort(gaps.begin(), gaps.end());
+    if (gaps.empty() || !std::isfinite(gaps.back())) return 0;
+    double step = gaps.front();
+    for (double gap : gaps) {
+        // Euclid with a tolerance: the rounding of the step counts as often as the gap holds it.
+        while (true) {
+            double const rest = std::abs(std::remainder(gap, step));
+            double const rounding = 1e-15 * size * (1 + gap / step);
+            if (rounding > 0.1 * step || rest <= rounding + 1e-4 * step) break;
+            gap = step;
+            step = rest;
+        }
+        if (step < smallest) return 0;
+    }
+    double const range = values.back() - values.front();
+    return std::isfinite(range) ? range / std::round(range / step) : step;
+}
+
+} // namespace sivid
+
+#endif

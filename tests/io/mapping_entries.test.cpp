@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/io/mapping_entries.hpp>
+
+#include "io/import_support.hpp"
+
+using namespace sivid;
+namespace entries = sivid::mapping_entries;
+
+namespace {
+json_value entry(std::string const& text) { return json_builder{"m.json"}.parse(text); }
+} // namespace
+
+TEST_CASE("names can head a column") {
+    auto const e = entry("1");
+    for (auto const* good : {"u", "psi", "T_in", "rudder_lag.tau", "x-1", "\xCF\x89"})
+        CHECK(entries::name(e, good) == good);
+    for (auto const* bad : {"", "t", "a,b", "a b", "a;b", ".x", "a/b", "\"", "#x", "a\nb"})
+        CHECK_THROWS_AS(entries::name(e, bad), input_error);
+    CHECK_THROWS_AS(entries::name(e, std::string(101, 'a')), input_error);
+}
+
+TEST_CASE("words, ranges and whole numbers") {
+    CHECK(entries::choice(entry("\"fit\""), {"fit", "holdout"}) == 0);
+    CHECK(entries::choice(entry("\"holdout\""), {"fit", "holdout"}) == 1);
+    CHECK_THROWS_AS(entries::choice(entry("\"test\""), {"fit", "holdout"}), input_error);
+    auto const r = entries::range(entry("[0.1, 0.3]"));
+    CHECK(r.lower == io_support::dec("0.1"));
+    CHECK(contains(r.enclosure, 0.3));
+    CHECK_THROWS_AS(entries::range(entry("[0.3, 0.1]")), input_error);
+    CHECK_THROWS_AS(entries::range(entry("[0.3]")), input_error);
+    CHECK(entries::whole(entry("16"), 8, 48) == 16);
+    CHECK(entries::whole(entry("1.6e1"), 8, 48) == 16);
+    for (auto const* bad : {"7", "49", "16.5", "-16", "1e300", "\"16\""})
+        CHECK_THROWS_AS(entries::whole(entry(bad), 8, 48), input_error);
+    CHECK(entries::counter_bits(entry("32")) == 32);
+    CHECK(entries::positive(entry("1e-9"), "") == io_support::dec("1e-9"));
+    for (auto const* bad : {"0", "-1", "1e-400"})
+        CHECK_THROWS_AS(entries::positive(entry(bad), "state it"), input_error);
+}
+
+TEST_CASE("columns by heading or number") {
+    CHECK(entries::column(entry("\"Zeit [s]\"")).heading == "Zeit [s]");
+    CHECK(entries::column(entry("3")).number == 3);
+    CHECK_THROWS_AS(entries::column(entry("0")), input_error);
+    CHECK_THROWS_AS(entries::column(entry("null")), input_error);
+    CHECK(entries::character(entry("\"\\t\""), ",\t", "") == '\t');
+    CHECK_THROWS_AS(entries::character(entry("\"x\""), ",\t", "write a comma"), input_error);
+    CHECK_THROWS_AS(entries::character(entry("\"\""), ",\t", "write a comma"), input_error);
+}

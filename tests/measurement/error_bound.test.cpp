@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/measurement/error_bound.hpp>
+
+#include "support/catch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+using sivid::propose_error_bound;
+
+namespace {
+
+/// A smooth motion at `n` times, `h` apart, with errors.
+struct made {
+    std::vector<double> t, y;
+    double largest_error = 0;
+
+    made(std::size_t n, double h, std::function<double(double)> const& reading) {
+        for (std::size_t i = 0; i < n; ++i) {
+            t.push_back(h * static_cast<double>(i));
+            y.push_back(reading(motion(t.back())));
+            largest_error = std::max(largest_error, std::abs(y.back() - motion(t.back())));
+        }
+    }
+    static double motion(double t) { return 2 * std::sin(1.5 * t) + 0.3 * t; }
+};
+
+} // namespace
+
+TEST_CASE("uniform noise: the bound holds and is not far") {
+    for (unsigned seed = 0; seed < 40; ++seed) {
+        std::mt19937_64 random{seed};
+        std::uniform_real_distribution<double> noise{-0.01, 0.01};
+        made const s{800, 0.005, [&](double y) { return y + noise(random); }};
+        auto const found = propose_error_bound(s.t, s.y);
+        CAPTURE(seed);
+        CHECK(found.bound >= s.largest_error);
+        CHECK(found.bound <= 3 * s.largest_error);
+        CHECK_THAT(found.spread, WithinRel(0.01 / std::sqrt(3.0), 0.25));
+        CHECK(found.quantum == 0);
+        CHECK(found.support == 794);
+        CHECK(found.outliers == 0);
+        CHECK(found.refusal.empty());
+        CHECK(found.assumptions.size() == 4);
+    }
+}
+
+TEST_CASE("normal noise: the spread is that of the noise") {
+    for (unsigned seed = 0; seed < 40; ++seed) {
+        std::mt19937_64 random{100 + seed};
+        std::normal_distribution<double> noise{0, 0.02};
+        made const s{3000, 0.004, [&](double y) { return y + noise(random); }};
+        auto const found = propose_error_bound(s.t, s.y);
+        CAPTURE(seed);
+        CHECK_THAT(found.spread, WithinRel(0.02, 0.08));
+        CHECK(found.bound >= s.largest_error);
+        CHECK(found.bound <= 2 * s.largest_error);
+    }
+}
+
+TEST_CASE("a quantised slow motion: at least one step, however smooth the readings look") {
+    for (double const step : {0.05, 0.01, 1e-4}) {
+        CAPTURE(step);
+        made const rounded{1000, 0.002, [&](double y) { return step * std::round(y / step); }};
+        made const cut{1000, 0.002, [&](double y) { return step * std::floor(y / step); }};
+        for (auto const* s : {&rounded, &cut}) {
+            auto const found = propose_error_bound(s->t, s->y);
+            CHECK_THAT(found.quantum, WithinRel(step, 1e-6));
+            CHECK(found.bound >= s->largest_error);
+            CHECK(found.bound <= 3 * step);
+        }
+    }
+}
+
+TEST_CASE("outliers neither raise the bound nor the residuals of their neighbours") {
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        std::mt19937_64 random{200 + seed};
+        std::uniform_real_distribution<double> noise{-0.01, 0.01};
+        made s{1000, 0.004, [&](double y) { return y + noise(random); }};
+        for (std::size_t k = 25; k < 1000; k += 40) s.y[k] += k % 80 == 25 ? 5 : -0.4;
+        s.y[500] += 1; // two in a row
+        s.y[501] += 1.1;
+        auto const found = propose_error_bound(s.t, s.y);
+        CAPTURE(seed);
+        CHECK(found.outliers >= 25);
+        CHECK(found.outliers <= 30);
+        CHECK(found.bound >= s.largest_error);
+        CHECK(found.bound <= 0.03);
+        CHECK(found.assumptions.size() == 5);
+    }
+}
+
+TEST_CASE("a drop-out is no residual") {
+    std::mt19937_64 random{7};
+    std::uniform_real_distribution<double> noise{-1e-4, 1e-4};
+    made const s{2000, 0.004, [&](double y) { return y + noise(random); }};
+    auto t = s.t, y = s.y;
+    t.erase(t.begin() + 700, t.begin() + 1100);
+    y.erase(y.begin() + 700, y.begin() + 1100);
+    auto const found = propose_error_bound(t, y);
+    CHECK(found.support == 1600 - 6 - 6);
+    CHECK(found.bound <= 3e-4);
+}
+
+TEST_CASE("uneven times are fitted as they are") {
+    std::mt19937_64 random{8};
+    std::uniform_real_distribution<double> noise{-1e-3, 1e-3}, step{0.002, 0.006};
+    std::vector<double> t{0}, y;
+    while (t.size() < 800) t.push_back(t.back() + step(random));
+    for (double const at : t) y.push_back(made::motion(at) + noise(random));
+    auto const found = propose_error_bound(t, y);
+    CHECK(found.bound >= 1e-3);
+    CHECK(found.bound <= 3e-3);
+}
+
+TEST_CASE("an exact quadratic on an exact grid has its step alone") {
+    std::vector<double> t, y;
+    for (int i = 0; i < 100; ++i) {
+        t.push_back(i);
+        y.push_back(i * i - 40.0 * i);
+    }
+    auto const found = propose_error_bound(t, y);
+    CHECK(found.quantum == 1);
+    CHECK_THAT(found.bound, WithinRel(1, 1e-6));
+}
+
+TEST_CASE("what says nothing gets no bound, and says why") {
+    auto const refused = [](std::vector<double> const& y) {
+        std::vector<double> t;
+        for (std::size_t i = 0; i < y.size(); ++i) t.push_back(0.01 * static_cast<double>(i));
+        auto const found = propose_error_bound(t, y);
+        CHECK(found.bound == 0);
+        CHECK(found.assumptions.empty());
+        return found.refusal;
+    };
+    CHECK_THAT(refused({}), ContainsSubstring("different readings"));
+    CHECK_THAT(refused(std::vector<double>(500, 3.25)), ContainsSubstring("different readings"));
+    auto spike = std::vector<double>(500, 3.25);
+    spike[200] = 90;
+    CHECK_THAT(refused(spike), ContainsSubstring("different readings"));
+    CHECK_THAT(refused({1, 2, 3}), ContainsSubstring("only 0 samples"));
+    CHECK_THAT(refused({1, 2.1, 3, 4.2, 5, 6.1, 7, 8, 9.1, 10}),
+               ContainsSubstring("only 4 samples"));
+    // Three different readings, two of them single spikes on a constant.
+    spike[300] = 17.3;
+    auto const found = [&] {
+        std::vector<double> t;
+        for (std::size_t i = 0; i < spike.size(); ++i) t.push_back(0.01 * static_cast<double>(i));
+        return propose_error_bound(t, spike);
+    }();
+    CHECK((found.bound > 0 || !found.refusal.empty()));
+}
+
+TEST_CASE("many far samples are no outliers: the motion is not resolved, and the bound covers it") {
+    std::mt19937_64 random{4};
+    std::vector<double> t, y;
+    for (int i = 0; i < 600; ++i) {
+        t.push_back(i);
+        y.push_back((i / 16 % 2) * 10.0 + 1e-3 * static_cast<double>(random() % 10));
+    }
+    auto const found = propose_error_bound(t, y);
+    CHECK(found.outliers == 0);
+    CHECK(found.support == 594);
+    CHECK(found.bound > 1);
+    CHECK_THAT(found.assumptions.back(), ContainsSubstring("not resolve"));
+}
+
+TEST_CASE("what is no record is refused") {
+    double const nan = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THROWS_AS(propose_error_bound({0, 1}, {0}), std::invalid_argument);
+    CHECK_THROWS_AS(propose_error_bound({0, 0}, {0, 1}), std::invalid_argument);
+    CHECK_THROWS_AS(propose_error_bound({1, 0}, {0, 1}), std::invalid_argument);
+    CHECK_THROWS_AS(propose_error_bound({0, nan}, {0, 1}), std::invalid_argument);
+    CHECK_THROWS_AS(propose_error_bound({0, 1}, {0, nan}), std::invalid_argument);
+    CHECK_THROWS_AS(propose_error_bound({0, 1}, {0, HUGE_VAL}), std::invalid_argument);
+}
+
+TEST_CASE("huge and tiny signals give a finite bound or none") {
+    std::mt19937_64 random{9};
+    std::normal_distribution<double> noise{0, 1};
+    for (double const size : {1e-300, 1e-20, 1e20, 1e300, 1e307}) {
+        CAPTURE(size);
+        std::vector<double> t, y;
+        for (int i = 0; i < 200; ++i) {
+            t.push_back(i * 1e-6);
+            y.push_back(size * noise(random));
+        }
+        auto const found = propose_error_bound(t, y);
+        CHECK(std::isfinite(found.bound));
+        CHECK((found.bound > 0) == found.refusal.empty());
+    }
+}
