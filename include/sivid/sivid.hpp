@@ -34,6 +34,7 @@
 #include <sivid/number/trigonometric.hpp>
 #include <sivid/number/univariate_taylor.hpp>
 #include <sivid/space/box.hpp>
+#include <sivid/space/box_cover.hpp>
 #include <sivid/space/common_frame.hpp>
 #include <sivid/space/eigen_support.hpp>
 #include <sivid/space/matrix.hpp>
@@ -90,6 +91,7 @@
 #include <sivid/paving/arrow_system.hpp>
 #include <sivid/paving/box_explorer.hpp>
 #include <sivid/paving/campaign.hpp>
+#include <sivid/paving/certificate.hpp>
 #include <sivid/paving/combined_polynomial.hpp>
 #include <sivid/paving/data_test.hpp>
 #include <sivid/paving/descent.hpp>
@@ -108,6 +110,8 @@
 #include <sivid/paving/minimax_fit.hpp>
 #include <sivid/paving/minimax_lp.hpp>
 #include <sivid/paving/misfit.hpp>
+#include <sivid/paving/plain_campaign.hpp>
+#include <sivid/paving/plain_run.hpp>
 #include <sivid/paving/problem.hpp>
 #include <sivid/paving/reduction.hpp>
 #include <sivid/paving/relaxed_intersection.hpp>
