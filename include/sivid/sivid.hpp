@@ -97,6 +97,7 @@
 #include <sivid/paving/descent.hpp>
 #include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/fit.hpp>
+#include <sivid/paving/flat_paving.hpp>
 #include <sivid/paving/holdout_inflation.hpp>
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/inflation.hpp>
@@ -118,6 +119,10 @@
 #include <sivid/paving/residuals.hpp>
 #include <sivid/paving/response.hpp>
 #include <sivid/paving/set_test.hpp>
+#include <sivid/paving/static_inversion.hpp>
+#include <sivid/paving/static_judge.hpp>
+#include <sivid/paving/static_problem.hpp>
+#include <sivid/paving/static_program.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/suspect_samples.hpp>
 #include <sivid/paving/verdict.hpp>
