@@ -107,6 +107,7 @@
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/linear_contraction.hpp>
 #include <sivid/paving/local_response.hpp>
+#include <sivid/paving/mean_value_cut.hpp>
 #include <sivid/paving/minimax.hpp>
 #include <sivid/paving/minimax_fit.hpp>
 #include <sivid/paving/minimax_lp.hpp>
@@ -119,10 +120,12 @@
 #include <sivid/paving/residuals.hpp>
 #include <sivid/paving/response.hpp>
 #include <sivid/paving/set_test.hpp>
+#include <sivid/paving/static_block.hpp>
 #include <sivid/paving/static_inversion.hpp>
 #include <sivid/paving/static_judge.hpp>
 #include <sivid/paving/static_problem.hpp>
 #include <sivid/paving/static_program.hpp>
+#include <sivid/paving/static_test.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/suspect_samples.hpp>
 #include <sivid/paving/verdict.hpp>

@@ -2,6 +2,7 @@
 #ifndef SIVID_IO_IDENTIFICATION_CHECK_HPP
 #define SIVID_IO_IDENTIFICATION_CHECK_HPP
 
+#include <sivid/io/forced_outlier_check.hpp>
 #include <sivid/io/identification_consistency.hpp>
 #include <sivid/paving/certificate.hpp>
 
@@ -53,7 +54,10 @@ public:
         add([&] { return check_volumes(*problem_, *stored_); });
         add([&] { return check_combinations<Exact>(*problem_, *stored_); });
         add([&] { return witness(); });
-        add([&] { return forced(); });
+        add([&] {
+            return check_forced<Fast>(*problem_, *stored_, hits_, options_.certificate.enclosure,
+                                      0.5 * options_.seconds);
+        });
         box_cover cover_found;
         add([&] {
             std::vector<box> rows;
@@ -144,86 +148,6 @@ private:
         }
     }
 
-    /// Every parameter of every row violates the measurements said to be forced outliers.
-    [[nodiscard]] check_finding forced() {
-        check_finding result{"proved outliers", outcome::nothing, ""};
-        auto const begin = std::chrono::steady_clock::now();
-        for (std::size_t e = 0; e < problem_->experiments.size(); ++e) {
-            auto const& own = problem_->experiments[e];
-            plain_run<Fast> run(problem_->model, problem_->choice, own,
-                                options_.certificate.enclosure);
-            std::vector<std::size_t> which;
-            for (auto const& f : stored_->forced) {
-                if (f.scenario != own.name) continue;
-                auto const k = index_of_sample(run.samples(), f);
-                if (!k)
-                    return {result.what, outcome::refuted, "no such measurement in " + own.name};
-                if (e < hits_.size() && !hits_[e].empty() && hits_[e][*k]) {
-                    return {result.what, outcome::refuted, "the witness meets one in " + own.name};
-                }
-                which.push_back(*k);
-            }
-            if (which.empty()) continue;
-            result = {result.what, outcome::verified, "every box violates those stated"};
-            std::vector<box> waiting;
-            if (!stored_->rows.empty()) {
-                auto all = stored_->rows[0].set;
-                for (auto const& row : stored_->rows) all = hull(all, row.set);
-                waiting.push_back(intersect(all, problem_->prior));
-            }
-            while (!waiting.empty()) {
-                auto const region = std::move(waiting.back());
-                waiting.pop_back();
-                bool const needed =
-                    std::any_of(stored_->rows.begin(), stored_->rows.end(), [&](auto const& row) {
-                        return !is_empty(intersect(row.set, region));
-                    });
-                if (!needed || all_violated(run(own.initial, region), run.samples(), which)) {
-                    continue;
-                }
-                auto const side = widest(region);
-                double const spent =
-                    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-                if (!side || spent > 0.5 * options_.seconds) {
-                    return {result.what, outcome::undecided, "no proof within the budget"};
-                }
-                auto [low, high] = bisect(region, *side, mid(region[*side]));
-                waiting.push_back(std::move(low));
-                waiting.push_back(std::move(high));
-            }
-        }
-        return result;
-    }
-    [[nodiscard]] std::optional<std::size_t>
-    index_of_sample(record const& samples, stored_identification::outlier const& f) const {
-        auto const& channels = problem_->model.about.channels;
-        for (std::size_t k = 0; k < samples.size(); ++k) {
-            if (samples[k].time == f.time && channels[samples[k].channel].name == f.channel)
-                return k;
-        }
-        return std::nullopt;
-    }
-    static bool all_violated(plain_outputs<Fast> const& known, record const& samples,
-                             std::vector<std::size_t> const& which) {
-        using traits = interval_traits<Fast>;
-        return std::all_of(which.begin(), which.end(), [&](std::size_t k) {
-            if (k >= known.outputs.size() || !known.outputs[k].defined) return false;
-            auto const& b = samples[k].bound;
-            return traits::disjoint(known.outputs[k].value, traits::bounds(b.lower(), b.upper()));
-        });
-    }
-    [[nodiscard]] std::optional<std::size_t> widest(box const& x) const {
-        std::optional<std::size_t> best;
-        double most = 1e-12;
-        for (std::size_t j = 0; j < x.size(); ++j) {
-            double const whole = width(problem_->prior[j]);
-            if (!(whole > 0) || !(width(x[j]) / whole > most)) continue;
-            most = width(x[j]) / whole;
-            best = j;
-        }
-        return best;
-    }
-
     [[nodiscard]] check_finding inside() {
         std::vector<box_claim> claims;
         std::vector<std::size_t> rows;
@@ -310,8 +234,7 @@ private:
     std::vector<std::vector<bool>> hits_; ///< of the witness
 };
 
-/// The verdict on a whole result: refuted when anything is, undecided when anything is, else
-/// verified.
+/// The verdict on a whole result: refuted or undecided when anything is, else verified.
 [[nodiscard]] inline check_finding::outcome overall(std::vector<check_finding> const& findings) {
     using outcome = check_finding::outcome;
     auto const any = [&](outcome o) {

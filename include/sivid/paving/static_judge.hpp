@@ -3,7 +3,8 @@
 #define SIVID_PAVING_STATIC_JUDGE_HPP
 
 #include <sivid/number/pack_traits.hpp>
-#include <sivid/paving/flat_paving.hpp>
+#include <sivid/paving/mean_value_cut.hpp>
+#include <sivid/paving/static_block.hpp>
 #include <sivid/paving/static_program.hpp>
 
 #include <algorithm>
@@ -21,29 +22,6 @@ enum class first_order {
     never,
     where_it_helps, ///< for outputs in which a parameter stands more than once
     always
-};
-
-/// Boxes that wait, with the measurements that are still open for each.
-struct static_block {
-    static_block(std::size_t sides, std::size_t words)
-        : boxes(sides), open(box_chunk::capacity * words), missed(box_chunk::capacity) {}
-
-    box_chunk boxes;
-    std::vector<std::uint64_t> open;   ///< by box and word: bit k is set while k is not decided
-    std::vector<std::uint32_t> missed; ///< by box: measurements that are certainly violated
-    std::size_t count = 0;
-
-    [[nodiscard]] bool full() const { return count == box_chunk::capacity; }
-    void copy(static_block const& from, std::size_t i, std::size_t to) {
-        boxes.copy(from.boxes, i, to);
-        missed[to] = from.missed[i];
-        auto const words = open.size() / box_chunk::capacity;
-        for (std::size_t w = 0; w < words; ++w) open[to * words + w] = from.open[i * words + w];
-    }
-    /// Copies of the last box up to a multiple of the lanes.
-    void pad(std::size_t lanes) {
-        for (auto i = count; i % lanes != 0; ++i) copy(*this, count - 1, i);
-    }
 };
 
 /// Tests W boxes at once against the measurements of a static problem.
@@ -65,7 +43,7 @@ public:
         : program_(problem),
           outliers_(problem.outliers),
           memory_(program_.template memory<I>()),
-          centre_(memory_),
+          cut_(program_),
           words_((program_.outputs() + 63) / 64),
           smear_(program_.parameters()) {
         for (std::size_t k = 0; k < program_.outputs(); ++k) {
@@ -75,9 +53,7 @@ public:
                                   (use == first_order::always ||
                                    (use == first_order::where_it_helps && program_.repeats(k))));
         }
-        for (auto* v : {&sides_, &core_, &whole_, &middle_, &deviation_, &terms_}) {
-            v->resize(program_.parameters());
-        }
+        sides_.resize(program_.parameters());
         core_lower_.resize(program_.parameters());
         core_upper_.resize(program_.parameters());
         undefined_.resize(program_.outputs());
@@ -165,9 +141,7 @@ private:
     void refine(static_block& l, std::size_t first, mask open, finding& found) {
         for (auto& s : smear_) s.fill(0);
         find_roles(l, first, open);
-        core_ = whole_ = sides_;
-        bool centred = false;
-        mask centre_cut{};
+        cut_.begin(sides_);
         for (std::size_t w = 0; w < words_; ++w) {
             std::array<mask, 64> whose{};
             std::uint64_t all = 0;
@@ -186,23 +160,22 @@ private:
                 program_.differentiate_at(memory_, k, undefined);
                 add_smear(k, whose[bit]);
                 if (!mean_value_[k]) continue;
-                if (!centred) centre_cut = centre();
-                centred = true;
-                mask bad = undefined | centre_cut;
-                auto const value = program_.value(centre_, k, bad);
-                contract(l, first, k, value, whose[bit] & ~bad);
+                auto const says = cut_.use(program_, memory_, k, bounds_[k],
+                                           whose[bit] & ~undefined, outer_, inner_);
+                close(l, first, w, std::uint64_t{1} << bit, says.hit, says.miss);
             }
         }
-        if (!centred) return;
+        if (!cut_.used()) return;
         conclude(l, first, found);
         for (std::size_t j = 0; j < sides_.size(); ++j) {
-            found.outside |= traits::is_empty(sides_[j]) & open;
-            found.inside |= traits::is_empty(core_[j]) & open;
-            core_[j] = traits::intersect(core_[j], sides_[j]);
-            found.inside |= traits::is_empty(core_[j]) & open & ~found.outside;
-            sides_[j].store(l.boxes.lower(j) + first, l.boxes.upper(j) + first);
-            core_[j].store(core_lower_[j].data(), core_upper_[j].data());
+            auto const& rest = cut_.rest(j);
+            found.outside |= traits::is_empty(rest) & open;
+            auto const core = traits::intersect(cut_.core(j), rest);
+            found.inside |= traits::is_empty(core) & open;
+            rest.store(l.boxes.lower(j) + first, l.boxes.upper(j) + first);
+            core.store(core_lower_[j].data(), core_upper_[j].data());
         }
+        found.inside &= ~found.outside;
     }
 
     /// In which lanes every open measurement must hold for a point to be feasible (no violation is
@@ -229,7 +202,7 @@ private:
         for (std::size_t n = 0; n < W; ++n) own[n] = static_cast<double>((whose >> n) & 1U);
         for (std::size_t j = 0; j < sides_.size(); ++j) {
             program_.slope(memory_, k, j).store(lo.data(), hi.data());
-            whole_[j].store(from.data(), to.data());
+            sides_[j].store(from.data(), to.data());
             for (std::size_t n = 0; n < W; ++n) {
                 double const size = std::max(std::abs(lo[n]), std::abs(hi[n]));
                 double const spread = own[n] * size * (to[n] - from[n]);
@@ -238,75 +211,12 @@ private:
         }
     }
 
-    /// Midpoints of the sides into `centre_`. @returns where the common part is not defined there
-    mask centre() {
-        for (std::size_t j = 0; j < sides_.size(); ++j) {
-            std::array<double, W> lo{}, hi{};
-            whole_[j].store(lo.data(), hi.data());
-            for (std::size_t n = 0; n < W; ++n) lo[n] += 0.5 * (hi[n] - lo[n]);
-            middle_[j] = I::load(lo.data(), lo.data());
-            deviation_[j] = traits::sub(whole_[j], middle_[j]);
-        }
-        return program_.start(centre_, [this](std::size_t j) { return middle_[j]; });
-    }
-
-    /// \f$ g_k(p) = g_k(m) + \sum_j d_j (p_j - m_j) \f$ with some d in the gradient over the box:
-    /// closes k where that decides, keeps in `sides_` what may satisfy it and in `core_` what may
-    /// violate it, in the lanes `use`.
-    void contract(static_block& l, std::size_t first, std::size_t k, I const& value, mask use) {
-        I y = value;
-        for (std::size_t j = 0; j < terms_.size(); ++j) {
-            terms_[j] = traits::mul(program_.slope(memory_, k, j), deviation_[j]);
-            y = traits::add(y, terms_[j]);
-        }
-        y = traits::intersect(y, program_.last_value(memory_, k));
-        auto const& b = bounds_[k];
-        close(l, first, k / 64, std::uint64_t{1} << (k % 64), traits::subset(y, b) & use,
-              traits::disjoint(y, b) & use);
-        if ((outer_ & use) != 0) shrink(sides_, traits::sub(b, value), k, outer_ & use);
-        if ((inner_ & use) == 0) return;
-        // What violates: above the bound where y is not below it, and the other way round.
-        std::array<double, W> lo{}, hi{}, from{}, to{};
-        y.store(lo.data(), hi.data());
-        b.store(from.data(), to.data());
-        for (std::size_t n = 0; n < W; ++n) {
-            bool const only_above = lo[n] >= from[n], only_below = hi[n] <= to[n];
-            lo[n] = only_above ? to[n] : -HUGE_VAL;
-            hi[n] = only_below && !only_above ? from[n] : HUGE_VAL;
-        }
-        shrink(core_, traits::sub(I::load(lo.data(), hi.data()), value), k, inner_ & use);
-    }
-
-    /// Contracts x, in some lanes, to what may have \f$ \sum_j d_j (p_j - m_j) \in target \f$.
-    void shrink(std::vector<I>& x, I const& target, std::size_t k, mask use) {
-        for (std::size_t j = 0; j < x.size(); ++j) {
-            I others = target;
-            for (std::size_t i = 0; i < x.size(); ++i) {
-                if (i != j) others = traits::sub(others, terms_[i]);
-            }
-            mask undefined{};
-            I allowed = traits::add(traits::div(others, program_.slope(memory_, k, j), undefined),
-                                    middle_[j]);
-            auto const lanes = use & ~undefined; // a slope of 0 excludes nothing
-            if (lanes == 0) continue;
-            if (lanes != traits::all_lanes) {
-                auto const kept = [lanes](double bound) {
-                    return [lanes, bound](std::size_t n) {
-                        return ((lanes >> n) & 1U) != 0 ? std::nan("") : bound;
-                    };
-                };
-                allowed =
-                    traits::hull(allowed, traits::from_lanes(kept(-HUGE_VAL), kept(HUGE_VAL)));
-            }
-            x[j] = traits::intersect(x[j], allowed);
-        }
-    }
-
     static_program program_;
     std::size_t outliers_;
-    std::vector<I> memory_, centre_;
+    std::vector<I> memory_;
+    mean_value_cut<W> cut_;
     std::size_t words_;
-    std::vector<I> bounds_, sides_, core_, whole_, middle_, deviation_, terms_;
+    std::vector<I> bounds_, sides_;
     mask outer_ = 0, inner_ = 0;
     std::vector<mask> undefined_; ///< of the outputs that were evaluated last
     std::vector<bool> mean_value_;
