@@ -6,6 +6,7 @@
 #include "model.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -21,6 +22,7 @@ enum exit_code {
     bad_input = 2,
     undecided = 3,
     inconsistent = 4,
+    refuted = 5, ///< of `check`: the result is not what its data prove
     internal_error = 70
 };
 
@@ -37,6 +39,19 @@ struct identify_command {
     std::string command_line; ///< for the report's footer
 };
 [[nodiscard]] int run(identify_command const& command);
+
+struct check_command {
+    hovercraft craft;
+    std::filesystem::path result;
+    std::filesystem::path dataset; ///< empty: where the result says
+    bool all = false;              ///< every box instead of a sample
+    std::size_t sample = 24;
+    std::uint64_t seed = 1;
+    std::optional<double> budget; ///< [s]; by default 10, or 3600 for all
+    bool multiprecision = false;  ///< boxes too
+};
+/// Ends with 0 when verified, `undecided` when not within the budget, `refuted` otherwise.
+[[nodiscard]] int run(check_command const& command);
 
 struct diagnose_command {
     hovercraft craft;

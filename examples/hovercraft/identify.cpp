@@ -3,6 +3,7 @@
 #include "console/console.hpp"
 
 #include <sivid/io/dataset.hpp>
+#include <sivid/io/dataset_digest.hpp>
 #include <sivid/io/identification_csv.hpp>
 #include <sivid/io/identification_json.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
@@ -70,6 +71,13 @@ void print_summary(sivid::identification_problem const& problem, sivid::identifi
               << " and result.json, boxes.csv, outputs.csv beside it\n";
 }
 
+/// The way from one folder to another, if there is one.
+std::string seen_from(std::filesystem::path const& here, std::filesystem::path const& there) {
+    std::error_code fault;
+    auto const way = std::filesystem::relative(there, here, fault);
+    return fault ? std::string{} : way.generic_string();
+}
+
 int exit_code_of(sivid::verdict v) {
     switch (v) {
     case sivid::verdict::consistent:
@@ -89,6 +97,7 @@ int run(identify_command const& c) {
     auto const model = sivid::record_model(c.craft);
     auto const data = sivid::read_dataset(c.dataset, sivid::names_of(model.about));
     auto const problem = sivid::problem_from_dataset(data, model, c.outliers);
+    auto const digest = sivid::dataset_digest(c.dataset);
     auto const further = sivid::assumptions_of(data);
     prepare_folder(c.out);
 
@@ -144,7 +153,10 @@ int run(identify_command const& c) {
     sivid::write_atomically(
         c.out / "result.json",
         sivid::identification_json(problem, found,
-                                   {.dataset = data.id, .further_assumptions = further}));
+                                   {.dataset = data.id,
+                                    .further_assumptions = further,
+                                    .source_folder = seen_from(c.out, c.dataset),
+                                    .source_digest = digest}));
     print_summary(problem, found, data.id, c.out);
     if (baseline) {
         std::cout << "  beside it, Algorithm 1 of the report: not excluded at most "

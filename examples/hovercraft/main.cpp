@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// hovercraft identify | diagnose | generate | simulate | rank: the reference example on the command
-// line.
+// hovercraft identify | check | diagnose | generate | simulate | rank: the reference example on the
+// command line.
 #include "commands.hpp"
 
 #include <sivid/io/text_file.hpp>
@@ -116,6 +116,7 @@ public:
     explicit program(std::string command_line) : line_{std::move(command_line)} {
         app_.require_subcommand(1);
         add_identify();
+        add_check();
         add_diagnose();
         add_generate();
         add_simulate();
@@ -160,6 +161,32 @@ private:
                 identify_.craft = shared_.craft();
                 identify_.command_line = line_;
                 return run(identify_);
+            };
+        });
+    }
+
+    void add_check() {
+        auto* const s = app_.add_subcommand(
+            "check", "prove the result of `identify` anew, independently of how it was found");
+        auto& c = check_;
+        s->add_option("result", c.result, "folder with result.json and boxes.csv")->required();
+        s->add_option("--dataset", c.dataset, "its data set, if it is not where the result says");
+        s->add_flag("--all", c.all, "every box instead of a sample");
+        s->add_option("--sample", c.sample, "so many inside and so many excluded boxes")
+            ->capture_default_str();
+        s->add_option("--seed", c.seed, "of the sample")->capture_default_str();
+        s->add_option("--budget", c.budget, "seconds for the boxes (10, with --all 3600)")
+            ->check(CLI::Range(0.0, 1e9));
+        s->add_flag("--multiprecision", c.multiprecision,
+                    "boxes too in 40 digits: 20 times slower");
+        s->footer(
+            "Exit codes: 0 verified, 2 bad input, 3 not verified within the budget, 5 refuted: "
+            "the result is not what its data prove.");
+        add_variants(*s, shared_);
+        s->callback([this] {
+            action_ = [this] {
+                check_.craft = shared_.craft();
+                return run(check_);
             };
         });
     }
@@ -286,6 +313,7 @@ private:
     std::string line_;
     shared_text shared_;
     identify_command identify_;
+    check_command check_;
     diagnose_command diagnose_;
     generate_command generate_;
     simulate_command simulate_;

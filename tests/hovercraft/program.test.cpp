@@ -206,6 +206,62 @@ TEST_CASE("bad input or usage: one message, exit code 2, nothing written") {
     CHECK_THAT(r.err, ContainsSubstring("cannot be created"));
 }
 
+TEST_CASE("check verifies what identify wrote, and refutes what was changed since") {
+    temporary_folder const folder;
+    auto const out = folder.path() / "out";
+    REQUIRE(run({"identify", h3, "--out", out.string(), "--quiet", "--accuracy", "0.02"}).code ==
+            0);
+    auto const check = [&](std::vector<std::string> more = {}) {
+        more.insert(more.begin(), {"check", out.string(), "--sample", "6"});
+        return run(more);
+    };
+    auto const good = check();
+    CHECK(good.code == 0);
+    CHECK_THAT(good.out, ContainsSubstring("h3: verified, boxes by sample in"));
+    CHECK(check({"--dataset", h3}).code == 0);
+    CHECK(check({"--budget", "0"}).code == 3); // nothing of the boxes is proved in no time
+
+    auto const text_of = [](fs::path const& file) {
+        std::ifstream in{file, std::ios::binary};
+        return std::string{std::istreambuf_iterator<char>{in}, {}};
+    };
+    auto const json = text_of(out / "result.json"), csv = text_of(out / "boxes.csv");
+    auto const tampered = [&](std::string const& file, std::string const& from,
+                              std::string const& to, std::string const& words) {
+        auto text = file == "boxes.csv" ? csv : json;
+        auto const at = text.find(from);
+        REQUIRE(at != std::string::npos);
+        folder.write("out/" + file, text.replace(at, from.size(), to));
+        auto const r = check();
+        CHECK(r.code == 5);
+        CHECK_THAT(r.out, ContainsSubstring(words) && ContainsSubstring("REFUTED"));
+        folder.write("out/" + file, file == "boxes.csv" ? csv : json);
+    };
+    tampered("result.json", "\"Sv\": 0.22", "\"Sv\": 0.23", "it does not explain S3");
+    tampered("result.json", "\"u\": 2", "\"u\": 3", "not allowed");
+    tampered("result.json", "\"consistent\"", "\"undecided\"", "does not follow");
+    tampered("result.json", "\"hull\": [0.21", "\"hull\": [0.22", "hull of Sv");
+    tampered("boxes.csv", "\nundecided,", "\ninside,", "is not the one stated");
+    auto const first = csv.find('\n') + 1;
+    tampered("boxes.csv", csv.substr(first, csv.find('\n', first) + 1 - first), "",
+             "is not the one stated");
+
+    // Another data set: one digit of one measurement.
+    auto const other = folder.path() / "other";
+    fs::copy(h3, other);
+    auto measured = text_of(other / "S3.measurements.csv");
+    auto const digit = measured.rfind("0.");
+    REQUIRE(digit != std::string::npos);
+    measured[digit + 2] = measured[digit + 2] == '1' ? '2' : '1';
+    folder.write("other/S3.measurements.csv", measured);
+    auto const r = check({"--dataset", other.string()});
+    CHECK(r.code == 5);
+    CHECK_THAT(r.out, ContainsSubstring("not the one identified"));
+
+    CHECK(run({"check", folder.path().string()}).code == 2);
+    CHECK(check({"--dataset", (folder.path() / "none").string()}).code == 2);
+}
+
 TEST_CASE("help is no error") {
     CHECK(run({"--help"}).code == 0);
     auto const r = run({"generate", "--help"});

@@ -56,8 +56,9 @@ inline std::pair<std::string, std::string> side_text(interval const& side, bool 
 
 /// The text of `boxes.csv`: one row for each inside, undecided or pending box. What no row covers
 /// of the prior is proved infeasible.
-/// @guarantee  as decimals: every point of an `inside` row is feasible, and every feasible point
-/// of the prior lies in some row
+/// @guarantee  as decimals: every point of an `inside` row is feasible; every feasible point of the
+/// prior lies in some row read outward to doubles (between neighbouring inside rows, which are
+/// printed inward, less than two floats are in none)
 [[nodiscard]] inline std::string boxes_csv(identification_problem const& problem,
                                            identification const& found) {
     std::string text = "verdict";

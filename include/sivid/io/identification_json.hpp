@@ -16,6 +16,8 @@ namespace sivid {
 struct identification_json_options {
     std::string dataset{};                          ///< the id of the data set
     std::vector<std::string> further_assumptions{}; ///< of `assumptions_of`, for instance
+    std::string source_folder{};                    ///< the data set, seen from the result's folder
+    std::string source_digest{}; ///< of `dataset_digest`; without it no source is written
 };
 
 /// A share of the prior as an interval within [0, 1].
@@ -38,6 +40,10 @@ struct identification_json_options {
     json_writer json;
     json.begin_object();
     json.key("format").string("sivid-identification-1").key("dataset").string(options.dataset);
+    if (!options.source_digest.empty()) {
+        json.key("source").begin_object().key("folder").string(options.source_folder);
+        json.key("sha256").string(options.source_digest).end_object();
+    }
     json.key("verdict").string(to_string(found.verdict));
     json.key("stop_reason").string(to_string(found.reason));
 
@@ -57,6 +63,11 @@ struct identification_json_options {
     json.key("volume").begin_object(layout::one_line);
     json.key("inner").bounds(share_of_whole(found.paving.inner_volume()));
     json.key("outer").bounds(share_of_whole(found.paving.outer_volume())).end_object();
+
+    json.key("rows").begin_object(layout::one_line); // of boxes.csv
+    for (auto const v : {box_verdict::inside, box_verdict::undecided, box_verdict::pending})
+        json.key(to_string(v)).integer(found.paving.count(v));
+    json.end_object();
 
     json.key("witness");
     if (found.witness) {

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Static problems of the literature, in the sizes that were measured with Ibex.
+#ifndef SIVID_BENCHMARKS_PAVING_PROBLEMS_HPP
+#define SIVID_BENCHMARKS_PAVING_PROBLEMS_HPP
+
+#include <sivid/paving/static_problem.hpp>
+
+#include <cmath>
+
+namespace paving_benchmark {
+
+/// y = p1^2 + p2^2.
+struct ring {
+    static constexpr auto name = "ring";
+    static constexpr auto channels = sivid::channels({{"y", "1"}});
+    static constexpr auto constants = [] {
+        using namespace sivid::literals;
+        return sivid::constants({{"p1", "1", 1_dec}, {"p2", "1", 1_dec}});
+    }();
+    template <class T>
+    sivid::channels_of<ring, T> observe(T const&, sivid::constants_of<ring, T> const& p) const {
+        return {sqr(p[0]) + sqr(p[1])};
+    }
+};
+
+/// y = p1 exp(-p2 t).
+struct decay {
+    static constexpr auto name = "decay";
+    static constexpr auto channels = sivid::channels({{"y", "1"}});
+    static constexpr auto constants = [] {
+        using namespace sivid::literals;
+        return sivid::constants({{"p1", "1", 2_dec}, {"p2", "1", 0.3_dec}});
+    }();
+    template <class T>
+    sivid::channels_of<decay, T> observe(T const& t, sivid::constants_of<decay, T> const& p) const {
+        return {p[0] * exp(-p[1] * t)};
+    }
+};
+
+inline sivid::box plane() { return {sivid::interval(-5, 5), sivid::interval(-5, 5)}; }
+
+inline sivid::static_problem ring_problem() {
+    return {sivid::record_static_model<ring>(),
+            {{"p1", "p2"}, {}},
+            plane(),
+            {{0, 0, sivid::interval(1, 2)}}};
+}
+
+/// Ten samples; with outliers the fourth and the eighth are half a unit off, and two may be.
+inline sivid::static_problem decay_problem(bool outliers) {
+    sivid::static_problem problem{
+        sivid::record_static_model<decay>(), {{"p1", "p2"}, {}}, plane(), {}};
+    for (int i = 0; i < 10; ++i) {
+        double y = 2 * std::exp(-0.3 * i) + 0.02 * std::sin(7.0 * i);
+        if (outliers && i == 3) y += 0.5;
+        if (outliers && i == 7) y -= 0.5;
+        problem.measurements.push_back(
+            {static_cast<double>(i), 0, sivid::interval(y - 0.05, y + 0.05)});
+    }
+    problem.outliers = outliers ? 2 : 0;
+    return problem;
+}
+
+} // namespace paving_benchmark
+
+#endif

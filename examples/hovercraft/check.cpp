@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "commands.hpp"
+#include "console/console.hpp"
+
+#include <sivid/io/dataset.hpp>
+#include <sivid/io/dataset_digest.hpp>
+#include <sivid/io/identification_check.hpp>
+#include <sivid/io/problem_from_dataset.hpp>
+#include <sivid/report/number_text.hpp>
+
+#ifdef SIVID_HAS_MPFI
+#include <sivid/number/mp_functions.hpp>
+#endif
+
+#include <iomanip>
+#include <iostream>
+
+namespace hovercraft_example {
+
+namespace {
+
+#ifdef SIVID_HAS_MPFI
+using exact_type = sivid::mp_interval;
+using fast_type = sivid::proven_interval;
+constexpr auto exact_words = "40 digits";
+constexpr auto fast_words = "doubles, elementary functions in 40 digits";
+#else
+using exact_type = sivid::interval;
+using fast_type = sivid::interval;
+constexpr auto exact_words = "doubles (built without MPFI)";
+constexpr auto fast_words = exact_words;
+#endif
+
+using outcome = sivid::check_finding::outcome;
+
+void print(sivid::check_finding const& f) {
+    std::cout << "  " << std::left << std::setw(16) << f.what << " " << std::setw(14)
+              << to_string(f.found) << " " << f.detail;
+    if (f.seconds > 0.01)
+        std::cout << (f.detail.empty() ? "" : ", ") << sivid::report::duration_text(f.seconds);
+    std::cout << std::endl;
+}
+
+int exit_code_of(outcome o) {
+    switch (o) {
+    case outcome::verified:
+    case outcome::nothing:
+        return 0;
+    case outcome::refuted:
+        return exit_code::refuted;
+    case outcome::undecided:
+        break;
+    }
+    return exit_code::undecided;
+}
+
+template <class Fast>
+std::vector<sivid::check_finding> work(sivid::identification_problem const& problem,
+                                       sivid::stored_identification const& stored,
+                                       sivid::identification_check_options const& options) {
+    return sivid::identification_check<exact_type, Fast>(problem, stored, options)(print);
+}
+
+} // namespace
+
+int run(check_command const& c) {
+    auto const stored = sivid::read_identification(c.result);
+    if (c.dataset.empty() && stored.source_folder.empty())
+        throw bad_request("the result does not say where its data set is: give --dataset");
+    auto const folder = c.dataset.empty() ? c.result / stored.source_folder : c.dataset;
+    auto const model = sivid::record_model(c.craft);
+    auto const data = sivid::read_dataset(folder, sivid::names_of(model.about));
+    auto problem = sivid::problem_from_dataset(data, model);
+    sivid::check_finding source{"data set", outcome::verified, "the one identified, by SHA-256"};
+    if (stored.source_digest.empty()) {
+        source = {"data set", outcome::nothing, "no digest in the result: " + data.id + " taken"};
+    } else if (sivid::dataset_digest(folder) != stored.source_digest) {
+        source = {"data set", outcome::refuted, "not the one identified"};
+    }
+    std::cout << "checking " << (c.result / "result.json").string() << " against "
+              << folder.lexically_normal().string() << "\n";
+    print(source);
+    if (source.found == outcome::refuted) return exit_code::refuted;
+    sivid::require_same_problem(problem, stored, c.result / "result.json");
+    bool own_budget = true;
+    for (auto& e : problem.experiments) {
+        own_budget = own_budget && e.outliers == stored.budget.at(e.name);
+        e.outliers = stored.budget.at(e.name);
+    }
+    if (!own_budget)
+        std::cout << "  note: the outlier budget is the result's, not the data set's\n";
+
+    console::watch_interrupts();
+    sivid::identification_check_options options;
+    options.all = c.all;
+    options.sample = c.sample;
+    options.seed = c.seed;
+    options.seconds = 0.5 * c.budget.value_or(c.all ? 3600 : 10);
+    options.certificate.keep_going = [] { return !console::interrupted(); };
+    auto const findings = c.multiprecision ? work<exact_type>(problem, stored, options)
+                                           : work<fast_type>(problem, stored, options);
+    auto const verdict = overall(findings);
+    double seconds = 0;
+    for (auto const& f : findings) seconds += f.seconds;
+    std::cout << "  witness and products in " << exact_words << "; boxes in "
+              << (c.multiprecision ? exact_words : fast_words)
+              << ", by first-order sets (Lohner), not by the Taylor models that found them\n"
+              << data.id << ": "
+              << (verdict == outcome::refuted     ? "REFUTED"
+                  : verdict == outcome::undecided ? "not verified within the budget"
+                  : c.all                         ? "verified, every box"
+                                                  : "verified, boxes by sample")
+              << " in " << sivid::report::duration_text(seconds) << "\n";
+    return exit_code_of(verdict);
+}
+
+} // namespace hovercraft_example

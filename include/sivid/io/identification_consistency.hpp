@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IO_IDENTIFICATION_CONSISTENCY_HPP
+#define SIVID_IO_IDENTIFICATION_CONSISTENCY_HPP
+
+#include <sivid/io/identification_reader.hpp>
+#include <sivid/io/product_formula.hpp>
+#include <sivid/paving/problem.hpp>
+#include <sivid/space/box_cover.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// What became of one statement of a stored result.
+struct check_finding {
+    enum class outcome { verified, refuted, undecided, nothing };
+    std::string what;
+    outcome found = outcome::nothing; ///< nothing: the result states nothing of the kind
+    std::string detail;
+    double seconds = 0;
+};
+
+[[nodiscard]] constexpr std::string_view to_string(check_finding::outcome o) {
+    switch (o) {
+    case check_finding::outcome::verified:
+        return "verified";
+    case check_finding::outcome::refuted:
+        return "REFUTED";
+    case check_finding::outcome::undecided:
+        return "not decided";
+    case check_finding::outcome::nothing:
+        return "nothing stated";
+    }
+    return "";
+}
+
+namespace io_detail {
+
+/// Bounds that differ by what rounding to decimals may cost.
+inline bool nearly(double a, double b, double scale) {
+    return a == b || std::abs(a - b) <= 4e-15 * scale;
+}
+inline bool nearly(interval const& a, interval const& b) {
+    if (is_empty(a) || is_empty(b)) return is_empty(a) && is_empty(b);
+    double const scale = std::max(mag(a), mag(b));
+    return nearly(a.lower(), b.lower(), scale) && nearly(a.upper(), b.upper(), scale);
+}
+inline double apart(interval const& a, interval const& b) {
+    return std::max({0.0, a.lower() - b.upper(), b.lower() - a.upper()});
+}
+inline check_finding agreement(std::string what, std::string const& fault,
+                               std::string const& detail) {
+    using outcome = check_finding::outcome;
+    return {std::move(what), fault.empty() ? outcome::verified : outcome::refuted,
+            fault.empty() ? detail : fault};
+}
+
+} // namespace io_detail
+
+/// Whether a result speaks of this problem: its parameters, its scenarios.
+/// @throws input_error when it speaks of another
+inline void require_same_problem(identification_problem const& problem,
+                                 stored_identification const& stored,
+                                 std::filesystem::path const& file) {
+    auto const fail = [&](std::string const& what) {
+        throw input_error{{.file = file.string()}, what, "give the data set of this result"};
+    };
+    auto const& names = problem.choice.unknown;
+    if (stored.parameters.size() != names.size()) fail("other parameters than the data set's");
+    for (std::size_t j = 0; j < names.size(); ++j) {
+        if (stored.parameters[j].name != names[j]) fail("other parameters than the data set's");
+    }
+    for (auto const& e : problem.experiments) {
+        if (stored.budget.count(e.name) == 0) {
+            fail(text_of("no outlier budget for the scenario ", in_quotes(e.name)));
+        }
+    }
+    if (stored.budget.size() != problem.experiments.size()) fail("other scenarios");
+}
+
+/// The hull of the rows is the one stated, and every row lies in the prior.
+[[nodiscard]] inline check_finding check_hull(identification_problem const& problem,
+                                              stored_identification const& stored) {
+    std::string fault;
+    for (std::size_t j = 0; j < stored.parameters.size(); ++j) {
+        auto range = interval_traits<interval>::empty();
+        auto const& prior = problem.prior[j];
+        double const slack = 2e-15 * mag(prior);
+        for (auto const& row : stored.rows) {
+            range = hull(range, row.set[j]);
+            if (row.set[j].lower() < prior.lower() - slack ||
+                row.set[j].upper() > prior.upper() + slack) {
+                fault = "a box leaves the prior of " + stored.parameters[j].name;
+            }
+        }
+        if (!io_detail::nearly(range, stored.parameters[j].range)) {
+            fault = "the hull of " + stored.parameters[j].name + " is not that of the boxes";
+        }
+    }
+    return io_detail::agreement("hull", fault, "that of all boxes, within the prior");
+}
+
+/// The stated numbers and volumes are those of the rows.
+[[nodiscard]] inline check_finding check_volumes(identification_problem const& problem,
+                                                 stored_identification const& stored) {
+    using traits = interval_traits<interval>;
+    interval inner{0.0}, outer{0.0};
+    std::map<std::string, std::size_t> counted;
+    for (auto const& row : stored.rows) {
+        auto const v = relative_volume(row.set, problem.prior);
+        outer = traits::add(outer, v);
+        if (row.verdict == box_verdict::inside) inner = traits::add(inner, v);
+        ++counted[std::string{to_string(row.verdict)}];
+    }
+    double const allowed = 1e-9 * outer.upper() + 1e-14;
+    std::string fault;
+    if (is_empty(stored.inner) || io_detail::apart(inner, stored.inner) > allowed) {
+        fault = "the inner volume is not that of the inside boxes";
+    }
+    if (is_empty(stored.outer) || io_detail::apart(outer, stored.outer) > allowed) {
+        fault = "the outer volume is not that of the boxes";
+    }
+    for (auto const& [kind, n] : stored.stated_rows) {
+        if (counted[kind] != n) fault = "the number of " + kind + " boxes is not the one stated";
+    }
+    return io_detail::agreement("volumes", fault,
+                                std::to_string(stored.rows.size()) + " boxes summed");
+}
+
+/// The verdict follows from witness and boxes.
+[[nodiscard]] inline check_finding check_verdict(stored_identification const& stored) {
+    bool const inside = std::any_of(stored.rows.begin(), stored.rows.end(), [](auto const& row) {
+        return row.verdict == box_verdict::inside;
+    });
+    auto const follows = stored.witness || inside ? verdict::consistent
+                         : stored.rows.empty()    ? verdict::inconsistent
+                                                  : verdict::undecided;
+    auto const words = std::string{to_string(stored.verdict)};
+    return io_detail::agreement(
+        "verdict", follows == stored.verdict ? "" : "'" + words + "' does not follow from the rest",
+        words + ", given the rest");
+}
+
+/// The ranges of the combinations are those over the boxes, evaluated in I.
+template <class I>
+[[nodiscard]] check_finding check_combinations(identification_problem const& problem,
+                                               stored_identification const& stored) {
+    using traits = interval_traits<I>;
+    if (stored.combinations.empty()) return {"combinations", check_finding::outcome::nothing, ""};
+    std::string fault;
+    for (auto const& c : stored.combinations) {
+        auto const formula = product_formula::parse(c.name, problem.choice.unknown);
+        if (!formula) {
+            fault = "the formula " + c.name + " is no product of the parameters";
+            continue;
+        }
+        auto low = HUGE_VAL, high = -HUGE_VAL;
+        for (auto const& row : stored.rows) {
+            basic_box<I> p(row.set.size());
+            for (std::size_t j = 0; j < p.size(); ++j) {
+                p[j] = traits::bounds(row.set[j].lower(), row.set[j].upper());
+            }
+            auto const value = formula->over(p);
+            low = std::min(low, value ? traits::lower(*value) : -HUGE_VAL);
+            high = std::max(high, value ? traits::upper(*value) : HUGE_VAL);
+        }
+        auto const range = low <= high ? interval_traits<interval>::bounds(low, high)
+                                       : interval_traits<interval>::empty();
+        double const slack = 1e-14 * mag(range);
+        bool const same = is_empty(range)
+                              ? is_empty(c.range)
+                              : !is_empty(c.range) &&
+                                    std::abs(range.lower() - c.range.lower()) <= slack &&
+                                    std::abs(range.upper() - c.range.upper()) <= slack;
+        if (!same) fault = "the range of " + c.name + " is not that over the boxes";
+    }
+    return io_detail::agreement("combinations", fault,
+                                std::to_string(stored.combinations.size()) + " evaluated anew");
+}
+
+/// The rows share no volume, and rows and gaps are all of the prior.
+[[nodiscard]] inline check_finding check_cover(identification_problem const& problem,
+                                               stored_identification const& stored,
+                                               box_cover const& found) {
+    using traits = interval_traits<interval>;
+    std::string fault;
+    if (!found.overlaps.empty()) {
+        fault = std::to_string(found.overlaps.size()) + " pairs of boxes overlap";
+    }
+    interval sum{0.0};
+    for (auto const& row : stored.rows) {
+        sum = traits::add(sum, relative_volume(intersect(row.set, problem.prior), problem.prior));
+    }
+    for (auto const& gap : found.gaps) {
+        sum = traits::add(sum, relative_volume(gap, problem.prior));
+    }
+    if (io_detail::apart(sum, interval(1.0)) > 1e-9) fault = "boxes and rest are not the prior";
+    return io_detail::agreement("cover", fault,
+                                "boxes disjoint; with " + std::to_string(found.gaps.size()) +
+                                    " excluded boxes between them all of the prior");
+}
+
+} // namespace sivid
+
+#endif // SIVID_IO_IDENTIFICATION_CONSISTENCY_HPP

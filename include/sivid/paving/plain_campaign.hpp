@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_PLAIN_CAMPAIGN_HPP
+#define SIVID_PAVING_PLAIN_CAMPAIGN_HPP
+
+#include <sivid/paving/plain_run.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// All experiments of a problem by plain runs: what they say of regions and of their parts.
+/// @tparam I  the interval type of the runs
+template <class I>
+class plain_campaign {
+public:
+    /// @param starts  where existence is to be proved from, a box per experiment; may be empty (all
+    /// starts of the experiment then)
+    plain_campaign(identification_problem const& problem, std::vector<box> starts,
+                   enclosure_options const& options)
+        : problem_(&problem), starts_(std::move(starts)) {
+        for (auto const& e : problem.experiments) {
+            runs_.push_back(
+                std::make_unique<plain_run<I>>(problem.model, problem.choice, e, options));
+        }
+    }
+
+    /// What the experiments say of a region: of all of them, or of those up to one that refutes it.
+    struct knowledge {
+        std::vector<plain_outputs<I>> all, chosen; ///< for all starts, for the chosen ones
+        bool refuted = false;                      ///< the whole region is
+    };
+
+    [[nodiscard]] std::size_t runs() const { return count_; }
+
+    /// Runs experiments over the region until one refutes it.
+    /// @cost  one validated run per experiment, two where starts are chosen
+    [[nodiscard]] knowledge learn(box const& region) {
+        knowledge known;
+        for (std::size_t e = 0; e < runs_.size() && !known.refuted; ++e) {
+            auto const& own = problem_->experiments[e];
+            ++count_;
+            known.all.push_back((*runs_[e])(own.initial, region));
+            known.chosen.emplace_back();
+            known.refuted = decide(known.all[e], runs_[e]->samples(), region, own.outliers) ==
+                            run_finding::refuted;
+            if (known.refuted || !has_chosen(e)) continue;
+            ++count_;
+            known.chosen[e] = (*runs_[e])(starts_[e], region);
+        }
+        return known;
+    }
+
+    /// Decides a part of the region that is known.
+    /// @guarantee  explained: for each parameter of the part there are starts for which every
+    /// experiment holds; refuted: for no parameter of it
+    [[nodiscard]] run_finding judge(knowledge const& known, box const& part) const {
+        if (known.refuted) return run_finding::refuted;
+        bool explained = true;
+        for (std::size_t e = 0; e < known.all.size(); ++e) {
+            auto const q = problem_->experiments[e].outliers;
+            auto const& samples = runs_[e]->samples();
+            auto const says = decide(known.all[e], samples, part, q);
+            if (says == run_finding::refuted) return says;
+            bool const holds = says == run_finding::explained ||
+                               (has_chosen(e) && decide(known.chosen[e], samples, part, q) ==
+                                                     run_finding::explained);
+            explained = explained && holds;
+        }
+        return explained ? run_finding::explained : run_finding::open;
+    }
+
+    /// How far side j of a part spreads an output, in widths of its measurement; a preference only.
+    [[nodiscard]] double spread(knowledge const& known, box const& part, std::size_t j) const {
+        double most = 0;
+        for (std::size_t e = 0; e < known.all.size(); ++e) {
+            auto const& samples = runs_[e]->samples();
+            for (std::size_t k = 0; k < known.all[e].outputs.size(); ++k) {
+                auto const& g = known.all[e].outputs[k].gradient;
+                double const slope = std::abs(g[g.size() - part.size() + j]);
+                double const room = std::max(width(samples[k].bound), 1e-300);
+                most = std::max(most, slope * (part[j].upper() - part[j].lower()) / room);
+            }
+        }
+        return most;
+    }
+
+private:
+    [[nodiscard]] bool has_chosen(std::size_t e) const {
+        return e < starts_.size() && !subset(problem_->experiments[e].initial, starts_[e]);
+    }
+
+    identification_problem const* problem_;
+    std::vector<box> starts_;
+    std::vector<std::unique_ptr<plain_run<I>>> runs_;
+    std::size_t count_ = 0;
+};
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_PLAIN_RUN_HPP
+#define SIVID_PAVING_PLAIN_RUN_HPP
+
+#include <sivid/enclosure/observation.hpp>
+#include <sivid/enclosure/trajectory.hpp>
+#include <sivid/paving/problem.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// What is known of an experiment's measurements over a region, as affine functions:
+///   \f$ y_k \in g_k \cdot r_0 + rest_k \f$ and \f$ y_k \in value_k \f$,
+///   \f$ r_0 = (x_0, p) - centre \f$.
+template <class I>
+struct plain_outputs {
+    std::vector<observation<I>> outputs; ///< of the measurements that the run reached, in order
+    basic_box<I> deviation;              ///< \f$ r_0 \f$ over the region, states first
+    std::vector<double> parameter_centre;
+};
+
+/// Runs one experiment by first-order sets in a scalar interval type: what certificates rest on.
+/// It shares the model and the Taylor series with identification, but neither the packs of
+/// intervals nor the Taylor models.
+/// @tparam I  `mp_interval` for 40 digits; `proven_interval` or `interval` for speed
+template <class I>
+class plain_run {
+    using traits = interval_traits<I>;
+
+public:
+    plain_run(recorded_model const& model, parameter_choice const& choice, experiment const& e,
+              enclosure_options const& options)
+        : flow_(std::make_unique<flow>(model, choice, e.inputs)),
+          samples_(sorted(e.measurements)),
+          begin_(e.begin),
+          run_(std::make_unique<trajectory<I>>(*flow_, options)),
+          look_(std::make_unique<observer<I>>(*flow_)) {}
+
+    [[nodiscard]] record const& samples() const { return samples_; }
+
+    /// All outputs for all starts and parameters of the boxes, up to where the enclosure ends.
+    /// @guarantee  every output of every trajectory from the boxes is in the forms given
+    [[nodiscard]] plain_outputs<I> operator()(box const& starts, box const& parameters) {
+        run_->begin(begin_, converted(starts), converted(parameters));
+        look_->set_ensemble(run_->ensemble());
+        plain_outputs<I> result;
+        result.deviation = run_->ensemble().deviation;
+        result.parameter_centre = run_->ensemble().parameter_centre;
+        std::vector<observation<I>> seen;
+        double seen_at = std::nan("");
+        for (auto const& m : samples_) {
+            while (run_->time() < m.time) {
+                if (!run_->step(m.time)) return result;
+            }
+            if (seen_at != m.time) seen = (*look_)(run_->set());
+            seen_at = m.time;
+            result.outputs.push_back(seen[m.channel]);
+        }
+        return result;
+    }
+
+private:
+    static basic_box<I> converted(box const& x) {
+        basic_box<I> result(x.size());
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            result[i] = traits::bounds(x[i].lower(), x[i].upper());
+        }
+        return result;
+    }
+
+    std::unique_ptr<flow> flow_;
+    record samples_;
+    double begin_;
+    std::unique_ptr<trajectory<I>> run_;
+    std::unique_ptr<observer<I>> look_;
+};
+
+/// What one experiment says of a part of a region.
+enum class run_finding {
+    explained, ///< at least n - q measurements hold, for all starts and parameters of the part
+    refuted,   ///< more than q measurements fail, for all of them
+    open
+};
+
+namespace paving_detail {
+
+/// The (k+1)-th largest, or the lowest number when there are not so many.
+inline double largest_but(std::vector<double> values, std::size_t k) {
+    if (values.size() <= k) return -HUGE_VAL;
+    auto const at = values.begin() + static_cast<std::ptrdiff_t>(k);
+    std::nth_element(values.begin(), at, values.end(), std::greater<>());
+    return *at;
+}
+
+/// Whether linear contraction of r_0 by the open measurements, at most `spare` of which may fail,
+/// leaves nothing. In each coordinate a feasible point satisfies all but `spare` of the bounds, so
+/// it is at least the (spare + 1)-th largest lower one.
+template <class I>
+bool contracts_to_nothing(plain_outputs<I> const& known, record const& samples,
+                          std::vector<std::size_t> const& open, basic_box<I> d, std::size_t spare) {
+    using traits = interval_traits<I>;
+    for (int sweep = 0; sweep < 3; ++sweep) {
+        std::vector<std::vector<double>> lows(d.size()), highs(d.size());
+        for (auto const k : open) {
+            auto const& o = known.outputs[k];
+            auto const& bound = samples[k].bound;
+            std::vector<I> terms;
+            I sum = traits::sub(o.rest, traits::bounds(bound.lower(), bound.upper()));
+            for (std::size_t c = 0; c < d.size(); ++c) {
+                terms.push_back(traits::mul(traits::point(o.gradient[c]), d[c]));
+            }
+            for (std::size_t c = 0; c < d.size(); ++c) {
+                if (o.gradient[c] == 0 || traits::is_point(d[c])) continue;
+                I others = sum; // rest - bound + the other terms; g_c r_c is its negative
+                for (std::size_t other = 0; other < d.size(); ++other) {
+                    if (other != c) others = traits::add(others, terms[other]);
+                }
+                typename traits::mask undefined{};
+                auto const g = traits::point(o.gradient[c]);
+                auto const allowed = traits::div(traits::neg(others), g, undefined);
+                if (undefined) continue;
+                lows[c].push_back(traits::lower(allowed));
+                highs[c].push_back(-traits::upper(allowed));
+            }
+        }
+        bool shrank = false;
+        for (std::size_t c = 0; c < d.size(); ++c) {
+            double const low = largest_but(std::move(lows[c]), spare);
+            double const high = -largest_but(std::move(highs[c]), spare);
+            if (low > high) return true;
+            I const less = traits::intersect(d[c], traits::bounds(low, high));
+            if (traits::is_empty(less)) return true;
+            shrank = shrank || traits::width(less) < 0.9 * traits::width(d[c]);
+            d[c] = less;
+        }
+        if (!shrank) break;
+    }
+    return false;
+}
+
+} // namespace paving_detail
+
+/// Decides a part of a region by what is known of the region.
+/// @param part      parameters, a subset of the region's; all starts of the region count
+/// @param outliers  how many measurements may fail
+template <class I>
+[[nodiscard]] run_finding decide(plain_outputs<I> const& known, record const& samples,
+                                 box const& part, std::size_t outliers) {
+    using traits = interval_traits<I>;
+    auto d = known.deviation;
+    auto const states = d.size() - part.size();
+    for (std::size_t j = 0; j < part.size(); ++j) {
+        auto const own = traits::sub(traits::bounds(part[j].lower(), part[j].upper()),
+                                     traits::point(known.parameter_centre[j]));
+        d[states + j] = traits::intersect(d[states + j], own);
+    }
+    std::size_t hits = 0, misses = 0;
+    std::vector<std::size_t> open;
+    for (std::size_t k = 0; k < known.outputs.size(); ++k) {
+        auto const& o = known.outputs[k];
+        if (!o.defined) continue;
+        I y = o.rest;
+        for (std::size_t c = 0; c < d.size(); ++c) {
+            if (o.gradient[c] == 0) continue;
+            y = traits::add(y, traits::mul(traits::point(o.gradient[c]), d[c]));
+        }
+        y = traits::intersect(y, o.value);
+        auto const bound = traits::bounds(samples[k].bound.lower(), samples[k].bound.upper());
+        if (traits::is_empty(y)) continue; // says nothing: never for a sound enclosure
+        if (traits::subset(y, bound)) {
+            ++hits;
+        } else if (traits::disjoint(y, bound)) {
+            ++misses;
+        } else {
+            open.push_back(k);
+        }
+    }
+    if (misses > outliers) return run_finding::refuted;
+    if (hits + outliers >= samples.size()) return run_finding::explained;
+    if (paving_detail::contracts_to_nothing(known, samples, open, d, outliers - misses)) {
+        return run_finding::refuted;
+    }
+    return run_finding::open;
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_STATIC_PROBLEM_HPP
+#define SIVID_PAVING_STATIC_PROBLEM_HPP
+
+#include <sivid/measurement/record.hpp>
+#include <sivid/model/bound_model.hpp>
+#include <sivid/model/model.hpp>
+#include <sivid/space/box.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace sivid {
+
+/// A model without states: its outputs are functions of time and constants, \f$ y = g(t, c) \f$.
+///     struct decay {
+///         static constexpr auto name = "decay";
+///         static constexpr auto channels = sivid::channels({{"y", "1"}});
+///         static constexpr auto constants = sivid::constants({{"a", "1", 1_dec}, ...});
+///         template <class T>
+///         sivid::channels_of<decay, T> observe(T const& t, sivid::constants_of<decay, T> const& c)
+///             const;
+///     };
+template <class M>
+concept static_model = requires {
+    M::channels;
+    M::constants;
+}
+&&requires(M const m, expression t, constants_of<M, expression> c) {
+    { M::name } -> std::convertible_to<std::string_view>;
+    { m.observe(t, c) } -> std::same_as<channels_of<M, expression>>;
+};
+
+/// Runs the functor once on the recording scalar.
+/// @guarantee  evaluating the graph with a sound interval type encloses the functor's real value
+template <static_model M>
+[[nodiscard]] recorded_model record_static_model(M const& model = {}) {
+    recorded_model result;
+    auto& about = result.about;
+    about.name = std::string(M::name);
+    for (auto const& y : M::channels) {
+        about.channels.push_back({std::string(y.name), std::string(y.unit)});
+    }
+    auto& g = result.g;
+    constants_of<M, expression> c;
+    for (std::size_t i = 0; i < c.size(); ++i) {
+        auto const& own = M::constants[i];
+        about.constants.push_back({std::string(own.name), std::string(own.unit),
+                                   literal{enclose(own.nominal), nearest(own.nominal)}});
+        c[i] = expression(g, g.leaf(operation::constant, i));
+    }
+    expression const t(g, g.leaf(operation::time, 0));
+    for (auto const& e : model.observe(t, c)) result.observe.push_back(e.in(g));
+    return result;
+}
+
+/// Which parameters in `prior` satisfy all measurements but `outliers` of them?
+///   p is feasible when \f$ g_k(t_k, p) \in [y_k] \f$ holds for at least n - `outliers` of the n
+///   measurements; where \f$ g_k \f$ is not defined, the measurement is violated.
+struct static_problem {
+    recorded_model model;    ///< without states and inputs
+    parameter_choice choice; ///< `choice.unknown` names the sides of `prior`
+    box prior;
+    record measurements;
+    std::size_t outliers = 0;
+
+    /// @throws std::invalid_argument that names what does not fit
+    void require_valid() const {
+        auto const fail = [](std::string const& what) {
+            throw std::invalid_argument("static problem: " + what);
+        };
+        if (!model.about.states.empty() || !model.about.inputs.empty()) {
+            fail("the model has states or inputs");
+        }
+        if (choice.unknown.empty()) fail("no unknown parameter");
+        if (choice.unknown.size() != prior.size()) fail("the prior needs one side per parameter");
+        if (is_empty(prior)) fail("the prior is empty");
+        for (auto const& side : prior) {
+            if (!std::isfinite(mag(side)) || !std::isfinite(width(side))) {
+                fail("the prior must be bounded");
+            }
+        }
+        if (measurements.empty()) fail("no measurement");
+        for (auto const& m : measurements) {
+            if (m.channel >= model.about.channels.size()) fail("unknown channel");
+            if (!std::isfinite(m.time)) fail("a measurement at no finite time");
+            if (is_empty(m.bound)) fail("an empty measurement");
+        }
+    }
+};
+
+} // namespace sivid
+
+#endif

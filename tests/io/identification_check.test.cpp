@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/io/identification_check.hpp>
+
+#include "io/stored_result.hpp"
+#include "support/catch.hpp"
+
+#ifdef SIVID_HAS_MPFI
+#include <sivid/number/mp_functions.hpp>
+#endif
+
+#include <map>
+
+using namespace sivid;
+using outcome = check_finding::outcome;
+
+namespace {
+
+#ifdef SIVID_HAS_MPFI
+using exact = mp_interval;
+using fast = proven_interval;
+#else
+using exact = interval;
+using fast = interval;
+#endif
+
+std::map<std::string, outcome> check(identification_problem const& problem,
+                                     stored_identification const& stored, bool all = false,
+                                     double seconds = 60) {
+    identification_check_options options;
+    options.all = all;
+    options.seconds = seconds;
+    std::map<std::string, outcome> result;
+    auto const findings = identification_check<exact, fast>(problem, stored, options)();
+    for (auto const& f : findings) result[f.what] = f.found;
+    result["overall"] = overall(findings);
+    return result;
+}
+
+std::size_t first(stored_identification const& stored, box_verdict v) {
+    std::size_t k = 0;
+    while (stored.rows[k].verdict != v) ++k;
+    return k;
+}
+
+} // namespace
+
+TEST_CASE("a result is verified by sample, a forced outlier included") {
+    for (bool const spoilt : {false, true}) {
+        auto const problem = io_support::two_rates_problem(spoilt);
+        auto found = check(problem, io_support::stored_result(problem).read());
+        CHECK(found["witness"] == outcome::verified);
+        CHECK(found["inside boxes"] == outcome::verified);
+        CHECK(found["excluded boxes"] == outcome::verified);
+        CHECK(found["proved outliers"] == (spoilt ? outcome::verified : outcome::nothing));
+        CHECK(found["overall"] == outcome::verified);
+    }
+}
+
+TEST_CASE("an empty paving is verified: nothing in the prior explains the data") {
+    auto const problem = io_support::impossible_problem();
+    auto found = check(problem, io_support::stored_result(problem).read(), true);
+    CHECK(found["excluded boxes"] == outcome::verified);
+    CHECK(found["overall"] == outcome::verified);
+}
+
+TEST_CASE("what was tampered with is refuted") {
+    auto const problem = io_support::two_rates_problem();
+    auto bad = io_support::stored_result(problem).read();
+    SECTION("a digit of the witness") {
+        bad.witness->parameters["a"] += 0.3;
+        CHECK(check(problem, bad)["witness"] == outcome::refuted);
+    }
+    SECTION("the witness's start") {
+        bad.witness->initial["run"]["x"] = 2.5;
+        CHECK(check(problem, bad)["witness"] == outcome::refuted);
+        bad.witness->initial.clear();
+        CHECK(check(problem, bad)["witness"] == outcome::refuted);
+    }
+    SECTION("undecided relabelled inside, the sums adapted") {
+        for (auto& row : bad.rows) row.verdict = box_verdict::inside;
+        bad.inner = bad.outer;
+        bad.stated_rows.clear();
+        auto found = check(problem, bad);
+        CHECK(found["volumes"] == outcome::verified);
+        CHECK(found["inside boxes"] == outcome::refuted);
+    }
+    SECTION("an excluded box listed as inside") {
+        bad.rows.push_back({box{interval(1.9, 2.0), interval(0.9, 1.0)}, box_verdict::inside});
+        auto found = check(problem, bad, true, 5);
+        CHECK(found["volumes"] == outcome::refuted);
+        CHECK(found["inside boxes"] == outcome::refuted);
+    }
+    SECTION("an inside box removed, the sums adapted") {
+        auto const k = first(bad, box_verdict::inside);
+        auto const gone = relative_volume(bad.rows[k].set, problem.prior);
+        bad.rows.erase(bad.rows.begin() + static_cast<std::ptrdiff_t>(k));
+        bad.inner = interval_traits<interval>::sub(bad.inner, gone);
+        bad.outer = interval_traits<interval>::sub(bad.outer, gone);
+        bad.stated_rows.clear();
+        auto found = check(problem, bad, true, 20);
+        CHECK(found["volumes"] == outcome::verified);
+        CHECK(found["excluded boxes"] == outcome::refuted);
+    }
+    SECTION("an outlier that is none") {
+        bad.forced.push_back({"run", 1.0, "x"});
+        CHECK(check(problem, bad)["proved outliers"] == outcome::refuted);
+        bad.forced[0].channel = "y";
+        CHECK(check(problem, bad)["proved outliers"] == outcome::refuted);
+    }
+    CHECK(check(problem, bad)["overall"] != outcome::nothing);
+}
+
+TEST_CASE("another data set is seen where the digest does not tell") {
+    auto const stored = io_support::stored_result(io_support::two_rates_problem()).read();
+    auto other = io_support::two_rates_problem();
+    for (auto& m : other.experiments[0].measurements) {
+        m.bound = interval(m.bound.lower() + 0.2, m.bound.upper() + 0.2);
+    }
+    auto found = check(other, stored);
+    CHECK(found["witness"] == outcome::refuted);
+    CHECK(found["inside boxes"] == outcome::refuted);
+}
+
+TEST_CASE("without a budget nothing is claimed") {
+    auto const problem = io_support::two_rates_problem();
+    auto found = check(problem, io_support::stored_result(problem).read(), false, -1);
+    CHECK(found["inside boxes"] == outcome::undecided);
+    CHECK(found["overall"] == outcome::undecided);
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// The stored identification of a small problem, to be read, checked and tampered with.
+#ifndef SIVID_TESTS_IO_STORED_RESULT_HPP
+#define SIVID_TESTS_IO_STORED_RESULT_HPP
+
+#include "io/small_identification.hpp"
+#include "io/support.hpp"
+
+#include <sivid/io/identification_csv.hpp>
+#include <sivid/io/identification_json.hpp>
+#include <sivid/io/identification_reader.hpp>
+
+#include <string>
+
+namespace io_support {
+
+class stored_result {
+public:
+    explicit stored_result(sivid::identification_problem const& problem) {
+        auto const found = two_rates_result(problem);
+        json_ = sivid::identification_json(problem, found,
+                                           {.dataset = "small",
+                                            .source_folder = "../data",
+                                            .source_digest = std::string(64, '0')});
+        csv_ = sivid::boxes_csv(problem, found);
+    }
+    [[nodiscard]] std::string const& json() const { return json_; }
+    [[nodiscard]] std::string const& csv() const { return csv_; }
+    /// Replaces the first occurrence; false when there is none.
+    bool replace_json(std::string const& from, std::string const& to) {
+        return replace(json_, from, to);
+    }
+    bool replace_csv(std::string const& from, std::string const& to) {
+        return replace(csv_, from, to);
+    }
+    [[nodiscard]] sivid::stored_identification read() const {
+        temporary_folder const folder;
+        folder.write("result.json", json_);
+        folder.write("boxes.csv", csv_);
+        return sivid::read_identification(folder.path());
+    }
+
+private:
+    static bool replace(std::string& text, std::string const& from, std::string const& to) {
+        auto const at = text.find(from);
+        if (at == std::string::npos) return false;
+        text.replace(at, from.size(), to);
+        return true;
+    }
+    std::string json_, csv_;
+};
+
+} // namespace io_support
+
+#endif

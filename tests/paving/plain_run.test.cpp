@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/paving/plain_run.hpp>
+
+#include "paving/plain_problem.hpp"
+#include "support/catch.hpp"
+
+#ifdef SIVID_HAS_MPFI
+#include <sivid/number/mp_functions.hpp>
+#endif
+
+using namespace sivid;
+
+namespace {
+
+template <class I>
+void check_forms() {
+    using traits = interval_traits<I>;
+    auto const problem = plain_problem::make();
+    auto const& e = problem.experiments[0];
+    plain_run<I> run(problem.model, problem.choice, e, {});
+    box const region{interval(0.45, 0.55)};
+    auto const known = run(e.initial, region);
+    REQUIRE(known.outputs.size() == 6);
+    for (double a = 0.45; a <= 0.55; a += 0.01) {
+        for (std::size_t k = 0; k < 6; ++k) {
+            double const exact = 2 * std::exp(-a * run.samples()[k].time);
+            auto const& o = known.outputs[k];
+            double const d = a - known.parameter_centre[0];
+            double const low = traits::lower(o.rest) + o.gradient[1] * d;
+            double const high = traits::upper(o.rest) + o.gradient[1] * d;
+            CHECK(low <= exact + 1e-12);
+            CHECK(exact <= high + 1e-12);
+            CHECK(traits::lower(o.value) <= exact + 1e-12);
+            CHECK(exact <= traits::upper(o.value) + 1e-12);
+            CHECK(high - low < 0.05);
+        }
+    }
+}
+
+template <class I>
+run_finding over(identification_problem const& problem, box const& region, box const& part) {
+    auto const& e = problem.experiments[0];
+    plain_run<I> run(problem.model, problem.choice, e, {});
+    return decide(run(e.initial, region), run.samples(), part, e.outliers);
+}
+
+} // namespace
+
+TEST_CASE("the affine forms hold the exact outputs") {
+    check_forms<interval>();
+#ifdef SIVID_HAS_MPFI
+    check_forms<mp_interval>();
+    check_forms<proven_interval>();
+#endif
+}
+
+TEST_CASE("parts are decided as the closed form says") {
+    auto const problem = plain_problem::make();
+    auto const f = plain_problem::feasible();
+    double const middle = mid(f);
+    box const around{interval(f.lower() - 0.02, f.upper() + 0.02)};
+    box const right{interval(middle - 5e-3, middle + 5e-3)};
+    box const wrong{interval(f.upper() + 2e-3, f.upper() + 0.01)};
+    CHECK(over<interval>(problem, right, right) == run_finding::explained);
+    CHECK(over<interval>(problem, right, box{interval(middle)}) == run_finding::explained);
+    CHECK(over<interval>(problem, wrong, wrong) == run_finding::refuted);
+    CHECK(over<interval>(problem, around, around) == run_finding::open);
+    CHECK(over<interval>(problem, box{interval(0.25, 1)}, box{interval(0.25, 1)}) ==
+          run_finding::open);
+}
+
+TEST_CASE("outliers are spared, and no more than allowed") {
+    box const truth{interval(0.49, 0.51)};
+    CHECK(over<interval>(plain_problem::make(2, 2), truth, truth) == run_finding::explained);
+    CHECK(over<interval>(plain_problem::make(2, 1), truth, truth) == run_finding::refuted);
+    box const wrong{interval(0.7, 0.71)};
+    CHECK(over<interval>(plain_problem::make(2, 2), wrong, wrong) == run_finding::refuted);
+    CHECK(over<interval>(plain_problem::make(0, 6), wrong, wrong) == run_finding::explained);
+}
+
+TEST_CASE("an unknown start is eliminated by linear contraction") {
+    auto const problem = plain_problem::make(0, 0, interval(1.5, 2.5));
+    box const wrong{interval(0.8, 0.81)}, right{interval(0.495, 0.505)};
+    CHECK(over<interval>(problem, wrong, wrong) == run_finding::refuted);
+    CHECK(over<interval>(problem, right, right) == run_finding::open);
+}
