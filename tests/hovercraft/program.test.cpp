@@ -84,6 +84,7 @@ nlohmann::json json_of(fs::path const& file) {
 }
 
 std::string const h3 = std::string{SIVID_SOURCE_DIR} + "/examples/hovercraft/data/h3";
+std::string const lagging = std::string{SIVID_SOURCE_DIR} + "/examples/hovercraft/data/rudder_lag";
 
 /// Rows of a table, with the number of cells of each checked.
 std::size_t rows(fs::path const& file) {
@@ -260,6 +261,48 @@ TEST_CASE("check verifies what identify wrote, and refutes what was changed sinc
 
     CHECK(run({"check", folder.path().string()}).code == 2);
     CHECK(check({"--dataset", (folder.path() / "none").string()}).code == 2);
+}
+
+TEST_CASE("diagnose says where, which and how far, and ends with 0 whatever it finds") {
+    temporary_folder const folder;
+    auto const out = folder.path() / "out";
+    auto r = run({"diagnose", lagging, "--out", out.string()});
+    CHECK(r.code == 0);
+    auto const found = json_of(out / "diagnosis.json");
+    CHECK(found["format"] == "sivid-diagnosis-1");
+    CHECK(found["dataset"] == "rudder_lag");
+    CHECK(found["gap"]["verdict"] == "certified");
+    double const lower = found["gap"]["inflation"][0], upper = found["gap"]["inflation"][1];
+    CHECK(lower > 10);
+    CHECK(upper < 1.1 * lower);
+    CHECK(found["answer"]["effects"] == nlohmann::json{"rudder_lag"});
+    auto const& cause = found["causes"][0];
+    CHECK(cause["verdict"] == "explains");
+    CHECK(std::abs(cause["estimates"]["rudder_lag.tau"].get<double>() - 0.111461) < 0.005);
+    CHECK(cause["witness"]["initial"]["S3"]["u"] == 2.0);
+    CHECK(found["shrink"]["holdout"][0].get<double>() > 0.95);
+    REQUIRE_FALSE(found["where"].empty());
+    std::string const place = found["where"][0]["name"];
+    CHECK((place == "delta" || place == "yaw" || place == "sway"));
+    for (auto const& relation : found["relations"]) {
+        CHECK((relation["equation"] == "yaw" || relation["equation"] == "sway"));
+    }
+    std::ifstream page{out / "report.html"};
+    std::string const text{std::istreambuf_iterator<char>{page}, {}};
+    CHECK_THAT(text, StartsWith("<!DOCTYPE html>") && ContainsSubstring("</html>"));
+    CHECK_THAT(text, ContainsSubstring("lag") && !ContainsSubstring("<script"));
+    CHECK_THAT(r.err, ContainsSubstring("a gap is proved"));
+    CHECK_THAT(r.out, ContainsSubstring("answer: rudder_lag (explains)"));
+
+    r = run({"diagnose", lagging, "--out", out.string(), "--budget", "0", "--quiet"});
+    CHECK(r.code == 0);
+    CHECK(r.err.empty());
+    auto const stopped = json_of(out / "diagnosis.json");
+    CHECK(stopped["interrupted"] == true);
+    CHECK(stopped["gap"]["verdict"] != "none");
+
+    r = run({"diagnose", (folder.path() / "nowhere").string(), "--out", out.string()});
+    CHECK(r.code == 2);
 }
 
 TEST_CASE("help is no error") {
