@@ -91,6 +91,20 @@ TEST_CASE("a proposed bound: once for each channel, from the fit scenarios alone
     CHECK_THAT(r.protocol.text(), ContainsSubstring("error bound of h, proposed"));
 }
 
+TEST_CASE("more outliers than the data set allows are told") {
+    auto table = smooth(300, 1);
+    for (auto const* spike : {"\n500,1,", "\n1500,1,"})
+        table = replaced(table, spike, std::string{spike} + "9");
+    auto const proposing = replaced(csv_mapping, "\"error\": 0.02", "\"error\": \"propose\"");
+    auto const r = import_csv(proposing, table);
+    CHECK(r.protocol.bounds.at(0).scenarios.at(0).second.outliers == 2);
+    CHECK(has_note(r.protocol, "2 samples may violate the proposed bound"));
+    auto const allowed = import_csv(
+        replaced(proposing, "\"max_outlier_fraction\": 0", "\"max_outlier_fraction\": 0.01"),
+        table);
+    CHECK_FALSE(has_note(allowed.protocol, "may violate"));
+}
+
 TEST_CASE("no bound is made up") {
     auto const proposing = replaced(csv_mapping, "\"error\": 0.02", "\"error\": \"propose\"");
     CHECK_THAT(

@@ -214,6 +214,6 @@ TEST_CASE("huge and tiny numbers never give an invalid data set") {
 }
 
 TEST_CASE("many damaged files are imported validly or refused", "[.long]") {
-    run(77, 30000, false);
-    run(78, 30000, true);
+    run(77, 10000, false);
+    run(78, 10000, true);
 }

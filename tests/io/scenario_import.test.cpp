@@ -51,6 +51,7 @@ TEST_CASE("a scenario lasts as long as its inputs") {
     CHECK(times(r.scenario.inputs[0]) == list{"0", "0.1", "0.2", "0.3"});
     CHECK(times(r.scenario.channels[0]) == list{"0", "0.1", "0.3"});
     CHECK(r.scenario.rows == 4);
+    CHECK(r.scenario.measurement_count() == 3);
     CHECK(has_note(r.protocol, "duration: as long as all inputs"));
     CHECK(has_note(r.protocol, "the times are exact"));
 }

@@ -5,7 +5,6 @@
 #include <sivid/io/import_mapping_reader.hpp>
 #include <sivid/io/scenario_import.hpp>
 #include <sivid/io/serial_log.hpp>
-#include <sivid/measurement/error_bound.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -81,10 +80,8 @@ private:
             auto& last = open_.back();
             last.after_break = i > 0;
             if (last.after_break)
-                protocol.add(
-                    kind::changed, name, "",
-                    "begins after a break: initial ranges are those of initial_after_break, "
-                    "or none");
+                protocol.add(kind::changed, name, "",
+                             "begins after a break: initial_after_break holds, not initial");
             import_protocol::scenario_summary summary;
             summary.name = name;
             summary.role = s.role == scenario_role::fit ? "fit" : "holdout";
@@ -93,7 +90,7 @@ private:
             summary.first = last.first_line;
             summary.last = last.last_line;
             summary.rows = last.rows;
-            for (auto const& q : last.channels) summary.measurements += q.samples.size();
+            summary.measurements = last.measurement_count();
             summary.duration = exact_decimal::shortest(*nearest(last.duration)).text();
             protocol.scenarios.push_back(std::move(summary));
         }
@@ -128,7 +125,8 @@ private:
                     if (same.mapping->name != q.mapping->name ||
                         same.mapping->error.from != bound_source::kind::proposed)
                         continue;
-                    note.scenarios.emplace_back(other.name, proposal(same));
+                    note.scenarios.emplace_back(other.name, proposal_for(same));
+                    warn(other, q.mapping->name, note.scenarios.back().second);
                     bound = std::max(bound, note.scenarios.back().second.bound);
                 }
             }
@@ -148,13 +146,14 @@ private:
         }
     }
 
-    static error_bound_proposal proposal(imported_quantity const& q) {
-        std::vector<double> times, values;
-        for (auto const& sample : q.samples) {
-            times.push_back(*nearest(sample.time));
-            values.push_back(*nearest(sample.reading.value));
-        }
-        return propose_error_bound(times, values);
+    /// Says where a proposed bound leaves more outliers than the data set allows.
+    void warn(open_scenario const& s, std::string const& name, error_bound_proposal const& p) {
+        if (p.outliers > mapping_.max_outlier_fraction.times(s.measurement_count()).floor())
+            result_.protocol.add(
+                kind::assumed, s.name, name,
+                text_of(std::to_string(p.outliers),
+                        " samples may violate the proposed bound, more than "
+                        "max_outlier_fraction allows: raise it, or state a bound"));
     }
 
     /// The bound of a sample with what its conversion adds.

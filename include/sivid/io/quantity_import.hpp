@@ -6,6 +6,7 @@
 #include <sivid/io/import_protocol.hpp>
 #include <sivid/io/recorded_table.hpp>
 #include <sivid/io/wrapping_counter.hpp>
+#include <sivid/measurement/error_bound.hpp>
 
 #include <cstddef>
 #include <optional>
@@ -28,6 +29,16 @@ struct imported_quantity {
     quantity_mapping const* mapping = nullptr;
     std::vector<imported_sample> samples;
 };
+
+/// What the readings say about their own error bound.
+[[nodiscard]] inline error_bound_proposal proposal_for(imported_quantity const& q) {
+    std::vector<double> times, values;
+    for (auto const& sample : q.samples) {
+        times.push_back(*nearest(sample.time));
+        values.push_back(*nearest(sample.reading.value));
+    }
+    return propose_error_bound(times, values);
+}
 
 /// Takes one quantity out of a recorded table: possible readings, counts followed beyond their
 /// range, units, error bounds of a column.

@@ -21,6 +21,12 @@ struct open_scenario {
     exact_decimal duration;
     std::vector<imported_quantity> inputs, channels; ///< in the order of the mapping
     std::size_t first_line = 0, last_line = 0, rows = 0;
+
+    [[nodiscard]] std::size_t measurement_count() const {
+        std::size_t count = 0;
+        for (auto const& q : channels) count += q.samples.size();
+        return count;
+    }
 };
 
 /// Brings one recorded stretch onto the time axis of a scenario: units, offset, duration. Samples
@@ -55,14 +61,11 @@ public:
         shift(table, result);
         result.duration = duration(result);
         for (auto& q : result.inputs) trim_input(q, result.duration);
-        std::size_t measurements = 0;
-        for (auto& q : result.channels) {
+        for (auto& q : result.channels)
             keep(q, [&](exact_decimal const& t) {
                 return *nearest(t) >= 0 && *nearest(t) <= *nearest(result.duration);
             });
-            measurements += q.samples.size();
-        }
-        if (measurements == 0)
+        if (result.measurement_count() == 0)
             fail(table.last_line, "no measurement lies within the duration",
                  "check the channels' columns and the time's offset");
         for (auto const& q : result.inputs) report_gaps(q);
