@@ -2,6 +2,7 @@
 #ifndef SIVID_PAVING_DATA_TEST_HPP
 #define SIVID_PAVING_DATA_TEST_HPP
 
+#include <sivid/paving/cut_contraction.hpp>
 #include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/problem.hpp>
@@ -30,6 +31,8 @@ struct data_test_options {
     /// by what was computed for the whole. Without it the test is the report's: enclosure against
     /// measurement, one integration a box.
     bool contract = true;
+    /// Contract by linear programs over all measurements together, too.
+    bool cut = true;
     /// A part of a box is integrated anew when more than this share of an undecided output's width
     /// is neither affine in the parameters nor shrinks with the part.
     double sharp_enough = 0.5;
@@ -225,6 +228,11 @@ private:
             add_smear(a, says.smear);
         }
         a.verdict = inside ? box_verdict::inside : box_verdict::undecided;
+        bool const cuts = !inside && options_.contract && options_.cut;
+        if (cuts && !cut_contraction()(known.all_starts, a.rest)) {
+            a.verdict = box_verdict::outside;
+            return 0;
+        }
         return share;
     }
 
