@@ -46,7 +46,8 @@ struct measured_sum {
 }
 
 /// A number that \f$ d_j \f$ (or \f$ -d_j \f$) exceeds for no unknowns that meet all weighted
-/// measurements; 1 when there is none below: \f$ d_j \le \sum_i w_i b_i - \min_d (\sum_i w_i y_i(d) - d_j) \f$ with the ends b_i.
+/// measurements; 1 when there is none below: \f$ d_j \le \sum_i w_i b_i - \min_d (\sum_i w_i y_i(d)
+/// - d_j) \f$ with the ends b_i.
 /// @guarantee  for any weights: bad ones prove little, never too much. Nonlinear terms of different
 ///   measurements cancel, remainders do not.
 /// @cost  O(terms) interval operations for each weight

@@ -176,7 +176,7 @@ inline void draw(identification& result, reduction const& map, subpaving const& 
         options.search.order = search_order::first_in;
     } else {
         options.search.accuracy_of_hull = true;
-        if (options.only_hulls) options.search.hull_gain = 0.01;
+        if (options.only_hulls) options.search.hull_gain = 0.02;
     }
     if (options.algorithm == algorithm::report_1) {
         for (auto& s : working.experiments) s.outliers = 0;
@@ -229,7 +229,8 @@ inline void draw(identification& result, reduction const& map, subpaving const& 
             auto const& what = structure.combinations[c];
             auto range = map ? left[c] : interval_traits<interval>::empty();
             for (auto const& b : result.paving.boxes()) {
-                if (!map && b.verdict != box_verdict::outside) range = hull(range, what.over(b.set));
+                if (!map && b.verdict != box_verdict::outside)
+                    range = hull(range, what.over(b.set));
             }
             result.combinations.push_back({what, range});
         }

@@ -53,8 +53,8 @@ private:
             if (b.verdict == box_verdict::inside) continue;
             bool meets = true;
             for (std::size_t k = 0; k < r.size() && meets; ++k) {
-                bool const flat = !(r[k].lower() < r[k].upper()) ||
-                                  !(b.set[k].lower() < b.set[k].upper());
+                bool const flat =
+                    !(r[k].lower() < r[k].upper()) || !(b.set[k].lower() < b.set[k].upper());
                 double const lo = b.set[k].lower();
                 double const hi = b.set[k].upper();
                 meets = flat ? lo <= r[k].upper() && r[k].lower() <= hi
