@@ -17,7 +17,8 @@ TEST_CASE("the volume of a set of products is that of a sample of the prior") {
         auto const map = support::reduction_of_products();
         auto const& prior = support::prior_of_products();
         std::vector<box> inside;
-        for (auto const& b : support::random_paving(d, map.problem().prior).boxes()) {
+        auto const reduced = support::random_paving(d, map.problem().prior);
+        for (auto const& b : reduced.boxes()) {
             if (b.verdict == box_verdict::inside) inside.push_back(b.set);
         }
         auto const volume = preimage_volume(map, prior)(inside);

@@ -36,7 +36,9 @@ inline sivid::subpaving random_paving(draws& d, box const& prior) {
     for (int k = 0; k < 12; ++k) {
         auto const which = d.below(boxes.size());
         auto const side = d.below(prior.size());
-        auto [low, high] = bisect(boxes[which], side, d.in(boxes[which][side]));
+        auto const& range = boxes[which][side];
+        double const cut = range.lower() + d.uniform(0.2, 0.8) * width(range);
+        auto [low, high] = bisect(boxes[which], side, cut);
         boxes[which] = std::move(low);
         boxes.push_back(std::move(high));
     }
