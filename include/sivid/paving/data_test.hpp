@@ -31,8 +31,7 @@ struct data_test_options {
     /// by what was computed for the whole. Without it the test is the report's: enclosure against
     /// measurement, one integration a box.
     bool contract = true;
-    /// Contract by linear programs over all measurements together, too.
-    bool cut = true;
+    bool cut = true; ///< contract by linear programs over all measurements, too
     /// A part of a box is integrated anew when more than this share of an undecided output's width
     /// is neither affine in the parameters nor shrinks with the part.
     double sharp_enough = 0.5;
@@ -70,7 +69,7 @@ public:
 
     [[nodiscard]] std::size_t integrations() const { return integrations_; }
     [[nodiscard]] std::shared_ptr<flow const> flow_of(std::size_t e) const { return flows_[e]; }
-    /// The measurements of an experiment in the order of their times.
+    /// In the order of time.
     [[nodiscard]] record const& record_of(std::size_t e) const { return records_[e]; }
 
     [[nodiscard]] assessment<knowledge> operator()(box const& parameters,
@@ -136,8 +135,10 @@ public:
                 if (options_.contract) results[k].rest = std::move(part);
                 add_smear(results[k], says.smear);
                 still_open.push_back(k);
-                // Not worth a run where the parameters alone spread the outputs too far.
-                if (start_matters && !says.explained && says.may_hold) {
+                // Not worth a run where neither the box nor, later, parts of it might hold.
+                bool const sharp = answers[n]->outputs() == answers[n]->measurements &&
+                                   says.sharpness <= options_.sharp_enough;
+                if (start_matters && !says.explained && (says.may_hold || sharp)) {
                     promising.push_back(found[k]->region);
                     whose.push_back(k);
                 }

@@ -152,7 +152,8 @@ inline void draw(identification& result, reduction const& map, subpaving const& 
         if (b.verdict == box_verdict::inside) inside.push_back(b.set);
     }
     preimage_volume const volume(map, prior);
-    result.paving.set_volumes(volume(inside), volume(left));
+    std::size_t const cells = std::clamp<std::size_t>(400'000 / (left.size() + 1), 8, 200);
+    result.paving.set_volumes(volume(inside, cells), volume(left, cells));
     result.volumes = volume_source::preimage;
     result.hull = result.paving.outer_hull();
     if (!result.paving.has_outer()) return;
