@@ -160,7 +160,6 @@ public:
         }
         return results;
     }
-    /// How many boxes are best given together.
     [[nodiscard]] std::size_t at_once() const {
         std::size_t most = 1;
         for (auto const& r : runs_) most = std::max(most, r->at_once());
