@@ -95,11 +95,15 @@
 #include <sivid/paving/campaign.hpp>
 #include <sivid/paving/certificate.hpp>
 #include <sivid/paving/combined_polynomial.hpp>
+#include <sivid/paving/cut_certificate.hpp>
+#include <sivid/paving/cut_contraction.hpp>
+#include <sivid/paving/cut_program.hpp>
 #include <sivid/paving/data_test.hpp>
 #include <sivid/paving/descent.hpp>
 #include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/fit.hpp>
 #include <sivid/paving/flat_paving.hpp>
+#include <sivid/paving/frontier.hpp>
 #include <sivid/paving/holdout_inflation.hpp>
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/inflation.hpp>
@@ -116,6 +120,8 @@
 #include <sivid/paving/misfit.hpp>
 #include <sivid/paving/plain_campaign.hpp>
 #include <sivid/paving/plain_run.hpp>
+#include <sivid/paving/preimage_paving.hpp>
+#include <sivid/paving/preimage_volume.hpp>
 #include <sivid/paving/problem.hpp>
 #include <sivid/paving/reduction.hpp>
 #include <sivid/paving/relaxed_intersection.hpp>

@@ -58,6 +58,27 @@ TEST_CASE("products, ratios and powers are found") {
     CHECK(formulas(three.combinations) == names{"p0*p1", "p1*p2"});
 }
 
+TEST_CASE("sums are multiplied out") {
+    auto const over = structure(4, [](auto const&, auto const& x, auto const& p, auto const&) {
+        return std::vector{(p[0] * p[1] - p[2] * x[0]) / p[3]};
+    });
+    CHECK(over.entangled == indices{0, 1, 2, 3});
+    CHECK(formulas(over.combinations) == names{"p0*p1/p3", "p2/p3"});
+    auto const factor = structure(3, [](auto const&, auto const& x, auto const& p, auto const&) {
+        return std::vector{p[0] * (p[1] * x[0] + p[2] - p[1])};
+    });
+    CHECK(factor.entangled == indices{0, 1, 2});
+    CHECK(formulas(factor.combinations) == names{"p0*p1", "p0*p2"});
+    auto const square = structure(2, [](auto const&, auto const& x, auto const& p, auto const&) {
+        return std::vector{sqr(p[0] + p[1] * x[0])};
+    });
+    CHECK(square.entangled.empty());
+    auto const divisor = structure(2, [](auto const&, auto const& x, auto const& p, auto const&) {
+        return std::vector{p[0] / (p[0] + p[1] * x[0])};
+    });
+    CHECK(divisor.entangled.empty()); // p0/p1 alone is known, but it is not looked for
+}
+
 TEST_CASE("parameters that stand alone somewhere are not entangled") {
     auto const sum = structure(2, [](auto const&, auto const& x, auto const& p, auto const&) {
         return std::vector{p[0] * p[1] * x[0] + p[1]};
@@ -167,6 +188,19 @@ TEST_CASE("the hovercraft knows L and S_g through their product only") {
     physical.lift = hovercraft::lift_area::rudder; // S_g alone in the side force
     auto const other = bind(record_model(physical), {{"Sv", "Sg", "L"}, {}}, {rotor, rudder});
     CHECK(find_combinations({&other}).entangled.empty());
+}
+
+TEST_CASE("the inertia of the hovercraft divides what turns it") {
+    sampled_signal const rotor({0, 3}, {80, 85}, interpolation::linear);
+    sampled_signal const rudder({0, 3}, {0.1, 0.4}, interpolation::linear);
+    auto const bound =
+        bind(record_model(hovercraft{}),
+             {{"Sv", "Sg", "m", "Iz", "D22", "D33", "Ff", "Su", "L"}, {}}, {rotor, rudder});
+    auto const found = find_combinations({&bound});
+    CHECK(found.entangled == indices{1, 3, 5, 8});
+    REQUIRE(found.combinations.size() == 2);
+    CHECK(found.combinations[0].formula == "D33/Iz");
+    CHECK(found.combinations[1].formula == "Sg*L/Iz");
 }
 
 TEST_CASE("ranges of combinations enclose their values") {

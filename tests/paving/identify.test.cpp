@@ -232,3 +232,64 @@ TEST_CASE("problems that do not fit are refused before any work") {
     p.experiments[0].measurements[0].time = HUGE_VAL;
     CHECK_THROWS_AS(identify(p), std::invalid_argument);
 }
+
+TEST_CASE("products with outliers and uncertain starts keep the truth, with volumes that hold") {
+    draws d(367);
+    int measured = 0;
+    for (int round = 0; round < 24; ++round) {
+        auto const q = d.below(3);
+        auto const planted = support::plant(d, 2,
+                                            {.experiments = 1 + d.below(3),
+                                             .samples = 8 + d.below(8),
+                                             .outliers = q,
+                                             .noise = d.uniform(0.01, 0.15),
+                                             .spread = d.coin() ? 0.02 : 0.0});
+        auto options = quick(algorithm::contracting, 1.0 / 64, 200);
+        options.only_hulls = d.below(3) == 0;
+        options.drawn_boxes = 50 + d.below(500);
+        CAPTURE(round, q);
+        auto const found = identify(planted.problem, options);
+        check_claims(planted, found, d, q);
+        CHECK(found.volumes == volume_source::preimage);
+        // A sample of the prior: what explains the data for the planted starts is not excluded.
+        for (int sample = 0; sample < 40; ++sample) {
+            auto const p = d.in(found.hull);
+            bool holds = true;
+            for (std::size_t e = 0; e < planted.starts.size(); ++e) {
+                holds = holds && planted.violated(e, p, planted.starts[e], -1e-10) <= q;
+            }
+            if (!holds) continue;
+            bool covered = false;
+            for (auto const& b : found.paving.boxes()) {
+                covered = covered || (b.verdict != box_verdict::outside && contains(b.set, p));
+            }
+            CHECK(covered);
+        }
+        measured += found.paving.inner_volume().lower() > 0 ? 1 : 0;
+        double drawn_inside = 0;
+        double drawn_left = 0;
+        for (auto const& b : found.paving.boxes()) {
+            double const share = mid(relative_volume(b.set, planted.problem.prior));
+            drawn_inside += b.verdict == box_verdict::inside ? share : 0;
+            drawn_left += b.verdict != box_verdict::outside ? share : 0;
+        }
+        CHECK(drawn_inside <= found.paving.inner_volume().upper() * (1 + 1e-9));
+        CHECK(drawn_left >= found.paving.outer_volume().lower() * (1 - 1e-9));
+    }
+    CHECK(measured > 5);
+}
+
+TEST_CASE("hulls alone take few boxes and are no wider than those of a paving by much") {
+    draws d(368);
+    auto const planted = support::plant(d, 0, {.samples = 15, .noise = 0.03});
+    auto options = quick(algorithm::contracting, 1.0 / 256, 5000);
+    options.search.sufficient_ratio = 0.9;
+    auto const paved = identify(planted.problem, options);
+    options.only_hulls = true;
+    auto const hulls = identify(planted.problem, options);
+    CHECK(hulls.boxes < paved.boxes);
+    for (std::size_t j = 0; j < 2; ++j) {
+        CHECK(width(hulls.hull[j]) < 1.1 * width(paved.hull[j]));
+    }
+    check_claims(planted, hulls, d, 0);
+}

@@ -55,8 +55,27 @@ struct dependence_structure {
 
 namespace model_detail {
 
-/// Exponent vector of each maximal product in which parameters stand, added to `found`.
-inline void collect_monomials(bound_model const& model, std::set<std::vector<int>>& found) {
+using parameter_monomial = std::vector<int>; ///< exponents, one per unknown parameter
+using monomial_set = std::set<parameter_monomial>;
+
+/// All products of a member of one set and one of the other, or its inverse.
+inline monomial_set products(monomial_set const& a, monomial_set const& b, int sign) {
+    monomial_set result;
+    for (auto const& left : a) {
+        for (auto const& right : b) {
+            auto both = left;
+            for (std::size_t j = 0; j < both.size(); ++j) both[j] += sign * right[j];
+            result.insert(std::move(both));
+        }
+    }
+    return result;
+}
+
+/// Monomials of the parameters through which all rates and outputs depend on them, added to
+/// `found`. Sums are multiplied out: each node is a sum of monomials, whose coefficients depend on
+/// the parameters through what was found already.
+inline void collect_monomials(bound_model const& model, monomial_set& found) {
+    constexpr std::size_t most = 24; // longer sums are functions of their monomials
     auto const& g = model.g;
     auto const count = model.parameter_count();
     auto outputs = model.rate;
@@ -69,42 +88,58 @@ inline void collect_monomials(bound_model const& model, std::set<std::vector<int
         needed[n.a] = true;
         if (is_binary(n.op)) needed[n.b] = true;
     }
-    std::vector<std::vector<int>> power(g.size(), std::vector<int>(count, 0));
-    auto const use = [&](node_id i) { found.insert(power[i]); };
+    parameter_monomial const none(count, 0);
+    std::vector<monomial_set> terms(g.size(), monomial_set{none});
+    auto const use = [&](node_id i) { found.insert(terms[i].begin(), terms[i].end()); };
     for (std::size_t k = 0; k < g.size(); ++k) {
         if (!needed[k]) continue;
         auto const& n = g.nodes()[k];
-        auto const combine = [&](int sign) {
-            for (std::size_t j = 0; j < count; ++j)
-                power[k][j] = power[n.a][j] + sign * power[n.b][j];
-        };
-        switch (n.op) {
-        case operation::constant:
-            power[k][static_cast<std::size_t>(n.index)] = 1;
-            break;
-        case operation::neg:
-            power[k] = power[n.a];
-            break;
-        case operation::mul:
-            combine(1);
-            break;
-        case operation::div:
-            combine(-1);
-            break;
-        case operation::sqr:
-            for (std::size_t j = 0; j < count; ++j) power[k][j] = 2 * power[n.a][j];
-            break;
-        case operation::pown:
-            for (std::size_t j = 0; j < count; ++j) power[k][j] = n.index * power[n.a][j];
-            break;
-        default: // any other operation sees its operands' products as they are
-            if (is_leaf(n.op)) break;
-            use(n.a);
-            if (is_binary(n.op)) use(n.b);
+        if (n.op == operation::constant) {
+            auto own = none;
+            own[static_cast<std::size_t>(n.index)] = 1;
+            terms[k] = {std::move(own)};
         }
+        if (is_leaf(n.op)) continue;
+        auto const& a = terms[n.a];
+        std::size_t const terms_of_b = is_binary(n.op) ? terms[n.b].size() : 1;
+        bool opaque = a.size() * terms_of_b > most;
+        if (!opaque) {
+            switch (n.op) {
+            case operation::neg:
+                terms[k] = a;
+                break;
+            case operation::add:
+            case operation::sub:
+                terms[k] = a;
+                terms[k].insert(terms[n.b].begin(), terms[n.b].end());
+                break;
+            case operation::mul:
+                terms[k] = products(a, terms[n.b], 1);
+                break;
+            case operation::div:
+                if (terms_of_b > 1) use(n.b);
+                terms[k] = terms_of_b > 1 ? a : products(a, terms[n.b], -1);
+                break;
+            case operation::sqr:
+                terms[k] = products(a, a, 1);
+                break;
+            case operation::pown:
+                opaque = a.size() > 1;
+                if (opaque) break;
+                terms[k] = a;
+                for (int times = 1; times < n.index; ++times) terms[k] = products(terms[k], a, 1);
+                break;
+            default:
+                opaque = true;
+            }
+        }
+        if (!opaque) continue;
+        use(n.a);
+        if (is_binary(n.op)) use(n.b);
+        terms[k] = {none};
     }
     for (auto const i : outputs) use(i);
-    found.erase(std::vector<int>(count, 0));
+    found.erase(none);
 }
 
 inline Eigen::Index rank_of(std::vector<std::vector<int>> const& rows, std::size_t columns) {

@@ -23,6 +23,13 @@ public:
     explicit combined_polynomial(std::size_t unknowns) : n_(unknowns) {}
 
     void add_constant(interval const& c) { constant_ = traits::add(constant_, c); }
+    /// Adds \f$ c \, d_{unknown} \f$.
+    void add_linear(std::size_t unknown, interval const& c) {
+        powers e(n_, 0);
+        e[unknown] = 1;
+        auto const [known_term, is_new] = terms_.emplace(std::move(e), c);
+        if (!is_new) known_term->second = traits::add(known_term->second, c);
+    }
 
     /// Where a variable of a response lies: \f$ q_v = middle + reach \cdot d_{unknown} \f$.
     struct place {

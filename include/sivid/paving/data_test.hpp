@@ -2,6 +2,7 @@
 #ifndef SIVID_PAVING_DATA_TEST_HPP
 #define SIVID_PAVING_DATA_TEST_HPP
 
+#include <sivid/paving/cut_contraction.hpp>
 #include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/problem.hpp>
@@ -30,6 +31,7 @@ struct data_test_options {
     /// by what was computed for the whole. Without it the test is the report's: enclosure against
     /// measurement, one integration a box.
     bool contract = true;
+    bool cut = true; ///< contract by linear programs over all measurements, too
     /// A part of a box is integrated anew when more than this share of an undecided output's width
     /// is neither affine in the parameters nor shrinks with the part.
     double sharp_enough = 0.5;
@@ -67,7 +69,7 @@ public:
 
     [[nodiscard]] std::size_t integrations() const { return integrations_; }
     [[nodiscard]] std::shared_ptr<flow const> flow_of(std::size_t e) const { return flows_[e]; }
-    /// The measurements of an experiment in the order of their times.
+    /// In the order of time.
     [[nodiscard]] record const& record_of(std::size_t e) const { return records_[e]; }
 
     [[nodiscard]] assessment<knowledge> operator()(box const& parameters,
@@ -133,8 +135,10 @@ public:
                 if (options_.contract) results[k].rest = std::move(part);
                 add_smear(results[k], says.smear);
                 still_open.push_back(k);
-                // Not worth a run where the parameters alone spread the outputs too far.
-                if (start_matters && !says.explained && says.may_hold) {
+                // Not worth a run where neither the box nor, later, parts of it might hold.
+                bool const sharp = answers[n]->outputs() == answers[n]->measurements &&
+                                   says.sharpness <= options_.sharp_enough;
+                if (start_matters && !says.explained && (says.may_hold || sharp)) {
                     promising.push_back(found[k]->region);
                     whose.push_back(k);
                 }
@@ -156,7 +160,6 @@ public:
         }
         return results;
     }
-    /// How many boxes are best given together.
     [[nodiscard]] std::size_t at_once() const {
         std::size_t most = 1;
         for (auto const& r : runs_) most = std::max(most, r->at_once());
@@ -225,6 +228,11 @@ private:
             add_smear(a, says.smear);
         }
         a.verdict = inside ? box_verdict::inside : box_verdict::undecided;
+        bool const cuts = !inside && options_.contract && options_.cut;
+        if (cuts && !cut_contraction()(known.all_starts, a.rest)) {
+            a.verdict = box_verdict::outside;
+            return 0;
+        }
         return share;
     }
 

@@ -6,6 +6,8 @@
 #include <sivid/paving/data_test.hpp>
 #include <sivid/paving/fit.hpp>
 #include <sivid/paving/invert.hpp>
+#include <sivid/paving/preimage_paving.hpp>
+#include <sivid/paving/preimage_volume.hpp>
 #include <sivid/paving/problem.hpp>
 #include <sivid/paving/reduction.hpp>
 
@@ -21,7 +23,7 @@ namespace sivid {
 
 /// How the prior is searched.
 enum class algorithm {
-    contracting, ///< mean-value contraction, smear bisection, largest box first, witness
+    contracting, ///< contraction by linear programs, smear bisection, largest box first, witness
     report_1,    ///< Algorithm 1 of the report: bisection alone, no outlier allowed
     report_2     ///< Algorithm 2 of the report with the consistent outlier rule
 };
@@ -30,6 +32,16 @@ struct identify_options {
     sivid::algorithm algorithm = sivid::algorithm::contracting;
     inversion_options search;
     data_test_options test;
+    /// Stop when the hulls no longer shrink; the paving stays coarse.
+    bool only_hulls = false;
+    /// Boxes tested to draw the paving of the prior, when the search ran in products of parameters.
+    std::size_t drawn_boxes = 1500;
+};
+
+/// How the volumes of a paving were computed.
+enum class volume_source {
+    boxes,   ///< summed over its boxes
+    preimage ///< proved for the preimage of a finer paving of products of the parameters
 };
 
 /// A parameter and one initial state per experiment that are proved to explain the data.
@@ -58,7 +70,9 @@ struct identification {
 
     sivid::verdict verdict = sivid::verdict::undecided;
     stop_reason reason = stop_reason::decided;
+    /// Of the prior: inside boxes are proved, what no other box covers is excluded by proof.
     subpaving paving;
+    volume_source volumes = volume_source::boxes;
     box hull; ///< contains every feasible parameter; empty sides when there is none
     std::optional<verified_witness> witness;
     std::vector<combination_hull> combinations;
@@ -121,6 +135,31 @@ find_forced(data_test& test, identification_problem const& problem, box const& h
     return forced;
 }
 
+/// Draws the paving of a reduced prior in the original one, and measures it there.
+inline void draw(identification& result, reduction const& map, subpaving const& reduced,
+                 box const& prior, identify_options const& options) {
+    preimage_test test(map, reduced);
+    auto drawing = options.search;
+    drawing.boxes = options.drawn_boxes;
+    drawing.seconds = 10; // nothing is integrated
+    drawing.progress = nullptr;
+    drawing.hull_gain = 0;
+    result.paving = invert(test, prior, drawing).paving;
+    std::vector<box> inside, left;
+    for (auto const& b : reduced.boxes()) {
+        if (b.verdict == box_verdict::outside) continue;
+        left.push_back(b.set);
+        if (b.verdict == box_verdict::inside) inside.push_back(b.set);
+    }
+    preimage_volume const volume(map, prior);
+    std::size_t const cells = std::clamp<std::size_t>(400'000 / (left.size() + 1), 8, 200);
+    result.paving.set_volumes(volume(inside, cells), volume(left, cells));
+    result.volumes = volume_source::preimage;
+    result.hull = result.paving.outer_hull();
+    if (!result.paving.has_outer()) return;
+    result.hull = intersect(result.hull, map.backward(prior, reduced.outer_hull()));
+}
+
 } // namespace paving_detail
 
 /// Finds the parameters in the prior that can explain the data.
@@ -136,6 +175,9 @@ find_forced(data_test& test, identification_problem const& problem, box const& h
     if (options.algorithm != algorithm::contracting) {
         options.test.contract = false;
         options.search.order = search_order::first_in;
+    } else {
+        options.search.accuracy_of_hull = true;
+        if (options.only_hulls) options.search.hull_gain = 0.02;
     }
     if (options.algorithm == algorithm::report_1) {
         for (auto& s : working.experiments) s.outliers = 0;
@@ -150,45 +192,52 @@ find_forced(data_test& test, identification_problem const& problem, box const& h
         if (!guess.parameters.empty()) {
             result.witness = verify_witness(test, working, guess.parameters, guess.starts);
             for (auto const& x0 : guess.starts) starts.push_back(point_box(x0));
-            test.set_starts(starts);
             result.guess = std::move(guess);
         }
     }
     auto const spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin);
     options.search.seconds = std::max(0.0, options.search.seconds - spent.count());
     auto const structure = dependence_of(working);
-    auto const spared = options.algorithm == algorithm::contracting
-                            ? reduction::find(working, structure)
-                            : std::nullopt;
-    auto found = [&] {
-        if (!spared) return invert(test, problem.prior, options.search);
-        data_test small(spared->problem(), options.test);
-        if (result.guess) small.set_starts(starts);
-        reduced_test<data_test> mapped(small, *spared);
-        auto inversion = invert(mapped, problem.prior, options.search);
-        result.integrations += small.integrations();
-        return inversion;
-    }();
-    result.paving = std::move(found.paving);
+    auto const map = options.algorithm == algorithm::contracting
+                         ? reduction::find(working, structure)
+                         : std::nullopt;
+    auto const& posed = map ? map->problem() : working;
+    std::optional<data_test> reduced;
+    if (map) reduced.emplace(posed, options.test);
+    auto& searching = reduced ? *reduced : test;
+    if (result.guess) searching.set_starts(starts);
+    auto search = options.search;
+    if (map) search.keep_outside = true; // what is drawn is told from them
+    auto found = invert(searching, posed.prior, search);
+    auto const left = found.paving.outer_hull();
     result.reason = found.reason;
     result.boxes = found.tested;
-    result.hull = result.paving.outer_hull();
-    if (result.witness || result.paving.count(box_verdict::inside) > 0) {
+    if (map) {
+        paving_detail::draw(result, *map, found.paving, problem.prior, options);
+    } else {
+        result.paving = std::move(found.paving);
+        result.hull = left;
+    }
+    if (result.witness || result.paving.inner_volume().lower() > 0 ||
+        result.paving.count(box_verdict::inside) > 0) {
         result.verdict = verdict::consistent;
     } else if (!result.paving.has_outer()) {
         result.verdict = verdict::inconsistent;
     }
     if (result.paving.has_outer()) {
         result.entangled = structure.entangled;
-        for (auto const& c : structure.combinations) {
-            auto range = interval_traits<interval>::empty();
+        for (std::size_t c = 0; c < structure.combinations.size(); ++c) {
+            auto const& what = structure.combinations[c];
+            auto range = map ? left[c] : interval_traits<interval>::empty();
             for (auto const& b : result.paving.boxes()) {
-                if (b.verdict != box_verdict::outside) range = hull(range, c.over(b.set));
+                if (!map && b.verdict != box_verdict::outside)
+                    range = hull(range, what.over(b.set));
             }
-            result.combinations.push_back({c, range});
+            result.combinations.push_back({what, range});
         }
-        result.forced = paving_detail::find_forced(test, working, result.hull);
+        result.forced = paving_detail::find_forced(searching, posed, left);
     }
+    if (reduced) result.integrations += reduced->integrations();
     result.integrations += test.integrations();
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

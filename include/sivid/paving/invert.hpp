@@ -3,6 +3,7 @@
 #define SIVID_PAVING_INVERT_HPP
 
 #include <sivid/number/guard.hpp>
+#include <sivid/paving/frontier.hpp>
 #include <sivid/paving/set_test.hpp>
 #include <sivid/paving/subpaving.hpp>
 
@@ -29,15 +30,14 @@ struct paving_progress {
     double outer = 1;        ///< relative volume not proved outside
 };
 
-/// Order in which waiting boxes are taken.
-enum class search_order {
-    largest_first, ///< anytime: the outer volume falls fastest
-    first_in       ///< the queue of the report's Algorithm 1
-};
-
 struct inversion_options {
     /// A box is left undecided when no side is wider than this fraction of the prior's side.
     double accuracy = 1e-3;
+    /// `accuracy` is a fraction of the hull of all that is not proved outside, instead.
+    bool accuracy_of_hull = false;
+    /// Stop when, since half as many boxes were tested, no side of that hull has shrunk by more
+    /// than this fraction (0: never).
+    double hull_gain = 0;
     /// Stop when the inner volume reaches this fraction of the outer one (1: never).
     double sufficient_ratio = 0.5;
     double seconds = 60;
@@ -57,73 +57,6 @@ struct inversion {
 };
 
 namespace paving_detail {
-
-/// Waiting boxes as a heap: by volume, or by age.
-template <class Knowledge>
-class frontier {
-public:
-    explicit frontier(search_order order) : order_(order) {}
-
-    struct item {
-        box set;
-        std::shared_ptr<Knowledge const> known;
-        double volume = 0;
-        double rank = 0;
-        double age = 0;
-    };
-
-    void push(box x, double volume, std::shared_ptr<Knowledge const> known) {
-        total_ += volume;
-        double const age = static_cast<double>(pushed_++);
-        double const rank = order_ == search_order::first_in ? -age : volume;
-        items_.push_back({std::move(x), std::move(known), volume, rank, -age});
-        std::push_heap(items_.begin(), items_.end(), after);
-    }
-    [[nodiscard]] item pop() {
-        std::pop_heap(items_.begin(), items_.end(), after);
-        auto next = std::move(items_.back());
-        items_.pop_back();
-        total_ -= next.volume;
-        return next;
-    }
-    [[nodiscard]] bool empty() const { return items_.empty(); }
-    [[nodiscard]] std::size_t size() const { return items_.size(); }
-    [[nodiscard]] double volume() const { return std::max(0.0, total_); }
-
-private:
-    static bool after(item const& a, item const& b) {
-        return a.rank < b.rank || (a.rank == b.rank && a.age < b.age);
-    }
-
-    search_order order_;
-    std::vector<item> items_;
-    std::size_t pushed_ = 0;
-    double total_ = 0;
-};
-
-/// The side to split: strongest smear, else widest against the prior, among the sides that are
-/// wider than the accuracy; nothing when there is none.
-[[nodiscard]] inline std::optional<std::size_t>
-side_to_split(box const& x, box const& prior, std::vector<double> const& smear, double accuracy) {
-    std::optional<std::size_t> best;
-    double best_rank = -1;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        double const whole = width(prior[i]);
-        double const share = whole > 0 ? width(x[i]) / whole : 0;
-        double const middle = mid(x[i]);
-        bool const splits = x[i].lower() < middle && middle < x[i].upper();
-        if (!(share > accuracy) || !splits) continue;
-        double const rank = smear.empty()   ? share
-                            : smear[i] >= 0 ? smear[i]
-                                            : 0; // NaN says nothing
-        if (rank > best_rank ||
-            (rank == best_rank && share > width(x[*best]) / width(prior[*best]))) {
-            best = i;
-            best_rank = rank;
-        }
-    }
-    return best;
-}
 
 template <class Test>
 struct knowledge_of {
@@ -168,6 +101,28 @@ template <set_test Test>
         if (v != box_verdict::outside || options.keep_outside) paving.add(std::move(x), v);
     };
     using item = typename paving_detail::frontier<knowledge>::item;
+    auto whole = prior; // what the accuracy is a fraction of
+    std::size_t measured_at = 0;
+    auto const split_side = [&](box const& x, std::vector<double> const& smear) {
+        auto side = paving_detail::side_to_split(x, whole, smear, options.accuracy);
+        if (side || !options.accuracy_of_hull || 4 * result.tested < 5 * measured_at) return side;
+        whole = waiting.hull(hull(paving.outer_hull(), x));
+        measured_at = result.tested;
+        return paving_detail::side_to_split(x, whole, smear, options.accuracy);
+    };
+    auto last_hull = prior;
+    std::size_t next_look = 8;
+    auto const hull_rests = [&] {
+        if (!(options.hull_gain > 0) || result.tested < next_look) return false;
+        next_look = 2 * result.tested;
+        auto const now = waiting.hull(paving.outer_hull());
+        bool rests = true;
+        for (std::size_t i = 0; i < now.size(); ++i) {
+            rests = rests && width(now[i]) >= (1 - options.hull_gain) * width(last_hull[i]);
+        }
+        last_hull = now;
+        return rests;
+    };
     // What a test found about a box goes into the paving, and its parts wait.
     auto const settle = [&](item of, auto found) {
         auto& x = of.set;
@@ -186,8 +141,7 @@ template <set_test Test>
             waiting.push(std::move(found.rest), after, std::move(found.knowledge));
             return;
         }
-        auto const side =
-            paving_detail::side_to_split(found.rest, prior, found.smear, options.accuracy);
+        auto const side = split_side(found.rest, found.smear);
         if (!side) {
             result.reason = stop_reason::accuracy_reached;
             decide(std::move(found.rest), box_verdict::undecided);
@@ -203,7 +157,7 @@ template <set_test Test>
     [[maybe_unused]] auto const halve = [&](std::vector<item>& items) {
         std::vector<item> halves;
         for (auto const& i : items) {
-            auto const side = paving_detail::side_to_split(i.set, prior, {}, options.accuracy);
+            auto const side = split_side(i.set, {});
             if (!side) return false;
             auto [low, high] = bisect(i.set, *side, mid(i.set[*side]));
             for (auto* half : {&low, &high}) {
@@ -226,6 +180,8 @@ template <set_test Test>
             stop = stop_reason::time_budget;
         } else if (result.tested >= options.boxes) {
             stop = stop_reason::box_budget;
+        } else if (hull_rests()) {
+            stop = stop_reason::accuracy_reached;
         } else if (inner > 0 && inner >= options.sufficient_ratio * outer &&
                    options.sufficient_ratio < 1) {
             stop = stop_reason::accuracy_reached;

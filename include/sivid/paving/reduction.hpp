@@ -4,13 +4,11 @@
 
 #include <sivid/model/combination.hpp>
 #include <sivid/paving/problem.hpp>
-#include <sivid/paving/set_test.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -138,103 +136,11 @@ public:
         return mid(p);
     }
 
-    /// Smear of the original parameters: that of a product, shared by its factors' relative widths.
-    [[nodiscard]] std::vector<double> smear(box const& p, box const& r,
-                                            std::vector<double> const& reduced) const {
-        std::vector<double> result(p.size(), 0.0);
-        for (std::size_t k = 0; k < sides_.size() && k < reduced.size(); ++k) {
-            if (!sides_[k].product) {
-                result[sides_[k].parameter] += reduced[k];
-                continue;
-            }
-            auto const& e = sides_[k].product->exponents;
-            double const whole = width(r[k]) / std::max(mag(r[k]), 1e-300);
-            for (std::size_t j = 0; j < e.size(); ++j) {
-                double const share = std::abs(e[j]) * width(p[j]) / std::max(mag(p[j]), 1e-300);
-                if (e[j] != 0 && whole > 0) result[j] += reduced[k] * share / whole;
-            }
-        }
-        return result;
-    }
+    [[nodiscard]] std::vector<side> const& sides() const { return sides_; }
 
 private:
     identification_problem problem_;
     std::vector<side> sides_;
-};
-
-/// Tests boxes of the original parameters by a test of the reduced ones, and shares what was
-/// computed among all boxes that map into the same region.
-template <learning_set_test Inner>
-class reduced_test {
-public:
-    using knowledge = typename Inner::knowledge;
-
-    reduced_test(Inner& inner, reduction const& map) : inner_(&inner), map_(&map) {}
-
-    [[nodiscard]] assessment<knowledge> operator()(box const& p,
-                                                   std::shared_ptr<knowledge const> const& given) {
-        auto result = judge(p, given);
-        return result.blind ? std::move(learn({p})[0]) : result;
-    }
-    [[nodiscard]] assessment<knowledge> judge(box const& p,
-                                              std::shared_ptr<knowledge const> const& given) const {
-        auto const r = map_->forward(p);
-        if (is_empty(r)) return {.verdict = box_verdict::outside, .rest = p};
-        // The way back keeps a little more than the region that `given` speaks of.
-        auto known = given && subset(r, given->region) ? given : nullptr;
-        double least = HUGE_VAL;
-        for (auto const& [size, what] : shared_) { // the smallest region around r knows best
-            if (size < least && subset(r, what->region)) {
-                least = size;
-                known = what;
-            }
-        }
-        return mapped_back(p, r, inner_->judge(r, known));
-    }
-    [[nodiscard]] std::vector<assessment<knowledge>> learn(std::vector<box> const& boxes) {
-        // None is empty: what `judge` finds empty is outside and not learnt about, and the image
-        // of a part of a box stays within the reduced prior.
-        std::vector<box> images;
-        for (auto const& p : boxes) images.push_back(map_->forward(p));
-        auto found = inner_->learn(images);
-        std::vector<assessment<knowledge>> results;
-        for (std::size_t k = 0; k < boxes.size(); ++k) {
-            if (found[k].knowledge) {
-                shared_.emplace_back(
-                    relative_volume(found[k].knowledge->region, map_->problem().prior).upper(),
-                    found[k].knowledge);
-            }
-            results.push_back(mapped_back(boxes[k], images[k], std::move(found[k])));
-        }
-        return results;
-    }
-    [[nodiscard]] std::size_t at_once() const { return inner_->at_once(); }
-
-private:
-    [[nodiscard]] assessment<knowledge> mapped_back(box const& p, box const& r,
-                                                    assessment<knowledge> found) const {
-        assessment<knowledge> result{.rest = p};
-        result.verdict = found.verdict;
-        result.knowledge = std::move(found.knowledge);
-        result.blind = found.blind;
-        if (found.verdict == box_verdict::outside || found.blind) return result;
-        result.smear = map_->smear(p, r, found.smear);
-        // Inside holds for the contracted part only, and the map back keeps a little more than
-        // that.
-        result.rest = map_->backward(p, found.rest);
-        if (is_empty(result.rest)) {
-            result.verdict = box_verdict::outside;
-        } else if (found.verdict == box_verdict::inside &&
-                   !subset(map_->forward(result.rest), found.rest)) {
-            result.verdict = box_verdict::undecided;
-        }
-        return result;
-    }
-
-    Inner* inner_;
-    reduction const* map_;
-    /// Everything that was computed, with the relative volume of its region.
-    std::vector<std::pair<double, std::shared_ptr<knowledge const>>> shared_;
 };
 
 } // namespace sivid

@@ -34,6 +34,15 @@ public:
         boxes_.push_back({std::move(set), v});
     }
 
+    /// Volumes that are known better than from the boxes: of a set in between, say, to which the
+    /// boxes are drawn in less detail.
+    /// @given  `inner` encloses the volume of a set proved inside, `outer` that of one around all
+    ///         that is inside
+    void set_volumes(interval const& inner, interval const& outer) {
+        inner_ = inner;
+        outer_ = outer;
+    }
+
     [[nodiscard]] box const& prior() const { return prior_; }
     [[nodiscard]] std::vector<paved_box> const& boxes() const { return boxes_; }
     /// Volume proved inside, relative to the prior.

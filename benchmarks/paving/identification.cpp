@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Whole identifications, each from a cold start of `identify`, fit included:
+//     sivid_benchmark_identification [--seconds S] [--accuracy A] [--outliers Q] FOLDER...
+// For each data set of the hovercraft first the hulls alone, then the paving.
+#include "model.hpp"
+
+#include <sivid/io/dataset.hpp>
+#include <sivid/io/problem_from_dataset.hpp>
+#include <sivid/paving/identify.hpp>
+
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <exception>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace {
+
+double processor_seconds() {
+    return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
+}
+
+void print(std::string const& name, sivid::interval const& range) {
+    std::printf("    %-12s [%.7g, %.7g]  width %.4g\n", name.c_str(), range.lower(), range.upper(),
+                range.upper() - range.lower());
+}
+
+void measure(sivid::identification_problem const& problem, char const* what,
+             sivid::identify_options const& options) {
+    double const begin = processor_seconds();
+    auto const found = sivid::identify(problem, options);
+    double const spent = processor_seconds() - begin;
+    std::printf("  %s: %.3f s (processor %.3f s), %s, %s\n", what, found.seconds, spent,
+                std::string{to_string(found.verdict)}.c_str(),
+                std::string{to_string(found.reason)}.c_str());
+    std::printf("    %zu integrations, %zu boxes, %zu drawn; inner %.5g, outer %.5g of the prior\n",
+                found.integrations, found.boxes, found.paving.boxes().size(),
+                found.paving.inner_volume().lower(), found.paving.outer_volume().upper());
+    for (std::size_t j = 0; j < found.hull.size(); ++j) {
+        print(problem.choice.unknown[j], found.hull[j]);
+    }
+    for (auto const& c : found.combinations) print(c.what.formula, c.hull);
+}
+
+} // namespace
+
+int main(int count, char** arguments) {
+    sivid::identify_options options;
+    options.search.seconds = 5;
+    options.search.accuracy = 0.003;
+    std::optional<std::size_t> outliers;
+    std::vector<std::string> const words(arguments + 1, arguments + count);
+    auto const model = sivid::record_model(hovercraft{});
+    try {
+        for (std::size_t i = 0; i < words.size(); ++i) {
+            auto const value = [&] { return std::strtod(words.at(++i).c_str(), nullptr); };
+            if (words[i] == "--seconds") {
+                options.search.seconds = value();
+            } else if (words[i] == "--accuracy") {
+                options.search.accuracy = value();
+            } else if (words[i] == "--outliers") {
+                outliers = static_cast<std::size_t>(value());
+            } else {
+                auto const data = sivid::read_dataset(words[i], sivid::names_of(model.about));
+                auto const problem = sivid::problem_from_dataset(data, model, outliers);
+                std::printf("%s: %zu parameters, %zu experiments\n", data.id.c_str(),
+                            problem.prior.size(), problem.experiments.size());
+                auto hulls = options;
+                hulls.only_hulls = true;
+                measure(problem, "hulls", hulls);
+                measure(problem, "paving", options);
+            }
+        }
+    } catch (std::exception const& fault) {
+        std::fprintf(stderr, "%s\n", fault.what());
+        return 1;
+    }
+    return 0;
+}

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_CUT_CONTRACTION_HPP
+#define SIVID_PAVING_CUT_CONTRACTION_HPP
+
+#include <sivid/paving/cut_certificate.hpp>
+#include <sivid/paving/cut_program.hpp>
+#include <sivid/paving/local_response.hpp>
+#include <sivid/space/box.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// Contracts a box of parameters by all measurements of all experiments together: for each side
+/// linear programs propose weights, and the weighted sum of the measurements proves how far the
+/// side can be cut off. The starts are unknowns of the programs too, so a cut holds whatever they
+/// are.
+///   With Q outliers left to the experiments in all, Q + 1 groups of measurements that share none
+///   prove a cut each; one of the groups contains no outlier, so the weakest cut holds.
+/// @guarantee  removes no parameter that is feasible for some starts
+/// @cost  2 n (Q + 1) linear programs and certificates; nothing is integrated
+class cut_contraction {
+    using traits = interval_traits<interval>;
+
+public:
+    /// More groups than this are not tried: experiments with outliers are then left out.
+    static constexpr std::size_t most_groups = 8;
+
+    /// @param known  of a box around `part`; only outputs that were reached count
+    /// @param part   contracted
+    /// @returns false when nothing is left (`part` is meaningless then)
+    [[nodiscard]] bool operator()(response_list const& known, box& part) {
+        known_ = &known;
+        shared_unknowns const unknowns(known, part);
+        blocks_.clear();
+        scales_.clear();
+        allowance_.clear();
+        std::size_t allowed = 0;
+        for (std::size_t s = 0; s < known.size(); ++s) {
+            linearise(s, part, unknowns);
+            allowed += allowance_[s];
+        }
+        if (allowed >= most_groups) {
+            for (std::size_t s = 0; s < known.size(); ++s) {
+                if (allowance_[s] > 0) blocks_[s] = {};
+            }
+            allowed = 0;
+        }
+        auto const before = part;
+        for (std::size_t j = 0; j < part.size(); ++j) {
+            if (!(rad(before[j]) > 0)) continue;
+            double const up = least_reach(unknowns, j, true, allowed);
+            double const down = up < -1 ? up : least_reach(unknowns, j, false, allowed);
+            if (!(up >= -1) || !(down >= -1)) return false;
+            auto const least = down < 1 ? at(before[j], -down).lower() : before[j].lower();
+            auto const most = up < 1 ? at(before[j], up).upper() : before[j].upper();
+            if (!(least <= most)) return false;
+            part[j] = traits::intersect(part[j], traits::bounds(least, most));
+            if (is_empty(part[j])) return false;
+        }
+        return true;
+    }
+
+private:
+    static constexpr double nowhere = -std::numeric_limits<double>::infinity();
+
+    /// Encloses mid + rad * d.
+    [[nodiscard]] static interval at(interval const& side, double d) {
+        return traits::add(traits::point(mid(side)),
+                           traits::mul(traits::point(rad(side)), traits::point(d)));
+    }
+
+    /// The constraints of an experiment over the part, and how many outliers it has left for them.
+    void linearise(std::size_t s, box const& part, shared_unknowns const& unknowns) {
+        auto const& r = *(*known_)[s];
+        auto const local = expand(r, part);
+        auto const ranges = output_ranges(r, local);
+        minimax_block block;
+        for (auto const& p : unknowns.places[s]) block.variable.push_back(p.unknown);
+        auto const count = r.outputs();
+        block.slope = local.slope;
+        block.offset.assign(count, 0.0);
+        block.margin.assign(count, std::numeric_limits<double>::infinity());
+        auto& scale = scales_.emplace_back(count, 0.0);
+        std::size_t failed = 0;
+        for (std::size_t y = 0; y < count; ++y) {
+            bool const fails = disjoint(ranges[y], r.bounds[y]);
+            failed += fails ? 1 : 0;
+            double const e = 0.5 * width(r.bounds[y]);
+            bool const of_use = std::isfinite(e) && std::isfinite(local.rest[y]) &&
+                                !subset(ranges[y], r.bounds[y]) && !(fails && r.allowed > 0);
+            scale[y] = of_use ? 1 / std::max(e, 1e-100) : 0;
+            for (std::size_t v = 0; v < block.variable.size(); ++v) {
+                auto& slope = block.slope[v * count + y];
+                slope = of_use ? slope * scale[y] : 0;
+            }
+            if (!of_use) continue;
+            block.offset[y] = (local.value[y] - mid(r.bounds[y])) * scale[y];
+            block.margin[y] = 1 + local.rest[y] * scale[y];
+        }
+        // Measurements that certainly fail have used up a part of the budget.
+        allowance_.push_back(r.allowed - std::min(r.allowed, failed));
+        blocks_.push_back(std::move(block));
+    }
+
+    /// What the weakest of `allowed` + 1 groups proves; `nowhere` when all prove that nothing is
+    /// left.
+    [[nodiscard]] double least_reach(shared_unknowns const& unknowns, std::size_t j, bool upwards,
+                                     std::size_t allowed) const {
+        double reach = nowhere;
+        auto left = blocks_;
+        for (std::size_t group = 0; group <= allowed && reach < 1; ++group) {
+            auto const cut = cut_program(unknowns.count, left)(j, upwards);
+            if (cut.weights.empty()) return 1;
+            std::vector<measurement_weight> measured;
+            for (auto const& w : cut.weights) {
+                measured.push_back({w.block, w.function, w.value * scales_[w.block][w.function]});
+                if (allowance_[w.block] > 0) {
+                    left[w.block].margin[w.function] = std::numeric_limits<double>::infinity();
+                }
+            }
+            bool const none = cut.empty && certified_empty(*known_, unknowns, measured);
+            if (none) continue;
+            if (cut.empty) return 1;
+            reach = std::max(reach, certified_reach(*known_, unknowns, measured, j, upwards));
+        }
+        return reach;
+    }
+
+    response_list const* known_ = nullptr;
+    std::vector<minimax_block> blocks_; ///< in units of e
+    std::vector<std::vector<double>> scales_;
+    std::vector<std::size_t> allowance_;
+};
+
+} // namespace sivid
+
+#endif
