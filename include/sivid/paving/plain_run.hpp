@@ -102,43 +102,46 @@ inline double largest_but(std::vector<double> values, std::size_t k) {
 /// Whether linear contraction of r_0 by the open measurements, at most `spare` of which may fail,
 /// leaves nothing. In each coordinate a feasible point satisfies all but `spare` of the bounds, so
 /// it is at least the (spare + 1)-th largest lower one.
+/// @param columns  the coordinates of r_0 that are not 0
 template <class I>
 bool contracts_to_nothing(plain_outputs<I> const& known, record const& samples,
-                          std::vector<std::size_t> const& open, basic_box<I> d, std::size_t spare) {
+                          std::vector<std::size_t> const& open, basic_box<I> d,
+                          std::vector<std::size_t> const& columns, std::size_t spare) {
     using traits = interval_traits<I>;
+    std::vector<I> terms(columns.size());
     for (int sweep = 0; sweep < 3; ++sweep) {
-        std::vector<std::vector<double>> lows(d.size()), highs(d.size());
+        std::vector<std::vector<double>> lows(columns.size()), highs(columns.size());
         for (auto const k : open) {
             auto const& o = known.outputs[k];
             auto const& bound = samples[k].bound;
-            std::vector<I> terms;
-            I sum = traits::sub(o.rest, traits::bounds(bound.lower(), bound.upper()));
-            for (std::size_t c = 0; c < d.size(); ++c) {
-                terms.push_back(traits::mul(traits::point(o.gradient[c]), d[c]));
+            I const rest = traits::sub(o.rest, traits::bounds(bound.lower(), bound.upper()));
+            for (std::size_t n = 0; n < columns.size(); ++n) {
+                terms[n] = traits::mul(traits::point(o.gradient[columns[n]]), d[columns[n]]);
             }
-            for (std::size_t c = 0; c < d.size(); ++c) {
-                if (o.gradient[c] == 0 || traits::is_point(d[c])) continue;
-                I others = sum; // rest - bound + the other terms; g_c r_c is its negative
-                for (std::size_t other = 0; other < d.size(); ++other) {
-                    if (other != c) others = traits::add(others, terms[other]);
+            for (std::size_t n = 0; n < columns.size(); ++n) {
+                if (o.gradient[columns[n]] == 0) continue;
+                I others = rest; // rest - bound + the other terms; g_c r_c is its negative
+                for (std::size_t other = 0; other < columns.size(); ++other) {
+                    if (other != n) others = traits::add(others, terms[other]);
                 }
                 typename traits::mask undefined{};
-                auto const g = traits::point(o.gradient[c]);
+                auto const g = traits::point(o.gradient[columns[n]]);
                 auto const allowed = traits::div(traits::neg(others), g, undefined);
                 if (undefined) continue;
-                lows[c].push_back(traits::lower(allowed));
-                highs[c].push_back(-traits::upper(allowed));
+                lows[n].push_back(traits::lower(allowed));
+                highs[n].push_back(-traits::upper(allowed));
             }
         }
         bool shrank = false;
-        for (std::size_t c = 0; c < d.size(); ++c) {
-            double const low = largest_but(std::move(lows[c]), spare);
-            double const high = -largest_but(std::move(highs[c]), spare);
+        for (std::size_t n = 0; n < columns.size(); ++n) {
+            double const low = largest_but(std::move(lows[n]), spare);
+            double const high = -largest_but(std::move(highs[n]), spare);
             if (low > high) return true;
-            I const less = traits::intersect(d[c], traits::bounds(low, high));
+            auto& own = d[columns[n]];
+            I const less = traits::intersect(own, traits::bounds(low, high));
             if (traits::is_empty(less)) return true;
-            shrank = shrank || traits::width(less) < 0.9 * traits::width(d[c]);
-            d[c] = less;
+            shrank = shrank || traits::width(less) < 0.9 * traits::width(own);
+            own = less;
         }
         if (!shrank) break;
     }
@@ -161,13 +164,17 @@ template <class I>
                                      traits::point(known.parameter_centre[j]));
         d[states + j] = traits::intersect(d[states + j], own);
     }
+    std::vector<std::size_t> columns;
+    for (std::size_t c = 0; c < d.size(); ++c) {
+        if (traits::mag(d[c]) != 0) columns.push_back(c);
+    }
     std::size_t hits = 0, misses = 0;
     std::vector<std::size_t> open;
     for (std::size_t k = 0; k < known.outputs.size(); ++k) {
         auto const& o = known.outputs[k];
         if (!o.defined) continue;
         I y = o.rest;
-        for (std::size_t c = 0; c < d.size(); ++c) {
+        for (auto const c : columns) {
             if (o.gradient[c] == 0) continue;
             y = traits::add(y, traits::mul(traits::point(o.gradient[c]), d[c]));
         }
@@ -184,7 +191,7 @@ template <class I>
     }
     if (misses > outliers) return run_finding::refuted;
     if (hits + outliers >= samples.size()) return run_finding::explained;
-    if (paving_detail::contracts_to_nothing(known, samples, open, d, outliers - misses)) {
+    if (paving_detail::contracts_to_nothing(known, samples, open, d, columns, outliers - misses)) {
         return run_finding::refuted;
     }
     return run_finding::open;

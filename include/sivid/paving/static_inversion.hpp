@@ -79,6 +79,7 @@ private:
         for (std::size_t j = 0; j < prior_.size(); ++j) {
             least_.push_back(options_.accuracy * width(prior_[j]));
             thick_.push_back(prior_[j].lower() < prior_[j].upper());
+            scale_.push_back(thick_[j] != 0 ? 1 / width(prior_[j]) : 0);
             first.boxes.lower(j)[0] = prior_[j].lower();
             first.boxes.upper(j)[0] = prior_[j].upper();
         }
@@ -142,7 +143,7 @@ private:
                 split(*now, i + l, l);
             }
             uncertain_ -= before - after;
-            if (uncertain_ <= allowed_) {
+            if (allowed_ > 0 && uncertain_ <= allowed_) {
                 for (auto k = i + lanes; k < now->count; ++k) result_.open.add(now->boxes, k);
                 stop(stop_reason::accuracy_reached);
                 return;
@@ -175,13 +176,15 @@ private:
     /// Halves of box i at the end of what waits; or the box stays open.
     void split(block const& from, std::size_t i, std::size_t lane) {
         std::size_t side = prior_.size();
-        double most = -1;
+        double most = -1, widest = 0;
         for (std::size_t j = 0; j < prior_.size(); ++j) {
             double const w = from.boxes.upper(j)[i] - from.boxes.lower(j)[i];
             if (!(w > least_[j])) continue;
-            double const rank = judge_.smear(j, lane);
-            if (rank > most) {
+            double const rank = judge_.smear(j, lane), share = w * scale_[j];
+            // Where the slopes say nothing (none, or unbounded ones) the widest side.
+            if (rank > most || (rank == most && share > widest)) {
                 most = rank;
+                widest = share;
                 side = j;
             }
         }
@@ -209,7 +212,7 @@ private:
     flat_paving result_;
     std::deque<std::unique_ptr<block>> waiting_;
     std::vector<std::unique_ptr<block>> spare_;
-    std::vector<double> least_;
+    std::vector<double> least_, scale_; ///< least width to split, 1 / width of the prior
     std::vector<char> thick_;
     double uncertain_ = 0, allowed_ = 0;
 };

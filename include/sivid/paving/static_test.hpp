@@ -11,7 +11,8 @@
 namespace sivid {
 
 /// A static problem as a set test for `invert`: one box at a time, largest first, progress and
-/// outside boxes as for identification. `invert_static` is some ten times faster.
+/// outside boxes as for identification. `invert_static` is far faster: eight boxes at once, no
+/// allocation for each, nothing tested anew that a parent decided.
 class static_test {
 public:
     explicit static_test(static_problem const& problem, first_order use = first_order::always)
