@@ -4,6 +4,7 @@
 
 #include <sivid/diagnosis/describe_candidate.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
+#include <sivid/paving/identify.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -207,7 +208,6 @@ private:
     /// Witnesses for what explains, proofs of emptiness for what does not.
     void verify_candidates() {
         auto& d = run_.result;
-        double const begin = seconds();
         for (std::size_t k = 0; k < order_.size(); ++k) {
             auto const& s = run_.candidates[order_[k]];
             auto& c = d.causes[k];
@@ -228,6 +228,7 @@ private:
                 }
             }
         }
+        double const begin = seconds();
         std::vector<std::size_t> open(order_.size());
         for (std::size_t k = 0; k < open.size(); ++k) open[k] = k;
         std::stable_sort(open.begin(), open.end(), [&](std::size_t a, std::size_t b) {
@@ -268,6 +269,21 @@ private:
         }
         c.inflation = bound.range;
         d.shrink_fit = shrink(d.inflation, bound.range);
+        bound_parameters(s, c);
+    }
+
+    /// Hulls of the effect's parameters: every value that explains the data lies in them.
+    void bound_parameters(screened const& s, cause& c) {
+        if (!(c.inflation.upper() <= 1) || diagnosis_detail::has_delays(s.problem.model)) return;
+        if (!go_on("bounding the effect's parameters")) return;
+        identify_options options;
+        options.only_hulls = true;
+        options.search.seconds = std::min(left(), options_.hull_seconds);
+        auto const found = identify(s.problem, options);
+        auto const own = run_.base.prior.size();
+        for (std::size_t k = 0; k < c.parameters.size(); ++k) {
+            c.parameters[k].hull = found.hull[own + k];
+        }
     }
 
     /// The inflation of each scenario and each channel alone.

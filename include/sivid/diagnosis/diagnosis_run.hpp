@@ -24,6 +24,7 @@ struct diagnosis_options {
     double seconds = 60;       ///< for everything; what is not finished then stays undecided
     double gap_seconds = 2;    ///< for the certified inflation
     double verify_seconds = 3; ///< for the verdicts on candidates
+    double hull_seconds = 1;   ///< for the hulls of the answer's parameters
     double parts_seconds = 2;  ///< for the inflation of single scenarios and channels
     screening_options screening{};
     choice_options choice{};
