@@ -21,7 +21,8 @@ TEST_CASE("a trace shows states, inputs, slopes and the inputs' influence at the
     e.begin = 1;
     e.initial = box{interval(2.0)};
     e.inputs = {sampled_signal({0, 5}, {0, 10}, interpolation::linear)};
-    for (int k = 1; k <= 40; ++k) e.measurements.push_back({1 + 0.05 * k, 0, support::around(0, 1)});
+    for (int k = 1; k <= 40; ++k)
+        e.measurements.push_back({1 + 0.05 * k, 0, support::around(0, 1)});
     problem.experiments = {e};
     campaign c(problem, {{1, 1.5, 2.25}});
     auto z = arrow_vector::like(c.lower(), 1);

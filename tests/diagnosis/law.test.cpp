@@ -24,8 +24,8 @@ TEST_CASE("the library speaks of the model's own quantities") {
     law_library const library(model, traces);
     auto const laws = library.for_rates();
     auto const named = [&](std::string const& text) {
-        auto const at = std::find_if(laws.begin(), laws.end(),
-                                     [&](law const& l) { return l.text == text; });
+        auto const at =
+            std::find_if(laws.begin(), laws.end(), [&](law const& l) { return l.text == text; });
         REQUIRE(at != laws.end());
         return at->functions.front().front();
     };

@@ -22,14 +22,17 @@ TEST_CASE("the law behind a missing rate comes first") {
          [](double, support::motion const& x, auto const&, auto const&, support::motion& rate) {
              rate[2] -= 1.5 * std::abs(x[2]) * x[2];
          }},
-        {2, "W^2", [](double, auto const&, support::controls const& u, auto const&,
-                      support::motion& rate) { rate[2] += 2e-5 * u[0] * u[0]; }}};
+        {2, "W^2",
+         [](double, auto const&, support::controls const& u, auto const&, support::motion& rate) {
+             rate[2] += 2e-5 * u[0] * u[0];
+         }}};
     draws d(931);
     for (auto const& p : list) {
         support::hover_effect effect;
         effect.rates = p.rates;
         auto const problem = support::hovercraft_campaign(d, effect, {});
-        place_fitter fit(problem, places_of(problem.model, std::vector<bool>(6, true), {true, true}));
+        place_fitter fit(problem,
+                         places_of(problem.model, std::vector<bool>(6, true), {true, true}));
         fit.set_scales(std::vector<missing_rate_scale>(8, {4, 3}));
         std::vector<std::vector<double>> starts;
         for (auto const& e : problem.experiments) starts.push_back(mid(e.initial));

@@ -17,8 +17,7 @@ TEST_CASE("the places of the hovercraft: equations, geometry, inputs, sensors") 
     }
     CHECK(names == std::vector<std::string>{"u", "v", "r", "x", "y", "psi", "W", "delta", "u", "v",
                                             "r", "x", "psi"});
-    CHECK(costs ==
-          std::vector<double>{1, 1, 1, 2.5, 2.5, 1.5, 1.5, 1.5, 1, 1, 1, 1, 1});
+    CHECK(costs == std::vector<double>{1, 1, 1, 2.5, 2.5, 1.5, 1.5, 1.5, 1, 1, 1, 1, 1});
     CHECK(all[2].kind == place_kind::equation);
     CHECK(all[5].kind == place_kind::kinematic);
     CHECK(all[7].kind == place_kind::input);

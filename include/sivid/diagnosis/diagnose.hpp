@@ -27,6 +27,7 @@ struct diagnosis_options {
     double seconds = 60;       ///< for everything; what is not finished then stays undecided
     double gap_seconds = 2;    ///< for the certified inflation
     double verify_seconds = 5; ///< for the verdicts on candidates
+    double each_seconds = 0.5; ///< of these, for one candidate that seems excluded
     screening_options screening{};
     choice_options choice{};
     std::vector<manoeuvre> menu{}; ///< from which the next experiment is proposed
@@ -46,6 +47,7 @@ struct diagnosis_run {
     verified_inflation base_bound, answer_bound;
     std::vector<relation_finding> findings; ///< the broken relations
     place_estimate places;
+    place_estimate remaining_places; ///< of the closest candidate, when none explains the data
     std::optional<holdout_judgement> holdout_before, holdout_after;
 };
 
@@ -77,6 +79,7 @@ public:
             run_.candidates = tried.candidates();
             decide(tried);
             verify_candidates();
+            describe_remainder();
             propose();
         } else {
             run_.candidates = tried.candidates();
@@ -143,18 +146,8 @@ private:
         if (!go_on("looking where the model departs from the data")) return;
         run_.places = estimate_places(run_.base);
         for (auto const& p : run_.places.places) {
-            suspected_place s;
-            s.kind = p.kind == place_kind::sensor  ? "sensor"
-                     : p.kind == place_kind::input ? "input"
-                                                   : "equation";
-            s.name = p.name;
-            s.where = {p.scenario, p.from, p.to};
-            s.estimate = p.missing;
-            s.unit = p.unit;
-            s.law = p.law;
-            s.regime = p.regime;
-            prove(s);
-            run_.result.where.push_back(std::move(s));
+            run_.result.where.push_back(suspected(p));
+            prove(run_.result.where.back());
         }
         if (run_.result.where.empty()) return;
         for (auto const& set : run_.places.alternatives) {
@@ -162,6 +155,19 @@ private:
             for (auto const& name : set) text += (text.empty() ? "" : " and ") + name;
             run_.result.where.front().alternatives.push_back(text);
         }
+    }
+    [[nodiscard]] static suspected_place suspected(estimated_place const& p) {
+        suspected_place s;
+        s.kind = p.kind == place_kind::sensor  ? "sensor"
+                 : p.kind == place_kind::input ? "input"
+                                               : "equation";
+        s.name = p.name;
+        s.where = {p.scenario, p.from, p.to};
+        s.estimate = p.missing;
+        s.unit = p.unit;
+        s.law = p.law;
+        s.regime = p.regime;
+        return s;
     }
     /// A place whose relation is proved broken gets the proof's window and missing rate.
     void prove(suspected_place& s) const {
@@ -199,9 +205,7 @@ private:
         auto const chosen = choose(figures, tried.measurements(), options_.choice);
         if (!chosen.explained) {
             d.answer = answer_kind::unexplained;
-            for (std::size_t i = 1; i < figures.size(); ++i) {
-                if (figures[i].inflation < figures[run_.answer].inflation) run_.answer = i;
-            }
+            run_.answer = closest(figures);
         } else {
             run_.answer = chosen.best;
             d.effects = names_of(figures[chosen.best]);
@@ -215,6 +219,20 @@ private:
         std::stable_sort(order_.begin(), order_.end(),
                          [&](std::size_t a, std::size_t b) { return place_of(a) < place_of(b); });
         for (auto const i : order_) d.causes.push_back(cause_of(run_.candidates[i]));
+    }
+    /// Fewest effects among the candidates that are within a twentieth of the best.
+    [[nodiscard]] static std::size_t closest(std::vector<candidate> const& figures) {
+        auto least = figures.front().inflation;
+        for (auto const& f : figures) least = std::min(least, f.inflation);
+        std::size_t result = figures.size();
+        for (std::size_t i = 0; i < figures.size(); ++i) {
+            if (!(figures[i].inflation <= 1.05 * least)) continue;
+            auto const rank = [&](std::size_t k) {
+                return std::pair(figures[k].effects.size(), figures[k].inflation);
+            };
+            if (result == figures.size() || rank(i) < rank(result)) result = i;
+        }
+        return result == figures.size() ? 0 : result;
     }
     /// The answer, then what cannot be told from it, then explaining ones, then by inflation.
     [[nodiscard]] double place_of(std::size_t i) const {
@@ -299,7 +317,8 @@ private:
             if (!go_on("excluding " + c.effects.front())) return;
             inflation_options search;
             search.only_verdict = true;
-            search.seconds = std::min({left(), options_.verify_seconds - spent, 0.5});
+            search.seconds =
+                std::min({left(), options_.verify_seconds - spent, options_.each_seconds});
             auto const proved = bound_inflation(s.problem, &s.fit, search);
             c.inflation = proved.value;
             if (c.inflation.lower() > 1) c.verdict = cause_verdict::excluded;
@@ -323,6 +342,22 @@ private:
         }
         c.inflation = bound.range;
         d.shrink_fit = shrink(d.inflation, bound.range);
+    }
+
+    /// How much is left with the closest candidate, and where: the lead to what no effect has.
+    void describe_remainder() {
+        auto& d = run_.result;
+        if (d.answer != answer_kind::unexplained || d.causes.empty()) return;
+        auto const& nearest = run_.candidates[run_.answer];
+        unexplained_remainder rest{names_of(nearest.figures), run_.answer_bound.range, {}};
+        if (run_.answer == 0) {
+            rest.inflation = d.inflation;
+            rest.where = d.where;
+        } else if (go_on("looking for what is left")) {
+            run_.remaining_places = estimate_places(nearest.problem);
+            for (auto const& p : run_.remaining_places.places) rest.where.push_back(suspected(p));
+        }
+        d.remainder = std::move(rest);
     }
 
     void propose() {
