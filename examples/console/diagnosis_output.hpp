@@ -11,6 +11,9 @@
 #include <sivid/report/diagnosis_page.hpp>
 #include <sivid/report/diagnosis_report.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <iostream>
 #include <string>
@@ -69,10 +72,51 @@ inline sivid::report::diagnosis_plot_data plot_data(sivid::diagnosis_run const& 
     return data;
 }
 
+/// Root mean square of the misfit, in the unit of the channels; not proved.
+inline double root_mean_square(sivid::identification_problem const& p,
+                               sivid::approximate_fit const& f) {
+    double sum = 0, count = 0;
+    for (std::size_t e = 0; e < f.residuals.size(); ++e) {
+        auto const data = sivid::sorted(p.experiments[e].measurements);
+        for (std::size_t k = 0; k < data.size(); ++k) {
+            double const off = f.residuals[e][k] * sivid::rad(data[k].bound);
+            sum += off * off;
+            count += 1;
+        }
+    }
+    return count > 0 ? std::sqrt(sum / count) : std::nan("");
+}
+
+/// The effects of a catalogue that have these names.
+inline std::vector<sivid::effect> named_effects(std::vector<sivid::effect> const& catalogue,
+                                                std::vector<std::string> const& names) {
+    std::vector<sivid::effect> result;
+    for (auto const& e : catalogue) {
+        if (std::find(names.begin(), names.end(), e.name) != names.end()) result.push_back(e);
+    }
+    return result;
+}
+
+/// The candidate with exactly these effects; null when it was not tried.
+inline sivid::screened const* candidate_of(sivid::diagnosis_run const& run,
+                                           std::vector<std::string> const& names) {
+    for (auto const& s : run.candidates) {
+        std::vector<std::string> own;
+        for (auto const e : s.figures.effects) own.push_back(run.catalogue[e].name);
+        if (std::is_permutation(own.begin(), own.end(), names.begin(), names.end())) return &s;
+    }
+    return nullptr;
+}
+
 inline std::string joined(std::vector<std::string> const& all) {
     std::string text;
     for (auto const& s : all) text += (text.empty() ? "" : " + ") + s;
     return text;
+}
+
+/// "as it is" or "+ overflow + offset"
+inline std::string model_words(std::vector<std::string> const& effects) {
+    return effects.empty() ? "as it is" : "+ " + joined(effects);
 }
 
 inline void print_summary(sivid::diagnosis const& d, std::string const& id,

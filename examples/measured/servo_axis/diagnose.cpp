@@ -67,20 +67,6 @@ struct chain_link {
     std::vector<double> estimation, validation; ///< RMS by window length [m]
 };
 
-/// Root mean square of the residuals [m].
-double root_mean_square(sivid::identification_problem const& p, sivid::approximate_fit const& f) {
-    double sum = 0, count = 0;
-    for (std::size_t e = 0; e < f.residuals.size(); ++e) {
-        auto const data = sivid::sorted(p.experiments[e].measurements);
-        for (std::size_t k = 0; k < data.size(); ++k) {
-            double const off = f.residuals[e][k] * sivid::rad(data[k].bound);
-            sum += off * off;
-            count += 1;
-        }
-    }
-    return count > 0 ? std::sqrt(sum / count) : std::nan("");
-}
-
 /// Compares models over windows of several lengths, all from the same starts: the measured position
 /// and the filter's velocity, nothing fitted but the parameters at one second.
 class window_study {
@@ -127,47 +113,21 @@ private:
         auto const problem = sivid::affected(p, effects);
         std::vector<std::vector<double>> starts;
         for (auto const& e : problem.experiments) starts.push_back(sivid::mid(e.initial));
-        return root_mean_square(problem, sivid::fitter(problem).at(parameters, starts));
+        return console::root_mean_square(problem, sivid::fitter(problem).at(parameters, starts));
     }
 
     std::vector<sivid::identification_problem> used_, kept_;
     sivid::identification_problem fitted_;
 };
 
-sivid::screened const* candidate_of(sivid::diagnosis_run const& run,
-                                    std::vector<std::string> const& names) {
-    for (auto const& s : run.candidates) {
-        std::vector<std::string> own;
-        for (auto const e : s.figures.effects) own.push_back(run.catalogue[e].name);
-        if (own.size() == names.size() &&
-            std::is_permutation(own.begin(), own.end(), names.begin()))
-            return &s;
-    }
-    return nullptr;
-}
-
-std::vector<sivid::effect> named_effects(std::vector<sivid::effect> const& catalogue,
-                                         std::vector<std::string> const& names) {
-    std::vector<sivid::effect> result;
-    for (auto const& e : catalogue) {
-        if (std::find(names.begin(), names.end(), e.name) != names.end()) result.push_back(e);
-    }
-    return result;
-}
-
-std::string model_words(std::vector<std::string> const& effects) {
-    return effects.empty() ? "as it is" : "+ " + console::joined(effects);
-}
-
 /// The chain that friction, offset and direction make, as far as it was tried.
 std::vector<chain_link> chain_of(sivid::diagnosis_run const& run, window_study const& study) {
-    std::vector<std::vector<std::string>> steps{
-        {},
-        {"dry_friction"},
-        {"offset"},
-        {"dry_friction", "offset"},
-        {"dry_friction", "direction_dependent_friction"},
-        {"dry_friction", "offset", "direction_dependent_friction"}};
+    std::vector<std::vector<std::string>> steps{{},
+                                                {"dry_friction"},
+                                                {"offset"},
+                                                {"dry_friction", "offset"},
+                                                {"dry_friction", "directional_friction"},
+                                                {"dry_friction", "offset", "directional_friction"}};
     if (std::find_if(steps.begin(), steps.end(), [&](auto const& s) {
             return std::is_permutation(s.begin(), s.end(), run.result.effects.begin(),
                                        run.result.effects.end());
@@ -176,9 +136,9 @@ std::vector<chain_link> chain_of(sivid::diagnosis_run const& run, window_study c
     }
     std::vector<chain_link> chain;
     for (auto const& names : steps) {
-        auto const* known = candidate_of(run, names);
+        auto const* known = console::candidate_of(run, names);
         if (known == nullptr) continue;
-        chain.push_back(study(named_effects(run.catalogue, names), known->fit.parameters));
+        chain.push_back(study(console::named_effects(run.catalogue, names), known->fit.parameters));
     }
     return chain;
 }
@@ -197,7 +157,7 @@ void add_chain(report::page& page, std::vector<chain_link> const& chain) {
     auto const* base = find(chain, {});
     auto const* dry = find(chain, {"dry_friction"});
     auto const* both = find(chain, {"dry_friction", "offset"});
-    auto const* all = find(chain, {"dry_friction", "offset", "direction_dependent_friction"});
+    auto const* all = find(chain, {"dry_friction", "offset", "directional_friction"});
     page.section("One effect after the other");
     if (base != nullptr && dry != nullptr && both != nullptr) {
         auto const left = [&](chain_link const& link, std::size_t length) {
@@ -225,7 +185,7 @@ void add_chain(report::page& page, std::vector<chain_link> const& chain) {
         t.columns.push_back({text_of("%g s", length), report::column_kind::number});
     }
     for (auto const& link : chain) {
-        std::vector<std::string> row{model_words(link.effects)};
+        std::vector<std::string> row{console::model_words(link.effects)};
         for (std::size_t i = 0; i < link.estimation.size(); ++i) {
             row.push_back(millimetres(link.estimation[i]) +
                           (i < link.validation.size() ? " / " + millimetres(link.validation[i])
@@ -259,7 +219,8 @@ void add_sensitivity(report::page& page, sivid::diagnosis_run const& run,
         auto const scaled = [&](double x, report::rounding how) {
             return std::isfinite(x) && x > 0 ? report::rounded_text(1e3 * bound * x, how) : "-";
         };
-        t.rows.push_back({model_words(effects), scaled(range.lower(), report::rounding::down),
+        t.rows.push_back({console::model_words(effects),
+                          scaled(range.lower(), report::rounding::down),
                           scaled(range.upper(), report::rounding::up),
                           scaled(fitted, report::rounding::nearest)});
     };
@@ -294,8 +255,9 @@ void add_starts(report::page& page, sivid::diagnosis_run const& run,
         t.columns.push_back({text_of("%g mm/s", 1e3 * v), report::column_kind::number});
     }
     for (auto const& link : chain) {
-        auto problem = sivid::affected(run.base, named_effects(run.catalogue, link.effects));
-        std::vector<std::string> row{model_words(link.effects)};
+        auto problem =
+            sivid::affected(run.base, console::named_effects(run.catalogue, link.effects));
+        std::vector<std::string> row{console::model_words(link.effects)};
         for (double const v : bounds) {
             for (auto& e : problem.experiments) {
                 double const centre = sivid::mid(e.initial[1]);
@@ -326,7 +288,7 @@ void add_values(report::page& page, std::vector<chain_link> const& chain) {
     for (auto const& link : chain) {
         if (link.parameters.size() < 2) continue;
         double const mass = link.parameters[0];
-        std::vector<std::string> row{model_words(link.effects), text_of("%.4g", mass),
+        std::vector<std::string> row{console::model_words(link.effects), text_of("%.4g", mass),
                                      text_of("%.4g", link.parameters[1])};
         for (auto const* name : {"dry_friction", "offset"}) {
             auto const at = std::find(link.effects.begin(), link.effects.end(), name);
@@ -442,7 +404,7 @@ int run(diagnose_command const& c) {
                              });
     console::print_summary(run.result, id, c.out);
     for (auto const& link : chain) {
-        std::cout << "  " << model_words(link.effects) << ": RMS over 1 s "
+        std::cout << "  " << console::model_words(link.effects) << ": RMS over 1 s "
                   << millimetres(link.estimation[2]) << " mm";
         if (link.validation.size() > 2) {
             std::cout << ", validation " << millimetres(link.validation[2]) << " mm";

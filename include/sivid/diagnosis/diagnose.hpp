@@ -5,6 +5,7 @@
 #include <sivid/diagnosis/broken_relation.hpp>
 #include <sivid/diagnosis/candidate.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/diagnosis/hardest_experiments.hpp>
 #include <sivid/diagnosis/holdout_judgement.hpp>
 #include <sivid/diagnosis/manoeuvre.hpp>
 #include <sivid/diagnosis/place_estimate.hpp>
@@ -28,6 +29,8 @@ struct diagnosis_options {
     double gap_seconds = 2;    ///< for the certified inflation
     double verify_seconds = 5; ///< for the verdicts on candidates
     double each_seconds = 0.5; ///< of these, for one candidate that seems excluded
+    /// Where more experiments are at hand, so many of the hardest are tried first for a refutation.
+    std::size_t hardest = 4;
     screening_options screening{};
     choice_options choice{};
     std::vector<manoeuvre> menu{}; ///< from which the next experiment is proposed
@@ -116,13 +119,15 @@ private:
             search.seconds =
                 std::min(left(), bound.range.upper() <= 1 ? 0.3 : options_.gap_seconds);
             search.relative_width = 0.03;
+            double const fewer = refuted_by_few(base, bound.range.upper(), 0.6 * search.seconds);
+            search.seconds = std::min(search.seconds, left());
             auto const proved = bound_inflation(base.problem, &base.fit, search);
             // Both contain the inflation, or bound it from above.
             double const upper = std::min(proved.value.upper(), bound.range.upper());
             if (proved.value.upper() <= bound.range.upper()) bound.witness = proved.witness;
             bound.hull = proved.hull;
-            bound.range =
-                interval_traits<interval>::bounds(std::min(proved.value.lower(), upper), upper);
+            bound.range = interval_traits<interval>::bounds(
+                std::min(std::max(proved.value.lower(), fewer), upper), upper);
         } else {
             bound.range = interval_traits<interval>::bounds(0, bound.range.upper());
         }
@@ -130,6 +135,19 @@ private:
         d.gap = d.inflation.upper() <= 1  ? gap_verdict::none
                 : d.inflation.lower() > 1 ? gap_verdict::certified
                                           : gap_verdict::undecided;
+    }
+
+    /// A lower bound of the inflation from the experiments that are missed by most; 0 when there
+    /// are no more than these.
+    [[nodiscard]] double refuted_by_few(screened const& s, double upper, double seconds,
+                                        bool only_verdict = false) const {
+        if (s.problem.experiments.size() <= options_.hardest || upper <= 1) return 0;
+        inflation_options search;
+        search.seconds = std::min(left(), seconds);
+        search.only_verdict = only_verdict;
+        search.relative_width = 0.1;
+        auto const few = hardest_experiments(s.problem, s.fit, options_.hardest);
+        return bound_inflation(few, nullptr, search).value.lower();
     }
 
     void find_relations() {
@@ -319,8 +337,12 @@ private:
             search.only_verdict = true;
             search.seconds =
                 std::min({left(), options_.verify_seconds - spent, options_.each_seconds});
-            auto const proved = bound_inflation(s.problem, &s.fit, search);
-            c.inflation = proved.value;
+            double const fewer = refuted_by_few(s, s.fit.inflation, search.seconds, true);
+            if (fewer > 1) {
+                c.inflation = interval_traits<interval>::bounds(fewer, detail::infinity);
+            } else {
+                c.inflation = bound_inflation(s.problem, &s.fit, search).value;
+            }
             if (c.inflation.lower() > 1) c.verdict = cause_verdict::excluded;
         }
     }
