@@ -380,11 +380,13 @@ int run(diagnose_command const& c) {
     options.each_seconds = 0.03 * c.budget;
     options.screening.seconds = 0.5 * c.budget;
     options.screening.most_effects = 3;
+    // The force has a new slope every 5 ms.
+    options.test.run.enclosure.minimum_step = 1e-6;
     console::watch(options, progress);
     auto run = sivid::diagnose(problem, axis_catalogue(), options);
     progress.finish();
     progress.note("judging by the validation record");
-    sivid::judge_by_holdout(run, kept, 0.1 * c.budget);
+    sivid::judge_by_holdout(run, kept, 0.1 * c.budget, options.test);
     std::signal(SIGINT, SIG_DFL);
     for (auto const& a : assumptions_of(c, windows.size())) run.result.assumptions.push_back(a);
 

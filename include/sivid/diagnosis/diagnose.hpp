@@ -33,6 +33,7 @@ struct diagnosis_options {
     std::size_t hardest = 4;
     screening_options screening{};
     choice_options choice{};
+    data_test_options test{};      ///< how boxes of parameters are enclosed
     std::vector<manoeuvre> menu{}; ///< from which the next experiment is proposed
     /// Called with what is being done; false ends with what is known so far.
     std::function<bool(std::string const&)> progress{};
@@ -116,6 +117,7 @@ private:
         bound = verify_at(base.problem, base.fit);
         if (!diagnosis_detail::has_delays(base.problem.model)) {
             inflation_options search;
+            search.test = options_.test;
             search.seconds =
                 std::min(left(), bound.range.upper() <= 1 ? 0.3 : options_.gap_seconds);
             search.relative_width = 0.03;
@@ -143,6 +145,7 @@ private:
                                         bool only_verdict = false) const {
         if (s.problem.experiments.size() <= options_.hardest || upper <= 1) return 0;
         inflation_options search;
+        search.test = options_.test;
         search.seconds = std::min(left(), seconds);
         search.only_verdict = only_verdict;
         search.relative_width = 0.1;
@@ -334,6 +337,7 @@ private:
             if (spent > options_.verify_seconds) return;
             if (!go_on("excluding " + c.effects.front())) return;
             inflation_options search;
+            search.test = options_.test;
             search.only_verdict = true;
             search.seconds =
                 std::min({left(), options_.verify_seconds - spent, options_.each_seconds});
@@ -353,6 +357,7 @@ private:
         auto& bound = run_.answer_bound;
         if (!diagnosis_detail::has_delays(s.problem.model)) {
             inflation_options search;
+            search.test = options_.test;
             search.seconds = std::min(left(), options_.gap_seconds);
             auto const proved = bound_inflation(s.problem, &s.fit, search);
             double const upper = std::min(proved.value.upper(), bound.range.upper());
@@ -409,16 +414,18 @@ private:
 
 /// Judges the model and the answer of a diagnosis by hold-out data and adds the figures: the only
 /// place where such data are read, after everything is chosen.
-inline void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds = 4) {
+inline void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds = 4,
+                             data_test_options const& test = {}) {
     if (data.empty() || run.candidates.empty()) return;
     auto const& base = run.candidates.front();
     auto const before = judge_by_holdout(
-        base, run.base_bound, data.judged_by(base, run.base, run.catalogue), seconds / 2);
+        base, run.base_bound, data.judged_by(base, run.base, run.catalogue), seconds / 2, test);
     run.holdout_before = before;
     if (run.result.causes.empty()) return;
     auto const& answer = run.candidates[run.answer];
-    auto const after = judge_by_holdout(
-        answer, run.answer_bound, data.judged_by(answer, run.base, run.catalogue), seconds / 2);
+    auto const after =
+        judge_by_holdout(answer, run.answer_bound, data.judged_by(answer, run.base, run.catalogue),
+                         seconds / 2, test);
     run.holdout_after = after;
     holdout_figures figures;
     figures.inflation_before = before.at_witness;

@@ -167,7 +167,8 @@ namespace sivid::report {
     bool const proved = says_something(r.inflation);
     if (proved)
         out += inflation_text(r.inflation) + " times the measurement bounds is left (proved";
-    bool const fitted = is_fitted(r.fitted) && !(proved && std::isfinite(r.inflation.hi));
+    bool const fitted =
+        is_fitted(r.fitted) && !(proved && r.inflation.lo > 1 && std::isfinite(r.inflation.hi));
     if (fitted) {
         out += std::string{proved ? "; " : ""} + estimate_text(r.fitted) +
                (proved ? " in the best fit found, estimate"
