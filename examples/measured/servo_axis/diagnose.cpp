@@ -173,6 +173,11 @@ void add_chain(report::page& page, std::vector<chain_link> const& chain) {
             text += "; friction that differs between the directions takes that down to " +
                     left(*all, 2) + " and " + left(*all, 3);
         }
+        auto const* pair = find(chain, {"dry_friction", "directional_friction"});
+        if (all != nullptr && pair != nullptr && pair->estimation[2] < 1.25 * all->estimation[2]) {
+            text += ". Once friction may differ between the directions, the offset hardly matters: "
+                    "over these motions the two are nearly the same force";
+        }
         page.prose(text + ". These are estimates: least squares over all windows.");
     }
     report::table t{.columns = {{"model", report::column_kind::symbol}},
@@ -206,14 +211,15 @@ void add_sensitivity(report::page& page, sivid::diagnosis_run const& run,
                text_of("%g", c.windows.length) +
                " s is accepted. An inflation is the factor by which it would have to grow, so that "
                "each model has its own threshold.");
-    report::table t{
-        .columns = {{"model", report::column_kind::symbol},
-                    {"cannot explain the data below [mm] (proved)", report::column_kind::number},
-                    {"explains it from [mm] on (proved)", report::column_kind::number},
-                    {"best fit found [mm] (estimate)", report::column_kind::number}},
-        .rows = {},
-        .caption = "Other bounds, other verdicts: the thresholds of the foremost "
-                   "candidates, for windows and starts as stated."};
+    report::table t{.columns = {{"model", report::column_kind::symbol},
+                                {"refuted below [mm]", report::column_kind::number},
+                                {"explains from [mm]", report::column_kind::number},
+                                {"best fit [mm]", report::column_kind::number}},
+                    .rows = {},
+                    .caption =
+                        "Refuted below and explains from: proved thresholds of the bound, - where "
+                        "nothing is proved; best fit: estimate. The foremost "
+                        "candidates, for windows and starts as stated."};
     auto const add = [&](std::vector<std::string> const& effects, sivid::interval const& range,
                          double fitted) {
         auto const scaled = [&](double x, report::rounding how) {
