@@ -85,6 +85,9 @@ TEST_CASE("what no catalogue has stays unexplained") {
     auto const d = run(gust).result;
     CHECK(d.gap == gap_verdict::certified);
     CHECK(d.answer == answer_kind::unexplained);
+    REQUIRE(d.remainder);
+    CHECK(d.remainder->inflation.upper() > 1);
+    CHECK_FALSE(d.remainder->where.empty());
     REQUIRE_FALSE(d.where.empty());
     CHECK(d.where[0].name == "v");
     CHECK(d.effects.empty());

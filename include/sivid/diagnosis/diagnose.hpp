@@ -4,6 +4,8 @@
 
 #include <sivid/diagnosis/describe_candidate.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
+#include <sivid/diagnosis/hardest_experiments.hpp>
+#include <sivid/diagnosis/part_inflation.hpp>
 #include <sivid/paving/identify.hpp>
 
 #include <algorithm>
@@ -45,6 +47,7 @@ public:
             run_.candidates = tried.candidates();
             decide(tried);
             verify_candidates();
+            describe_remainder();
             propose();
             measure_parts();
         } else {
@@ -79,16 +82,19 @@ private:
         bound = verify_at(base.problem, base.fit);
         if (!diagnosis_detail::has_delays(base.problem.model)) {
             inflation_options search;
+            search.test = options_.test;
             search.seconds =
                 std::min(left(), bound.range.upper() <= 1 ? 0.3 : options_.gap_seconds);
             search.relative_width = 0.03;
+            double const fewer = refuted_by_few(base, bound.range.upper(), 0.6 * search.seconds);
+            search.seconds = std::min(search.seconds, left());
             auto const proved = bound_inflation(base.problem, &base.fit, search);
             // Both contain the inflation, or bound it from above.
             double const upper = std::min(proved.value.upper(), bound.range.upper());
             if (proved.value.upper() <= bound.range.upper()) bound.witness = proved.witness;
             bound.hull = proved.hull;
-            bound.range =
-                interval_traits<interval>::bounds(std::min(proved.value.lower(), upper), upper);
+            bound.range = interval_traits<interval>::bounds(
+                std::min(std::max(proved.value.lower(), fewer), upper), upper);
         } else {
             bound.range = interval_traits<interval>::bounds(0, bound.range.upper());
         }
@@ -96,6 +102,20 @@ private:
         d.gap = d.inflation.upper() <= 1  ? gap_verdict::none
                 : d.inflation.lower() > 1 ? gap_verdict::certified
                                           : gap_verdict::undecided;
+    }
+
+    /// A lower bound of the inflation from the experiments that are missed by most; 0 when there
+    /// are no more than these.
+    [[nodiscard]] double refuted_by_few(screened const& s, double upper, double seconds,
+                                        bool only_verdict = false) const {
+        if (s.problem.experiments.size() <= options_.hardest || upper <= 1) return 0;
+        inflation_options search;
+        search.test = options_.test;
+        search.seconds = std::min(left(), seconds);
+        search.only_verdict = only_verdict;
+        search.relative_width = 0.1;
+        auto const few = hardest_experiments(s.problem, s.fit, options_.hardest);
+        return bound_inflation(few, nullptr, search).value.lower();
     }
 
     void find_relations() {
@@ -112,18 +132,8 @@ private:
         if (!go_on("looking where the model departs from the data")) return;
         run_.places = estimate_places(run_.base);
         for (auto const& p : run_.places.places) {
-            suspected_place s;
-            s.kind = p.kind == place_kind::sensor  ? "sensor"
-                     : p.kind == place_kind::input ? "input"
-                                                   : "equation";
-            s.name = p.name;
-            s.where = {p.scenario, shown_time(p.from), shown_time(p.to)};
-            s.estimate = p.missing;
-            s.unit = p.unit;
-            s.law = p.law;
-            s.regime = p.regime;
-            prove(s);
-            run_.result.where.push_back(std::move(s));
+            run_.result.where.push_back(suspected(p));
+            prove(run_.result.where.back());
         }
         if (run_.result.where.empty()) return;
         for (auto const& set : run_.places.alternatives) {
@@ -134,6 +144,19 @@ private:
     }
     /// Sums of sampling periods lose their last digits.
     [[nodiscard]] static double shown_time(double t) { return std::round(t * 1e9) / 1e9; }
+    [[nodiscard]] static suspected_place suspected(estimated_place const& p) {
+        suspected_place s;
+        s.kind = p.kind == place_kind::sensor  ? "sensor"
+                 : p.kind == place_kind::input ? "input"
+                                               : "equation";
+        s.name = p.name;
+        s.where = {p.scenario, shown_time(p.from), shown_time(p.to)};
+        s.estimate = p.missing;
+        s.unit = p.unit;
+        s.law = p.law;
+        s.regime = p.regime;
+        return s;
+    }
     /// A place whose relation is proved broken gets the proof's window and missing rate.
     void prove(suspected_place& s) const {
         for (auto const& f : run_.findings) {
@@ -164,9 +187,7 @@ private:
         auto const chosen = choose(figures, tried.measurements(), options_.choice);
         if (!chosen.explained) {
             d.answer = answer_kind::unexplained;
-            for (std::size_t i = 1; i < figures.size(); ++i) {
-                if (figures[i].inflation < figures[run_.answer].inflation) run_.answer = i;
-            }
+            run_.answer = closest(figures);
         } else {
             run_.answer = chosen.best;
             d.effects = names_of(figures[chosen.best], run_.catalogue);
@@ -188,6 +209,20 @@ private:
         for (auto const i : order_)
             d.causes.push_back(cause_of(run_.candidates[i], run_.catalogue, run_.base.prior.size(),
                                         tried.measurements()));
+    }
+    /// Fewest effects among the candidates that are within a twentieth of the best.
+    [[nodiscard]] static std::size_t closest(std::vector<candidate> const& figures) {
+        auto least = figures.front().inflation;
+        for (auto const& f : figures) least = std::min(least, f.inflation);
+        std::size_t result = figures.size();
+        for (std::size_t i = 0; i < figures.size(); ++i) {
+            if (!(figures[i].inflation <= 1.05 * least)) continue;
+            auto const rank = [&](std::size_t k) {
+                return std::pair(figures[k].effects.size(), figures[k].inflation);
+            };
+            if (result == figures.size() || rank(i) < rank(result)) result = i;
+        }
+        return result == figures.size() ? 0 : result;
     }
     /// The answer, then what cannot be told from it, then by inflation; last what only adds to an
     /// answer that explains.
@@ -244,10 +279,16 @@ private:
             if (spent > options_.verify_seconds) return;
             if (!go_on("excluding " + c.effects.front())) return;
             inflation_options search;
+            search.test = options_.test;
             search.only_verdict = true;
-            search.seconds = std::min({left(), options_.verify_seconds - spent, 0.5});
-            auto const proved = bound_inflation(s.problem, &s.fit, search);
-            c.inflation = proved.value;
+            search.seconds =
+                std::min({left(), options_.verify_seconds - spent, options_.each_seconds});
+            double const fewer = refuted_by_few(s, s.fit.inflation, search.seconds, true);
+            if (fewer > 1) {
+                c.inflation = interval_traits<interval>::bounds(fewer, detail::infinity);
+            } else {
+                c.inflation = bound_inflation(s.problem, &s.fit, search).value;
+            }
             if (c.inflation.lower() > 1) c.verdict = cause_verdict::excluded;
         }
     }
@@ -258,6 +299,7 @@ private:
         auto& bound = run_.answer_bound;
         if (!diagnosis_detail::has_delays(s.problem.model)) {
             inflation_options search;
+            search.test = options_.test;
             search.seconds = std::min(left(), options_.gap_seconds);
             auto const proved = bound_inflation(s.problem, &s.fit, search);
             double const upper = std::min(proved.value.upper(), bound.range.upper());
@@ -278,6 +320,7 @@ private:
         if (!go_on("bounding the effect's parameters")) return;
         identify_options options;
         options.only_hulls = true;
+        options.test = options_.test;
         options.search.seconds = std::min(left(), options_.hull_seconds);
         auto const found = identify(s.problem, options);
         auto const own = run_.base.prior.size();
@@ -289,29 +332,33 @@ private:
     /// The inflation of each scenario and each channel alone.
     void measure_parts() {
         if (diagnosis_detail::has_delays(run_.base.model)) return;
-        auto const measure = [&](std::string const& name, auto const& keep,
-                                 std::vector<named_estimate>& to) {
-            auto const part = restricted_to(run_.base, keep);
-            if (part.experiments.empty() || !go_on("measuring the gap of " + name)) return;
-            inflation_options search;
-            search.seconds = std::min(left(), 0.4);
-            auto const proved = bound_inflation(part, nullptr, search);
-            to.push_back({name, "1", proved.value.upper(), proved.value});
-        };
-        auto& d = run_.result;
+        inflation_options each;
+        each.test = options_.test;
+        each.seconds = 0.4;
         double const begin = seconds();
-        auto const in_time = [&] { return seconds() - begin < options_.parts_seconds; };
-        for (std::size_t s = 0; s < run_.base.experiments.size() && in_time(); ++s) {
-            measure(
-                run_.base.experiments[s].name,
-                [s](std::size_t e, measurement const&) { return e == s; }, d.scenario_inflation);
+        auto const next = [&](std::string const& name) {
+            return seconds() - begin < options_.parts_seconds &&
+                   go_on("measuring the gap of " + name);
+        };
+        run_.result.scenario_inflation = inflation_of_experiments(run_.base, each, next);
+        run_.result.channel_inflation = inflation_of_channels(run_.base, each, next);
+    }
+
+    /// How much is left with the closest candidate, and where: the lead to what no effect has.
+    void describe_remainder() {
+        auto& d = run_.result;
+        if (d.answer != answer_kind::unexplained || d.causes.empty()) return;
+        auto const& nearest = run_.candidates[run_.answer];
+        unexplained_remainder rest{
+            names_of(nearest.figures, run_.catalogue), run_.answer_bound.range, {}};
+        if (run_.answer == 0) {
+            rest.inflation = d.inflation;
+            rest.where = d.where;
+        } else if (go_on("looking for what is left")) {
+            run_.remaining_places = estimate_places(nearest.problem);
+            for (auto const& p : run_.remaining_places.places) rest.where.push_back(suspected(p));
         }
-        auto const& channels = run_.base.model.about.channels;
-        for (std::size_t y = 0; y < channels.size() && in_time(); ++y) {
-            measure(
-                channels[y].name, [y](std::size_t, measurement const& m) { return m.channel == y; },
-                d.channel_inflation);
-        }
+        d.remainder = std::move(rest);
     }
 
     void propose() {
