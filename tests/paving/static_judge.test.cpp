@@ -70,7 +70,7 @@ TEST_CASE("a box at the inner circle is contracted from outside, and its core fr
     double const core = b.judge.core_upper(0, 0);
     CHECK(core < 1.05); // from there on everything is feasible
     CHECK(core >= 1);
-    CHECK(b.judge.smear(0, 0) > b.judge.smear(1, 0));
+    CHECK(b.judge.slope(0, 0) > b.judge.slope(1, 0));
 }
 
 TEST_CASE("more measurements than a word has bits") {

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -30,7 +31,7 @@ struct static_inversion_options {
     std::function<bool()> keep_going; ///< asked once a block; false ends the work
 };
 
-/// Set inversion for static problems: breadth first, eight boxes at a time, with every measurement
+/// Set inversion for static problems: largest boxes first, eight at a time, with every measurement
 /// that a box's parent decided left alone.
 ///   Waiting boxes lie in blocks of flat arrays. Each is tested by the enclosures of its open
 ///   measurements
@@ -75,7 +76,7 @@ private:
     using block = static_block;
 
     void prepare() {
-        auto& first = fresh();
+        auto& first = block_for(1);
         for (std::size_t j = 0; j < prior_.size(); ++j) {
             least_.push_back(options_.accuracy * width(prior_[j]));
             thick_.push_back(prior_[j].lower() < prior_[j].upper());
@@ -89,23 +90,27 @@ private:
         allowed_ = options_.uncertain * uncertain_;
     }
 
-    /// An empty block at the end of what waits.
-    block& fresh() {
+    /// A block with room for boxes of a volume.
+    block& block_for(double volume) {
+        auto& list = waiting_[volume > 0 ? std::ilogb(volume) / 2 : -2000];
+        if (!list.empty() && !list.back()->full()) return *list.back();
         if (spare_.empty()) {
-            waiting_.push_back(std::make_unique<block>(prior_.size(), judge_.words()));
+            list.push_back(std::make_unique<block>(prior_.size(), judge_.words()));
         } else {
-            waiting_.push_back(std::move(spare_.back()));
+            list.push_back(std::move(spare_.back()));
             spare_.pop_back();
         }
-        waiting_.back()->count = 0;
-        return *waiting_.back();
+        list.back()->count = 0;
+        return *list.back();
     }
 
     /// All that waits stays open.
     void stop(stop_reason why) {
         result_.reason = why;
-        for (auto const& b : waiting_) {
-            for (std::size_t i = 0; i < b->count; ++i) result_.open.add(b->boxes, i);
+        for (auto const& [size, list] : waiting_) {
+            for (auto const& b : list) {
+                for (std::size_t i = 0; i < b->count; ++i) result_.open.add(b->boxes, i);
+            }
         }
         waiting_.clear();
     }
@@ -119,10 +124,12 @@ private:
         return v;
     }
 
-    /// Tests the oldest block.
+    /// Tests a block of the largest boxes.
     void work_through() {
-        auto now = std::move(waiting_.front());
-        waiting_.pop_front();
+        auto& list = waiting_.begin()->second;
+        auto now = std::move(list.front());
+        list.pop_front();
+        if (list.empty()) waiting_.erase(waiting_.begin());
         now->pad(W);
         for (std::size_t i = 0; i < now->count; i += W) {
             auto const lanes = std::min(W, now->count - i);
@@ -180,7 +187,7 @@ private:
         for (std::size_t j = 0; j < prior_.size(); ++j) {
             double const w = from.boxes.upper(j)[i] - from.boxes.lower(j)[i];
             if (!(w > least_[j])) continue;
-            double const rank = judge_.smear(j, lane), share = w * scale_[j];
+            double const rank = judge_.slope(j, lane) * w, share = w * scale_[j];
             // Where the slopes say nothing (none, or unbounded ones) the widest side.
             if (rank > most || (rank == most && share > widest)) {
                 most = rank;
@@ -193,7 +200,7 @@ private:
             double const middle = lo + 0.5 * (hi - lo);
             if (lo < middle && middle < hi) {
                 // Two places: blocks are even.
-                auto& to = waiting_.empty() || waiting_.back()->full() ? fresh() : *waiting_.back();
+                auto& to = block_for(0.5 * approximate_volume(from, i));
                 to.copy(from, i, to.count);
                 to.copy(from, i, to.count + 1);
                 to.boxes.upper(side)[to.count] = middle;
@@ -210,7 +217,8 @@ private:
     box prior_;
     static_inversion_options options_;
     flat_paving result_;
-    std::deque<std::unique_ptr<block>> waiting_;
+    /// Blocks of boxes of about one size, by the binary exponent of their volume, largest first.
+    std::map<int, std::deque<std::unique_ptr<block>>, std::greater<>> waiting_;
     std::vector<std::unique_ptr<block>> spare_;
     std::vector<double> least_, scale_; ///< least width to split, 1 / width of the prior
     std::vector<char> thick_;

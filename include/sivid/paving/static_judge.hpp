@@ -45,7 +45,7 @@ public:
           memory_(program_.template memory<I>()),
           cut_(program_),
           words_((program_.outputs() + 63) / 64),
-          smear_(program_.parameters()) {
+          slope_(program_.parameters()) {
         for (std::size_t k = 0; k < program_.outputs(); ++k) {
             auto const& b = problem.measurements[k].bound;
             bounds_.push_back(traits::bounds(b.lower(), b.upper()));
@@ -108,9 +108,8 @@ public:
     [[nodiscard]] double core_upper(std::size_t j, std::size_t lane) const {
         return core_upper_[j][lane];
     }
-    /// How far side j of the box in a lane spreads the outputs that were open, in widths of their
-    /// bounds.
-    [[nodiscard]] double smear(std::size_t j, std::size_t lane) const { return smear_[j][lane]; }
+    /// The steepest slope by parameter j of the outputs that were open in a lane.
+    [[nodiscard]] double slope(std::size_t j, std::size_t lane) const { return slope_[j][lane]; }
 
 private:
     void close(static_block& l, std::size_t first, std::size_t w, std::uint64_t bit, mask hit,
@@ -139,7 +138,7 @@ private:
 
     /// Gradients of what is open: where to cut, and mean-value forms.
     void refine(static_block& l, std::size_t first, mask open, finding& found) {
-        for (auto& s : smear_) s.fill(0);
+        for (auto& s : slope_) s.fill(0);
         find_roles(l, first, open);
         cut_.begin(sides_);
         for (std::size_t w = 0; w < words_; ++w) {
@@ -158,7 +157,7 @@ private:
                 auto const k = 64 * w + bit;
                 mask undefined = undefined_[k];
                 program_.differentiate_at(memory_, k, undefined);
-                add_smear(k, whose[bit]);
+                add_slopes(k, whose[bit]);
                 if (!mean_value_[k]) continue;
                 auto const says = cut_.use(program_, memory_, k, bounds_[k],
                                            whose[bit] & ~undefined, outer_, inner_);
@@ -197,16 +196,14 @@ private:
         return left;
     }
 
-    void add_smear(std::size_t k, mask whose) {
-        std::array<double, W> own{}, lo{}, hi{}, from{}, to{};
+    void add_slopes(std::size_t k, mask whose) {
+        std::array<double, W> own{}, lo{}, hi{};
         for (std::size_t n = 0; n < W; ++n) own[n] = static_cast<double>((whose >> n) & 1U);
         for (std::size_t j = 0; j < sides_.size(); ++j) {
             program_.slope(memory_, k, j).store(lo.data(), hi.data());
-            sides_[j].store(from.data(), to.data());
             for (std::size_t n = 0; n < W; ++n) {
-                double const size = std::max(std::abs(lo[n]), std::abs(hi[n]));
-                double const spread = own[n] * size * (to[n] - from[n]);
-                smear_[j][n] = std::max(smear_[j][n], spread);
+                double const size = own[n] * std::max(std::abs(lo[n]), std::abs(hi[n]));
+                slope_[j][n] = std::max(slope_[j][n], size);
             }
         }
     }
@@ -220,7 +217,7 @@ private:
     mask outer_ = 0, inner_ = 0;
     std::vector<mask> undefined_; ///< of the outputs that were evaluated last
     std::vector<bool> mean_value_;
-    std::vector<std::array<double, W>> smear_, core_lower_, core_upper_;
+    std::vector<std::array<double, W>> slope_, core_lower_, core_upper_;
 };
 
 } // namespace sivid

@@ -34,7 +34,7 @@ public:
         }
         for (std::size_t j = 0; j < x.size(); ++j) {
             result.rest[j] = interval(block_.boxes.lower(j)[0], block_.boxes.upper(j)[0]);
-            result.smear.push_back(judge_.smear(j, 0));
+            result.smear.push_back(judge_.slope(j, 0) * width(result.rest[j]));
         }
         if ((found.inside & 1U) != 0) result.verdict = box_verdict::inside;
         return result;
