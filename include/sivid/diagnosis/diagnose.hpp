@@ -31,7 +31,7 @@ public:
         options_.screening.progress = [this](std::string const& what) {
             return go_on("trying " + what);
         };
-        options_.screening.seconds = std::min(options_.screening.seconds, options_.seconds);
+        options_.screening.seconds = std::min(options_.screening.seconds, 0.7 * options_.seconds);
     }
 
     [[nodiscard]] diagnosis_run operator()() {
@@ -72,6 +72,29 @@ private:
         return !stopped_;
     }
 
+    [[nodiscard]] inflation_options effort(double seconds) const {
+        inflation_options search;
+        search.test = options_.test;
+        search.seconds = std::min(left(), seconds);
+        return search;
+    }
+    /// A validated run at the fit: nothing is known from below.
+    [[nodiscard]] static verified_inflation at_point(screened const& s) {
+        auto result = verify_at(s.problem, s.fit);
+        result.range = interval_traits<interval>::bounds(0, result.range.upper());
+        return result;
+    }
+    /// Adds what a search proves to what is known.
+    static void tighten(verified_inflation& known, screened const& s,
+                        inflation_options const& search) {
+        auto const proved = bound_inflation(s.problem, &s.fit, search);
+        if (proved.value.upper() <= known.range.upper()) known.witness = proved.witness;
+        if (known.hull.size() == 0) known.hull = proved.hull;
+        double const upper = std::min(proved.value.upper(), known.range.upper());
+        double const lower = std::max(proved.value.lower(), known.range.lower());
+        known.range = interval_traits<interval>::bounds(std::min(lower, upper), upper);
+    }
+
     /// Whether some parameter explains the data, and by how much the bounds are missed.
     void measure_gap(screening& tried) {
         auto& d = run_.result;
@@ -79,24 +102,21 @@ private:
         if (tried.candidates().empty()) return;
         auto const& base = tried.candidates().front();
         auto& bound = run_.base_bound;
-        bound = verify_at(base.problem, base.fit);
+        bound = at_point(base);
         if (!diagnosis_detail::has_delays(base.problem.model)) {
-            inflation_options search;
-            search.test = options_.test;
-            search.seconds =
-                std::min(left(), bound.range.upper() <= 1 ? 0.3 : options_.gap_seconds);
+            auto search = effort(bound.range.upper() <= 1 ? 0.3 : options_.gap_seconds);
             search.relative_width = 0.03;
             double const fewer = refuted_by_few(base, bound.range.upper(), 0.6 * search.seconds);
+            auto const upper = bound.range.upper();
+            bound.range = interval_traits<interval>::bounds(std::min(fewer, upper), upper);
             search.seconds = std::min(search.seconds, left());
-            auto const proved = bound_inflation(base.problem, &base.fit, search);
-            // Both contain the inflation, or bound it from above.
-            double const upper = std::min(proved.value.upper(), bound.range.upper());
-            if (proved.value.upper() <= bound.range.upper()) bound.witness = proved.witness;
-            bound.hull = proved.hull;
-            bound.range = interval_traits<interval>::bounds(
-                std::min(std::max(proved.value.lower(), fewer), upper), upper);
-        } else {
-            bound.range = interval_traits<interval>::bounds(0, bound.range.upper());
+            tighten(bound, base, search);
+            if (!(bound.range.lower() > 1) && bound.range.upper() > 1 &&
+                go_on("deciding whether there is a gap")) {
+                search = effort(4 * options_.gap_seconds);
+                search.only_verdict = true;
+                tighten(bound, base, search);
+            }
         }
         d.inflation = bound.range;
         d.gap = d.inflation.upper() <= 1  ? gap_verdict::none
@@ -250,8 +270,8 @@ private:
                 place_of(order_[k]) < 0 || (s.figures.explains() && !adds_to_answer(order_[k]));
             if (of_interest) {
                 if (!go_on("verifying a witness")) return;
-                auto proved = verify_at(s.problem, s.fit);
-                c.inflation = interval_traits<interval>::bounds(0, proved.range.upper());
+                auto proved = at_point(s);
+                c.inflation = proved.range;
                 c.assumptions = proved.assumptions;
                 if (proved.range.upper() <= 1) c.verdict = cause_verdict::explains;
                 if (proved.witness)
@@ -278,11 +298,8 @@ private:
             double const spent = seconds() - begin;
             if (spent > options_.verify_seconds) return;
             if (!go_on("excluding " + c.effects.front())) return;
-            inflation_options search;
-            search.test = options_.test;
+            auto search = effort(std::min(options_.verify_seconds - spent, options_.each_seconds));
             search.only_verdict = true;
-            search.seconds =
-                std::min({left(), options_.verify_seconds - spent, options_.each_seconds});
             double const fewer = refuted_by_few(s, s.fit.inflation, search.seconds, true);
             if (fewer > 1) {
                 c.inflation = interval_traits<interval>::bounds(fewer, detail::infinity);
@@ -298,16 +315,7 @@ private:
         auto& d = run_.result;
         auto& bound = run_.answer_bound;
         if (!diagnosis_detail::has_delays(s.problem.model)) {
-            inflation_options search;
-            search.test = options_.test;
-            search.seconds = std::min(left(), options_.gap_seconds);
-            auto const proved = bound_inflation(s.problem, &s.fit, search);
-            double const upper = std::min(proved.value.upper(), bound.range.upper());
-            bound.range =
-                interval_traits<interval>::bounds(std::min(proved.value.lower(), upper), upper);
-            bound.hull = proved.hull;
-        } else {
-            bound.range = interval_traits<interval>::bounds(0, bound.range.upper());
+            tighten(bound, s, effort(options_.gap_seconds));
         }
         c.inflation = bound.range;
         d.shrink_fit = shrink(d.inflation, bound.range);
@@ -332,9 +340,7 @@ private:
     /// The inflation of each scenario and each channel alone.
     void measure_parts() {
         if (diagnosis_detail::has_delays(run_.base.model)) return;
-        inflation_options each;
-        each.test = options_.test;
-        each.seconds = 0.4;
+        auto const each = effort(0.4);
         double const begin = seconds();
         auto const next = [&](std::string const& name) {
             return seconds() - begin < options_.parts_seconds &&

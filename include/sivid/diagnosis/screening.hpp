@@ -27,7 +27,7 @@ struct screened {
 };
 
 struct screening_options {
-    double seconds = 20;
+    double seconds = 60;
     /// Pairs are tried with so many of the best single effects when none explains alone, ...
     std::size_t partners = 6;
     /// ... and the best single one with all others when it does.
