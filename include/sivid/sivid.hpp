@@ -124,6 +124,7 @@
 #include <sivid/diagnosis/declared_variation.hpp>
 #include <sivid/diagnosis/diagnose.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/diagnosis/graph_range.hpp>
 #include <sivid/diagnosis/hardest_experiments.hpp>
 #include <sivid/diagnosis/holdout.hpp>

@@ -4,9 +4,8 @@
 
 #include <sivid/diagnosis/broken_relation.hpp>
 #include <sivid/diagnosis/candidate.hpp>
-#include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/diagnosis/hardest_experiments.hpp>
-#include <sivid/diagnosis/holdout_judgement.hpp>
 #include <sivid/diagnosis/manoeuvre.hpp>
 #include <sivid/diagnosis/place_estimate.hpp>
 #include <sivid/diagnosis/screening.hpp>
@@ -23,37 +22,6 @@
 #include <vector>
 
 namespace sivid {
-
-struct diagnosis_options {
-    double seconds = 60;       ///< for everything; what is not finished then stays undecided
-    double gap_seconds = 2;    ///< for the certified inflation
-    double verify_seconds = 5; ///< for the verdicts on candidates
-    double each_seconds = 0.5; ///< of these, for one candidate that seems excluded
-    /// Where more experiments are at hand, so many of the hardest are tried first for a refutation.
-    std::size_t hardest = 4;
-    screening_options screening{};
-    choice_options choice{};
-    data_test_options test{};      ///< how boxes of parameters are enclosed
-    std::vector<manoeuvre> menu{}; ///< from which the next experiment is proposed
-    /// Called with what is being done; false ends with what is known so far.
-    std::function<bool(std::string const&)> progress{};
-    /// Called once it is known whether there is a gap, and where.
-    std::function<void(std::string const&)> first_sentence{};
-};
-
-/// A diagnosis with the fits behind it, for pictures and for judging by hold-out data.
-struct diagnosis_run {
-    diagnosis result;
-    identification_problem base;
-    std::vector<effect> catalogue;
-    std::vector<screened> candidates; ///< the model itself first
-    std::size_t answer = 0;           ///< index of the candidate that is the answer
-    verified_inflation base_bound, answer_bound;
-    std::vector<relation_finding> findings; ///< the broken relations
-    place_estimate places;
-    place_estimate remaining_places; ///< of the closest candidate, when none explains the data
-    std::optional<holdout_judgement> holdout_before, holdout_after;
-};
 
 /// Diagnoses one campaign step by step.
 class diagnostician {
@@ -226,7 +194,7 @@ private:
         auto const chosen = choose(figures, tried.measurements(), options_.choice);
         if (!chosen.explained) {
             d.answer = answer_kind::unexplained;
-            run_.answer = closest(figures);
+            run_.answer = closest_candidate(figures);
         } else {
             run_.answer = chosen.best;
             d.effects = names_of(figures[chosen.best]);
@@ -240,20 +208,6 @@ private:
         std::stable_sort(order_.begin(), order_.end(),
                          [&](std::size_t a, std::size_t b) { return place_of(a) < place_of(b); });
         for (auto const i : order_) d.causes.push_back(cause_of(run_.candidates[i]));
-    }
-    /// Fewest effects among the candidates that are within a twentieth of the best.
-    [[nodiscard]] static std::size_t closest(std::vector<candidate> const& figures) {
-        auto least = figures.front().inflation;
-        for (auto const& f : figures) least = std::min(least, f.inflation);
-        std::size_t result = figures.size();
-        for (std::size_t i = 0; i < figures.size(); ++i) {
-            if (!(figures[i].inflation <= 1.05 * least)) continue;
-            auto const rank = [&](std::size_t k) {
-                return std::pair(figures[k].effects.size(), figures[k].inflation);
-            };
-            if (result == figures.size() || rank(i) < rank(result)) result = i;
-        }
-        return result == figures.size() ? 0 : result;
     }
     /// The answer, then what cannot be told from it, then explaining ones, then by inflation.
     [[nodiscard]] double place_of(std::size_t i) const {
@@ -411,37 +365,6 @@ private:
     bool stopped_ = false;
     clock::time_point begin_ = clock::now();
 };
-
-/// Judges the model and the answer of a diagnosis by hold-out data and adds the figures: the only
-/// place where such data are read, after everything is chosen.
-inline void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds = 4,
-                             data_test_options const& test = {}) {
-    if (data.empty() || run.candidates.empty()) return;
-    auto const& base = run.candidates.front();
-    auto const before = judge_by_holdout(
-        base, run.base_bound, data.judged_by(base, run.base, run.catalogue), seconds / 2, test);
-    run.holdout_before = before;
-    if (run.result.causes.empty()) return;
-    auto const& answer = run.candidates[run.answer];
-    auto const after =
-        judge_by_holdout(answer, run.answer_bound, data.judged_by(answer, run.base, run.catalogue),
-                         seconds / 2, test);
-    run.holdout_after = after;
-    holdout_figures figures;
-    figures.inflation_before = before.at_witness;
-    figures.inflation_after = after.at_witness;
-    figures.over_fits_before = before.over_fits;
-    figures.over_fits_after = after.over_fits;
-    for (auto const& c : run.base.model.about.channels) figures.channels.push_back(c.name);
-    figures.rmse_before = before.rmse;
-    figures.rmse_after = after.rmse;
-    figures.covered_before = before.covered;
-    figures.covered_after = after.covered;
-    figures.width_before = before.width;
-    figures.width_after = after.width;
-    run.result.shrink_holdout = shrink(figures.inflation_before, figures.inflation_after);
-    run.result.causes.front().holdout = std::move(figures);
-}
 
 /// Says whether a model explains a campaign; if not, by how much it misses, and which effects of a
 /// catalogue explain what is missing.
