@@ -111,7 +111,7 @@ TEST_CASE("diagnosis words: what is left with the closest candidate") {
     v.answer = answer_state::unexplained;
     v.remainder = remainder_view{.effects = {"wind"}, .inflation = {2.4, 2.6}};
     CHECK_THAT(banner_sentence(v),
-               ContainsSubstring("with wind, the closest, an unexplained remainder of 2.4 to 2.6 "
+               ContainsSubstring("with wind, the closest, an unexplained remainder of 2.39 to 2.61 "
                                  "times the measurement bounds is left (proved)"));
     v.remainder->inflation = {};
     v.remainder->fitted = 2.5;

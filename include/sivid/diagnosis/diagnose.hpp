@@ -207,7 +207,7 @@ private:
         auto const chosen = choose(figures, tried.measurements(), options_.choice);
         if (!chosen.explained) {
             d.answer = answer_kind::unexplained;
-            run_.answer = closest(figures);
+            run_.answer = closest_candidate(figures);
         } else {
             run_.answer = chosen.best;
             d.effects = names_of(figures[chosen.best], run_.catalogue);
@@ -229,20 +229,6 @@ private:
         for (auto const i : order_)
             d.causes.push_back(cause_of(run_.candidates[i], run_.catalogue, run_.base.prior.size(),
                                         tried.measurements()));
-    }
-    /// Fewest effects among the candidates that are within a twentieth of the best.
-    [[nodiscard]] static std::size_t closest(std::vector<candidate> const& figures) {
-        auto least = figures.front().inflation;
-        for (auto const& f : figures) least = std::min(least, f.inflation);
-        std::size_t result = figures.size();
-        for (std::size_t i = 0; i < figures.size(); ++i) {
-            if (!(figures[i].inflation <= 1.05 * least)) continue;
-            auto const rank = [&](std::size_t k) {
-                return std::pair(figures[k].effects.size(), figures[k].inflation);
-            };
-            if (result == figures.size() || rank(i) < rank(result)) result = i;
-        }
-        return result == figures.size() ? 0 : result;
     }
     /// The answer, then what cannot be told from it, then by inflation; last what only adds to an
     /// answer that explains.
