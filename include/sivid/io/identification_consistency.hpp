@@ -35,7 +35,7 @@ struct check_finding {
     case check_finding::outcome::undecided:
         return "not decided";
     case check_finding::outcome::nothing:
-        return "nothing stated";
+        return "not checked";
     }
     return "";
 }
@@ -120,14 +120,21 @@ inline void require_same_problem(identification_problem const& problem,
     }
     double const allowed = 1e-9 * outer.upper() + 1e-14;
     std::string fault;
-    if (is_empty(stored.inner) || io_detail::apart(inner, stored.inner) > allowed) {
+    if (is_empty(stored.inner) || stored.inner.upper() < inner.lower() - allowed ||
+        stored.inner.lower() > outer.upper() + allowed) {
         fault = "the inner volume is not that of the inside boxes";
     }
-    if (is_empty(stored.outer) || io_detail::apart(outer, stored.outer) > allowed) {
+    if (is_empty(stored.outer) || stored.outer.lower() > outer.upper() + allowed ||
+        stored.outer.upper() < inner.lower() - allowed) {
         fault = "the outer volume is not that of the boxes";
     }
     for (auto const& [kind, n] : stored.stated_rows) {
         if (counted[kind] != n) fault = "the number of " + kind + " boxes is not the one stated";
+    }
+    bool const tighter = io_detail::apart(inner, stored.inner) > allowed ||
+                         io_detail::apart(outer, stored.outer) > allowed;
+    if (fault.empty() && tighter) { // such as those of the search over products of parameters
+        return {"volumes", check_finding::outcome::nothing, "they say more than the boxes do"};
     }
     return io_detail::agreement("volumes", fault,
                                 std::to_string(stored.rows.size()) + " boxes summed");
@@ -154,6 +161,7 @@ template <class I>
     using traits = interval_traits<I>;
     if (stored.combinations.empty()) return {"combinations", check_finding::outcome::nothing, ""};
     std::string fault;
+    bool tighter = false;
     for (auto const& c : stored.combinations) {
         auto const formula = product_formula::parse(c.name, problem.choice.unknown);
         if (!formula) {
@@ -173,12 +181,30 @@ template <class I>
         auto const range = low <= high ? interval_traits<interval>::bounds(low, high)
                                        : interval_traits<interval>::empty();
         double const slack = 1e-14 * mag(range);
-        bool const same = is_empty(range)
-                              ? is_empty(c.range)
-                              : !is_empty(c.range) &&
-                                    std::abs(range.lower() - c.range.lower()) <= slack &&
-                                    std::abs(range.upper() - c.range.upper()) <= slack;
-        if (!same) fault = "the range of " + c.name + " is not that over the boxes";
+        bool const nested = is_empty(range)
+                                ? is_empty(c.range)
+                                : !is_empty(c.range) && c.range.lower() >= range.lower() - slack &&
+                                      c.range.upper() <= range.upper() + slack;
+        if (nested && !is_empty(range)) {
+            tighter = tighter || c.range.lower() > range.lower() + slack ||
+                      c.range.upper() < range.upper() - slack;
+        }
+        if (nested && stored.witness) {
+            basic_box<I> p(problem.prior.size());
+            for (std::size_t j = 0; j < p.size(); ++j) {
+                auto const at = stored.witness->parameters.find(problem.choice.unknown[j]);
+                if (at != stored.witness->parameters.end()) p[j] = traits::point(at->second);
+            }
+            auto const value = formula->over(p);
+            auto const bound = traits::bounds(c.range.lower(), c.range.upper());
+            if (value && traits::disjoint(*value, bound)) {
+                fault = "the witness is outside the range of " + c.name;
+            }
+        }
+        if (!nested) fault = "the range of " + c.name + " is not that over the boxes";
+    }
+    if (fault.empty() && tighter) {
+        return {"combinations", check_finding::outcome::nothing, "they say more than the boxes do"};
     }
     return io_detail::agreement("combinations", fault,
                                 std::to_string(stored.combinations.size()) + " evaluated anew");
