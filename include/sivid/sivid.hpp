@@ -147,6 +147,7 @@
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/diagnosis/graph_range.hpp>
+#include <sivid/diagnosis/hardest_experiments.hpp>
 #include <sivid/diagnosis/holdout.hpp>
 #include <sivid/diagnosis/holdout_judgement.hpp>
 #include <sivid/diagnosis/integrand_set.hpp>
@@ -157,6 +158,7 @@
 #include <sivid/diagnosis/manoeuvre.hpp>
 #include <sivid/diagnosis/missing_rate.hpp>
 #include <sivid/diagnosis/observed_motion.hpp>
+#include <sivid/diagnosis/part_inflation.hpp>
 #include <sivid/diagnosis/place.hpp>
 #include <sivid/diagnosis/place_estimate.hpp>
 #include <sivid/diagnosis/place_fit.hpp>

@@ -46,3 +46,18 @@ TEST_CASE("a pair for which the data speak clearly is an alternative to a single
     CHECK(c.best == 1);
     CHECK(c.others == std::vector<std::size_t>{2});
 }
+
+TEST_CASE("the closest candidate has few effects where more buy little") {
+    auto const tried = [](std::vector<std::size_t> effects, double inflation) {
+        candidate c;
+        c.effects = std::move(effects);
+        c.inflation = inflation;
+        return c;
+    };
+    CHECK(closest_candidate({tried({}, 9)}) == 0);
+    CHECK(closest_candidate(
+              {tried({}, 9), tried({0}, 5), tried({0, 1}, 2.64), tried({0, 1, 2}, 2.57)}) == 2);
+    CHECK(closest_candidate(
+              {tried({}, 9), tried({0}, 5), tried({0, 1}, 2.64), tried({0, 1, 2}, 2.0)}) == 3);
+    CHECK(closest_candidate({candidate{}, candidate{}}) == 0); // no fit succeeded
+}

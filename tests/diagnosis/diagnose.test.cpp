@@ -46,6 +46,9 @@ TEST_CASE("a missing drag is found, proved and sized, and holds on data that cho
     CHECK(c.verdict == cause_verdict::explains);
     CHECK(c.inflation.upper() <= 1);
     CHECK(std::abs(c.parameters[0].value - 0.3) < 0.05);
+    REQUIRE(c.parameters[0].hull);
+    CHECK(contains(*c.parameters[0].hull, 0.3)); // the truth
+    CHECK(width(*c.parameters[0].hull) < 0.5);
     REQUIRE(c.witness);
     CHECK(c.witness->parameters[1].name == "quadratic.k");
     CHECK(c.witness->starts[0].states[0].name == "p");
@@ -82,6 +85,9 @@ TEST_CASE("what no catalogue has stays unexplained") {
     auto const d = run(gust).result;
     CHECK(d.gap == gap_verdict::certified);
     CHECK(d.answer == answer_kind::unexplained);
+    REQUIRE(d.remainder);
+    CHECK(d.remainder->inflation.upper() > 1);
+    CHECK_FALSE(d.remainder->where.empty());
     REQUIRE_FALSE(d.where.empty());
     CHECK(d.where[0].name == "v");
     CHECK(d.effects.empty());

@@ -45,3 +45,22 @@ TEST_CASE("the library speaks of the model's own quantities") {
     CHECK_THAT(hinge->functions[0][0][1], WithinAbs(-0.15, 1e-12));
     CHECK(hinge->functions[0][0][0] == 0);
 }
+
+TEST_CASE("thresholds are those of states that keep their sign") {
+    auto const model = record_model(hovercraft{});
+    knot_trace t;
+    t.times = {0, 1, 2};
+    t.states = {{1, 0.5, -0.2, 0, 0, 0.3}, {2, -0.1, 0.4, 1, 1, 0.1}, {3, 0, 0, 1, 1, 0}};
+    t.inputs = {{80, 0.1}, {90, -0.3}, {90, 0}};
+    t.input_slopes = {{10, -0.4}, {10, -0.4}, {0, 0}};
+    t.by_input.assign(3, std::vector<double>(12, 1.0));
+    std::vector<knot_trace> const traces{t};
+    auto const laws = law_library(model, traces).beyond_levels();
+    REQUIRE_FALSE(laws.empty());
+    for (auto const& l : laws) CHECK(l.regime.rfind("u > ", 0) == 0); // v and r change theirs
+    auto const at =
+        std::find_if(laws.begin(), laws.end(), [](law const& l) { return l.regime == "u > 2"; });
+    REQUIRE(at != laws.end());
+    CHECK_THAT(at->functions[0][0][2], WithinAbs(1, 1e-12));
+    CHECK(at->functions[0][0][1] == 0);
+}

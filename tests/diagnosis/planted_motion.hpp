@@ -130,7 +130,7 @@ inline experiment measured(draws& d, std::string name, motion_truth const& truth
             double const off = kind == noise::uniform         ? d.uniform(-most, most)
                                : kind == noise::at_the_bounds ? (d.coin() ? most : -most)
                                : kind == noise::offset        ? side * most
-                                                       : most * std::sin(pace * t + phase);
+                                                              : most * std::sin(pace * t + phase);
             double const value = truth.at(t)[y] + (shift.empty() ? 0 : shift[y]);
             e.measurements.push_back({t, y, around(value + off, error)});
         }
@@ -153,13 +153,12 @@ double integral(motion_truth const& truth, double from, double to, F const& f) {
 
 /// A driven pendulum: x0' = x1, x1' = -p0 sin x0 - p1 x1 + p2 u0, with or without dry friction.
 inline recorded_model pendulum(double dry = 0) {
-    return support::model_of({2, 3, 1, 20},
-                             [dry](auto const&, auto const& x, auto const& p, auto const& u) {
-                                 using T = std::decay_t<decltype(x[0])>;
-                                 T const friction = T(dry) * x[1] / sqrt(sqr(x[1]) + T(1e-4));
-                                 return std::vector<T>{
-                                     x[1], p[2] * u[0] - p[0] * sin(x[0]) - p[1] * x[1] - friction};
-                             });
+    return support::model_of(
+        {2, 3, 1, 20}, [dry](auto const&, auto const& x, auto const& p, auto const& u) {
+            using T = std::decay_t<decltype(x[0])>;
+            T const friction = T(dry) * x[1] / sqrt(sqr(x[1]) + T(1e-4));
+            return std::vector<T>{x[1], p[2] * u[0] - p[0] * sin(x[0]) - p[1] * x[1] - friction};
+        });
 }
 inline sampled_signal sine_input(double size, double pace, double duration) {
     std::vector<double> t, v;

@@ -14,6 +14,20 @@ TEST_CASE("an empty diagnosis is a valid document") {
     CHECK_THAT(text, ContainsSubstring("\"inflation\": [0, null]"));
     CHECK_THAT(text, ContainsSubstring("\"fit\": null"));
     CHECK_THAT(text, ContainsSubstring("\"next\": null"));
+    CHECK_THAT(text, ContainsSubstring("\"remainder\": null"));
+}
+
+TEST_CASE("what stays unexplained is written with its size and place") {
+    diagnosis d;
+    d.answer = answer_kind::unexplained;
+    suspected_place tank;
+    tank.kind = "equation";
+    tank.name = "upper tank";
+    d.remainder = unexplained_remainder{{"overflow"}, interval(1.5, 2.5), {tank}};
+    auto const json = nlohmann::json::parse(diagnosis_json(d, "tanks"));
+    CHECK(json["remainder"]["effects"][0] == "overflow");
+    CHECK(json["remainder"]["inflation"][1] == 2.5);
+    CHECK(json["remainder"]["where"][0]["name"] == "upper tank");
 }
 
 TEST_CASE("all that a diagnosis says is written, bounds outward and names quoted") {

@@ -136,3 +136,23 @@ TEST_CASE("unknown delays of an input and of channels are fitted") {
         CHECK(std::abs(found.parameters[3] - 0.15) < 0.02);
     }
 }
+
+TEST_CASE("least squares have fewer squares, the fit less inflation") {
+    draws d(347);
+    support::hover_effect effect;
+    effect.inputs = [](double t, auto const& recorded) {
+        return support::controls{recorded(t)[0], recorded(std::max(0.0, t - 0.15))[1]};
+    };
+    auto const problem = support::hovercraft_campaign(d, effect, {});
+    auto const squares = fitter(problem).least_squares();
+    auto const minimax = fitter(problem)(squares.parameters);
+    CHECK(minimax.inflation <= squares.inflation + 1e-6);
+    auto const sum = [](approximate_fit const& f) {
+        double total = 0;
+        for (auto const& e : f.residuals) {
+            for (double const r : e) total += r * r;
+        }
+        return total;
+    };
+    CHECK(sum(squares) <= 1.01 * sum(minimax));
+}

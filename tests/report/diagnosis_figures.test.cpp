@@ -18,7 +18,7 @@ TEST_CASE("diagnosis figures: before and after stand side by side with one key")
 }
 
 TEST_CASE("diagnosis figures: one for each equation, scenarios on one scale") {
-    auto const all = missing_rate_figures(hovercraft_diagnosis().view());
+    auto const all = missing_rate_figures(hovercraft_diagnosis().view().missing_rates);
     REQUIRE(all.size() == 2);
     CHECK(all[0].title == "Missing in the yaw equation.");
     CHECK(all[0].panels.size() == 2);

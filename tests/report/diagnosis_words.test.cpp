@@ -105,6 +105,20 @@ TEST_CASE("diagnosis words: unexplained says place and law") {
     CHECK_THAT(banner_sentence(v), ContainsSubstring("in the shape of F_u"));
 }
 
+TEST_CASE("diagnosis words: what is left with the closest candidate") {
+    diagnosis_view v = hovercraft_diagnosis().view();
+    CHECK(remainder_clause(v).empty());
+    v.answer = answer_state::unexplained;
+    v.remainder = remainder_view{.effects = {"wind"}, .inflation = {2.4, 2.6}};
+    CHECK_THAT(banner_sentence(v),
+               ContainsSubstring("with wind, the closest, an unexplained remainder of 2.39 to 2.61 "
+                                 "times the measurement bounds is left (proved)"));
+    v.remainder->inflation = {};
+    v.remainder->fitted = 2.5;
+    CHECK_THAT(remainder_clause(v), ContainsSubstring("in the best fit found (estimate)"));
+    CHECK_THAT(remainder_clause(v), !ContainsSubstring("proved"));
+}
+
 TEST_CASE("diagnosis words: bounds are printed outward and open ends are said") {
     CHECK(span_text({3.1024, 3.1987}) == "3.10 to 3.20");
     CHECK(span_text({3.1, infinity}) == "at least 3.10");

@@ -42,6 +42,24 @@ struct command {
     std::string command_line;
 };
 
+struct diagnose_command {
+    std::filesystem::path folder, out;
+    std::string file = "estimation_200Hz.csv";
+    std::string holdout_file = "validation_200Hz.csv"; ///< left out when it is not there
+    window_choice windows{.every = 1};
+    stated_bounds bounds{.model_error = *sivid::exact_decimal::parse("0.001")};
+    std::size_t every_sample = 5; ///< of a window: every so many are compared
+    double budget = 60;           ///< [s]
+    bool quiet = false;
+    std::string command_line;
+};
+/// Diagnoses what M v' = F - F_v v leaves out. Ends with 0 whatever it finds.
+/// @throws sivid::input_error, sivid::output_error
+[[nodiscard]] int run(diagnose_command const& c);
+
+/// @throws sivid::output_error
+void prepare_folder(std::filesystem::path const& folder);
+
 /// The problem that the windows pose.
 struct posed_problem {
     sivid::identification_problem problem;

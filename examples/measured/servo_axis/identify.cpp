@@ -2,6 +2,7 @@
 #include "balance.hpp"
 #include "command.hpp"
 #include "model.hpp"
+#include "windows.hpp"
 
 #include <sivid/enclosure/simulate.hpp>
 
@@ -30,31 +31,6 @@ constexpr std::array<prior_side, 4> prior_sides{{{"M", "50", "200", 95.1089},
                                                  {"F_v", "50", "500", 203.5034},
                                                  {"F_c", "0", "50", 20.3935},
                                                  {"offset", "-20", "20", -3.1648}}};
-
-interval about(exact_decimal const& value, exact_decimal const& bound) {
-    return *sivid::enclose(value - bound, value + bound);
-}
-
-sivid::experiment experiment_of(recording const& r, sample_range const& w, command const& c) {
-    using difference = std::vector<double>::difference_type;
-    auto const part = [&](std::vector<double> const& all) {
-        return std::vector<double>(all.begin() + static_cast<difference>(w.from),
-                                   all.begin() + static_cast<difference>(w.to + 1));
-    };
-    sivid::experiment e;
-    char name[40];
-    std::snprintf(name, sizeof name, "%g s", r.time[w.from]);
-    e.name = name;
-    e.begin = r.time[w.from];
-    e.inputs = {sivid::sampled_signal(part(r.time), part(r.force), sivid::interpolation::linear)};
-    auto const v = exact_decimal::shortest(approximate_velocity(r, w.from, c.windows.filter_half));
-    e.initial =
-        box{about(r.position[w.from], c.bounds.start_position), about(v, c.bounds.start_velocity)};
-    for (std::size_t k = w.from + 1; k <= w.to; ++k) {
-        e.measurements.push_back({r.time[k], 0, about(r.position[k], c.bounds.model_error)});
-    }
-    return e;
-}
 
 std::vector<window> windows_of(sivid::identification_problem const& problem) {
     std::vector<window> result;
@@ -170,8 +146,10 @@ posed_problem pose(recording const& r, command const& c) {
         problem.prior[j] =
             *sivid::enclose(*exact_decimal::parse(side.lower), *exact_decimal::parse(side.upper));
     }
+    window_bounds const bounds{c.bounds.model_error, c.bounds.start_position,
+                               c.bounds.start_velocity};
     for (auto const& w : posed.used) {
-        problem.experiments.push_back(experiment_of(r, w, c));
+        problem.experiments.push_back(window_experiment(r, w, c.windows.filter_half, bounds));
         auto const half = c.windows.filter_half;
         auto const narrow = std::max<std::size_t>(2, half * 3 / 5);
         posed.filter_difference =

@@ -267,20 +267,19 @@ void print_summary(posed_problem const& posed, outcome_of_run const& o, command 
               << " and result.json, boxes.csv, outputs.csv beside it\n";
 }
 
-/// @throws sivid::output_error
-void prepare_folder(std::filesystem::path const& folder) {
-    std::error_code fault;
-    std::filesystem::create_directories(folder, fault);
-    if (fault || !std::filesystem::is_directory(folder))
-        throw sivid::output_error("the folder " + folder.string() + " cannot be created");
-}
-
 int exit_code_of(sivid::verdict v) {
     if (v == sivid::verdict::consistent) return exit_code::consistent;
     return v == sivid::verdict::inconsistent ? exit_code::inconsistent : exit_code::undecided;
 }
 
 } // namespace
+
+void prepare_folder(std::filesystem::path const& folder) {
+    std::error_code fault;
+    std::filesystem::create_directories(folder, fault);
+    if (fault || !std::filesystem::is_directory(folder))
+        throw sivid::output_error("the folder " + folder.string() + " cannot be created");
+}
 
 int run(command const& c) {
     auto const record = read_recording(c.folder / c.file);

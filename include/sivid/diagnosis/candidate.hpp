@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace sivid {
@@ -83,6 +84,23 @@ struct choice_options {
                      [&](std::size_t a, std::size_t b) { return score(a) < score(b); });
     if (result.others.size() > options.most_others) result.others.resize(options.most_others);
     return result;
+}
+
+/// The candidate that comes closest, when none explains the data: fewest effects among those within
+/// a twentieth of the least inflation.
+/// @param all  not empty
+[[nodiscard]] inline std::size_t closest_candidate(std::vector<candidate> const& all) {
+    auto least = all.front().inflation;
+    for (auto const& c : all) least = std::min(least, c.inflation);
+    std::size_t result = all.size();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (!(all[i].inflation <= 1.05 * least)) continue;
+        auto const rank = [&](std::size_t k) {
+            return std::pair(all[k].effects.size(), all[k].inflation);
+        };
+        if (result == all.size() || rank(i) < rank(result)) result = i;
+    }
+    return result == all.size() ? 0 : result;
 }
 
 } // namespace sivid

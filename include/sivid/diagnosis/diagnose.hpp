@@ -4,6 +4,9 @@
 
 #include <sivid/diagnosis/describe_candidate.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
+#include <sivid/diagnosis/hardest_experiments.hpp>
+#include <sivid/diagnosis/part_inflation.hpp>
+#include <sivid/paving/identify.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -28,7 +31,7 @@ public:
         options_.screening.progress = [this](std::string const& what) {
             return go_on("trying " + what);
         };
-        options_.screening.seconds = std::min(options_.screening.seconds, options_.seconds);
+        options_.screening.seconds = std::min(options_.screening.seconds, 0.7 * options_.seconds);
     }
 
     [[nodiscard]] diagnosis_run operator()() {
@@ -44,6 +47,7 @@ public:
             run_.candidates = tried.candidates();
             decide(tried);
             verify_candidates();
+            describe_remainder();
             propose();
             measure_parts();
         } else {
@@ -68,6 +72,29 @@ private:
         return !stopped_;
     }
 
+    [[nodiscard]] inflation_options effort(double seconds) const {
+        inflation_options search;
+        search.test = options_.test;
+        search.seconds = std::min(left(), seconds);
+        return search;
+    }
+    /// A validated run at the fit: nothing is known from below.
+    [[nodiscard]] static verified_inflation at_point(screened const& s) {
+        auto result = verify_at(s.problem, s.fit);
+        result.range = interval_traits<interval>::bounds(0, result.range.upper());
+        return result;
+    }
+    /// Adds what a search proves to what is known.
+    static void tighten(verified_inflation& known, screened const& s,
+                        inflation_options const& search) {
+        auto const proved = bound_inflation(s.problem, &s.fit, search);
+        if (proved.value.upper() <= known.range.upper()) known.witness = proved.witness;
+        if (known.hull.size() == 0) known.hull = proved.hull;
+        double const upper = std::min(proved.value.upper(), known.range.upper());
+        double const lower = std::max(proved.value.lower(), known.range.lower());
+        known.range = interval_traits<interval>::bounds(std::min(lower, upper), upper);
+    }
+
     /// Whether some parameter explains the data, and by how much the bounds are missed.
     void measure_gap(screening& tried) {
         auto& d = run_.result;
@@ -75,26 +102,40 @@ private:
         if (tried.candidates().empty()) return;
         auto const& base = tried.candidates().front();
         auto& bound = run_.base_bound;
-        bound = verify_at(base.problem, base.fit);
+        bound = at_point(base);
         if (!diagnosis_detail::has_delays(base.problem.model)) {
-            inflation_options search;
-            search.seconds =
-                std::min(left(), bound.range.upper() <= 1 ? 0.3 : options_.gap_seconds);
+            auto search = effort(bound.range.upper() <= 1 ? 0.3 : options_.gap_seconds);
             search.relative_width = 0.03;
-            auto const proved = bound_inflation(base.problem, &base.fit, search);
-            // Both contain the inflation, or bound it from above.
-            double const upper = std::min(proved.value.upper(), bound.range.upper());
-            if (proved.value.upper() <= bound.range.upper()) bound.witness = proved.witness;
-            bound.hull = proved.hull;
-            bound.range =
-                interval_traits<interval>::bounds(std::min(proved.value.lower(), upper), upper);
-        } else {
-            bound.range = interval_traits<interval>::bounds(0, bound.range.upper());
+            double const fewer = refuted_by_few(base, bound.range.upper(), 0.6 * search.seconds);
+            auto const upper = bound.range.upper();
+            bound.range = interval_traits<interval>::bounds(std::min(fewer, upper), upper);
+            search.seconds = std::min(search.seconds, left());
+            tighten(bound, base, search);
+            if (!(bound.range.lower() > 1) && bound.range.upper() > 1 &&
+                go_on("deciding whether there is a gap")) {
+                search = effort(4 * options_.gap_seconds);
+                search.only_verdict = true;
+                tighten(bound, base, search);
+            }
         }
         d.inflation = bound.range;
         d.gap = d.inflation.upper() <= 1  ? gap_verdict::none
                 : d.inflation.lower() > 1 ? gap_verdict::certified
                                           : gap_verdict::undecided;
+    }
+
+    /// A lower bound of the inflation from the experiments that are missed by most; 0 when there
+    /// are no more than these.
+    [[nodiscard]] double refuted_by_few(screened const& s, double upper, double seconds,
+                                        bool only_verdict = false) const {
+        if (s.problem.experiments.size() <= options_.hardest || upper <= 1) return 0;
+        inflation_options search;
+        search.test = options_.test;
+        search.seconds = std::min(left(), seconds);
+        search.only_verdict = only_verdict;
+        search.relative_width = 0.1;
+        auto const few = hardest_experiments(s.problem, s.fit, options_.hardest);
+        return bound_inflation(few, nullptr, search).value.lower();
     }
 
     void find_relations() {
@@ -111,18 +152,8 @@ private:
         if (!go_on("looking where the model departs from the data")) return;
         run_.places = estimate_places(run_.base);
         for (auto const& p : run_.places.places) {
-            suspected_place s;
-            s.kind = p.kind == place_kind::sensor  ? "sensor"
-                     : p.kind == place_kind::input ? "input"
-                                                   : "equation";
-            s.name = p.name;
-            s.where = {p.scenario, shown_time(p.from), shown_time(p.to)};
-            s.estimate = p.missing;
-            s.unit = p.unit;
-            s.law = p.law;
-            s.regime = p.regime;
-            prove(s);
-            run_.result.where.push_back(std::move(s));
+            run_.result.where.push_back(suspected(p));
+            prove(run_.result.where.back());
         }
         if (run_.result.where.empty()) return;
         for (auto const& set : run_.places.alternatives) {
@@ -133,6 +164,19 @@ private:
     }
     /// Sums of sampling periods lose their last digits.
     [[nodiscard]] static double shown_time(double t) { return std::round(t * 1e9) / 1e9; }
+    [[nodiscard]] static suspected_place suspected(estimated_place const& p) {
+        suspected_place s;
+        s.kind = p.kind == place_kind::sensor  ? "sensor"
+                 : p.kind == place_kind::input ? "input"
+                                               : "equation";
+        s.name = p.name;
+        s.where = {p.scenario, shown_time(p.from), shown_time(p.to)};
+        s.estimate = p.missing;
+        s.unit = p.unit;
+        s.law = p.law;
+        s.regime = p.regime;
+        return s;
+    }
     /// A place whose relation is proved broken gets the proof's window and missing rate.
     void prove(suspected_place& s) const {
         for (auto const& f : run_.findings) {
@@ -163,9 +207,7 @@ private:
         auto const chosen = choose(figures, tried.measurements(), options_.choice);
         if (!chosen.explained) {
             d.answer = answer_kind::unexplained;
-            for (std::size_t i = 1; i < figures.size(); ++i) {
-                if (figures[i].inflation < figures[run_.answer].inflation) run_.answer = i;
-            }
+            run_.answer = closest_candidate(figures);
         } else {
             run_.answer = chosen.best;
             d.effects = names_of(figures[chosen.best], run_.catalogue);
@@ -207,7 +249,6 @@ private:
     /// Witnesses for what explains, proofs of emptiness for what does not.
     void verify_candidates() {
         auto& d = run_.result;
-        double const begin = seconds();
         for (std::size_t k = 0; k < order_.size(); ++k) {
             auto const& s = run_.candidates[order_[k]];
             auto& c = d.causes[k];
@@ -215,8 +256,8 @@ private:
                 place_of(order_[k]) < 0 || (s.figures.explains() && !adds_to_answer(order_[k]));
             if (of_interest) {
                 if (!go_on("verifying a witness")) return;
-                auto proved = verify_at(s.problem, s.fit);
-                c.inflation = interval_traits<interval>::bounds(0, proved.range.upper());
+                auto proved = at_point(s);
+                c.inflation = proved.range;
                 c.assumptions = proved.assumptions;
                 if (proved.range.upper() <= 1) c.verdict = cause_verdict::explains;
                 if (proved.witness)
@@ -228,6 +269,7 @@ private:
                 }
             }
         }
+        double const begin = seconds();
         std::vector<std::size_t> open(order_.size());
         for (std::size_t k = 0; k < open.size(); ++k) open[k] = k;
         std::stable_sort(open.begin(), open.end(), [&](std::size_t a, std::size_t b) {
@@ -242,11 +284,14 @@ private:
             double const spent = seconds() - begin;
             if (spent > options_.verify_seconds) return;
             if (!go_on("excluding " + c.effects.front())) return;
-            inflation_options search;
+            auto search = effort(std::min(options_.verify_seconds - spent, options_.each_seconds));
             search.only_verdict = true;
-            search.seconds = std::min({left(), options_.verify_seconds - spent, 0.5});
-            auto const proved = bound_inflation(s.problem, &s.fit, search);
-            c.inflation = proved.value;
+            double const fewer = refuted_by_few(s, s.fit.inflation, search.seconds, true);
+            if (fewer > 1) {
+                c.inflation = interval_traits<interval>::bounds(fewer, detail::infinity);
+            } else {
+                c.inflation = bound_inflation(s.problem, &s.fit, search).value;
+            }
             if (c.inflation.lower() > 1) c.verdict = cause_verdict::excluded;
         }
     }
@@ -256,46 +301,56 @@ private:
         auto& d = run_.result;
         auto& bound = run_.answer_bound;
         if (!diagnosis_detail::has_delays(s.problem.model)) {
-            inflation_options search;
-            search.seconds = std::min(left(), options_.gap_seconds);
-            auto const proved = bound_inflation(s.problem, &s.fit, search);
-            double const upper = std::min(proved.value.upper(), bound.range.upper());
-            bound.range =
-                interval_traits<interval>::bounds(std::min(proved.value.lower(), upper), upper);
-            bound.hull = proved.hull;
-        } else {
-            bound.range = interval_traits<interval>::bounds(0, bound.range.upper());
+            tighten(bound, s, effort(options_.gap_seconds));
         }
         c.inflation = bound.range;
         d.shrink_fit = shrink(d.inflation, bound.range);
+        bound_parameters(s, c);
+    }
+
+    /// Hulls of the effect's parameters: every value that explains the data lies in them.
+    void bound_parameters(screened const& s, cause& c) {
+        if (!(c.inflation.upper() <= 1) || diagnosis_detail::has_delays(s.problem.model)) return;
+        if (!go_on("bounding the effect's parameters")) return;
+        identify_options options;
+        options.only_hulls = true;
+        options.test = options_.test;
+        options.search.seconds = std::min(left(), options_.hull_seconds);
+        auto const found = identify(s.problem, options);
+        auto const own = run_.base.prior.size();
+        for (std::size_t k = 0; k < c.parameters.size(); ++k) {
+            c.parameters[k].hull = found.hull[own + k];
+        }
     }
 
     /// The inflation of each scenario and each channel alone.
     void measure_parts() {
         if (diagnosis_detail::has_delays(run_.base.model)) return;
-        auto const measure = [&](std::string const& name, auto const& keep,
-                                 std::vector<named_estimate>& to) {
-            auto const part = restricted_to(run_.base, keep);
-            if (part.experiments.empty() || !go_on("measuring the gap of " + name)) return;
-            inflation_options search;
-            search.seconds = std::min(left(), 0.4);
-            auto const proved = bound_inflation(part, nullptr, search);
-            to.push_back({name, "1", proved.value.upper(), proved.value});
-        };
-        auto& d = run_.result;
+        auto const each = effort(0.4);
         double const begin = seconds();
-        auto const in_time = [&] { return seconds() - begin < options_.parts_seconds; };
-        for (std::size_t s = 0; s < run_.base.experiments.size() && in_time(); ++s) {
-            measure(
-                run_.base.experiments[s].name,
-                [s](std::size_t e, measurement const&) { return e == s; }, d.scenario_inflation);
+        auto const next = [&](std::string const& name) {
+            return seconds() - begin < options_.parts_seconds &&
+                   go_on("measuring the gap of " + name);
+        };
+        run_.result.scenario_inflation = inflation_of_experiments(run_.base, each, next);
+        run_.result.channel_inflation = inflation_of_channels(run_.base, each, next);
+    }
+
+    /// How much is left with the closest candidate, and where: the lead to what no effect has.
+    void describe_remainder() {
+        auto& d = run_.result;
+        if (d.answer != answer_kind::unexplained || d.causes.empty()) return;
+        auto const& nearest = run_.candidates[run_.answer];
+        unexplained_remainder rest{
+            names_of(nearest.figures, run_.catalogue), run_.answer_bound.range, {}};
+        if (run_.answer == 0) {
+            rest.inflation = d.inflation;
+            rest.where = d.where;
+        } else if (go_on("looking for what is left")) {
+            run_.remaining_places = estimate_places(nearest.problem);
+            for (auto const& p : run_.remaining_places.places) rest.where.push_back(suspected(p));
         }
-        auto const& channels = run_.base.model.about.channels;
-        for (std::size_t y = 0; y < channels.size() && in_time(); ++y) {
-            measure(
-                channels[y].name, [y](std::size_t, measurement const& m) { return m.channel == y; },
-                d.channel_inflation);
-        }
+        d.remainder = std::move(rest);
     }
 
     void propose() {

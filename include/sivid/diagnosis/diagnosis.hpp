@@ -156,6 +156,13 @@ enum class answer_kind { none, effects, unexplained };
     return k == answer_kind::none ? "none" : k == answer_kind::effects ? "effects" : "unexplained";
 }
 
+/// What is left of a gap with the candidate that comes closest, when none explains the data.
+struct unexplained_remainder {
+    std::vector<std::string> effects; ///< of that candidate
+    inflation_range inflation = unknown_inflation();
+    std::vector<suspected_place> where; ///< of the model with these effects; estimates
+};
+
 /// A manoeuvre that would tell candidates apart.
 struct next_experiment {
     std::string manoeuvre;
@@ -179,6 +186,7 @@ struct diagnosis {
     std::vector<std::vector<std::string>> indistinguishable;
     std::vector<std::string> unobservable; ///< effects that these channels and scenarios never show
     std::optional<interval> shrink_fit, shrink_holdout;
+    std::optional<unexplained_remainder> remainder; ///< of an unexplained gap
     std::optional<next_experiment> next;
     std::vector<std::string> assumptions;
     double seconds = 0;

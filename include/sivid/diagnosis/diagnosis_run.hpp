@@ -24,9 +24,14 @@ struct diagnosis_options {
     double seconds = 60;       ///< for everything; what is not finished then stays undecided
     double gap_seconds = 2;    ///< for the certified inflation
     double verify_seconds = 3; ///< for the verdicts on candidates
-    double parts_seconds = 2;  ///< for the inflation of single scenarios and channels
+    double each_seconds = 0.5; ///< of these, for one candidate that seems excluded
+    /// Where more experiments are at hand, so many of the hardest are tried first for a refutation.
+    std::size_t hardest = 4;
+    double hull_seconds = 1;  ///< for the hulls of the answer's parameters
+    double parts_seconds = 2; ///< for the inflation of single scenarios and channels
     screening_options screening{};
     choice_options choice{};
+    data_test_options test{};      ///< how boxes of parameters are enclosed
     std::vector<manoeuvre> menu{}; ///< from which the next experiment is proposed
     /// Called with what is being done; false ends with what is known so far.
     std::function<bool(std::string const&)> progress{};
@@ -44,21 +49,24 @@ struct diagnosis_run {
     verified_inflation base_bound, answer_bound;
     std::vector<relation_finding> findings; ///< the broken relations
     place_estimate places;
+    place_estimate remaining_places; ///< of the closest candidate, when none explains the data
     std::optional<holdout_judgement> holdout_before, holdout_after;
 };
 
 /// Judges the model and the answer of a diagnosis by hold-out data and adds the figures: the only
 /// place where such data are read, after everything is chosen.
-inline void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds = 4) {
+inline void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds = 4,
+                             data_test_options const& test = {}) {
     if (data.empty() || run.candidates.empty()) return;
     auto const& base = run.candidates.front();
     auto const before = judge_by_holdout(
-        base, run.base_bound, data.judged_by(base, run.base, run.catalogue), seconds / 2);
+        base, run.base_bound, data.judged_by(base, run.base, run.catalogue), seconds / 2, test);
     run.holdout_before = before;
     if (run.result.causes.empty()) return;
     auto const& answer = run.candidates[run.answer];
-    auto const after = judge_by_holdout(
-        answer, run.answer_bound, data.judged_by(answer, run.base, run.catalogue), seconds / 2);
+    auto const after =
+        judge_by_holdout(answer, run.answer_bound, data.judged_by(answer, run.base, run.catalogue),
+                         seconds / 2, test);
     run.holdout_after = after;
     holdout_figures figures;
     figures.inflation_before = before.at_witness;

@@ -67,7 +67,8 @@ inline void add_tube(identification_problem const& judged, box const& parameters
 [[nodiscard]] inline holdout_judgement judge_by_holdout(screened const& fitted,
                                                         verified_inflation const& bound,
                                                         identification_problem const& judged,
-                                                        double seconds) {
+                                                        double seconds,
+                                                        data_test_options const& test = {}) {
     holdout_judgement result;
     auto const& p = bound.witness ? bound.witness->parameters : fitted.fit.parameters;
     if (p.size() != judged.prior.size()) return result;
@@ -89,6 +90,7 @@ inline void add_tube(identification_problem const& judged, box const& parameters
         inflation_bound fit{bound.range, bound.witness, bound.hull, 0, 0, 0};
         inflation_options options;
         options.seconds = seconds;
+        options.test = test;
         auto const proved = holdout_inflation(fitted.problem, fit, judged, options);
         result.over_fits = proved.over_fits;
         auto const both = intersect(result.at_witness, proved.at_witness);

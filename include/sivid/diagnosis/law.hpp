@@ -102,6 +102,42 @@ public:
         hinges({"", [](knot_trace const&, std::size_t) { return 1.0; }}, i, laws);
         return laws;
     }
+    /// What begins where a state that never changes its sign, such as a level, passes a threshold:
+    /// at once, or in proportion to how far it is beyond.
+    [[nodiscard]] std::vector<law> beyond_levels() const {
+        std::vector<law> laws;
+        for (auto const i : roles_.moving) {
+            auto const x = [i](knot_trace const& t, std::size_t k) { return t.states[k][i]; };
+            double low = HUGE_VAL, high = -HUGE_VAL;
+            for (auto const& own : values(x)) {
+                for (double const v : own) {
+                    low = std::min(low, v);
+                    high = std::max(high, v);
+                }
+            }
+            if (!(low < high) || low < -1e-3 * high) continue;
+            auto const name = about_->states[i].name;
+            for (int share = 1; share < 20; ++share) {
+                double const threshold = low + (high - low) * share / 20;
+                char text[48];
+                std::snprintf(text, sizeof text, "%.3g", threshold);
+                auto const regime = name + " > " + text;
+                add(
+                    laws, "max(" + name + "-" + text + ",0)",
+                    [=](knot_trace const& t, std::size_t k) {
+                        return std::max(x(t, k) - threshold, 0.0);
+                    },
+                    regime);
+                add(
+                    laws, "1",
+                    [=](knot_trace const& t, std::size_t k) {
+                        return x(t, k) > threshold ? 1.0 : 0.0;
+                    },
+                    regime);
+            }
+        }
+        return laws;
+    }
 
 private:
     using function = std::function<double(knot_trace const&, std::size_t)>;

@@ -64,9 +64,19 @@ struct place_options {
 
 namespace diagnosis_detail {
 
+/// What a second is to a motion of twenty seconds, and not less [s]: the time in which a missing
+/// rate may change.
+[[nodiscard]] inline double rate_time(identification_problem const& problem) {
+    double longest = 0;
+    for (auto const& e : problem.experiments) {
+        for (auto const& m : e.measurements) longest = std::max(longest, m.time - e.begin);
+    }
+    return std::max(1.0, longest / 20);
+}
+
 /// Of states, then of inputs. Typical sizes of the rates along a motion: four times their root mean
 /// square. An equation that rests is as uncertain as the others of its unit, or as its errors
-/// within a second.
+/// within `rate_time`.
 [[nodiscard]] inline std::vector<missing_rate_scale> rate_scales(campaign& c,
                                                                  arrow_vector const& z) {
     auto const& about = c.problem().model.about;
@@ -81,6 +91,7 @@ namespace diagnosis_detail {
         }
     }
     std::vector<missing_rate_scale> scales;
+    double const time = rate_time(c.problem());
     double error = std::numeric_limits<double>::infinity();
     for (std::size_t e = 0; e < c.experiments(); ++e) {
         for (double const r : c.radii(e)) error = std::min(error, r);
@@ -93,8 +104,8 @@ namespace diagnosis_detail {
         }
         double const own = std::sqrt(squares[i] / std::max(count, 1.0));
         double const unit = std::sqrt(largest / std::max(count, 1.0));
-        double const size = std::max({4 * own, 2 * unit, 20 * error});
-        scales.push_back({size, 2.0 / 3 * size});
+        double const size = std::max({4 * own, 2 * unit, 20 * error / time});
+        scales.push_back({size, 2.0 / 3 * size / std::sqrt(time)});
     }
     for (std::size_t i = 0; i < about.inputs.size(); ++i) {
         double largest = 0;
@@ -104,7 +115,7 @@ namespace diagnosis_detail {
             for (double const u : samples->values()) largest = std::max(largest, std::abs(u));
         }
         double const size = largest > 0 ? largest : 1;
-        scales.push_back({size, 2.0 / 3 * size});
+        scales.push_back({size, 2.0 / 3 * size / std::sqrt(time)});
     }
     return scales;
 }
@@ -351,10 +362,17 @@ private:
         auto const states = problem_->model.about.states.size();
         for (std::size_t c = 0; c < targets.size(); ++c) {
             bool const input = targets[c] >= states;
-            auto const list = input ? library.for_input(targets[c] - states) : library.for_rates();
-            auto const ranked = laws.for_target(c, list);
+            auto list = input ? library.for_input(targets[c] - states) : library.for_rates();
+            auto ranked = laws.for_target(c, list);
+            auto const stands_out = [&ranked] {
+                return !ranked.empty() && ranked.front().share >= plain_share;
+            };
+            if (!stands_out()) {
+                list = library.beyond_levels();
+                ranked = laws.for_target(c, list);
+            }
             // A shape that no law has is better left without a name.
-            if (ranked.empty() || ranked.front().share < plain_share) continue;
+            if (!stands_out()) continue;
             for (auto& p : result.places) {
                 if (p.kind == place_kind::sensor || (p.kind == place_kind::input) != input)
                     continue;

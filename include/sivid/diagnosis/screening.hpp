@@ -27,16 +27,20 @@ struct screened {
 };
 
 struct screening_options {
-    double seconds = 20;
+    double seconds = 60;
     /// Pairs are tried with so many of the best single effects when none explains alone, ...
     std::size_t partners = 6;
     /// ... and the best single one with all others when it does.
     bool always_pairs = true;
+    /// Candidates of up to so many effects are tried: where no pair explains, effects join the
+    /// likeliest candidate one by one.
+    std::size_t most_effects = 2;
     /// Called before each fit with what is tried; false ends the screening.
     std::function<bool(std::string const&)> progress{};
 };
 
-/// Fits a catalogue of effects, alone and in pairs, to one campaign. Nothing here is proved.
+/// Fits a catalogue of effects, alone, in pairs and perhaps further, to one campaign. Nothing here
+/// is proved.
 class screening {
 public:
     screening(identification_problem base, std::vector<effect> catalogue,
@@ -54,22 +58,13 @@ public:
         return result;
     }
 
-    /// The model itself, every single effect, then pairs.
-    /// @cost  21 effects: 22 fits, and about 20 to 100 for pairs
+    /// The model itself, every single effect, then pairs, then larger sets where they are asked
+    /// for.
+    /// @cost  21 effects: 22 fits, about 20 to 100 for pairs, about 20 for each further effect
     void run() {
-        try_one({});
-        for (std::size_t e = 0; e < catalogue_.size(); ++e) try_one({e});
-        polish();
-        auto singles = ranked_singles();
-        bool const explained = std::any_of(tried_.begin(), tried_.end(),
-                                           [](screened const& s) { return s.figures.explains(); });
-        if (explained && !options_.always_pairs) return;
-        singles.resize(std::min(singles.size(), explained ? 1 : options_.partners));
-        for (auto const a : singles) {
-            for (std::size_t b = 0; b < catalogue_.size(); ++b) {
-                if (b == a) continue;
-                try_one({std::min(a, b), std::max(a, b)});
-            }
+        singles_and_pairs();
+        for (std::size_t size = 3; size <= options_.most_effects && !explained(); ++size) {
+            join_one_more(size);
         }
         polish();
     }
@@ -124,6 +119,57 @@ public:
 
 private:
     using clock = std::chrono::steady_clock;
+
+    void singles_and_pairs() {
+        try_one({});
+        for (std::size_t e = 0; e < catalogue_.size(); ++e) try_one({e});
+        polish();
+        auto singles = ranked_singles();
+        bool const alone = explained();
+        if (alone && !options_.always_pairs) return;
+        singles.resize(std::min(singles.size(), alone ? 1 : options_.partners));
+        for (auto const a : singles) {
+            for (std::size_t b = 0; b < catalogue_.size(); ++b) {
+                if (b == a) continue;
+                try_one({std::min(a, b), std::max(a, b)});
+            }
+        }
+    }
+    /// Joins every other effect to the likeliest candidate of size - 1 effects. What explains must
+    /// then do without each of its effects, or a smaller candidate is the answer.
+    void join_one_more(std::size_t size) {
+        screened const* likeliest = nullptr;
+        for (auto const& s : tried_) {
+            if (s.figures.effects.size() + 1 != size) continue;
+            if (likeliest == nullptr || s.figures.squares < likeliest->figures.squares) {
+                likeliest = &s;
+            }
+        }
+        if (likeliest == nullptr) return;
+        auto const part = likeliest->figures.effects;
+        for (std::size_t e = 0; e < catalogue_.size(); ++e) {
+            if (std::find(part.begin(), part.end(), e) != part.end()) continue;
+            try_one(united(part, e));
+        }
+        std::vector<std::vector<std::size_t>> parts;
+        for (auto const& s : tried_) {
+            if (s.figures.effects.size() != size || !s.figures.explains()) continue;
+            for (std::size_t k = 0; k < size; ++k) {
+                parts.push_back(s.figures.effects);
+                parts.back().erase(parts.back().begin() + static_cast<std::ptrdiff_t>(k));
+            }
+        }
+        for (auto const& smaller : parts) try_one(smaller);
+    }
+    [[nodiscard]] static std::vector<std::size_t> united(std::vector<std::size_t> effects,
+                                                         std::size_t one) {
+        effects.insert(std::upper_bound(effects.begin(), effects.end(), one), one);
+        return effects;
+    }
+    [[nodiscard]] bool explained() const {
+        return std::any_of(tried_.begin(), tried_.end(),
+                           [](screened const& s) { return s.figures.explains(); });
+    }
 
     /// Fits a problem from the best of a grid over the parameters of its last effect, the others as
     /// a part of the candidate was fitted: an effect that sleeps (a saturation that is never

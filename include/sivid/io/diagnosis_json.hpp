@@ -31,6 +31,7 @@ public:
         maybe("fit", d_->shrink_fit);
         maybe("holdout", d_->shrink_holdout);
         json_.end_object();
+        remainder();
         next();
         strings("unobservable", d_->unobservable);
         strings("assumptions", d_->assumptions);
@@ -94,9 +95,10 @@ private:
         }
         json_.end_array();
     }
-    void where() {
+    void where() { where(d_->where); }
+    void where(std::vector<suspected_place> const& places) {
         json_.key("where").begin_array();
-        for (auto const& p : d_->where) {
+        for (auto const& p : places) {
             json_.begin_object();
             json_.key("kind").string(p.kind).key("name").string(p.name);
             json_.key("proved").boolean(p.proved).key("scenario").string(p.where.scenario);
@@ -184,6 +186,18 @@ private:
             json_.end_array();
         }
         json_.end_array().end_object();
+    }
+    void remainder() {
+        json_.key("remainder");
+        if (!d_->remainder) {
+            json_.null();
+            return;
+        }
+        json_.begin_object();
+        strings("effects", d_->remainder->effects);
+        json_.key("inflation").bounds(d_->remainder->inflation);
+        where(d_->remainder->where);
+        json_.end_object();
     }
     void next() {
         json_.key("next");

@@ -301,7 +301,8 @@ private:
     observer<interval> look_;
 };
 
-/// Not inline, so that it can be compiled once and apart from what uses it (SIVID_COMPILED_KERNELS).
+/// Not inline, so that it can be compiled once and apart from what uses it
+/// (SIVID_COMPILED_KERNELS).
 template <std::size_t N, std::size_t D>
 std::unique_ptr<experiment_run> make_taylor_run(flow const& f, experiment const& e,
                                                 record const& samples, run_options const& options) {

@@ -69,6 +69,24 @@ public:
         return finished(from(std::move(z)));
     }
 
+    /// Minimises the sum of squared residuals instead, without the q largest of each experiment.
+    /// @param parameters  where to begin; empty: at the centre of the prior
+    [[nodiscard]] approximate_fit least_squares(std::vector<double> const& parameters = {}) {
+        auto z = start_point(0);
+        auto const& free = campaign_->free_parameters();
+        for (std::size_t k = 0; k < free.size(); ++k) {
+            if (free[k] < parameters.size()) {
+                z.global[static_cast<Eigen::Index>(k)] = parameters[free[k]];
+            }
+        }
+        descent down(*campaign_);
+        descent_point here;
+        if (!down.evaluate(std::move(z), here)) return {};
+        down.run(here, 2, {}, {40, 1e-6});
+        squares_ = squares_of(here);
+        return finished(std::move(here));
+    }
+
     /// The residuals at a point, without any descent.
     [[nodiscard]] approximate_fit at(std::vector<double> const& parameters,
                                      std::vector<std::vector<double>> const& starts) {

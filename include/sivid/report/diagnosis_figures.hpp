@@ -53,10 +53,12 @@ namespace sivid::report {
 }
 
 /// One figure for each equation, with a panel for each scenario, all on one scale.
-[[nodiscard]] inline std::vector<figure> missing_rate_figures(diagnosis_view const& v) {
+/// @param still  how the title goes on, "with rudder_lag"
+[[nodiscard]] inline std::vector<figure>
+missing_rate_figures(std::vector<missing_rate_series> const& rates, std::string const& still = {}) {
     std::vector<figure> out;
     std::vector<std::string> equations;
-    for (missing_rate_series const& s : v.missing_rates) {
+    for (missing_rate_series const& s : rates) {
         if (std::find(equations.begin(), equations.end(), s.equation) == equations.end()) {
             equations.push_back(s.equation);
         }
@@ -64,7 +66,7 @@ namespace sivid::report {
     for (std::string const& e : equations) {
         std::vector<missing_rate_series> all;
         range values;
-        for (missing_rate_series const& s : v.missing_rates) {
+        for (missing_rate_series const& s : rates) {
             if (s.equation == e) {
                 all.push_back(s);
                 values = hull(values, detail::rate_range(s));
@@ -72,7 +74,8 @@ namespace sivid::report {
         }
         figure f{.panels = {},
                  .legend = missing_rate_legend(all),
-                 .title = "Missing in the " + e + " equation.",
+                 .title = "Missing in the " + e + " equation" +
+                          (still.empty() ? "." : ", " + still + "."),
                  .caption = "The curve is an estimate. A box spans a window and the proved bounds "
                             "of the mean over it; one that does not touch zero proves that "
                             "something is missing there."};

@@ -58,6 +58,21 @@ inline void add_candidates(page& out, diagnosis_view const& v) {
     }
 }
 
+inline void add_remainder(page& out, diagnosis_view const& v) {
+    if (!v.remainder) return;
+    out.section("What stays unexplained");
+    out.prose(capitalised(remainder_clause(v)) + ".");
+    std::vector<std::string> lines;
+    for (place_view const& p : v.remainder->places) {
+        lines.push_back(capitalised(place_clause(p)) + ".");
+    }
+    if (!v.remainder->effects.empty()) out.bullets(lines);
+    for (figure const& f : missing_rate_figures(v.remainder->missing_rates,
+                                                "with " + names_of(v.remainder->effects))) {
+        out.add(f);
+    }
+}
+
 inline void add_motions(page& out, diagnosis_view const& v, bool holdout) {
     std::vector<comparison_series> all;
     for (compared_scenario const& s : v.scenarios) {
@@ -158,10 +173,11 @@ inline void add_basis(page& out, diagnosis_view const& v) {
     figure const misfits = misfit_figure(v);
     if (!misfits.panels.empty()) out.subsection("How far each channel misses its bounds");
     out.add(misfits);
-    auto const missing = missing_rate_figures(v);
+    auto const missing = missing_rate_figures(v.missing_rates);
     if (!missing.empty()) out.section("What is missing, over time");
     for (figure const& f : missing) out.add(f);
     detail::add_candidates(out, v);
+    detail::add_remainder(out, v);
     detail::add_comparison(out, v);
     detail::add_basis(out, v);
     out.footer({v.version, v.date});

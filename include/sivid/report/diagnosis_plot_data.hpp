@@ -54,6 +54,7 @@ struct missing_rate_data {
 struct diagnosis_plot_data {
     std::vector<scenario_data> scenarios{};
     std::vector<missing_rate_data> missing_rates{};
+    std::vector<missing_rate_data> remaining_rates{}; ///< with the closest candidate
 };
 
 namespace detail {

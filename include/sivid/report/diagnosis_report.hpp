@@ -184,10 +184,11 @@ inline void describe(std::vector<effect> const& catalogue, diagnosis_report_opti
                      .machine = options.machine,
                      .command = options.command};
     auto const window = [](time_window const& w) { return window_view{w.scenario, w.from, w.to}; };
-    for (suspected_place const& p : d.where) {
-        v.places.push_back({p.kind, p.name, p.proved, window(p.where), detail::drawn(p.missing),
-                            p.estimate, p.unit, p.law, p.regime, p.alternatives});
-    }
+    auto const place = [&](suspected_place const& p) {
+        return place_view{p.kind,     p.name, p.proved, window(p.where), detail::drawn(p.missing),
+                          p.estimate, p.unit, p.law,    p.regime,        p.alternatives};
+    };
+    for (suspected_place const& p : d.where) v.places.push_back(place(p));
     for (broken_relation_report const& r : d.relations) {
         relation_view out{r.equation, r.sensors, r.proved, {}, r.assumptions};
         for (time_window const& w : r.windows) out.windows.push_back(window(w));
@@ -203,6 +204,14 @@ inline void describe(std::vector<effect> const& catalogue, diagnosis_report_opti
     }
     for (candidate_view& c : v.candidates) {
         if (c.effects.empty() && !is_fitted(c.fitted)) c.fitted = v.fitted;
+    }
+    if (d.remainder) {
+        remainder_view rest{.effects = d.remainder->effects,
+                            .inflation = detail::drawn(d.remainder->inflation)};
+        if (auto const* c = find_candidate(v, rest.effects)) rest.fitted = c->fitted;
+        for (suspected_place const& p : d.remainder->where) rest.places.push_back(place(p));
+        for (auto const& m : plots.remaining_rates) rest.missing_rates.push_back(detail::drawn(m));
+        v.remainder = std::move(rest);
     }
     if (d.next) {
         v.next = next_experiment_view{d.next->manoeuvre, detail::drawn(d.next->settings),

@@ -112,6 +112,15 @@ struct share_of_gap {
     double fitted = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// What is left of the gap with the candidate that comes closest, when none explains the data.
+struct remainder_view {
+    std::vector<std::string> effects{}; ///< of that candidate
+    range inflation{};                  ///< proved
+    double fitted = 0;                  ///< of its best fit; not proved; 0: no fit
+    std::vector<place_view> places{};   ///< of the model with these effects
+    std::vector<missing_rate_series> missing_rates{};
+};
+
 struct next_experiment_view {
     std::string manoeuvre{};
     std::vector<named_value> settings{};
@@ -139,6 +148,7 @@ struct diagnosis_view {
     std::vector<std::string> unobservable{};
     std::vector<std::string> absorbed{};  ///< effects that the priors are wide enough to take up
     range shrink_fit{}, shrink_holdout{}; ///< proved shares of the gap; empty: not applicable
+    std::optional<remainder_view> remainder{};
     std::optional<next_experiment_view> next{};
 
     std::vector<missing_rate_series> missing_rates{};

@@ -157,6 +157,26 @@ namespace sivid::report {
     return on + "removes " + shrink_text(share) + " of the gap (proved)";
 }
 
+/// "with overflow an unexplained remainder of 3.1 to 3.2 times the measurement bounds is left
+/// (proved)"; empty when nothing is said of one.
+[[nodiscard]] inline std::string remainder_clause(diagnosis_view const& v) {
+    if (!v.remainder) return "";
+    remainder_view const& r = *v.remainder;
+    std::string out = (r.effects.empty() ? "" : "with " + names_of(r.effects) + ", the closest, ") +
+                      "an unexplained remainder of ";
+    bool const proved = says_something(r.inflation);
+    if (proved)
+        out += inflation_text(r.inflation) + " times the measurement bounds is left (proved";
+    bool const fitted =
+        is_fitted(r.fitted) && !(proved && r.inflation.lo > 1 && std::isfinite(r.inflation.hi));
+    if (fitted) {
+        out += std::string{proved ? "; " : ""} + estimate_text(r.fitted) +
+               (proved ? " in the best fit found, estimate"
+                       : " times the measurement bounds is left in the best fit found (estimate");
+    }
+    return proved || fitted ? out + ")" : out + "unknown size is left";
+}
+
 [[nodiscard]] inline std::string headline(diagnosis_view const& v) {
     std::string const gap = v.gap == gap_state::absent    ? "No gap (proved)"
                             : v.gap == gap_state::present ? "Gap (proved)"
@@ -205,6 +225,7 @@ namespace sivid::report {
                         (excluded > 0 ? ", " + count_text(static_cast<std::size_t>(excluded)) +
                                             " are excluded (proved)"
                                       : std::string{}));
+        parts.push_back(remainder_clause(v));
         if (!v.places.empty()) parts.push_back(place_clause(v.places.front()));
     } else if (v.gap != gap_state::absent && !v.places.empty()) {
         parts.push_back(place_clause(v.places.front()));

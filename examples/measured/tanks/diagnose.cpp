@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+#include "command.hpp"
+#include "console/diagnosis_output.hpp"
+#include "effects.hpp"
+
+#include <sivid/report/table.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <optional>
+#include <system_error>
+
+namespace tanks {
+
+namespace {
+
+namespace report = sivid::report;
+
+std::string text_of(char const* format, double value) {
+    char buffer[64];
+    std::snprintf(buffer, sizeof buffer, format, value);
+    return buffer;
+}
+
+std::vector<std::string> assumptions_of(diagnose_command const& c) {
+    return {"pump voltage held between samples",
+            "level within " + c.bound.text() +
+                " V of every sample (sensor noise stays below 0.17 V)",
+            "upper level, not measured, starts between 0 and " + c.upper_start.text() +
+                " V, the lower one within " + c.lower_start.text() + " V of its first sample",
+            "outflow k x/(x^2 + s^2)^(1/4) with s = 0.01 V, in place of k sqrt(x)"};
+}
+
+/// A model with its least squares, and where its misfit sits.
+struct chain_link {
+    std::vector<std::string> effects;
+    double estimation = 0, validation = std::nan("");
+    double near = 0, rest = 0; ///< of the estimation record, near the sensor's upper end or not [V]
+};
+
+/// Least squares from where the candidate was fitted and from the centre, the better one.
+sivid::approximate_fit squares_of(sivid::identification_problem const& problem,
+                                  std::vector<double> const& from) {
+    sivid::fitter fit(problem);
+    auto best = fit.least_squares(from);
+    auto other = sivid::fitter(problem).least_squares();
+    return other.squares < best.squares ? other : best;
+}
+
+/// RMS within -160 to 240 s of levels above 9.5 V, and elsewhere.
+std::pair<double, double> near_and_rest(sivid::experiment const& e,
+                                        std::vector<double> const& residuals) {
+    auto const data = sivid::sorted(e.measurements);
+    double sums[2] = {0, 0}, counts[2] = {0, 0};
+    for (std::size_t k = 0; k < data.size() && k < residuals.size(); ++k) {
+        bool const near = std::any_of(data.begin(), data.end(), [&](auto const& m) {
+            return sivid::mid(m.bound) > 9.5 && data[k].time > m.time - 160 &&
+                   data[k].time < m.time + 240;
+        });
+        double const off = residuals[k] * sivid::rad(data[k].bound);
+        sums[near ? 0 : 1] += off * off;
+        counts[near ? 0 : 1] += 1;
+    }
+    return {std::sqrt(sums[0] / counts[0]), std::sqrt(sums[1] / counts[1])};
+}
+
+std::vector<chain_link> chain_of(sivid::diagnosis_run const& run, sivid::holdout const& kept) {
+    std::vector<std::vector<std::string>> steps{
+        {}, {"outlet_offset"}, {"overflow"}, {"overflow", "outlet_offset"}};
+    if (run.result.remainder) steps.push_back(run.result.remainder->effects);
+    std::vector<chain_link> chain;
+    for (auto const& names : steps) {
+        auto const* known = console::candidate_of(run, names);
+        bool const repeated = std::any_of(chain.begin(), chain.end(), [&](auto const& link) {
+            return std::is_permutation(link.effects.begin(), link.effects.end(), names.begin(),
+                                       names.end());
+        });
+        if (known == nullptr || repeated) continue;
+        auto const fit = squares_of(known->problem, known->fit.parameters);
+        if (fit.residuals.empty()) continue;
+        chain_link link{names, console::root_mean_square(known->problem, fit)};
+        std::tie(link.near, link.rest) =
+            near_and_rest(known->problem.experiments[0], fit.residuals[0]);
+        if (!kept.empty()) {
+            auto judged = kept.judged_by(*known, run.base, run.catalogue);
+            for (std::size_t j = 0; j < fit.parameters.size(); ++j) {
+                judged.prior[j] = sivid::interval(fit.parameters[j]);
+            }
+            link.validation = console::root_mean_square(
+                judged, sivid::fitter(judged).least_squares(fit.parameters));
+        }
+        chain.push_back(std::move(link));
+    }
+    return chain;
+}
+
+void add_chain(report::page& page, std::vector<chain_link> const& chain) {
+    page.section("One effect after the other");
+    report::table t{.columns = {{"model", report::column_kind::symbol},
+                                {"estimation [V]", report::column_kind::number},
+                                {"validation [V]", report::column_kind::number},
+                                {"near full [V]", report::column_kind::number},
+                                {"elsewhere [V]", report::column_kind::number}},
+                    .rows = {},
+                    .caption = "Root mean square of the level's misfit over the whole record, by "
+                               "least squares (estimates). The validation record chose nothing but "
+                               "its own starts. Near full: from 160 s before to 240 s after a "
+                               "level above 9.5 V, estimation record."};
+    for (auto const& link : chain) {
+        t.rows.push_back({console::model_words(link.effects), text_of("%.3f", link.estimation),
+                          std::isfinite(link.validation) ? text_of("%.3f", link.validation) : "-",
+                          text_of("%.3f", link.near), text_of("%.3f", link.rest)});
+    }
+    page.add(t);
+}
+
+/// Until when the model as it is explains the record from its begin.
+struct validity {
+    double holds_until = 0;           ///< proved: a witness explains everything before
+    double fitted_until = 0;          ///< the same, by fits
+    std::optional<double> refuted_by; ///< proved: nothing explains everything before
+};
+
+sivid::identification_problem until(sivid::identification_problem const& problem, double time) {
+    return sivid::restricted_to(
+        problem, [time](std::size_t, sivid::measurement const& m) { return m.time <= time; });
+}
+
+validity validity_of(sivid::identification_problem const& problem, double seconds) {
+    validity result;
+    auto const& e = problem.experiments.front();
+    std::vector<double> times;
+    for (auto const& m : e.measurements) times.push_back(m.time);
+    std::size_t low = 0, high = times.size() - 1; // explained until low; not until high
+    while (high - low > 1) {
+        auto const middle = (low + high) / 2;
+        (sivid::fitter(until(problem, times[middle]))().inflation <= 0.99 ? low : high) = middle;
+    }
+    result.fitted_until = times[low];
+    for (std::size_t back = 0; back < 3; ++back) {
+        auto const part = until(problem, times[low - std::min(low, 5 * back)]);
+        if (sivid::verify_at(part, sivid::fitter(part)()).range.upper() > 1) continue;
+        result.holds_until = part.experiments[0].measurements.back().time;
+        break;
+    }
+    for (double const longer : {1.05, 1.15, 1.3, 1.6, 2.0}) {
+        auto const part = until(problem, e.begin + longer * (times[low] - e.begin));
+        sivid::inflation_options search;
+        search.only_verdict = true;
+        search.seconds = seconds / 5;
+        if (!(sivid::bound_inflation(part, nullptr, search).value.lower() > 1)) continue;
+        result.refuted_by = part.experiments[0].measurements.back().time;
+        break;
+    }
+    return result;
+}
+
+std::string validity_words(validity const& v) {
+    std::string text =
+        "From the start of the record the model as it is explains all samples until " +
+        text_of("%g", v.fitted_until) + " s in the best fits found (estimate)";
+    if (v.holds_until > 0) text += "; until " + text_of("%g", v.holds_until) + " s (proved)";
+    text += v.refuted_by ? "; no parameters explain all samples until " +
+                               text_of("%g", *v.refuted_by) + " s (proved)"
+                         : std::string{};
+    return text + ".";
+}
+
+/// @throws sivid::output_error
+void prepare_folder(std::filesystem::path const& folder) {
+    std::error_code fault;
+    std::filesystem::create_directories(folder, fault);
+    if (fault || !std::filesystem::is_directory(folder))
+        throw sivid::output_error("the folder " + folder.string() + " cannot be created");
+}
+
+} // namespace
+
+int run(diagnose_command const& c) {
+    auto const problem = tank_problem(read_experiment(c.folder / c.file, c));
+    sivid::holdout kept;
+    if (std::filesystem::exists(c.folder / c.holdout_file)) {
+        kept = sivid::holdout({read_experiment(c.folder / c.holdout_file, c)});
+    }
+    prepare_folder(c.out);
+
+    console::progress_line progress(c.quiet);
+    progress.note("diagnosing two tanks without rims; Ctrl-C stops early");
+    sivid::diagnosis_options options;
+    // The rest is for the hold-out record and the tables.
+    options.seconds = 0.75 * c.budget;
+    options.gap_seconds = 0.12 * c.budget;
+    options.verify_seconds = 0.2 * c.budget;
+    options.each_seconds = 0.03 * c.budget;
+    options.screening.seconds = 0.5 * c.budget;
+    options.screening.most_effects = 3;
+    console::watch(options, progress);
+    auto run = sivid::diagnose(problem, catalogue(), options);
+    progress.finish();
+    progress.note("judging by the validation record");
+    sivid::judge_by_holdout(run, kept, 0.08 * c.budget);
+    for (auto const& a : assumptions_of(c)) run.result.assumptions.push_back(a);
+    std::optional<validity> valid;
+    if (!run.result.interrupted && run.result.gap != sivid::gap_verdict::none) {
+        progress.note("looking until when the model as it is holds");
+        valid = validity_of(problem, 0.08 * c.budget);
+    }
+    std::signal(SIGINT, SIG_DFL);
+
+    auto const chain = run.candidates.size() > 1 ? chain_of(run, kept) : std::vector<chain_link>{};
+    auto const id = "cascaded tanks, " + c.file;
+    console::write_diagnosis(run.result, id, console::plot_data(run, kept),
+                             console::page_options(run, id, c.command_line), c.out,
+                             [&](report::page& page) {
+                                 if (valid) {
+                                     page.section("How long the model holds");
+                                     page.prose(validity_words(*valid));
+                                 }
+                                 if (!chain.empty()) add_chain(page, chain);
+                             });
+    console::print_summary(run.result, id, c.out);
+    if (valid) std::cout << "  " << validity_words(*valid) << "\n";
+    for (auto const& link : chain) {
+        std::cout << "  " << console::model_words(link.effects) << ": RMS "
+                  << text_of("%.3f", link.estimation) << " V, validation "
+                  << text_of("%.3f", link.validation) << " V\n";
+    }
+    return exit_code::done;
+}
+
+} // namespace tanks

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// servo_axis diagnose on the real record, as a user runs it.
+#include "io/support.hpp"
+#include "support/catch.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace fs = std::filesystem;
+using io_support::temporary_folder;
+
+namespace {
+
+std::string text_of(fs::path const& file) {
+    std::ifstream in{file, std::ios::binary};
+    return {std::istreambuf_iterator<char>{in}, {}};
+}
+
+fs::path real_record() {
+#ifdef SIVID_SHARED_DIR
+    return fs::path{SIVID_SHARED_DIR} / "data/emps";
+#else
+    return "missing";
+#endif
+}
+
+nlohmann::json const* cause_of(nlohmann::json const& d, nlohmann::json effects) {
+    for (auto const& c : d["causes"]) {
+        auto own = c["effects"];
+        std::sort(own.begin(), own.end());
+        std::sort(effects.begin(), effects.end());
+        if (own == effects) return &c;
+    }
+    return nullptr;
+}
+
+} // namespace
+
+TEST_CASE("the real axis: offset and friction explain most, the direction the rest",
+          "[servo_axis][real]") {
+    if (!fs::exists(real_record() / "validation_200Hz.csv")) {
+        WARN("skipped: the EMPS records are not there (docs/servo_axis.md says where to get them)");
+        return;
+    }
+    temporary_folder const folder;
+    auto const out = folder.path() / "out";
+    auto const command = std::string{SERVO_AXIS_PROGRAM} + " diagnose " + real_record().string() +
+                         " --quiet --budget 200 --out " + out.string() + " > /dev/null";
+    REQUIRE(std::system(command.c_str()) == 0);
+    auto const d = nlohmann::json::parse(text_of(out / "diagnosis.json"));
+    CHECK(d["gap"]["verdict"] == "certified");
+    CHECK(d["where"][0]["name"] == "force balance");
+    CHECK(d["where"][0]["proved"] == true);
+    CHECK(d["answer"]["kind"] == "effects");
+    auto const* const all = cause_of(d, {"dry_friction", "offset", "directional_friction"});
+    REQUIRE(all != nullptr);
+    CHECK((*all)["verdict"] == "explains");
+    auto const fitted = [&](nlohmann::json effects) -> double {
+        auto const* c = cause_of(d, std::move(effects));
+        return c == nullptr ? 0.0 : (*c)["fitted_inflation"].get<double>();
+    };
+    double const base = d["gap"]["inflation"][1];
+    CHECK(fitted({"dry_friction"}) > 0.6 * base);
+    CHECK(fitted({"offset"}) > 0.6 * base);
+    CHECK(fitted({"dry_friction", "offset"}) < 0.25 * base);
+    CHECK(fitted({"dry_friction", "offset"}) > 2);
+    // Least squares over 1 s: 6.23 mm and 1.39 mm on the validation record.
+    auto const& kept = d["causes"][0]["holdout"];
+    CHECK(kept["rmse_before"]["q"] < 1.1 * 6.23e-3);
+    CHECK(kept["rmse_after"]["q"] < 1.1 * 1.39e-3);
+    auto const page = text_of(out / "report.html");
+    CHECK_THAT(page, ContainsSubstring("an offset that is missing"));
+    CHECK_THAT(page, ContainsSubstring("How the verdict depends on the bound"));
+    CHECK_THAT(page, ContainsSubstring("Beside the literature"));
+}
+
+TEST_CASE("a diagnosis without a record is refused", "[servo_axis]") {
+    temporary_folder const folder;
+    auto const command = std::string{SERVO_AXIS_PROGRAM} + " diagnose " +
+                         (folder.path() / "nowhere").string() + " --out " +
+                         (folder.path() / "out").string() + " 2> /dev/null";
+    CHECK(WEXITSTATUS(std::system(command.c_str())) == 2);
+    CHECK_FALSE(fs::exists(folder.path() / "out"));
+}

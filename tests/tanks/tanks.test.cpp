@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "command.hpp"
+#include "effects.hpp"
+#include "io/support.hpp"
+#include "model.hpp"
+#include "support/catch.hpp"
+
+#include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/paving/fit.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace fs = std::filesystem;
+using io_support::temporary_folder;
+
+namespace {
+
+std::string text_of(fs::path const& file) {
+    std::ifstream in{file, std::ios::binary};
+    return {std::istreambuf_iterator<char>{in}, {}};
+}
+
+fs::path real_record() {
+#ifdef SIVID_SHARED_DIR
+    return fs::path{SIVID_SHARED_DIR} / "data/cascaded_tanks";
+#else
+    return "missing";
+#endif
+}
+
+/// A record of so many samples with the pump at one voltage.
+std::string constant_record(double voltage, int samples) {
+    std::string text = "t_s,pump_voltage_V,level_lower_tank_V\n";
+    for (int k = 0; k < samples; ++k) {
+        text += std::to_string(4 * k) + "," + std::to_string(voltage) + ",5.0\n";
+    }
+    return text;
+}
+
+} // namespace
+
+TEST_CASE("the outflow is a square root, and stays defined where a tank runs dry", "[tanks]") {
+    temporary_folder const folder;
+    auto const file = folder.path() / "dry.csv";
+    std::ofstream{file} << constant_record(0, 300);
+    tanks::diagnose_command c;
+    auto const problem = tanks::tank_problem(tanks::read_experiment(file, c));
+    // No pump: both tanks drain, and every level stays finite.
+    auto const fit = sivid::fitter(problem).at({0.1, 0.1, 0.05}, {{6, 5}});
+    REQUIRE(fit.residuals.size() == 1);
+    double const last = 5 + 0.2 * fit.residuals[0].back();
+    CHECK(std::abs(last) < 0.01);
+    for (double const x : {1.0, 4.0, 9.0}) {
+        CHECK_THAT(x / std::sqrt(std::sqrt(x * x + 1e-4)), WithinRel(std::sqrt(x), 3e-5));
+    }
+}
+
+TEST_CASE("water over a rim is lost but for its share", "[tanks]") {
+    temporary_folder const folder;
+    auto const file = folder.path() / "full.csv";
+    std::ofstream{file} << constant_record(5, 600);
+    tanks::diagnose_command c;
+    auto const base = tanks::tank_problem(tanks::read_experiment(file, c));
+    auto const problem = sivid::affected(base, {tanks::overflow()});
+    // Inflow 0.25 V/s; the upper tank would settle at 25 V. With a rim at 9 V it spills 0.1 V/s.
+    auto const level = [&](double share) {
+        auto const fit = sivid::fitter(problem).at({0.05, 0.09, 0.05, 9, share, 19}, {{6, 5}});
+        return 5 + 0.2 * fit.residuals.at(0).back();
+    };
+    auto const root = [](double inflow) { return std::pow(inflow / 0.09, 2); };
+    CHECK_THAT(level(0), WithinAbs(root(0.05 * std::sqrt(9.2)), 0.05));
+    CHECK_THAT(level(1), WithinAbs(root(0.25), 0.05));
+}
+
+TEST_CASE("the real tanks: where, which, and what stays", "[tanks][real]") {
+    if (!fs::exists(real_record() / "validation.csv")) {
+        WARN("skipped: the records of the tanks are not there (docs/tanks.md says where to get "
+             "them)");
+        return;
+    }
+    temporary_folder const folder;
+    auto const out = folder.path() / "out";
+    auto const command = std::string{TANKS_PROGRAM} + " " + real_record().string() +
+                         " --quiet --budget 120 --out " + out.string() + " > " +
+                         (folder.path() / "said.txt").string();
+    REQUIRE(std::system(command.c_str()) == 0);
+    auto const d = nlohmann::json::parse(text_of(out / "diagnosis.json"));
+    CHECK(d["gap"]["verdict"] != "none");
+    CHECK(d["answer"]["kind"] == "unexplained");
+    // The first overflow begins about 560 s; the sensor is full from 600 s on.
+    bool there = false;
+    for (auto const& w : d["where"]) there = there || (w["from"] < 640 && w["to"] > 540);
+    CHECK(there);
+    auto const closest = d["remainder"]["effects"];
+    CHECK(std::find(closest.begin(), closest.end(), "overflow") != closest.end());
+    CHECK(closest.size() == 2);
+    CHECK_FALSE(d["remainder"]["where"].empty());
+    CHECK(d["causes"][0]["holdout"]["rmse_before"]["y"] < 0.80);
+    CHECK(d["causes"][0]["holdout"]["rmse_after"]["y"] < 1.1 * 0.329);
+    auto const page = text_of(out / "report.html");
+    CHECK_THAT(page, ContainsSubstring("What stays unexplained"));
+    CHECK_THAT(page, ContainsSubstring("an unexplained remainder of"));
+    CHECK_THAT(page, ContainsSubstring("How long the model holds"));
+}
+
+TEST_CASE("bad input gives one message and exit code 2", "[tanks]") {
+    temporary_folder const folder;
+    std::ofstream{folder.path() / "bad.csv"} << "t_s,pump_voltage_V\n0,1\n";
+    auto const code = [&](std::string const& arguments) {
+        return WEXITSTATUS(std::system((std::string{TANKS_PROGRAM} + " " + arguments + " --out " +
+                                        (folder.path() / "out").string() + " 2> /dev/null")
+                                           .c_str()));
+    };
+    CHECK(code((folder.path() / "nowhere").string()) == 2);
+    CHECK(code(folder.path().string() + " --file bad.csv") == 2);
+    CHECK(code(folder.path().string() + " --bound 0") == 2);
+    CHECK_FALSE(fs::exists(folder.path() / "out"));
+}
