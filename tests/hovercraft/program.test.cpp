@@ -241,7 +241,7 @@ TEST_CASE("check verifies what identify wrote, and refutes what was changed sinc
     tampered("result.json", "\"Sv\": 0.22", "\"Sv\": 0.23", "it does not explain S3");
     tampered("result.json", "\"u\": 2", "\"u\": 3", "not allowed");
     tampered("result.json", "\"consistent\"", "\"undecided\"", "does not follow");
-    tampered("result.json", "\"Sg\": {\"hull\": [0.03", "\"Sg\": {\"hull\": [0.04", "hull of Sg");
+    tampered("result.json", "\"Sg\": {\"hull\": [0.03", "\"Sg\": {\"hull\": [0.02", "hull of Sg");
     tampered("boxes.csv",
              csv.find("\nundecided,") != std::string::npos ? "\nundecided," : "\npending,",
              "\ninside,", "is not the one stated");

@@ -27,17 +27,11 @@ struct check_finding {
 };
 
 [[nodiscard]] constexpr std::string_view to_string(check_finding::outcome o) {
-    switch (o) {
-    case check_finding::outcome::verified:
-        return "verified";
-    case check_finding::outcome::refuted:
-        return "REFUTED";
-    case check_finding::outcome::undecided:
-        return "not decided";
-    case check_finding::outcome::nothing:
-        return "not checked";
-    }
-    return "";
+    using outcome = check_finding::outcome;
+    return o == outcome::verified    ? "verified"
+           : o == outcome::refuted   ? "REFUTED"
+           : o == outcome::undecided ? "not decided"
+                                     : "not checked";
 }
 
 namespace io_detail {
@@ -53,6 +47,10 @@ inline bool nearly(interval const& a, interval const& b) {
 }
 inline double apart(interval const& a, interval const& b) {
     return std::max({0.0, a.lower() - b.upper(), b.lower() - a.upper()});
+}
+/// Of the search over products of parameters, which the boxes alone do not prove.
+inline check_finding says_more(std::string what) {
+    return {std::move(what), check_finding::outcome::nothing, "stated tighter than by the boxes"};
 }
 inline check_finding agreement(std::string what, std::string const& fault,
                                std::string const& detail) {
@@ -88,6 +86,7 @@ inline void require_same_problem(identification_problem const& problem,
 [[nodiscard]] inline check_finding check_hull(identification_problem const& problem,
                                               stored_identification const& stored) {
     std::string fault;
+    bool tighter = false;
     for (std::size_t j = 0; j < stored.parameters.size(); ++j) {
         auto range = interval_traits<interval>::empty();
         auto const& prior = problem.prior[j];
@@ -99,10 +98,22 @@ inline void require_same_problem(identification_problem const& problem,
                 fault = "a box leaves the prior of " + stored.parameters[j].name;
             }
         }
-        if (!io_detail::nearly(range, stored.parameters[j].range)) {
+        auto const& own = stored.parameters[j].range;
+        if (io_detail::nearly(range, own)) continue;
+        if (stored.witness) {
+            auto const at = stored.witness->parameters.find(stored.parameters[j].name);
+            if (at != stored.witness->parameters.end() && !contains(own, at->second)) {
+                fault = "the witness is outside the hull of " + stored.parameters[j].name;
+                continue;
+            }
+        }
+        if (stored.of_products && subset(own, range) && !is_empty(own)) {
+            tighter = true;
+        } else {
             fault = "the hull of " + stored.parameters[j].name + " is not that of the boxes";
         }
     }
+    if (fault.empty() && tighter) return io_detail::says_more("hull");
     return io_detail::agreement("hull", fault, "that of all boxes, within the prior");
 }
 
@@ -133,9 +144,8 @@ inline void require_same_problem(identification_problem const& problem,
     }
     bool const tighter = io_detail::apart(inner, stored.inner) > allowed ||
                          io_detail::apart(outer, stored.outer) > allowed;
-    if (fault.empty() && tighter) { // such as those of the search over products of parameters
-        return {"volumes", check_finding::outcome::nothing, "they say more than the boxes do"};
-    }
+    if (tighter && !stored.of_products) fault = "the volumes are not those of the boxes";
+    if (fault.empty() && tighter) return io_detail::says_more("volumes");
     return io_detail::agreement("volumes", fault,
                                 std::to_string(stored.rows.size()) + " boxes summed");
 }
@@ -145,9 +155,10 @@ inline void require_same_problem(identification_problem const& problem,
     bool const inside = std::any_of(stored.rows.begin(), stored.rows.end(), [](auto const& row) {
         return row.verdict == box_verdict::inside;
     });
-    auto const follows = stored.witness || inside ? verdict::consistent
-                         : stored.rows.empty()    ? verdict::inconsistent
-                                                  : verdict::undecided;
+    bool const volume = stored.of_products && !is_empty(stored.inner) && stored.inner.lower() > 0;
+    auto const follows = stored.witness || inside || volume ? verdict::consistent
+                         : stored.rows.empty()              ? verdict::inconsistent
+                                                            : verdict::undecided;
     auto const words = std::string{to_string(stored.verdict)};
     return io_detail::agreement(
         "verdict", follows == stored.verdict ? "" : "'" + words + "' does not follow from the rest",
@@ -203,9 +214,8 @@ template <class I>
         }
         if (!nested) fault = "the range of " + c.name + " is not that over the boxes";
     }
-    if (fault.empty() && tighter) {
-        return {"combinations", check_finding::outcome::nothing, "they say more than the boxes do"};
-    }
+    if (tighter && !stored.of_products) fault = "a combination's range is not that over the boxes";
+    if (fault.empty() && tighter) return io_detail::says_more("combinations");
     return io_detail::agreement("combinations", fault,
                                 std::to_string(stored.combinations.size()) + " evaluated anew");
 }
