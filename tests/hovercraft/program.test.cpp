@@ -238,7 +238,7 @@ TEST_CASE("check verifies what identify wrote, and refutes what was changed sinc
         CHECK_THAT(r.out, ContainsSubstring(words) && ContainsSubstring("REFUTED"));
         folder.write("out/" + file, file == "boxes.csv" ? csv : json);
     };
-    tampered("result.json", "\"Sv\": 0.22", "\"Sv\": 0.23", "it does not explain S3");
+    tampered("result.json", "\"Sg\": 0.0", "\"Sg\": 0.07", "it does not explain S3");
     tampered("result.json", "\"u\": 2", "\"u\": 3", "not allowed");
     tampered("result.json", "\"consistent\"", "\"undecided\"", "does not follow");
     tampered("result.json", "\"Sg\": {\"hull\": [0.03", "\"Sg\": {\"hull\": [0.02", "hull of Sg");
