@@ -101,7 +101,11 @@ int run(check_command const& c) {
                                            : work<fast_type>(problem, stored, options);
     auto const verdict = overall(findings);
     double seconds = 0;
-    for (auto const& f : findings) seconds += f.seconds;
+    std::string left;
+    for (auto const& f : findings) {
+        seconds += f.seconds;
+        if (f.found == outcome::nothing && !f.detail.empty()) left += ", not the " + f.what;
+    }
     std::cout << "  witness and products in " << exact_words << "; boxes in "
               << (c.multiprecision ? exact_words : fast_words)
               << ", by first-order sets (Lohner), not by the Taylor models that found them\n"
@@ -110,7 +114,8 @@ int run(check_command const& c) {
                   : verdict == outcome::undecided ? "not verified within the budget"
                   : c.all                         ? "verified, every box"
                                                   : "verified, boxes by sample")
-              << " in " << sivid::report::duration_text(seconds) << "\n";
+              << (verdict == outcome::verified ? left : "") << " in "
+              << sivid::report::duration_text(seconds) << "\n";
     return exit_code_of(verdict);
 }
 

@@ -46,7 +46,7 @@ std::size_t first(stored_identification const& stored, box_verdict v) {
 
 TEST_CASE("a result is verified by sample, a forced outlier included") {
     for (bool const spoilt : {false, true}) {
-        auto const problem = io_support::two_rates_problem(spoilt);
+        auto const problem = io_support::one_rate_problem(spoilt);
         auto found = check(problem, io_support::stored_result(problem).read());
         CHECK(found["witness"] == outcome::verified);
         CHECK(found["inside boxes"] == outcome::verified);
@@ -57,14 +57,14 @@ TEST_CASE("a result is verified by sample, a forced outlier included") {
 }
 
 TEST_CASE("an empty paving is verified: nothing in the prior explains the data") {
-    auto const problem = io_support::impossible_problem();
+    auto const problem = io_support::one_rate(io_support::impossible_problem());
     auto found = check(problem, io_support::stored_result(problem).read(), true);
     CHECK(found["excluded boxes"] == outcome::verified);
     CHECK(found["overall"] == outcome::verified);
 }
 
 TEST_CASE("what was tampered with is refuted") {
-    auto const problem = io_support::two_rates_problem();
+    auto const problem = io_support::one_rate_problem();
     auto bad = io_support::stored_result(problem).read();
     SECTION("a digit of the witness") {
         bad.witness->parameters["a"] += 0.3;
@@ -76,16 +76,18 @@ TEST_CASE("what was tampered with is refuted") {
         bad.witness->initial.clear();
         CHECK(check(problem, bad)["witness"] == outcome::refuted);
     }
-    SECTION("undecided relabelled inside, the sums adapted") {
-        for (auto& row : bad.rows) row.verdict = box_verdict::inside;
-        bad.inner = bad.outer;
+    SECTION("an inside box made larger, the sums adapted") {
+        auto& row = bad.rows[first(bad, box_verdict::inside)].set;
+        row[0] = interval(row[0].lower() - 0.05, row[0].upper() + 0.05);
+        bad.rows = {{row, box_verdict::inside}};
+        bad.inner = bad.outer = relative_volume(row, problem.prior);
         bad.stated_rows.clear();
         auto found = check(problem, bad);
         CHECK(found["volumes"] == outcome::verified);
         CHECK(found["inside boxes"] == outcome::refuted);
     }
     SECTION("an excluded box listed as inside") {
-        bad.rows.push_back({box{interval(1.9, 2.0), interval(0.9, 1.0)}, box_verdict::inside});
+        bad.rows.push_back({box{interval(1.9, 2.0)}, box_verdict::inside});
         auto found = check(problem, bad, true, 5);
         CHECK(found["volumes"] == outcome::refuted);
         CHECK(found["inside boxes"] == outcome::refuted);
@@ -111,8 +113,8 @@ TEST_CASE("what was tampered with is refuted") {
 }
 
 TEST_CASE("another data set is seen where the digest does not tell") {
-    auto const stored = io_support::stored_result(io_support::two_rates_problem()).read();
-    auto other = io_support::two_rates_problem();
+    auto const stored = io_support::stored_result(io_support::one_rate_problem()).read();
+    auto other = io_support::one_rate_problem();
     for (auto& m : other.experiments[0].measurements) {
         m.bound = interval(m.bound.lower() + 0.2, m.bound.upper() + 0.2);
     }
@@ -122,7 +124,7 @@ TEST_CASE("another data set is seen where the digest does not tell") {
 }
 
 TEST_CASE("without a budget nothing is claimed") {
-    auto const problem = io_support::two_rates_problem();
+    auto const problem = io_support::one_rate_problem();
     auto found = check(problem, io_support::stored_result(problem).read(), false, -1);
     CHECK(found["inside boxes"] == outcome::undecided);
     CHECK(found["overall"] == outcome::undecided);

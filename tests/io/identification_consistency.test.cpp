@@ -33,8 +33,9 @@ box_cover covered(identification_problem const& problem, stored_identification c
 } // namespace
 
 TEST_CASE("a result agrees with itself; each tampering is seen by the check it concerns") {
-    auto const problem = io_support::two_rates_problem();
-    auto const good = io_support::stored_result(problem).read();
+    auto const problem = io_support::one_rate_problem();
+    auto good = io_support::stored_result(problem).read();
+    good.combinations = {{"a", good.parameters[0].range}};
     CHECK_NOTHROW(require_same_problem(problem, good, "result.json"));
     CHECK(check_hull(problem, good).found == outcome::verified);
     CHECK(check_volumes(problem, good).found == outcome::verified);
@@ -52,8 +53,12 @@ TEST_CASE("a result agrees with itself; each tampering is seen by the check it c
     }
     SECTION("hull narrowed or widened") {
         auto bad = good;
-        auto& range = bad.parameters[1].range;
+        auto& range = bad.parameters[0].range;
         range = interval(range.lower() + 1e-9, range.upper());
+        CHECK(check_hull(problem, bad).found == outcome::refuted);
+        bad.of_products = true; // then it may be true
+        CHECK(check_hull(problem, bad).found == outcome::nothing);
+        range = interval(range.lower(), range.lower() + 1e-9); // not without the witness
         CHECK(check_hull(problem, bad).found == outcome::refuted);
         bad = good;
         bad.parameters[0].range = interval(0.4, 2.0);
@@ -66,18 +71,15 @@ TEST_CASE("a result agrees with itself; each tampering is seen by the check it c
     }
     SECTION("a box removed") {
         auto bad = good;
-        bad.rows.erase(bad.rows.begin() + 3);
+        bad.rows.erase(bad.rows.begin() +
+                       static_cast<std::ptrdiff_t>(first(bad, box_verdict::inside)));
         CHECK(check_volumes(problem, bad).found == outcome::refuted);
         bad.stated_rows.clear();
         CHECK(check_volumes(problem, bad).found == outcome::refuted);
     }
     SECTION("a box relabelled") {
         auto bad = good;
-        auto const other = std::find_if(bad.rows.begin(), bad.rows.end(), [](auto const& row) {
-            return row.verdict != box_verdict::inside;
-        });
-        REQUIRE(other != bad.rows.end());
-        other->verdict = box_verdict::inside;
+        bad.rows[first(bad, box_verdict::inside)].verdict = box_verdict::undecided;
         CHECK(check_volumes(problem, bad).found == outcome::refuted);
     }
     SECTION("a box doubled") {
@@ -95,15 +97,35 @@ TEST_CASE("a result agrees with itself; each tampering is seen by the check it c
     SECTION("a combination narrowed or of nothing") {
         auto bad = good;
         auto& c = bad.combinations[0];
-        c.range = interval(c.range.lower(), c.range.upper() - 1e-9);
+        auto const whole = c.range;
+        c.range = interval(whole.lower(), whole.upper() - 1e-9);
+        CHECK(check_combinations<exact>(problem, bad).found == outcome::refuted);
+        bad.of_products = true; // then it may be true, and is not believed
+        CHECK(check_combinations<exact>(problem, bad).found == outcome::nothing);
+        c.range = interval(whole.lower(), whole.lower() + 1e-9); // the witness is elsewhere
+        CHECK(check_combinations<exact>(problem, bad).found == outcome::refuted);
+        c.range = interval(whole.lower(), whole.upper() + 0.5);
         CHECK(check_combinations<exact>(problem, bad).found == outcome::refuted);
         c.name = "a*c";
         CHECK(check_combinations<exact>(problem, bad).found == outcome::refuted);
     }
 }
 
+TEST_CASE("what the search over products says beyond the boxes is not believed, nor refuted") {
+    auto const problem = io_support::two_rates_problem();
+    auto stored = io_support::stored_result(problem).read();
+    CHECK(stored.of_products);
+    CHECK_NOTHROW(require_same_problem(problem, stored, "result.json"));
+    CHECK(check_hull(problem, stored).found != outcome::refuted);
+    CHECK(check_volumes(problem, stored).found != outcome::refuted);
+    CHECK(check_combinations<exact>(problem, stored).found != outcome::refuted);
+    CHECK(check_cover(problem, stored, covered(problem, stored)).found == outcome::verified);
+    stored.outer = interval(0.99, 1.0);
+    CHECK(check_volumes(problem, stored).found == outcome::refuted);
+}
+
 TEST_CASE("an empty result is consistent with the verdict inconsistent only") {
-    auto const problem = io_support::impossible_problem();
+    auto const problem = io_support::one_rate(io_support::impossible_problem());
     auto stored = io_support::stored_result(problem).read();
     CHECK(check_verdict(stored).found == outcome::verified);
     CHECK(check_hull(problem, stored).found == outcome::verified);

@@ -49,7 +49,7 @@ TEST_CASE("an inconsistent result has no hull, no witness and no rows") {
 }
 
 TEST_CASE("malformed files are refused") {
-    io_support::stored_result const good(io_support::two_rates_problem());
+    io_support::stored_result const good(io_support::one_rate_problem());
     auto const spoilt_json = [&](std::string const& from, std::string const& to) {
         auto copy = good;
         REQUIRE(copy.replace_json(from, to));

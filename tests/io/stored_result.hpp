@@ -14,6 +14,16 @@
 
 namespace io_support {
 
+/// The same data with one unknown rate: its result states nothing but what its boxes say.
+inline sivid::identification_problem one_rate(sivid::identification_problem problem) {
+    problem.choice.unknown = {"a"};
+    problem.prior = {problem.prior[0]};
+    return problem;
+}
+inline sivid::identification_problem one_rate_problem(bool spoilt = false) {
+    return one_rate(two_rates_problem(spoilt));
+}
+
 class stored_result {
 public:
     explicit stored_result(sivid::identification_problem const& problem) {

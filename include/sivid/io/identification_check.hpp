@@ -107,8 +107,8 @@ private:
     }
 
     [[nodiscard]] check_finding witness() {
-        if (!stored_->witness) return {"witness", outcome::nothing, ""};
         std::string fault;
+        if (!stored_->witness) return {"witness", outcome::nothing, fault};
         auto const w = witness_point(fault);
         if (!w) return {"witness", outcome::refuted, fault};
         enclosure_options const fine{
@@ -226,7 +226,6 @@ private:
         }
         return result;
     }
-
     identification_problem const* problem_;
     stored_identification const* stored_;
     identification_check_options options_;

@@ -27,17 +27,11 @@ struct check_finding {
 };
 
 [[nodiscard]] constexpr std::string_view to_string(check_finding::outcome o) {
-    switch (o) {
-    case check_finding::outcome::verified:
-        return "verified";
-    case check_finding::outcome::refuted:
-        return "REFUTED";
-    case check_finding::outcome::undecided:
-        return "not decided";
-    case check_finding::outcome::nothing:
-        return "nothing stated";
-    }
-    return "";
+    using outcome = check_finding::outcome;
+    return o == outcome::verified    ? "verified"
+           : o == outcome::refuted   ? "REFUTED"
+           : o == outcome::undecided ? "not decided"
+                                     : "not checked";
 }
 
 namespace io_detail {
@@ -53,6 +47,10 @@ inline bool nearly(interval const& a, interval const& b) {
 }
 inline double apart(interval const& a, interval const& b) {
     return std::max({0.0, a.lower() - b.upper(), b.lower() - a.upper()});
+}
+/// Of the search over products of parameters, which the boxes alone do not prove.
+inline check_finding says_more(std::string what) {
+    return {std::move(what), check_finding::outcome::nothing, "stated tighter than by the boxes"};
 }
 inline check_finding agreement(std::string what, std::string const& fault,
                                std::string const& detail) {
@@ -88,6 +86,7 @@ inline void require_same_problem(identification_problem const& problem,
 [[nodiscard]] inline check_finding check_hull(identification_problem const& problem,
                                               stored_identification const& stored) {
     std::string fault;
+    bool tighter = false;
     for (std::size_t j = 0; j < stored.parameters.size(); ++j) {
         auto range = interval_traits<interval>::empty();
         auto const& prior = problem.prior[j];
@@ -99,10 +98,22 @@ inline void require_same_problem(identification_problem const& problem,
                 fault = "a box leaves the prior of " + stored.parameters[j].name;
             }
         }
-        if (!io_detail::nearly(range, stored.parameters[j].range)) {
+        auto const& own = stored.parameters[j].range;
+        if (io_detail::nearly(range, own)) continue;
+        if (stored.witness) {
+            auto const at = stored.witness->parameters.find(stored.parameters[j].name);
+            if (at != stored.witness->parameters.end() && !contains(own, at->second)) {
+                fault = "the witness is outside the hull of " + stored.parameters[j].name;
+                continue;
+            }
+        }
+        if (stored.of_products && subset(own, range) && !is_empty(own)) {
+            tighter = true;
+        } else {
             fault = "the hull of " + stored.parameters[j].name + " is not that of the boxes";
         }
     }
+    if (fault.empty() && tighter) return io_detail::says_more("hull");
     return io_detail::agreement("hull", fault, "that of all boxes, within the prior");
 }
 
@@ -120,15 +131,21 @@ inline void require_same_problem(identification_problem const& problem,
     }
     double const allowed = 1e-9 * outer.upper() + 1e-14;
     std::string fault;
-    if (is_empty(stored.inner) || io_detail::apart(inner, stored.inner) > allowed) {
+    if (is_empty(stored.inner) || stored.inner.upper() < inner.lower() - allowed ||
+        stored.inner.lower() > outer.upper() + allowed) {
         fault = "the inner volume is not that of the inside boxes";
     }
-    if (is_empty(stored.outer) || io_detail::apart(outer, stored.outer) > allowed) {
+    if (is_empty(stored.outer) || stored.outer.lower() > outer.upper() + allowed ||
+        stored.outer.upper() < inner.lower() - allowed) {
         fault = "the outer volume is not that of the boxes";
     }
     for (auto const& [kind, n] : stored.stated_rows) {
         if (counted[kind] != n) fault = "the number of " + kind + " boxes is not the one stated";
     }
+    bool const tighter = io_detail::apart(inner, stored.inner) > allowed ||
+                         io_detail::apart(outer, stored.outer) > allowed;
+    if (tighter && !stored.of_products) fault = "the volumes are not those of the boxes";
+    if (fault.empty() && tighter) return io_detail::says_more("volumes");
     return io_detail::agreement("volumes", fault,
                                 std::to_string(stored.rows.size()) + " boxes summed");
 }
@@ -138,9 +155,10 @@ inline void require_same_problem(identification_problem const& problem,
     bool const inside = std::any_of(stored.rows.begin(), stored.rows.end(), [](auto const& row) {
         return row.verdict == box_verdict::inside;
     });
-    auto const follows = stored.witness || inside ? verdict::consistent
-                         : stored.rows.empty()    ? verdict::inconsistent
-                                                  : verdict::undecided;
+    bool const volume = stored.of_products && !is_empty(stored.inner) && stored.inner.lower() > 0;
+    auto const follows = stored.witness || inside || volume ? verdict::consistent
+                         : stored.rows.empty()              ? verdict::inconsistent
+                                                            : verdict::undecided;
     auto const words = std::string{to_string(stored.verdict)};
     return io_detail::agreement(
         "verdict", follows == stored.verdict ? "" : "'" + words + "' does not follow from the rest",
@@ -154,6 +172,7 @@ template <class I>
     using traits = interval_traits<I>;
     if (stored.combinations.empty()) return {"combinations", check_finding::outcome::nothing, ""};
     std::string fault;
+    bool tighter = false;
     for (auto const& c : stored.combinations) {
         auto const formula = product_formula::parse(c.name, problem.choice.unknown);
         if (!formula) {
@@ -173,13 +192,30 @@ template <class I>
         auto const range = low <= high ? interval_traits<interval>::bounds(low, high)
                                        : interval_traits<interval>::empty();
         double const slack = 1e-14 * mag(range);
-        bool const same = is_empty(range)
-                              ? is_empty(c.range)
-                              : !is_empty(c.range) &&
-                                    std::abs(range.lower() - c.range.lower()) <= slack &&
-                                    std::abs(range.upper() - c.range.upper()) <= slack;
-        if (!same) fault = "the range of " + c.name + " is not that over the boxes";
+        bool const nested = is_empty(range)
+                                ? is_empty(c.range)
+                                : !is_empty(c.range) && c.range.lower() >= range.lower() - slack &&
+                                      c.range.upper() <= range.upper() + slack;
+        if (nested && !is_empty(range)) {
+            tighter = tighter || c.range.lower() > range.lower() + slack ||
+                      c.range.upper() < range.upper() - slack;
+        }
+        if (nested && stored.witness) {
+            basic_box<I> p(problem.prior.size());
+            for (std::size_t j = 0; j < p.size(); ++j) {
+                auto const at = stored.witness->parameters.find(problem.choice.unknown[j]);
+                if (at != stored.witness->parameters.end()) p[j] = traits::point(at->second);
+            }
+            auto const value = formula->over(p);
+            auto const bound = traits::bounds(c.range.lower(), c.range.upper());
+            if (value && traits::disjoint(*value, bound)) {
+                fault = "the witness is outside the range of " + c.name;
+            }
+        }
+        if (!nested) fault = "the range of " + c.name + " is not that over the boxes";
     }
+    if (tighter && !stored.of_products) fault = "a combination's range is not that over the boxes";
+    if (fault.empty() && tighter) return io_detail::says_more("combinations");
     return io_detail::agreement("combinations", fault,
                                 std::to_string(stored.combinations.size()) + " evaluated anew");
 }

@@ -62,7 +62,9 @@ struct identification_json_options {
 
     json.key("volume").begin_object(layout::one_line);
     json.key("inner").bounds(share_of_whole(found.paving.inner_volume()));
-    json.key("outer").bounds(share_of_whole(found.paving.outer_volume())).end_object();
+    json.key("outer").bounds(share_of_whole(found.paving.outer_volume()));
+    json.key("of").string(found.volumes == volume_source::boxes ? "boxes" : "products");
+    json.end_object();
 
     json.key("rows").begin_object(layout::one_line); // of boxes.csv
     for (auto const v : {box_verdict::inside, box_verdict::undecided, box_verdict::pending})

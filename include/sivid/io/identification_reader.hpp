@@ -42,6 +42,9 @@ struct stored_identification {
     std::vector<bound> parameters;
     std::vector<bound> combinations; ///< by formula
     interval inner, outer;
+    /// Hull, volumes and combinations come from a finer paving of products of the parameters: they
+    /// may say more than the rows do.
+    bool of_products = false;
     std::optional<witness_point> witness;
     std::map<std::string, std::size_t> budget; ///< of outliers, by scenario
     std::vector<outlier> forced;
@@ -98,6 +101,7 @@ inline void read_result(json_value const& root, stored_identification& result) {
         result.combinations.push_back({c.at("formula").string(), outward(c.at("hull"))});
     result.inner = outward(root.at("volume").at("inner"));
     result.outer = outward(root.at("volume").at("outer"));
+    if (auto const* of = root.at("volume").find("of")) result.of_products = of->string() != "boxes";
     auto const read_numbers = [](json_value const& list) {
         std::map<std::string, double> values;
         for (std::size_t i = 0; i < list.members().size(); ++i)
