@@ -60,4 +60,5 @@ TEST_CASE("the closest candidate has few effects where more buy little") {
     CHECK(closest_candidate(
               {tried({}, 9), tried({0}, 5), tried({0, 1}, 2.64), tried({0, 1, 2}, 2.0)}) == 3);
     CHECK(closest_candidate({candidate{}, candidate{}}) == 0); // no fit succeeded
+    CHECK(closest_candidate({}) == 0);
 }

@@ -88,9 +88,9 @@ struct choice_options {
 
 /// The candidate that comes closest, when none explains the data: fewest effects among those within
 /// a twentieth of the least inflation.
-/// @param all  not empty
+/// @returns its index; 0 when there is none
 [[nodiscard]] inline std::size_t closest_candidate(std::vector<candidate> const& all) {
-    auto least = all.front().inflation;
+    auto least = std::numeric_limits<double>::infinity();
     for (auto const& c : all) least = std::min(least, c.inflation);
     std::size_t result = all.size();
     for (std::size_t i = 0; i < all.size(); ++i) {
