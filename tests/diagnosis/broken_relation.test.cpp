@@ -226,12 +226,12 @@ TEST_CASE("effects on the hovercraft break the relations they act on") {
                 return std::vector<expression>{zero, zero, sqr(u[0]) * k};
             });
         };
-        CHECK(names_of_broken(drive(d, aside(2e-5), noise::uniform)) == "r ");
+        CHECK(names_of_broken(drive(d, aside(2e-5), noise::uniform)) == "yaw ");
         // With poses only, through the heading.
         auto const poses =
             find_broken_relations(drive(d, aside(6e-5), noise::uniform, {}, {3, 4, 5}));
         REQUIRE(poses.size() == 1);
-        CHECK(poses[0].name == "r");
+        CHECK(poses[0].name == "yaw");
         CHECK(poses[0].channels == std::vector<std::string>{"psi"});
     }
     SECTION("linear damping: surge") {
@@ -239,7 +239,7 @@ TEST_CASE("effects on the hovercraft break the relations they act on") {
             [&](auto const& x, auto const&) { return std::vector<expression>{x[0] * -0.2}; });
         auto const broken = find_broken_relations(drive(d, m, noise::uniform));
         REQUIRE(broken.size() == 1);
-        CHECK(broken[0].name == "u");
+        CHECK(broken[0].name == "surge");
         CHECK(broken[0].channels.size() >= 3);
         REQUIRE(broken[0].missing);
         CHECK(broken[0].missing->unit == "m/s^2");

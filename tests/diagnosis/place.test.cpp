@@ -15,8 +15,8 @@ TEST_CASE("the places of the hovercraft: equations, geometry, inputs, sensors") 
         names.push_back(p.name);
         costs.push_back(p.cost);
     }
-    CHECK(names == std::vector<std::string>{"u", "v", "r", "x", "y", "psi", "W", "delta", "u", "v",
-                                            "r", "x", "psi"});
+    CHECK(names == std::vector<std::string>{"surge", "sway", "yaw", "x", "y", "psi", "W", "delta",
+                                            "u", "v", "r", "x", "psi"});
     CHECK(costs == std::vector<double>{1, 1, 1, 2.5, 2.5, 1.5, 1.5, 1.5, 1, 1, 1, 1, 1});
     CHECK(all[2].kind == place_kind::equation);
     CHECK(all[5].kind == place_kind::kinematic);
