@@ -128,7 +128,7 @@ private:
     /// are no more than these.
     [[nodiscard]] double refuted_by_few(screened const& s, double upper, double seconds,
                                         bool only_verdict = false) const {
-        if (s.problem.experiments.size() <= options_.hardest || upper <= 1) return 0;
+        if (s.problem.experiments.size() <= 2 * options_.hardest || upper <= 1) return 0;
         inflation_options search;
         search.test = options_.test;
         search.seconds = std::min(left(), seconds);
@@ -287,11 +287,10 @@ private:
             auto search = effort(std::min(options_.verify_seconds - spent, options_.each_seconds));
             search.only_verdict = true;
             double const fewer = refuted_by_few(s, s.fit.inflation, search.seconds, true);
-            if (fewer > 1) {
-                c.inflation = interval_traits<interval>::bounds(fewer, detail::infinity);
-            } else {
-                c.inflation = bound_inflation(s.problem, &s.fit, search).value;
-            }
+            auto const proved = fewer > 1
+                                    ? interval_traits<interval>::bounds(fewer, detail::infinity)
+                                    : bound_inflation(s.problem, &s.fit, search).value;
+            c.inflation = intersect(c.inflation, proved); // both contain it
             if (c.inflation.lower() > 1) c.verdict = cause_verdict::excluded;
         }
     }

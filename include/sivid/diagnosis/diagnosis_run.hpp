@@ -25,7 +25,8 @@ struct diagnosis_options {
     double gap_seconds = 2;    ///< for the certified inflation
     double verify_seconds = 3; ///< for the verdicts on candidates
     double each_seconds = 0.5; ///< of these, for one candidate that seems excluded
-    /// Where more experiments are at hand, so many of the hardest are tried first for a refutation.
+    /// Where more than twice as many experiments are at hand, so many of the hardest are tried
+    /// first for a refutation.
     std::size_t hardest = 4;
     double hull_seconds = 1;  ///< for the hulls of the answer's parameters
     double parts_seconds = 2; ///< for the inflation of single scenarios and channels
