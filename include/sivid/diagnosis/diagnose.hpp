@@ -113,7 +113,7 @@ private:
             tighten(bound, base, search);
             if (!(bound.range.lower() > 1) && bound.range.upper() > 1 &&
                 go_on("deciding whether there is a gap")) {
-                search = effort(4 * options_.gap_seconds);
+                search = effort(2 * options_.gap_seconds);
                 search.only_verdict = true;
                 tighten(bound, base, search);
             }
@@ -300,7 +300,7 @@ private:
         auto& d = run_.result;
         auto& bound = run_.answer_bound;
         if (!diagnosis_detail::has_delays(s.problem.model)) {
-            tighten(bound, s, effort(options_.gap_seconds));
+            tighten(bound, s, effort(std::min(1.5, options_.gap_seconds)));
         }
         c.inflation = bound.range;
         d.shrink_fit = shrink(d.inflation, bound.range);

@@ -22,7 +22,7 @@ namespace sivid {
 
 struct diagnosis_options {
     double seconds = 60;       ///< for everything; what is not finished then stays undecided
-    double gap_seconds = 2;    ///< for the certified inflation
+    double gap_seconds = 4;    ///< for the certified inflation
     double verify_seconds = 3; ///< for the verdicts on candidates
     double each_seconds = 0.5; ///< of these, for one candidate that seems excluded
     /// Where more than twice as many experiments are at hand, so many of the hardest are tried
