@@ -20,6 +20,7 @@
 #include <sivid/number/inverse_trigonometric.hpp>
 #include <sivid/number/lanes.hpp>
 #include <sivid/number/monomials.hpp>
+#include <sivid/number/nearest_text.hpp>
 #include <sivid/number/pack.hpp>
 #include <sivid/number/pack_functions.hpp>
 #include <sivid/number/pack_traits.hpp>
@@ -95,6 +96,7 @@
 #include <sivid/paving/campaign.hpp>
 #include <sivid/paving/certificate.hpp>
 #include <sivid/paving/combined_polynomial.hpp>
+#include <sivid/paving/constraint_blocks.hpp>
 #include <sivid/paving/cut_certificate.hpp>
 #include <sivid/paving/cut_contraction.hpp>
 #include <sivid/paving/cut_program.hpp>

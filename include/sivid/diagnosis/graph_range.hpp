@@ -4,6 +4,7 @@
 
 #include <sivid/model/arithmetic.hpp>
 #include <sivid/model/graph.hpp>
+#include <sivid/model/rewrite.hpp>
 #include <sivid/space/box.hpp>
 
 #include <cstddef>
@@ -26,14 +27,7 @@ public:
     /// @given  `g` outlives this object
     graph_range(graph const& g, std::vector<node_id> const& outputs)
         : graph_(&g), values_(g.size()), undefined_(g.size(), 0) {
-        std::vector<bool> needed(g.size(), false);
-        for (auto const i : outputs) needed[i] = true;
-        for (std::size_t k = g.size(); k-- > 0;) {
-            auto const& n = g.nodes()[k];
-            if (!needed[k] || is_leaf(n.op)) continue;
-            needed[n.a] = true;
-            if (is_binary(n.op)) needed[n.b] = true;
-        }
+        auto const needed = operands_of(g, outputs);
         for (std::size_t k = 0; k < g.size(); ++k) {
             if (needed[k]) order_.push_back(static_cast<node_id>(k));
         }

@@ -5,11 +5,11 @@
 #include <sivid/diagnosis/knot_trace.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/model/rewrite.hpp>
+#include <sivid/number/nearest_text.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <functional>
 #include <string>
 #include <utility>
@@ -119,8 +119,7 @@ public:
             auto const name = about_->states[i].name;
             for (int share = 1; share < 20; ++share) {
                 double const threshold = low + (high - low) * share / 20;
-                char text[48];
-                std::snprintf(text, sizeof text, "%.3g", threshold);
+                auto const text = nearest_text(threshold, 3);
                 auto const regime = name + " > " + text;
                 add(
                     laws, "max(" + name + "-" + text + ",0)",
@@ -217,8 +216,7 @@ private:
     }
     void transients(std::string const& name, function const& f, std::vector<law>& laws) const {
         for (double const tau : {0.1, 0.25, 0.6}) {
-            char text[32];
-            std::snprintf(text, sizeof text, "exp(-t/%g)", tau);
+            auto const text = "exp(-t/" + nearest_text(tau, 6) + ")";
             add(laws, product(name, text), [=](knot_trace const& t, std::size_t k) {
                 return f(t, k) * std::exp(-t.times[k] / tau);
             });
@@ -232,8 +230,7 @@ private:
         if (!(most > 0)) return;
         for (int share = 1; share < 10; ++share) {
             double const threshold = most * share / 10;
-            char text[48];
-            std::snprintf(text, sizeof text, "%.2g", threshold);
+            auto const text = nearest_text(threshold, 2);
             auto const g = gain.value;
             add(
                 laws, product(gain.name, "sgn(" + name + ")*max(abs(" + name + ")-" + text + ",0)"),

@@ -3,11 +3,14 @@
 #define SIVID_DIAGNOSIS_LINEAR_REFUTATION_HPP
 
 #include <sivid/number/interval_traits.hpp>
+#include <sivid/paving/constraint_blocks.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -82,69 +85,6 @@ struct approximate_relaxation {
     refutation multipliers; ///< at most n + 1 inequalities
 };
 
-namespace diagnosis_detail {
-
-/// A small dense matrix in plain floating point, row by row.
-struct small_matrix {
-    std::size_t n = 0;
-    std::vector<double> entries;
-
-    explicit small_matrix(std::size_t size) : n(size), entries(size * size, 0.0) {}
-    double& operator()(std::size_t i, std::size_t j) { return entries[i * n + j]; }
-    double operator()(std::size_t i, std::size_t j) const { return entries[i * n + j]; }
-
-    [[nodiscard]] std::vector<double> times(std::vector<double> const& x) const {
-        std::vector<double> result(n, 0.0);
-        for (std::size_t i = 0; i < n; ++i) {
-            for (std::size_t j = 0; j < n; ++j) result[i] += (*this)(i, j) * x[j];
-        }
-        return result;
-    }
-    [[nodiscard]] std::vector<double> transposed_times(std::vector<double> const& x) const {
-        std::vector<double> result(n, 0.0);
-        for (std::size_t i = 0; i < n; ++i) {
-            for (std::size_t j = 0; j < n; ++j) result[j] += (*this)(i, j) * x[i];
-        }
-        return result;
-    }
-};
-
-/// Gauss-Jordan elimination with row pivots; nothing if the matrix is singular in floating point.
-inline std::optional<small_matrix> inverse(small_matrix a) {
-    auto const n = a.n;
-    small_matrix result(n);
-    for (std::size_t i = 0; i < n; ++i) result(i, i) = 1;
-    for (std::size_t k = 0; k < n; ++k) {
-        std::size_t best = k;
-        for (std::size_t i = k + 1; i < n; ++i) {
-            if (std::abs(a(i, k)) > std::abs(a(best, k))) best = i;
-        }
-        if (!(std::abs(a(best, k)) > 0)) return std::nullopt;
-        for (std::size_t j = 0; j < n; ++j) {
-            std::swap(a(k, j), a(best, j));
-            std::swap(result(k, j), result(best, j));
-        }
-        double const pivot = a(k, k);
-        for (std::size_t j = 0; j < n; ++j) {
-            a(k, j) /= pivot;
-            result(k, j) /= pivot;
-        }
-        for (std::size_t i = 0; i < n; ++i) {
-            double const factor = a(i, k);
-            if (i == k || factor == 0) continue;
-            for (std::size_t j = 0; j < n; ++j) {
-                a(i, j) -= factor * a(k, j);
-                result(i, j) -= factor * result(k, j);
-            }
-        }
-    }
-    auto const finite = [](double v) { return std::isfinite(v); };
-    if (!std::all_of(result.entries.begin(), result.entries.end(), finite)) return std::nullopt;
-    return result;
-}
-
-} // namespace diagnosis_detail
-
 /// Solves min t by the simplex method on the dual
 /// \f$ \min b^T y + 1^T \mu : A^T y + \mu - \nu = 0, s^T y = 1, y, \mu, \nu \ge 0 \f$, which has
 /// n + 1 rows only; a basis is at hand: one inequality and a bound of each unknown. Whatever basis
@@ -161,14 +101,16 @@ inline std::optional<small_matrix> inverse(small_matrix a) {
     }
     if (first == rows) return result;
 
+    using vector = Eigen::VectorXd;
+    auto const last = static_cast<Eigen::Index>(n);
     // Columns: inequalities, then the lower and the upper bound of each unknown.
     auto const column = [&](std::size_t k) {
-        std::vector<double> c(n + 1, 0.0);
+        vector c = vector::Zero(last + 1);
         if (k < rows) {
-            std::copy(system.row(k), system.row(k) + n, c.begin());
-            c[n] = system.weight(k);
+            std::copy(system.row(k), system.row(k) + n, c.data());
+            c[last] = system.weight(k);
         } else {
-            c[(k - rows) % n] = k - rows < n ? -1 : 1;
+            c[static_cast<Eigen::Index>((k - rows) % n)] = k - rows < n ? -1 : 1;
         }
         return c;
     };
@@ -177,31 +119,33 @@ inline std::optional<small_matrix> inverse(small_matrix a) {
     };
     // Right-hand sides a little off zero, each by its own, so that no pivot is degenerate (which
     // could go in circles).
-    std::vector<double> target(n + 1, 1.0);
-    for (std::size_t j = 0; j < n; ++j) target[j] = 1e-10 * static_cast<double>(j + 1);
+    vector target = vector::Ones(last + 1);
+    for (Eigen::Index j = 0; j < last; ++j) target[j] = 1e-10 * static_cast<double>(j + 1);
     std::vector<std::size_t> basis{first};
     for (std::size_t j = 0; j < n; ++j) {
-        bool const above = system.row(first)[j] / system.weight(first) > target[j];
+        bool const above =
+            system.row(first)[j] / system.weight(first) > target[static_cast<Eigen::Index>(j)];
         basis.push_back(rows + (above ? j : n + j));
     }
+    Eigen::MatrixXd columns(last + 1, last + 1);
+    vector costs(last + 1);
+    Eigen::PartialPivLU<Eigen::MatrixXd> factors;
     for (std::size_t pivot = 0; pivot < most_pivots; ++pivot) {
-        diagnosis_detail::small_matrix b(n + 1);
-        std::vector<double> costs(n + 1);
-        for (std::size_t k = 0; k <= n; ++k) {
-            auto const c = column(basis[k]);
-            for (std::size_t i = 0; i <= n; ++i) b(i, k) = c[i];
-            costs[k] = cost(basis[k]);
+        for (Eigen::Index k = 0; k <= last; ++k) {
+            columns.col(k) = column(basis[static_cast<std::size_t>(k)]);
+            costs[k] = cost(basis[static_cast<std::size_t>(k)]);
         }
-        auto const solver = diagnosis_detail::inverse(b);
-        if (!solver) break;
-        auto const y = solver->times(target);
-        auto const pi = solver->transposed_times(costs); // (z, -t)
-        result.t = -pi[n];
-        result.z.assign(pi.begin(), pi.end() - 1);
+        factors.compute(columns);
+        vector const y = factors.solve(target);
+        vector const pi = factors.transpose().solve(costs); // (z, -t)
+        if (!y.allFinite() || !pi.allFinite()) break;
+        result.t = -pi[last];
+        result.z.assign(pi.data(), pi.data() + last);
         result.multipliers.multipliers.clear();
         for (std::size_t k = 0; k <= n; ++k) {
-            if (basis[k] < rows && y[k] > 0) {
-                result.multipliers.multipliers.emplace_back(basis[k], y[k]);
+            double const size = y[static_cast<Eigen::Index>(k)];
+            if (basis[k] < rows && size > 0) {
+                result.multipliers.multipliers.emplace_back(basis[k], size);
             }
         }
         // Entering: the inequality that the current z, t violates most, in its own weight.
@@ -210,26 +154,19 @@ inline std::optional<small_matrix> inverse(small_matrix a) {
         for (std::size_t i = 0; i < rows; ++i) {
             double const* const a = system.row(i);
             double const w = system.weight(i);
-            double violation = pi[n] * w - system.bound(i);
-            for (std::size_t j = 0; j < n; ++j) violation += a[j] * pi[j];
+            double violation = pi[last] * w - system.bound(i);
+            for (std::size_t j = 0; j < n; ++j) violation += a[j] * result.z[j];
             if (w > 0) violation /= w;
             if (violation > most) most = violation, entering = i;
         }
         for (std::size_t j = 0; j < n; ++j) {
-            if (-pi[j] > most) most = -pi[j], entering = rows + j;
-            if (pi[j] - 1 > most) most = pi[j] - 1, entering = rows + n + j;
+            if (-result.z[j] > most) most = -result.z[j], entering = rows + j;
+            if (result.z[j] - 1 > most) most = result.z[j] - 1, entering = rows + n + j;
         }
         if (entering == rows + 2 * n) break;
-        auto const direction = solver->times(column(entering));
-        double step = HUGE_VAL;
-        std::size_t leaving = n + 1;
-        for (std::size_t k = 0; k <= n; ++k) {
-            if (direction[k] <= 1e-12) continue;
-            double const ratio = std::max(y[k], 0.0) / direction[k];
-            if (ratio < step) step = ratio, leaving = k;
-        }
-        if (leaving > n) break;
-        basis[leaving] = entering;
+        auto const leaving = leaving_member(factors.solve(column(entering)), y);
+        if (leaving < 0) break;
+        basis[static_cast<std::size_t>(leaving)] = entering;
     }
     for (auto& z : result.z) z = std::clamp(z, 0.0, 1.0);
     return result;

@@ -8,11 +8,11 @@
 #include <sivid/diagnosis/weak_windows.hpp>
 #include <sivid/diagnosis/window_integrals.hpp>
 #include <sivid/model/unit.hpp>
+#include <sivid/number/decimal_output.hpp>
+#include <sivid/number/nearest_text.hpp>
 #include <sivid/paving/problem.hpp>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -133,14 +133,17 @@ public:
             tubes.erase(i);
         }
         for (auto const s : tubes) {
+            // The variation is rounded so that the text assumes rather more than the proof does.
             std::string text;
             for (auto const m : motions) {
-                text += (text.empty() ? "" : ", ") + digits(motions_[m].variation[s].variation) +
-                        " " + rate_unit(s) + " in " + motions_[m].name;
+                text += (text.empty() ? "" : ", ") +
+                        to_decimal_lower(motions_[m].variation[s].variation, 6) + " " +
+                        rate_unit(s) + " in " + motions_[m].name;
             }
-            result.assumptions.push_back(about().states[s].name + "' varies within " +
-                                         digits(motions_[*motions.begin()].variation[s].period) +
-                                         " s by at most " + text);
+            result.assumptions.push_back(
+                about().states[s].name + "' varies within " +
+                nearest_text(motions_[*motions.begin()].variation[s].period, 6) + " s by at most " +
+                text);
         }
         if (row(i).uses_inputs) result.assumptions.emplace_back("inputs exact");
         if (from_begin) result.assumptions.emplace_back("initial states in their boxes");
@@ -189,14 +192,6 @@ private:
                                                                      observed_motion const& m) {
         return row.kinematic ? m.sensed[row.equation] : m.tubes[row.equation];
     }
-    /// Six digits, for the text of an assumption.
-    [[nodiscard]] static std::string digits(double x) {
-        std::array<char, 32> text{};
-        auto const end =
-            std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::general, 6);
-        return {text.data(), end.ptr};
-    }
-
     [[nodiscard]] std::vector<window_row> windows(std::size_t i, window_way way, double shortest,
                                                   double longest) {
         auto& e = prepared(i);

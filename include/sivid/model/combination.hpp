@@ -3,6 +3,7 @@
 #define SIVID_MODEL_COMBINATION_HPP
 
 #include <sivid/model/bound_model.hpp>
+#include <sivid/model/rewrite.hpp>
 #include <sivid/model/unit.hpp>
 #include <sivid/space/box.hpp>
 
@@ -80,14 +81,7 @@ inline void collect_monomials(bound_model const& model, monomial_set& found) {
     auto const count = model.parameter_count();
     auto outputs = model.rate;
     outputs.insert(outputs.end(), model.observe.begin(), model.observe.end());
-    std::vector<bool> needed(g.size(), false);
-    for (auto const i : outputs) needed[i] = true;
-    for (std::size_t k = g.size(); k-- > 0;) {
-        auto const& n = g.nodes()[k];
-        if (!needed[k] || is_leaf(n.op)) continue;
-        needed[n.a] = true;
-        if (is_binary(n.op)) needed[n.b] = true;
-    }
+    auto const needed = operands_of(g, outputs);
     parameter_monomial const none(count, 0);
     std::vector<monomial_set> terms(g.size(), monomial_set{none});
     auto const use = [&](node_id i) { found.insert(terms[i].begin(), terms[i].end()); };

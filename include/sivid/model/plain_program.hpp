@@ -3,6 +3,7 @@
 #define SIVID_MODEL_PLAIN_PROGRAM_HPP
 
 #include <sivid/model/graph.hpp>
+#include <sivid/model/rewrite.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -31,14 +32,7 @@ public:
     plain_program() = default;
     plain_program(graph const& g, std::vector<node_id> const& outputs, program_shape shape)
         : shape_(shape) {
-        std::vector<bool> needed(g.size(), false);
-        for (auto const i : outputs) needed[i] = true;
-        for (std::size_t k = g.size(); k-- > 0;) {
-            auto const& n = g.nodes()[k];
-            if (!needed[k] || is_leaf(n.op)) continue;
-            needed[n.a] = true;
-            if (is_binary(n.op)) needed[n.b] = true;
-        }
+        auto const needed = operands_of(g, outputs);
         std::vector<std::size_t> slot(g.size(), 0);
         initial_.assign(shape.size(), 0.0);
         for (std::size_t k = 0; k < g.size(); ++k) {

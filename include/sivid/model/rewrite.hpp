@@ -29,6 +29,21 @@ namespace sivid {
     return needed;
 }
 
+/// Marks the nodes from which the outputs are computed: their operands, without the companions
+/// that only series need.
+[[nodiscard]] inline std::vector<bool> operands_of(graph const& g,
+                                                   std::vector<node_id> const& outputs) {
+    std::vector<bool> needed(g.size(), false);
+    for (auto const i : outputs) needed[i] = true;
+    for (std::size_t k = g.size(); k-- > 0;) {
+        auto const& n = g.nodes()[k];
+        if (!needed[k] || is_leaf(n.op)) continue;
+        needed[n.a] = true;
+        if (is_binary(n.op)) needed[n.b] = true;
+    }
+    return needed;
+}
+
 /// Copies what `outputs` need from `from` into `to`, in which the rules of `graph` apply anew.
 /// @param leaf  called for each needed leaf but literals with (node, to); the node that replaces it
 /// @returns the images of `outputs`
@@ -36,16 +51,8 @@ namespace sivid {
 template <class Leaf>
 [[nodiscard]] std::vector<node_id> copy_into(graph& to, graph const& from,
                                              std::vector<node_id> const& outputs, Leaf&& leaf) {
-    // Companions are made again by the operation that needs them; only true operands are walked.
-    std::vector<bool> needed(from.size(), false);
-    for (auto const i : outputs) needed[i] = true;
-    for (std::size_t k = from.size(); k-- > 0;) {
-        if (!needed[k]) continue;
-        auto const& n = from.nodes()[k];
-        if (is_leaf(n.op)) continue;
-        needed[n.a] = true;
-        if (is_binary(n.op)) needed[n.b] = true;
-    }
+    // Companions are made again by the operation that needs them.
+    auto const needed = operands_of(from, outputs);
     std::vector<node_id> image(from.size(), 0);
     for (std::size_t k = 0; k < from.size(); ++k) {
         if (!needed[k]) continue;

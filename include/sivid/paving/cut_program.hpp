@@ -2,15 +2,12 @@
 #ifndef SIVID_PAVING_CUT_PROGRAM_HPP
 #define SIVID_PAVING_CUT_PROGRAM_HPP
 
-#include <sivid/paving/minimax_lp.hpp>
+#include <sivid/paving/constraint_blocks.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/LU>
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 namespace sivid {
@@ -34,31 +31,33 @@ class cut_program {
 public:
     /// @param blocks  kept by reference; an infinite margin takes a function out
     cut_program(std::size_t unknowns, std::vector<minimax_block> const& blocks)
-        : n_(unknowns), blocks_(&blocks) {}
+        : constraints_(unknowns, blocks), n_(static_cast<Eigen::Index>(unknowns)) {}
 
     /// @param upwards  maximise \f$ d_j \f$, else \f$ -d_j \f$
     [[nodiscard]] approximate_cut operator()(std::size_t j, bool upwards) {
         approximate_cut result;
-        start(j, upwards);
-        for (auto const limit = 20 * (n_ + 2); result.exchanges < limit; ++result.exchanges) {
+        start(static_cast<Eigen::Index>(j), upwards);
+        auto const limit = 20 * (constraints_.unknowns() + 2);
+        for (; result.exchanges < limit; ++result.exchanges) {
             factors_.compute(basis_);
             point_ = factors_.transpose().solve(reach_);
             if (!point_.allFinite()) break;
-            auto const enters = most_violated();
+            auto enters = constraints_.worst_function(point_);
+            auto const bound = constraints_.worst_bound(point_);
+            if (bound.excess > enters.excess) enters = bound;
             if (!(enters.excess > 1e-9)) break;
-            auto const normal = column(enters);
+            auto const normal = constraints_.normal(enters, n_);
             Eigen::VectorXd const direction = factors_.solve(normal);
-            Eigen::VectorXd const present = factors_.solve(goal_);
-            auto const leaves = leaving(direction, present);
+            auto const leaves = leaving_member(direction, factors_.solve(goal_));
             if (leaves < 0) {
                 if (direction.allFinite()) take(result, -direction);
-                add(result, enters, 1);
+                add_weight(result.weights, enters, 1);
                 result.empty = true;
                 return result;
             }
             members_[static_cast<std::size_t>(leaves)] = enters;
             basis_.col(leaves) = normal;
-            reach_[leaves] = reach(enters);
+            reach_[leaves] = constraints_.reach(enters);
         }
         factors_.compute(basis_);
         take(result, factors_.solve(goal_));
@@ -66,108 +65,31 @@ public:
     }
 
 private:
-    /// A constraint: a function with a sign, or a bound of an unknown.
-    struct member {
-        bool is_bound = true;
-        std::size_t block = 0;
-        std::size_t index = 0;
-        bool positive = true;
-        double excess = -std::numeric_limits<double>::infinity();
-    };
-
-    [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(n_); }
-
-    void start(std::size_t j, bool upwards) {
-        goal_ = Eigen::VectorXd::Zero(size());
-        goal_[static_cast<Eigen::Index>(j)] = upwards ? 1 : -1;
-        basis_ = Eigen::MatrixXd::Identity(size(), size());
-        reach_ = Eigen::VectorXd::Ones(size());
+    /// The corner of the box that is farthest in the direction asked for.
+    void start(Eigen::Index j, bool upwards) {
+        goal_ = Eigen::VectorXd::Zero(n_);
+        goal_[j] = upwards ? 1 : -1;
+        basis_ = Eigen::MatrixXd::Identity(n_, n_);
+        reach_ = Eigen::VectorXd::Ones(n_);
         members_.clear();
-        for (std::size_t v = 0; v < n_; ++v) members_.push_back({true, 0, v, true});
+        for (std::size_t v = 0; v < constraints_.unknowns(); ++v) members_.push_back({true, 0, v});
         if (upwards) return;
-        members_[j].positive = false;
-        basis_(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(j)) = -1;
-    }
-
-    [[nodiscard]] member most_violated() {
-        member worst;
-        for (std::size_t b = 0; b < blocks_->size(); ++b) {
-            auto const& block = (*blocks_)[b];
-            auto const count = block.functions();
-            value_.assign(block.offset.begin(), block.offset.end());
-            for (std::size_t v = 0; v < block.variable.size(); ++v) {
-                double const d = point_[static_cast<Eigen::Index>(block.variable[v])];
-                double const* const slope = &block.slope[v * count];
-                for (std::size_t y = 0; y < count; ++y) value_[y] += slope[y] * d;
-            }
-            for (std::size_t y = 0; y < count; ++y) {
-                double const excess = std::abs(value_[y]) - block.margin[y];
-                if (excess > worst.excess) worst = {false, b, y, value_[y] > 0, excess};
-            }
-        }
-        for (std::size_t v = 0; v < n_; ++v) {
-            double const d = point_[static_cast<Eigen::Index>(v)];
-            if (std::abs(d) - 1 > worst.excess) worst = {true, 0, v, d > 0, std::abs(d) - 1};
-        }
-        return worst;
-    }
-
-    [[nodiscard]] Eigen::VectorXd column(member const& m) const {
-        Eigen::VectorXd c = Eigen::VectorXd::Zero(size());
-        double const sign = m.positive ? 1 : -1;
-        if (m.is_bound) {
-            c[static_cast<Eigen::Index>(m.index)] = sign;
-            return c;
-        }
-        auto const& block = (*blocks_)[m.block];
-        for (std::size_t v = 0; v < block.variable.size(); ++v) {
-            c[static_cast<Eigen::Index>(block.variable[v])] +=
-                sign * block.slope[v * block.functions() + m.index];
-        }
-        return c;
-    }
-    /// How large normal * d may be.
-    [[nodiscard]] double reach(member const& m) const {
-        if (m.is_bound) return 1;
-        auto const& block = (*blocks_)[m.block];
-        return block.margin[m.index] - (m.positive ? 1 : -1) * block.offset[m.index];
-    }
-
-    /// The member whose multiplier is first driven to zero; -1 when there is none.
-    [[nodiscard]] Eigen::Index leaving(Eigen::VectorXd const& direction,
-                                       Eigen::VectorXd const& present) const {
-        double const least = 1e-11 * direction.cwiseAbs().maxCoeff();
-        Eigen::Index leaves = -1;
-        double step = std::numeric_limits<double>::infinity();
-        for (Eigen::Index k = 0; k < size(); ++k) {
-            if (!(direction[k] > least)) continue;
-            double const ratio = std::max(present[k], 0.0) / direction[k];
-            bool const ties = leaves >= 0 && ratio == step;
-            if (ratio < step || (ties && direction[k] > direction[leaves])) {
-                step = ratio;
-                leaves = k;
-            }
-        }
-        return leaves;
+        members_[static_cast<std::size_t>(j)].positive = false;
+        basis_(j, j) = -1;
     }
 
     void take(approximate_cut& result, Eigen::VectorXd const& multipliers) const {
         for (std::size_t k = 0; k < members_.size(); ++k) {
-            add(result, members_[k], multipliers[static_cast<Eigen::Index>(k)]);
+            add_weight(result.weights, members_[k], multipliers[static_cast<Eigen::Index>(k)]);
         }
     }
-    static void add(approximate_cut& result, member const& m, double size) {
-        if (m.is_bound || !(size > 0) || !std::isfinite(size)) return;
-        result.weights.push_back({m.block, m.index, m.positive ? size : -size});
-    }
 
-    std::size_t n_;
-    std::vector<minimax_block> const* blocks_;
-    std::vector<member> members_;
+    constraint_blocks constraints_;
+    Eigen::Index n_;
+    std::vector<signed_constraint> members_;
     Eigen::MatrixXd basis_;
     Eigen::VectorXd reach_, goal_, point_;
     Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
-    std::vector<double> value_;
 };
 
 } // namespace sivid
