@@ -2,6 +2,7 @@
 // The program as a user runs it: exit codes, files, messages, Ctrl-C.
 #include "io/support.hpp"
 #include "support/catch.hpp"
+#include "support/child_program.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -14,68 +15,22 @@
 #include <fstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
-
-#include <fcntl.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace fs = std::filesystem;
 using io_support::temporary_folder;
 
 namespace {
 
-/// A running program whose outputs go to files.
-class child {
+class child : public support::child_program {
 public:
     child(std::vector<std::string> arguments, fs::path const& folder)
-        : out_{folder / "stdout.txt"}, err_{folder / "stderr.txt"} {
-        arguments.insert(arguments.begin(), HOVERCRAFT_PROGRAM);
-        id_ = ::fork();
-        if (id_ == 0) {
-            redirect(out_, STDOUT_FILENO);
-            redirect(err_, STDERR_FILENO);
-            std::vector<char*> argv;
-            for (auto& a : arguments) argv.push_back(a.data());
-            argv.push_back(nullptr);
-            ::execv(HOVERCRAFT_PROGRAM, argv.data());
-            ::_exit(127);
-        }
-    }
-    void signal(int number) const { ::kill(id_, number); }
-    /// The exit code, or 1000 + the signal that ended it.
-    int wait() const {
-        int status = 0;
-        ::waitpid(id_, &status, 0);
-        return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
-    }
-    std::string out() const { return text(out_); }
-    std::string err() const { return text(err_); }
-
-private:
-    static void redirect(fs::path const& file, int to) {
-        int const handle = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-        ::dup2(handle, to);
-        ::close(handle);
-    }
-    static std::string text(fs::path const& file) {
-        std::ifstream in{file, std::ios::binary};
-        return {std::istreambuf_iterator<char>{in}, {}};
-    }
-    fs::path out_, err_;
-    ::pid_t id_ = 0;
+        : child_program(HOVERCRAFT_PROGRAM, std::move(arguments), folder) {}
 };
 
-struct finished {
-    int code;
-    std::string out, err;
-};
-
-finished run(std::vector<std::string> const& arguments) {
-    temporary_folder const folder;
-    child const c(arguments, folder.path());
-    int const code = c.wait();
-    return {code, c.out(), c.err()};
+support::finished_program run(std::vector<std::string> const& arguments) {
+    return support::run_program(HOVERCRAFT_PROGRAM, arguments);
 }
 
 nlohmann::json json_of(fs::path const& file) {
@@ -222,11 +177,8 @@ TEST_CASE("check verifies what identify wrote, and refutes what was changed sinc
     CHECK(check({"--dataset", h3}).code == 0);
     CHECK(check({"--budget", "0"}).code == 3); // nothing of the boxes is proved in no time
 
-    auto const text_of = [](fs::path const& file) {
-        std::ifstream in{file, std::ios::binary};
-        return std::string{std::istreambuf_iterator<char>{in}, {}};
-    };
-    auto const json = text_of(out / "result.json"), csv = text_of(out / "boxes.csv");
+    auto const json = support::text_of(out / "result.json"),
+               csv = support::text_of(out / "boxes.csv");
     auto const tampered = [&](std::string const& file, std::string const& from,
                               std::string const& to, std::string const& words) {
         auto text = file == "boxes.csv" ? csv : json;
@@ -252,7 +204,7 @@ TEST_CASE("check verifies what identify wrote, and refutes what was changed sinc
     // Another data set: one digit of one measurement.
     auto const other = folder.path() / "other";
     fs::copy(h3, other);
-    auto measured = text_of(other / "S3.measurements.csv");
+    auto measured = support::text_of(other / "S3.measurements.csv");
     auto const digit = measured.rfind("0.");
     REQUIRE(digit != std::string::npos);
     measured[digit + 2] = measured[digit + 2] == '1' ? '2' : '1';

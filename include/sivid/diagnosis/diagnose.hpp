@@ -7,6 +7,7 @@
 #include <sivid/diagnosis/hardest_experiments.hpp>
 #include <sivid/diagnosis/part_inflation.hpp>
 #include <sivid/paving/identify.hpp>
+#include <sivid/paving/observer_refutation.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -112,6 +113,10 @@ private:
             search.seconds = std::min(search.seconds, left());
             tighten(bound, base, search);
             if (!(bound.range.lower() > 1) && bound.range.upper() > 1 &&
+                go_on("bounding the states, sample by sample")) {
+                refute_by_observers(bound, base, options_.gap_seconds);
+            }
+            if (!(bound.range.lower() > 1) && bound.range.upper() > 1 &&
                 go_on("deciding whether there is a gap")) {
                 search = effort(2 * options_.gap_seconds);
                 search.only_verdict = true;
@@ -136,6 +141,18 @@ private:
         search.relative_width = 0.1;
         auto const few = hardest_experiments(s.problem, s.fit, options_.hardest);
         return bound_inflation(few, nullptr, search).value.lower();
+    }
+
+    /// Wide starts and long records, where no box of the search above is carried to the end.
+    void refute_by_observers(verified_inflation& known, screened const& s, double seconds) const {
+        auto const upper = known.range.upper();
+        auto const not_stopped = [this] {
+            return !options_.progress || options_.progress("bounding the states, sample by sample");
+        };
+        double const proved = inflation_refuted_by_observers(
+            s.problem, upper, std::min(left(), seconds), not_stopped);
+        known.range = interval_traits<interval>::bounds(
+            std::max(known.range.lower(), std::min(proved, upper)), upper);
     }
 
     void find_relations() {
