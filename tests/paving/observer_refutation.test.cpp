@@ -62,3 +62,11 @@ TEST_CASE("no time proves nothing") {
     CHECK(sivid::inflation_refuted_by_observers(problem, 10, 0) == 0);
     CHECK(sivid::inflation_refuted_by_observers(problem, 10, 5, [] { return false; }) == 0);
 }
+
+TEST_CASE("starts are wide against the state's own range") {
+    auto problem = decay(between(0.1, 3), 0.5, 0.6, 0.02);
+    CHECK_FALSE(sivid::has_wide_starts(problem));
+    double const limit = problem.model.about.states[0].limit;
+    problem.experiments[0].initial = box{between(0, 0.2 * limit)};
+    CHECK(sivid::has_wide_starts(problem));
+}

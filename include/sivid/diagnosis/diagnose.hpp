@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -104,7 +103,11 @@ private:
         auto const& base = tried.candidates().front();
         auto& bound = run_.base_bound;
         bound = at_point(base);
-        if (!diagnosis_detail::has_delays(base.problem.model)) {
+        bool const enclosed = !diagnosis_detail::has_delays(base.problem.model);
+        bool const wide = has_wide_starts(base.problem);
+        if (enclosed && wide && is_open(bound))
+            refute_by_observers(bound, base, 2 * options_.gap_seconds);
+        if (enclosed && !(bound.range.lower() > 1)) {
             auto search = effort(bound.range.upper() <= 1 ? 0.3 : options_.gap_seconds);
             search.relative_width = 0.03;
             double const fewer = refuted_by_few(base, bound.range.upper(), 0.6 * search.seconds);
@@ -112,12 +115,10 @@ private:
             bound.range = interval_traits<interval>::bounds(std::min(fewer, upper), upper);
             search.seconds = std::min(search.seconds, left());
             tighten(bound, base, search);
-            if (!(bound.range.lower() > 1) && bound.range.upper() > 1 &&
-                go_on("bounding the states, sample by sample")) {
+            if (!wide && is_open(bound) && go_on("bounding the states, sample by sample")) {
                 refute_by_observers(bound, base, options_.gap_seconds);
             }
-            if (!(bound.range.lower() > 1) && bound.range.upper() > 1 &&
-                go_on("deciding whether there is a gap")) {
+            if (is_open(bound) && go_on("deciding whether there is a gap")) {
                 search = effort(2 * options_.gap_seconds);
                 search.only_verdict = true;
                 tighten(bound, base, search);
@@ -143,14 +144,16 @@ private:
         return bound_inflation(few, nullptr, search).value.lower();
     }
 
+    [[nodiscard]] static bool is_open(verified_inflation const& known) {
+        return !(known.range.lower() > 1) && known.range.upper() > 1;
+    }
     /// Wide starts and long records, where no box of the search above is carried to the end.
     void refute_by_observers(verified_inflation& known, screened const& s, double seconds) const {
         auto const upper = known.range.upper();
-        auto const not_stopped = [this] {
-            return !options_.progress || options_.progress("bounding the states, sample by sample");
-        };
-        double const proved = inflation_refuted_by_observers(
-            s.problem, upper, std::min(left(), seconds), not_stopped);
+        double const proved =
+            inflation_refuted_by_observers(s.problem, upper, std::min(left(), seconds), [this] {
+                return !options_.progress || options_.progress("bounding the states");
+            });
         known.range = interval_traits<interval>::bounds(
             std::max(known.range.lower(), std::min(proved, upper)), upper);
     }
@@ -169,7 +172,7 @@ private:
         if (!go_on("looking where the model departs from the data")) return;
         run_.places = estimate_places(run_.base);
         for (auto const& p : run_.places.places) {
-            run_.result.where.push_back(suspected(p));
+            run_.result.where.push_back(described(p));
             prove(run_.result.where.back());
         }
         if (run_.result.where.empty()) return;
@@ -178,21 +181,6 @@ private:
             for (auto const& name : set) text += (text.empty() ? "" : " and ") + name;
             run_.result.where.front().alternatives.push_back(text);
         }
-    }
-    /// Sums of sampling periods lose their last digits.
-    [[nodiscard]] static double shown_time(double t) { return std::round(t * 1e9) / 1e9; }
-    [[nodiscard]] static suspected_place suspected(estimated_place const& p) {
-        suspected_place s;
-        s.kind = p.kind == place_kind::sensor  ? "sensor"
-                 : p.kind == place_kind::input ? "input"
-                                               : "equation";
-        s.name = p.name;
-        s.where = {p.scenario, shown_time(p.from), shown_time(p.to)};
-        s.estimate = p.missing;
-        s.unit = p.unit;
-        s.law = p.law;
-        s.regime = p.regime;
-        return s;
     }
     /// A place whose relation is proved broken gets the proof's window and missing rate.
     void prove(suspected_place& s) const {
@@ -303,7 +291,13 @@ private:
             if (!go_on("excluding " + c.effects.front())) return;
             auto search = effort(std::min(options_.verify_seconds - spent, options_.each_seconds));
             search.only_verdict = true;
-            double const fewer = refuted_by_few(s, s.fit.inflation, search.seconds, true);
+            double fewer = 0;
+            if (has_wide_starts(s.problem)) {
+                search.seconds *= 0.5;
+                fewer = inflation_refuted_by_observers(s.problem, 2, search.seconds);
+            } else {
+                fewer = refuted_by_few(s, s.fit.inflation, search.seconds, true);
+            }
             auto const proved = fewer > 1
                                     ? interval_traits<interval>::bounds(fewer, detail::infinity)
                                     : bound_inflation(s.problem, &s.fit, search).value;
@@ -364,7 +358,7 @@ private:
             rest.where = d.where;
         } else if (go_on("looking for what is left")) {
             run_.remaining_places = estimate_places(nearest.problem);
-            for (auto const& p : run_.remaining_places.places) rest.where.push_back(suspected(p));
+            for (auto const& p : run_.remaining_places.places) rest.where.push_back(described(p));
         }
         d.remainder = std::move(rest);
     }

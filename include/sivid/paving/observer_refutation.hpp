@@ -114,6 +114,18 @@ private:
     std::size_t tested_ = 0;
 };
 
+/// Whether a state starts anywhere in a good part of its own range: sets of trajectories are then
+/// too wide to be carried far, and observers are of more use.
+[[nodiscard]] inline bool has_wide_starts(identification_problem const& problem) {
+    auto const& states = problem.model.about.states;
+    for (auto const& e : problem.experiments) {
+        for (std::size_t i = 0; i < states.size(); ++i) {
+            if (width(e.initial[i]) > 0.1 * states[i].limit) return true;
+        }
+    }
+    return false;
+}
+
 /// A lower bound of the inflation by interval observers, for problems whose starts are too wide, or
 /// whose records are too long, for `bound_inflation`.
 /// @param upper    a number that the inflation does not exceed
