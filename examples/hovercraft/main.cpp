@@ -124,7 +124,7 @@ public:
         try {
             app_.parse(argc, argv);
         } catch (CLI::ParseError const& e) {
-            return app_.exit(e) == 0 ? 0 : static_cast<int>(exit_code::bad_input);
+            return app_.exit(e) == 0 ? 0 : static_cast<int>(console::bad_input);
         }
         return action_();
     }

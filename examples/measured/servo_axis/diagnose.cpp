@@ -149,7 +149,8 @@ chain_link const* find(std::vector<chain_link> const& chain,
     return nullptr;
 }
 
-void add_chain(report::page& page, std::vector<chain_link> const& chain) {
+void add_chain(report::page& page, sivid::diagnosis_run const& run,
+               std::vector<chain_link> const& chain) {
     auto const* base = find(chain, {});
     auto const* dry = find(chain, {"dry_friction"});
     auto const* both = find(chain, {"dry_friction", "offset"});
@@ -178,13 +179,16 @@ void add_chain(report::page& page, std::vector<chain_link> const& chain) {
     }
     report::table t{.columns = {{"model", report::column_kind::symbol}},
                     .rows = {},
-                    .caption = "Root mean square of the position's misfit [mm], estimation record "
-                               "/ validation record (which chose nothing), windows of 0.2 to 2 s "
-                               "from the same starts. Fitted to the windows of the estimation "
-                               "record alone, by least squares."};
+                    .caption =
+                        "Root mean square of the position's misfit [mm], estimation record "
+                        "/ validation record (which chose nothing), windows of 0.2 to 2 s "
+                        "from the same starts. Fitted to the windows of the estimation "
+                        "record alone, by least squares. Inflation: proved range of the factor by "
+                        "which the bound would have to grow, starts within theirs."};
     for (double const length : window_study::lengths) {
         t.columns.push_back({text_of("%g s", length), report::column_kind::number});
     }
+    t.columns.push_back({"inflation", report::column_kind::text});
     for (auto const& link : chain) {
         std::vector<std::string> row{console::model_words(link.effects)};
         for (std::size_t i = 0; i < link.estimation.size(); ++i) {
@@ -192,6 +196,7 @@ void add_chain(report::page& page, std::vector<chain_link> const& chain) {
                           (i < link.validation.size() ? " / " + millimetres(link.validation[i])
                                                       : std::string{}));
         }
+        row.push_back(console::inflation_words(run, link.effects));
         t.rows.push_back(std::move(row));
     }
     page.add(t);
@@ -355,7 +360,7 @@ int run(diagnose_command const& c) {
     console::write_diagnosis(run.result, id, plots, console::page_options(run, id, c.command_line),
                              c.out, [&](report::page& page) {
                                  if (run.candidates.empty()) return;
-                                 if (!chain.empty()) add_chain(page, chain);
+                                 if (!chain.empty()) add_chain(page, run, chain);
                                  console::add_sensitivity(page, run, bound, meaning);
                                  if (chain.empty()) return;
                                  add_starts(page, run, chain);

@@ -93,22 +93,26 @@ std::vector<chain_link> chain_of(sivid::diagnosis_run const& run, sivid::holdout
     return chain;
 }
 
-void add_chain(report::page& page, std::vector<chain_link> const& chain) {
+void add_chain(report::page& page, sivid::diagnosis_run const& run,
+               std::vector<chain_link> const& chain) {
     page.section("One effect after the other");
     report::table t{.columns = {{"model", report::column_kind::symbol},
                                 {"estimation [V]", report::column_kind::number},
                                 {"validation [V]", report::column_kind::number},
                                 {"near full [V]", report::column_kind::number},
-                                {"elsewhere [V]", report::column_kind::number}},
+                                {"elsewhere [V]", report::column_kind::number},
+                                {"inflation", report::column_kind::text}},
                     .rows = {},
                     .caption = "Root mean square of the level's misfit over the whole record, by "
                                "least squares (estimates). The validation record chose nothing but "
                                "its own starts. Near full: from 160 s before to 240 s after a "
-                               "level above 9.5 V, estimation record."};
+                               "level above 9.5 V, estimation record. Inflation: proved range of "
+                               "the factor by which the bound would have to grow."};
     for (auto const& link : chain) {
         t.rows.push_back({console::model_words(link.effects), text_of("%.3f", link.estimation),
                           std::isfinite(link.validation) ? text_of("%.3f", link.validation) : "-",
-                          text_of("%.3f", link.near), text_of("%.3f", link.rest)});
+                          text_of("%.3f", link.near), text_of("%.3f", link.rest),
+                          console::inflation_words(run, link.effects)});
     }
     page.add(t);
 }
@@ -209,7 +213,7 @@ int run(diagnose_command const& c) {
                                      page.prose(validity_words(*valid));
                                  }
                                  console::add_sensitivity(page, run, bound, meaning);
-                                 if (!chain.empty()) add_chain(page, chain);
+                                 if (!chain.empty()) add_chain(page, run, chain);
                              });
     console::print_summary(run.result, id, c.out);
     if (valid) std::cout << "  " << validity_words(*valid) << "\n";
