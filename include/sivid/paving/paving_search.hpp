@@ -198,14 +198,15 @@ private:
     /// Whether the hull of what is left shrinks no more; looked at when the tests have doubled.
     [[nodiscard]] bool hull_rests() {
         if (!(options_.hull_gain > 0) || tested_ < next_look_) return false;
-        next_look_ = 2 * tested_;
         auto const now = waiting_.hull(paving_.outer_hull());
         bool rests = true;
         for (std::size_t i = 0; i < now.size(); ++i) {
             rests = rests && width(now[i]) >= (1 - options_.hull_gain) * width(last_hull_[i]);
         }
+        if (rests) return true; // and would again, if asked after an interruption
+        next_look_ = 2 * tested_;
         last_hull_ = now;
-        return rests;
+        return false;
     }
 
     [[nodiscard]] double volume(box const& x) const { return relative_volume(x, prior_).upper(); }
