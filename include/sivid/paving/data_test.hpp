@@ -189,15 +189,13 @@ public:
         return sum;
     }
 
-    /// One experiment at a point, by the options for witnesses.
-    [[nodiscard]] std::shared_ptr<response const> run_point(std::size_t e,
-                                                            std::vector<double> const& initial,
-                                                            std::vector<double> const& parameters) {
+    /// One experiment over next to nothing, by the options for witnesses.
+    [[nodiscard]] std::shared_ptr<response const> run_finely(std::size_t e, box const& initial,
+                                                             box const& parameters) {
         pool_->count(1);
-        auto const& experiment = problem_->experiments[e];
-        auto const point =
-            make_run(*flows_[e], experiment, records_[e], problem_->prior, options_.witness);
-        return (*point)(point_box(initial), point_box(parameters));
+        auto const fine = make_run(*flows_[e], problem_->experiments[e], records_[e],
+                                   problem_->prior, options_.witness);
+        return (*fine)(initial, parameters);
     }
     /// One experiment over boxes of starts and parameters.
     [[nodiscard]] std::vector<std::shared_ptr<response const>>
