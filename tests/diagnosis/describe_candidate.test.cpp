@@ -48,3 +48,15 @@ TEST_CASE("a place is described in words, its times rounded") {
     CHECK(s.estimate == 0.5);
     CHECK_FALSE(s.proved);
 }
+
+TEST_CASE("the first sentence says whether there is a gap, and where") {
+    diagnosis d;
+    CHECK(first_sentence_of(d) == "no parameter was found that explains the data");
+    d.gap = gap_verdict::certified;
+    d.where.resize(2);
+    d.where[0].kind = "equation";
+    d.where[0].name = "surge";
+    d.where[1].kind = "sensor";
+    d.where[1].name = "u";
+    CHECK(first_sentence_of(d) == "a gap is proved: equation surge, sensor u");
+}

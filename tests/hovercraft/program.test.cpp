@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The program as a user runs it: exit codes, files, messages, Ctrl-C.
-#include "io/support.hpp"
-#include "support/catch.hpp"
-#include "support/child_program.hpp"
+#include "child.hpp"
 
-#include <nlohmann/json.hpp>
+#include "support/catch.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -15,28 +13,13 @@
 #include <fstream>
 #include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
 namespace fs = std::filesystem;
 using io_support::temporary_folder;
+using namespace hovercraft_test;
 
 namespace {
-
-class child : public support::child_program {
-public:
-    child(std::vector<std::string> arguments, fs::path const& folder)
-        : child_program(HOVERCRAFT_PROGRAM, std::move(arguments), folder) {}
-};
-
-support::finished_program run(std::vector<std::string> const& arguments) {
-    return support::run_program(HOVERCRAFT_PROGRAM, arguments);
-}
-
-nlohmann::json json_of(fs::path const& file) {
-    std::ifstream in{file};
-    return nlohmann::json::parse(in);
-}
 
 std::string const h3 = std::string{SIVID_SOURCE_DIR} + "/examples/hovercraft/data/h3";
 std::string const lagging = std::string{SIVID_SOURCE_DIR} + "/examples/hovercraft/data/rudder_lag";
@@ -177,8 +160,11 @@ TEST_CASE("check verifies what identify wrote, and refutes what was changed sinc
     CHECK(check({"--dataset", h3}).code == 0);
     CHECK(check({"--budget", "0"}).code == 3); // nothing of the boxes is proved in no time
 
-    auto const json = support::text_of(out / "result.json"),
-               csv = support::text_of(out / "boxes.csv");
+    auto const text_of = [](fs::path const& file) {
+        std::ifstream in{file, std::ios::binary};
+        return std::string{std::istreambuf_iterator<char>{in}, {}};
+    };
+    auto const json = text_of(out / "result.json"), csv = text_of(out / "boxes.csv");
     auto const tampered = [&](std::string const& file, std::string const& from,
                               std::string const& to, std::string const& words) {
         auto text = file == "boxes.csv" ? csv : json;
@@ -204,7 +190,7 @@ TEST_CASE("check verifies what identify wrote, and refutes what was changed sinc
     // Another data set: one digit of one measurement.
     auto const other = folder.path() / "other";
     fs::copy(h3, other);
-    auto measured = support::text_of(other / "S3.measurements.csv");
+    auto measured = text_of(other / "S3.measurements.csv");
     auto const digit = measured.rfind("0.");
     REQUIRE(digit != std::string::npos);
     measured[digit + 2] = measured[digit + 2] == '1' ? '2' : '1';

@@ -87,6 +87,17 @@ namespace diagnosis_detail {
     return s;
 }
 
+/// Whether there is a gap, and where.
+[[nodiscard]] inline std::string first_sentence_of(diagnosis const& d) {
+    std::string text = d.gap == gap_verdict::certified
+                           ? "a gap is proved"
+                           : "no parameter was found that explains the data";
+    for (std::size_t k = 0; k < d.where.size(); ++k) {
+        text += (k == 0 ? ": " : ", ") + d.where[k].kind + " " + d.where[k].name;
+    }
+    return text;
+}
+
 } // namespace sivid
 
 #endif

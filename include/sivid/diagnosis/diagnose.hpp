@@ -79,18 +79,28 @@ private:
         return search;
     }
     /// A validated run at the fit: nothing is known from below.
-    [[nodiscard]] static verified_inflation at_point(screened const& s) {
-        auto result = verify_at(s.problem, s.fit);
+    [[nodiscard]] verified_inflation at_point(screened const& s) const {
+        auto result = verify_at(s.problem, s.fit, options_.test);
         result.range = interval_traits<interval>::bounds(0, result.range.upper());
         return result;
     }
     /// Adds what a search proves to what is known.
-    static void tighten(verified_inflation& known, screened const& s,
-                        inflation_options const& search) {
-        auto const proved = bound_inflation(s.problem, &s.fit, search);
-        if (proved.value.upper() <= known.range.upper()) known.witness = proved.witness;
-        if (known.hull.size() == 0) known.hull = proved.hull;
-        double const upper = std::min(proved.value.upper(), known.range.upper());
+    void tighten(verified_inflation& known, screened const& s,
+                 inflation_options const& search) const {
+        auto proved = bound_inflation(s.problem, &s.fit, search);
+        double upper = proved.value.upper();
+        if (proved.witness && starts_follow_parameters(s.problem)) {
+            // The search lets added states start anywhere in their ranges.
+            approximate_fit at;
+            at.parameters = proved.witness->parameters;
+            at.starts = proved.witness->starts;
+            auto verified = verify_at(s.problem, at, options_.test);
+            upper = verified.range.upper();
+            proved.witness = std::move(verified.witness);
+        }
+        if (upper <= known.range.upper()) known.witness = std::move(proved.witness);
+        upper = std::min(upper, known.range.upper());
+        if (known.hull.size() == 0 && upper <= proved.value.upper()) known.hull = proved.hull;
         double const lower = std::max(proved.value.lower(), known.range.lower());
         known.range = interval_traits<interval>::bounds(std::min(lower, upper), upper);
     }
@@ -115,9 +125,8 @@ private:
             bound.range = interval_traits<interval>::bounds(std::min(fewer, upper), upper);
             search.seconds = std::min(search.seconds, left());
             tighten(bound, base, search);
-            if (!wide && is_open(bound) && go_on("bounding the states, sample by sample")) {
+            if (!wide && is_open(bound) && go_on("bounding the states"))
                 refute_by_observers(bound, base, options_.gap_seconds);
-            }
             if (is_open(bound) && go_on("deciding whether there is a gap")) {
                 search = effort(2 * options_.gap_seconds);
                 search.only_verdict = true;
@@ -195,15 +204,7 @@ private:
     }
     /// The first sentence, early: whether there is a gap, and where.
     void announce() {
-        if (!options_.first_sentence) return;
-        auto const& d = run_.result;
-        std::string text = d.gap == gap_verdict::certified
-                               ? "a gap is proved"
-                               : "no parameter was found that explains the data";
-        for (std::size_t k = 0; k < d.where.size(); ++k) {
-            text += (k == 0 ? ": " : ", ") + d.where[k].kind + " " + d.where[k].name;
-        }
-        options_.first_sentence(text);
+        if (options_.first_sentence) options_.first_sentence(first_sentence_of(run_.result));
     }
 
     void decide(screening const& tried) {
@@ -291,13 +292,10 @@ private:
             if (!go_on("excluding " + c.effects.front())) return;
             auto search = effort(std::min(options_.verify_seconds - spent, options_.each_seconds));
             search.only_verdict = true;
-            double fewer = 0;
-            if (has_wide_starts(s.problem)) {
-                search.seconds *= 0.5;
-                fewer = inflation_refuted_by_observers(s.problem, 2, search.seconds);
-            } else {
-                fewer = refuted_by_few(s, s.fit.inflation, search.seconds, true);
-            }
+            bool const wide = has_wide_starts(s.problem);
+            if (wide) search.seconds *= 0.5; // each for observers and sets of trajectories
+            double const fewer = wide ? inflation_refuted_by_observers(s.problem, 2, search.seconds)
+                                      : refuted_by_few(s, s.fit.inflation, search.seconds, true);
             auto const proved = fewer > 1
                                     ? interval_traits<interval>::bounds(fewer, detail::infinity)
                                     : bound_inflation(s.problem, &s.fit, search).value;

@@ -129,7 +129,6 @@ private:
         std::vector<step> steps;
         std::vector<node_id> outputs;
     };
-
     [[nodiscard]] program program_of(std::vector<node_id> const& outputs) {
         auto const needed = operands_of(model_.g, outputs);
         program p;
@@ -158,7 +157,6 @@ private:
     void write(leaf_list const& leaves, Value const& value) {
         for (auto const& [node, index] : leaves) memory_[node] = value(index);
     }
-
     /// The times of measurements and of the inputs' knots between.
     void find_ticks() {
         ticks_.push_back(experiment_->begin);
@@ -172,18 +170,14 @@ private:
         std::sort(ticks_.begin(), ticks_.end());
         ticks_.erase(std::unique(ticks_.begin(), ticks_.end()), ticks_.end());
     }
-
     void begin(std::vector<box> const& parameters) {
         auto const last = parameters.size() - 1;
         live_ = (mask{2} << last) - 1;
         write(parameters_, [&](std::size_t j) {
-            lane_values lo{}, hi{};
-            for (std::size_t l = 0; l < width; ++l) {
+            return packed([&](std::size_t l) {
                 auto const& side = parameters[std::min(l, last)][j];
-                lo[l] = side.lower();
-                hi[l] = side.upper();
-            }
-            return number::load(lo.data(), hi.data());
+                return std::pair{side.lower(), side.upper()};
+            });
         });
         for (std::size_t i = 0; i < low_.size(); ++i) {
             low_[i].fill(experiment_->initial[i].lower());
@@ -192,7 +186,6 @@ private:
             rise_high_[i].fill(0);
         }
     }
-
     /// Times and inputs from t0 to t1, within one piece of every input.
     void write_inputs(double t0, double t1) {
         auto const t = traits::bounds(t0, t1);
@@ -202,7 +195,6 @@ private:
             return u.template value<number>(u.piece(t0), t);
         });
     }
-
     /// From one tick to the next, in slices that are short against the bounds' own width.
     void cross(double from, double to) {
         double fastest = 0; // slices per second
@@ -232,7 +224,6 @@ private:
             slices = std::max<std::size_t>(slices - 1, 1);
         }
     }
-
     static double up(double x) { return std::nextafter(x, detail::infinity); }
     static double down(double x) { return std::nextafter(x, -detail::infinity); }
     /// The end of a line, rounded up.
@@ -253,7 +244,6 @@ private:
         for (std::size_t l = 0; l < width; ++l) std::tie(lo[l], hi[l]) = ends(l);
         return number::load(lo.data(), hi.data());
     }
-
     /// Looks for slopes with which the lines bound all states from t0 to t1.
     /// @returns  the boxes for which the present slopes are proved to do so
     [[nodiscard]] mask advance(double t0, double t1) {
@@ -317,7 +307,12 @@ private:
             }
         }
     }
-
+    [[nodiscard]] number middle_of(std::size_t i) const {
+        return packed([&](std::size_t l) {
+            double const x = 0.5 * low_[i][l] + 0.5 * high_[i][l];
+            return std::pair{x, x};
+        });
+    }
     /// Cuts the states down to what a measurement allows.
     /// @returns  the boxes where no state fulfils it
     [[nodiscard]] mask measure(measurement const& m, double t, double level) {
@@ -326,11 +321,8 @@ private:
         auto const n = low_.size();
         std::vector<number> whole(n), middle(n), off(n);
         for (std::size_t i = 0; i < n; ++i) {
-            lane_values centre{};
-            for (std::size_t l = 0; l < width; ++l)
-                centre[l] = 0.5 * low_[i][l] + 0.5 * high_[i][l];
             whole[i] = number::load(low_[i].data(), high_[i].data());
-            middle[i] = number::load(centre.data(), centre.data());
+            middle[i] = middle_of(i);
             off[i] = traits::sub(whole[i], middle[i]);
         }
         auto const& output = outputs_[m.channel];
@@ -366,27 +358,11 @@ private:
         }
         return hopeless;
     }
-    /// All outputs whose misfit is at most `level`.
-    [[nodiscard]] static interval grown(interval const& bound, double level) {
-        using scalar = interval_traits<interval>;
-        if (!is_bounded(bound)) return bound;
-        auto const [lo, hi] = measured_ends(bound);
-        auto const half = scalar::point(0.5);
-        auto const middle = scalar::mul(half, scalar::add(lo, hi));
-        auto const way = scalar::mul(scalar::point(level), scalar::mul(half, scalar::sub(hi, lo)));
-        return scalar::bounds(scalar::sub(middle, way).lower(), scalar::add(middle, way).upper());
-    }
-
     /// Which parameters' widths move the rates most; estimates.
     void add_influence(double t, std::vector<box> const& parameters, finding& result) {
         write_inputs(t, t);
         for (std::size_t i = 0; i < low_.size(); ++i) {
-            write(states_, [&](std::size_t j) {
-                return packed([&](std::size_t l) {
-                    double const x = 0.5 * low_[j][l] + 0.5 * high_[j][l];
-                    return std::pair{x, x};
-                });
-            });
+            write(states_, [&](std::size_t j) { return middle_of(j); });
             (void)run(influences_[i]);
             for (std::size_t j = 0; j < result.influence.size(); ++j) {
                 auto const& d = memory_[influences_[i].outputs[j]];
@@ -401,7 +377,6 @@ private:
             }
         }
     }
-
     static constexpr double slices_across = 2; ///< so many while a bound moves by its own width
     static constexpr std::size_t most_slices = 16, most_halved = 1024;
 
