@@ -315,8 +315,9 @@ std::unique_ptr<experiment_run> make_taylor_run(flow const& f, experiment const&
     return normalised_unknowns(initial, prior).variables;
 }
 
-/// The smallest step for an experiment: pieces of inputs may be shorter than the smallest step that
-/// was asked for, and each may take fifty. Samples that nearly coincide do not count.
+/// The smallest step for an experiment. A smallest step that is not much shorter than the pieces of
+/// an input ends runs that only have to start gently after each knot: then every piece may take 500
+/// steps. Samples that nearly coincide do not count.
 [[nodiscard]] inline double minimum_step_for(experiment const& e, double asked) {
     double shortest = detail::infinity;
     for (auto const& input : e.inputs) {
@@ -326,7 +327,8 @@ std::unique_ptr<experiment_run> make_taylor_run(flow const& f, experiment const&
             shortest = std::min(shortest, u->times()[k] - u->times()[k - 1]);
         }
     }
-    return std::min(asked, std::max(shortest / 50, 1e-6));
+    if (!(shortest < 40 * asked)) return asked;
+    return std::min(asked, std::max(shortest / 500, 1e-6));
 }
 
 #ifdef SIVID_COMPILED_KERNELS
