@@ -98,7 +98,6 @@ int run(identify_command const& c) {
     auto const data = sivid::read_dataset(c.dataset, sivid::names_of(model.about));
     auto const problem = sivid::problem_from_dataset(data, model, c.outliers);
     auto const digest = sivid::dataset_digest(c.dataset);
-    auto const further = sivid::assumptions_of(data);
     prepare_folder(c.out);
 
     console::watch_interrupts();
@@ -132,7 +131,6 @@ int run(identify_command const& c) {
     auto const motion = sivid::find_explaining_motion(problem, found);
     report::identification_report_options about{.dataset = data.id,
                                                 .meanings = constant_meanings(),
-                                                .further_assumptions = further,
                                                 .plane = report::plane_channels{"x", "y", "psi"},
                                                 .date = console::today(),
                                                 .machine = console::machine_text(),
@@ -154,7 +152,6 @@ int run(identify_command const& c) {
         c.out / "result.json",
         sivid::identification_json(problem, found,
                                    {.dataset = data.id,
-                                    .further_assumptions = further,
                                     .source_folder = seen_from(c.out, c.dataset),
                                     .source_digest = digest}));
     print_summary(problem, found, data.id, c.out);

@@ -16,20 +16,24 @@
 
 namespace sivid {
 
-/// How a perturbation of the rates spreads during one step:
-///   \f$ |d|' \le M |d| + G e + r \f$, e the error bounds of the inputs.
+/// How a perturbation of the rates spreads during one step, whose length enters with its end:
+///   \f$ |d|' \le M |d| + G e + r \f$, and \f$ |d' - A d| \le R |d| + G e + r \f$,
+/// e the error bounds of the inputs, which run along lines, and |d| known to stay below `room`.
 template <class C>
 struct perturbation_law {
     std::vector<C> growth; ///< M, states x states
+    std::vector<C> middle; ///< A
+    std::vector<C> beside; ///< R
     std::vector<C> gain;   ///< G, states x uncertain inputs
     std::vector<C> rate;   ///< r
+    std::vector<C> room;
 
-    /// Bounds |d| at the end of a step over which e goes from `begin` to `end` along lines.
+    /// Bounds |d| at the end of a step, the less of both ways.
     [[nodiscard]] std::vector<C> deviation(std::vector<C> const& begin, std::vector<C> const& end,
                                            C const& h) const {
-        return bound_perturbation(growth, push(begin), push(end), h);
+        return bound(push(begin), push(end), h);
     }
-    /// The same bound at all times of the step: e does not fall, so neither does |d|.
+    /// The same at all times of the step.
     [[nodiscard]] std::vector<C> largest_deviation(std::vector<C> const& begin,
                                                    std::vector<C> const& end, C const& h) const {
         auto most = push(begin);
@@ -37,12 +41,28 @@ struct perturbation_law {
         for (std::size_t i = 0; i < most.size(); ++i) {
             most[i] = lane_traits<C>::max(most[i], other[i]);
         }
-        return bound_perturbation(growth, most, most, h);
+        return bound(most, most, h);
     }
 
 private:
+    static constexpr double up = 1 + 1e-12;
+
+    [[nodiscard]] std::vector<C> bound(std::vector<C> begin, std::vector<C> end, C const& h) const {
+        auto const n = rate.size();
+        auto result = bound_perturbation(growth, begin, end, h);
+        for (std::size_t i = 0; i < n; ++i) {
+            C more{};
+            for (std::size_t j = 0; j < n; ++j) more += beside[i * n + j] * room[j];
+            begin[i] = (begin[i] + more) * up;
+            end[i] = (end[i] + more) * up;
+        }
+        auto const other = bound_linear_perturbation(middle, begin, end, h);
+        for (std::size_t i = 0; i < n; ++i) {
+            result[i] = lane_traits<C>::min(result[i], other[i]);
+        }
+        return result;
+    }
     [[nodiscard]] std::vector<C> push(std::vector<C> const& e) const {
-        constexpr double up = 1 + 1e-12;
         auto w = rate;
         for (std::size_t i = 0; i < w.size(); ++i) {
             for (std::size_t k = 0; k < e.size(); ++k) w[i] += gain[i * e.size() + k] * e[k];
@@ -57,10 +77,11 @@ private:
 /// their samples, and a bound of the rates, if one is set; it varies in time in any measurable way,
 /// so that no derivative of it is taken: the nominal flow is expanded, and this bound is added.
 ///   With \f$ \hat d \f$ the tube widened by it holds both solutions as long as \f$ |d| < \hat d
-///   \f$, and while it does, \f$ |d'| \le |\partial_x f| |d| + |\partial_u f| e + r \f$ by the mean
-///   value theorem (with Clarke's derivative at kinks); a \f$ \hat d \f$ above the bound that
-///   follows is never reached. Where the right-hand side may jump, or has no bounded derivative,
-///   d' is enclosed by the difference of the rates themselves.
+///   \f$, and while it does, \f$ d' = J d + v \f$ with J in the range of \f$ \partial_x f \f$ and
+///   \f$ |v| \le |\partial_u f| e + r \f$, by the mean value theorem (with Clarke's derivative at
+///   kinks); a \f$ \hat d \f$ above the bound that follows is never reached. Where the right-hand
+///   side may jump, or has no bounded derivative, d' is enclosed by the difference of the rates
+///   themselves.
 /// @tparam T  scalar of the tube: an interval, or a Taylor model in lanes
 /// @guarantee  of each lane that `prove` returns: for every member of the tube's family, every
 ///             solution of the perturbed flow from the same start exists during the step, and its
@@ -172,20 +193,24 @@ private:
         mask rough = series_->jumped();
         series_->advance_rest(0, at(around), possible);
         rough = rough | series_->undefined();
+        law_.room = room;
         law_.growth.assign(n * n, scalar(0.0));
+        law_.middle = law_.beside = law_.growth;
         law_.gain.assign(n * uncertain.size(), scalar(0.0));
         for (auto const& e : entries_) {
             auto const& a = series_->output(e.output, 0);
             if (e.column < n) {
-                law_.growth[e.row * n + e.column] =
-                    e.row == e.column ? number::upper(a) : number::mag(a);
+                auto const place = e.row * n + e.column;
+                law_.growth[place] = e.row == e.column ? number::upper(a) : number::mag(a);
+                law_.middle[place] = number::middle(a);
+                law_.beside[place] = number::beside(a, law_.middle[place]);
             } else {
                 law_.gain[e.row * uncertain.size() + e.column - n] = number::mag(a);
             }
         }
         law_.rate.assign(n, scalar(0.0));
         for (std::size_t i = 0; i < rate_bound_.size(); ++i) law_.rate[i] = rate_bound_[i];
-        for (auto const* part : {&law_.growth, &law_.gain}) {
+        for (auto const* part : {&law_.beside, &law_.gain}) {
             for (auto const& x : *part) rough = rough | !(x < scalar(1e300));
         }
         if (!side_by_side::any(rough)) return !undefined;
@@ -193,7 +218,7 @@ private:
         for (std::size_t i = 0; i < n; ++i) rates.push_back(series_->output(i, 0));
         series_->start(times);
         series_->advance_principal(0, at(tube), recorded);
-        for (auto* part : {&law_.growth, &law_.gain}) {
+        for (auto* part : {&law_.growth, &law_.middle, &law_.beside, &law_.gain}) {
             for (auto& x : *part) x = side_by_side::select(rough, scalar(0.0), x);
         }
         for (std::size_t i = 0; i < n; ++i) {

@@ -78,6 +78,7 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
             std::min(step.order, !smooth ? 1
                                  : options_.variational_order > 0
                                      ? options_.variational_order
+                                 : perturbed_ ? step.order // wide sets even from points
                                      : std::max<std::size_t>(2, (step.order + 1) / 2));
         auto const q = step.variational_order;
         step.smooth = smooth;

@@ -18,6 +18,12 @@ struct set_scalar {
     using scalar = double;
     static double upper(T const& a) { return interval_traits<T>::upper(a); }
     static double mag(T const& a) { return interval_traits<T>::mag(a); }
+    static double middle(T const& a) { return interval_traits<T>::mid(a); }
+    /// Bound of |a - m|.
+    static double beside(T const& a, double m) {
+        using traits = interval_traits<T>;
+        return traits::mag(traits::sub(a, traits::point(m)));
+    }
     static T widened(T const& a, double w) {
         using traits = interval_traits<T>;
         return std::isfinite(w) ? traits::add(a, traits::bounds(-w, w)) : traits::entire();
@@ -31,6 +37,9 @@ struct set_scalar<taylor_model<N, D, C>> {
     static C upper(model const& a) {
         return a.c[0] + (a.above + a.r) + a.norm() * (8 * model::unit);
     }
+    static C middle(model const& a) { return a.c[0]; }
+    /// @given  m is the middle
+    static C beside(model const& a, C const&) { return (a.above + a.r) * model::up; }
     static model widened(model const& a, C const& w) { return sivid::widened(a, w); }
 };
 

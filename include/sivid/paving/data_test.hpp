@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -39,12 +40,14 @@ struct data_test_options {
 
 /// Tests boxes of parameters against all experiments of a problem.
 ///   outside: in some experiment more than `outliers` measurements certainly fail, whatever the
-///   start; inside: in every experiment at least n - `outliers` certainly hold, for the starts
-///   given to `set_starts` (any start in the box proves existence).
+///   start and, within their error bounds, the inputs; inside: in every experiment at least n -
+///   `outliers` certainly hold, for the starts given to `set_starts` and for the recorded inputs
+///   (any start in the box and any possible input prove existence).
 /// The outlier rule is the consistent reading of the report's Algorithm 2.
 class data_test {
 public:
-    /// Responses of the experiments over a region: for all starts, and for the chosen ones.
+    /// Responses of the experiments over a region: for all starts and inputs, and for the chosen
+    /// ones.
     struct knowledge {
         box region;
         std::vector<std::shared_ptr<response const>> all_starts;
@@ -61,7 +64,15 @@ public:
             starts_.push_back(e.initial);
             runs_.push_back(
                 make_run(*flows_.back(), e, records_.back(), problem.prior, options.run));
+            recorded_.push_back(flows_.back());
+            recorded_runs_.emplace_back();
+            if (!flows_.back()->uncertain()) continue;
+            recorded_.back() =
+                std::make_shared<flow const>(problem.model, problem.choice, nominal(e.inputs));
+            recorded_runs_.back() =
+                make_run(*recorded_.back(), e, records_.back(), problem.prior, options.run);
         }
+        lasting_.resize(flows_.size());
     }
 
     /// Initial states, one box per experiment within its own, from which existence is proved.
@@ -118,7 +129,8 @@ public:
             }
             auto const& all = problem_->experiments[e].initial;
             auto const answers = run(e, all, regions);
-            bool const start_matters = !is_point(all) && starts_differ(e);
+            bool const choice_matters =
+                flows_[e]->uncertain() || (!is_point(all) && starts_differ(e));
             std::vector<std::size_t> still_open;
             std::vector<box> promising;
             std::vector<std::size_t> whose;
@@ -138,13 +150,13 @@ public:
                 // Not worth a run where neither the box nor, later, parts of it might hold.
                 bool const sharp = answers[n]->outputs() == answers[n]->measurements &&
                                    says.sharpness <= options_.sharp_enough;
-                if (start_matters && !says.explained && (says.may_hold || sharp)) {
+                if (choice_matters && !says.explained && (says.may_hold || sharp)) {
                     promising.push_back(found[k]->region);
                     whose.push_back(k);
                 }
             }
             if (!promising.empty()) {
-                auto const chosen = run(e, starts_[e], promising);
+                auto const chosen = run_recorded(e, starts_[e], promising);
                 for (std::size_t n = 0; n < whose.size(); ++n) {
                     found[whose[n]]->chosen_starts.back() = chosen[n];
                 }
@@ -166,21 +178,33 @@ public:
         return most;
     }
 
-    /// One experiment at a point, by the options for witnesses.
+    /// One experiment at a point with the recorded inputs, by the options for witnesses.
     [[nodiscard]] std::shared_ptr<response const> run_point(std::size_t e,
                                                             std::vector<double> const& initial,
                                                             std::vector<double> const& parameters) {
         ++integrations_;
         auto const& experiment = problem_->experiments[e];
         auto const point =
-            make_run(*flows_[e], experiment, records_[e], problem_->prior, options_.witness);
+            make_run(*recorded_[e], experiment, records_[e], problem_->prior, options_.witness);
         return (*point)(point_box(initial), point_box(parameters));
     }
-    /// One experiment over boxes of starts and parameters.
+    /// One experiment over boxes of starts and parameters, for all possible inputs.
     [[nodiscard]] std::vector<std::shared_ptr<response const>>
     run(std::size_t e, box const& initial, std::vector<box> const& parameters) {
         integrations_ += parameters.size();
-        return (*runs_[e])(initial, parameters);
+        auto answers = (*runs_[e])(initial, parameters);
+        if (!flows_[e]->uncertain()) return answers;
+        if (!lasting_[e]) { // at a point the inputs alone make the radii
+            ++integrations_;
+            auto const& all = problem_->experiments[e].initial;
+            lasting_[e] = (*runs_[e])(point_box(mid(all)), point_box(mid(problem_->prior)))->radius;
+        }
+        for (auto& answer : answers) {
+            auto own = std::make_shared<response>(*answer);
+            own->lasting = *lasting_[e];
+            answer = std::move(own);
+        }
+        return answers;
     }
     [[nodiscard]] std::shared_ptr<response const> run(std::size_t e, box const& initial,
                                                       box const& parameters) {
@@ -188,6 +212,13 @@ public:
     }
 
 private:
+    /// For the recorded inputs alone.
+    [[nodiscard]] std::vector<std::shared_ptr<response const>>
+    run_recorded(std::size_t e, box const& initial, std::vector<box> const& parameters) {
+        if (!recorded_runs_[e]) return run(e, initial, parameters);
+        integrations_ += parameters.size();
+        return (*recorded_runs_[e])(initial, parameters);
+    }
     static bool is_point(box const& x) {
         return std::all_of(x.begin(), x.end(), [](interval const& side) {
             return interval_traits<interval>::is_point(side);
@@ -242,6 +273,9 @@ private:
     std::vector<record> records_;
     std::vector<box> starts_;
     std::vector<std::unique_ptr<experiment_run>> runs_;
+    std::vector<std::shared_ptr<flow const>> recorded_;          ///< `flows_`, without input errors
+    std::vector<std::unique_ptr<experiment_run>> recorded_runs_; ///< where these differ
+    std::vector<std::optional<std::vector<double>>> lasting_;    ///< see `response`
     std::size_t integrations_ = 0;
 };
 
