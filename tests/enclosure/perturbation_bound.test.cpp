@@ -144,3 +144,30 @@ TEST_CASE("what is not finite or far too long is not bounded") {
     // Nothing pushes: nothing moves.
     CHECK(bound_perturbation<double>({3}, {0}, {0}, 1.0)[0] < 1e-280);
 }
+
+TEST_CASE("bounds from a middle matrix hold, and oscillations cancel in them") {
+    draws d(9);
+    for (int round = 0; round < 100; ++round) {
+        auto p = draw(d, 3);
+        // Signs off the diagonal: then the exact reach is that of the modulus of the exponential,
+        // at least what W does in one constant direction.
+        for (std::size_t k = 0; k < p.m.size(); ++k) {
+            if (d.coin()) p.m[k] = -p.m[k];
+        }
+        auto const bound = bound_linear_perturbation(p.m, p.begin, p.end, p.h);
+        auto const one = exact(p);
+        for (std::size_t i = 0; i < p.n; ++i) {
+            CAPTURE(round, i);
+            REQUIRE(mp(bound[i]) >= abs(one[i]));
+        }
+    }
+    // x'' = -25 x + w over one period: |x| <= w/5 int |sin 5s| ds = 4 w/25.
+    double const turn = 2 * 3.141592653589793 / 5;
+    auto const bound = bound_linear_perturbation<double>({0, 1, -25, 0}, {0, 1}, {0, 1}, turn / 4);
+    CHECK(bound[0] >= 1.0 / 25);
+    CHECK(bound[0] <= 1.08 / 25);
+    double const infinity = std::numeric_limits<double>::infinity();
+    CHECK(bound_linear_perturbation<double>({infinity}, {1}, {1}, 1.0)[0] == infinity);
+    CHECK(bound_linear_perturbation<double>({1}, {infinity}, {1}, 1.0)[0] == infinity);
+    CHECK(bound_linear_perturbation<double>({40}, {1}, {1}, 1.0)[0] == infinity);
+}

@@ -23,10 +23,10 @@ using support::extended_state;
 
 namespace {
 
-/// x' = u - p0 x - p1 x |x|, seen as x and as x + u/2.
+/// x' = u - p0 x - p1 x^3, seen as x and as x + u/2.
 auto const rate = [](auto const&, auto const& x, auto const& p, auto const& u) {
     using namespace support::real;
-    return std::vector{u[0] - p[0] * x[0] - p[1] * x[0] * abs(x[0])};
+    return std::vector{u[0] - p[0] * x[0] - p[1] * pown(x[0], 3)};
 };
 auto const outputs = [](auto const&, auto const& x, auto const&, auto const& u) {
     return std::vector{x[0], x[0] + 0.5 * u[0]};
