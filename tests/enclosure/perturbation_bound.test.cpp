@@ -24,11 +24,10 @@ struct problem {
     double h = 1;
 };
 
-/// D(h) in 50 digits: one exponential of [M, W', W(0); 0, 0, 0; 0, ...] in the states (D, t, 1).
+/// D(h) in 50 digits, by one exponential in the variables (D, s/h, 1).
 std::vector<mp> exact(problem const& p) {
     auto const n = static_cast<Eigen::Index>(p.n);
-    // D' = M D + W(0) 1 + (W(h) - W(0)) s, s' = 1/h; to keep doubles exact, time runs in units of h
-    // by s' = 1 with M and W multiplied by h, which is a power of two here.
+    // Time runs in units of h, a power of two: the products are exact.
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n + 2, n + 2);
     for (Eigen::Index i = 0; i < n; ++i) {
         auto const row = static_cast<std::size_t>(i);

@@ -92,7 +92,7 @@ identification_problem without_errors(identification_problem problem) {
 
 identify_options brief(carried_set set = carried_set::taylor_model) {
     identify_options o;
-    o.search.boxes = 400;
+    o.search.boxes = 300;
     o.search.seconds = 20;
     o.search.accuracy = 0.02;
     o.test.run.set = set;
@@ -103,7 +103,7 @@ identify_options brief(carried_set set = carried_set::taylor_model) {
 
 TEST_CASE("a planted truth is never refuted, whatever the inputs do within their bounds") {
     std::size_t consistent = 0, refuted_without = 0;
-    for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 15; ++seed) {
         double const share = seed % 3 == 0 ? 2 : seed % 3 == 1 ? 1 : -1;
         auto const p = plant(seed, share, 0.05 * static_cast<double>(1 + seed % 4));
         CAPTURE(seed, share);
@@ -124,11 +124,11 @@ TEST_CASE("a planted truth is never refuted, whatever the inputs do within their
     }
     // The data tell the difference: taken as exact, the recorded inputs are often refuted.
     CAPTURE(consistent, refuted_without);
-    CHECK(refuted_without >= 12);
+    CHECK(refuted_without >= 7);
 }
 
 TEST_CASE("with the recorded inputs being the true ones, a witness is found and boxes are proved") {
-    for (std::uint64_t seed = 100; seed < 104; ++seed) {
+    for (std::uint64_t seed = 100; seed < 103; ++seed) {
         auto const p = plant(seed, 0, 0.02, 0.05);
         auto const found = identify(p.problem, brief());
         CAPTURE(seed);
@@ -165,7 +165,7 @@ TEST_CASE("with the recorded inputs being the true ones, a witness is found and 
 }
 
 TEST_CASE("the inflation of data within the errors of their inputs may be 1") {
-    for (std::uint64_t seed = 31; seed < 37; ++seed) {
+    for (std::uint64_t seed = 31; seed < 34; ++seed) {
         auto const p = plant(seed, seed % 2 == 0 ? 1 : 2, 0.15);
         CAPTURE(seed);
         inflation_options options;
