@@ -194,8 +194,12 @@ public:
         if (!flows_[e]->uncertain()) return answers;
         if (!lasting_[e]) { // at a point the inputs alone make the radii
             ++integrations_;
-            auto const& all = problem_->experiments[e].initial;
-            lasting_[e] = (*runs_[e])(point_box(mid(all)), point_box(mid(problem_->prior)))->radius;
+            auto whole = problem_->experiments[e];
+            whole.outliers = whole.measurements.size(); // misfits end nothing
+            auto const at_point =
+                make_run(*flows_[e], whole, records_[e], problem_->prior, options_.run);
+            lasting_[e] =
+                (*at_point)(point_box(mid(whole.initial)), point_box(mid(problem_->prior)))->radius;
         }
         for (auto& answer : answers) {
             auto own = std::make_shared<response>(*answer);
