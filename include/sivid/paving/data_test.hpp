@@ -6,6 +6,7 @@
 #include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/problem.hpp>
+#include <sivid/paving/run_pool.hpp>
 #include <sivid/paving/set_test.hpp>
 
 #include <algorithm>
@@ -13,7 +14,6 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -46,6 +46,9 @@ struct data_test_options {
 /// The outlier rule is the consistent reading of the report's Algorithm 2.
 class data_test {
 public:
+    /// `judge` and `learn` are for several threads at once.
+    static constexpr bool concurrent = true;
+
     /// Responses of the experiments over a region: for all starts and inputs, and for the chosen
     /// ones.
     struct knowledge {
@@ -62,23 +65,44 @@ public:
             flows_.push_back(std::make_shared<flow const>(problem.model, problem.choice, e.inputs));
             records_.push_back(sorted(e.measurements));
             starts_.push_back(e.initial);
-            runs_.push_back(
-                make_run(*flows_.back(), e, records_.back(), problem.prior, options.run));
-            recorded_.push_back(flows_.back());
-            recorded_runs_.emplace_back();
-            if (!flows_.back()->uncertain()) continue;
-            recorded_.back() =
-                std::make_shared<flow const>(problem.model, problem.choice, nominal(e.inputs));
-            recorded_runs_.back() =
-                make_run(*recorded_.back(), e, records_.back(), problem.prior, options.run);
+            recorded_.push_back(
+                flows_.back()->uncertain()
+                    ? std::make_shared<flow const>(problem.model, problem.choice, nominal(e.inputs))
+                    : flows_.back());
         }
-        lasting_.resize(flows_.size());
+        auto const pool_of = [&](std::vector<std::shared_ptr<flow const>> const& flows) {
+            return std::make_unique<run_pool>(
+                [&problem, flows, records = records_.data(), run = options.run] {
+                    run_set runs;
+                    for (std::size_t e = 0; e < flows.size(); ++e) {
+                        runs.push_back(make_run(*flows[e], problem.experiments[e], records[e],
+                                                problem.prior, run));
+                    }
+                    return runs;
+                });
+        };
+        pool_ = pool_of(flows_);
+        for (std::size_t e = 0; e < flows_.size(); ++e) {
+            lasting_.emplace_back();
+            if (!flows_[e]->uncertain()) continue;
+            if (!recorded_pool_) recorded_pool_ = pool_of(recorded_);
+            // At a point the inputs alone make the radii.
+            auto whole = problem.experiments[e];
+            whole.outliers = whole.measurements.size(); // misfits end nothing
+            auto const at_point =
+                make_run(*flows_[e], whole, records_[e], problem.prior, options.run);
+            lasting_[e] =
+                (*at_point)(point_box(mid(whole.initial)), point_box(mid(problem.prior)))->radius;
+            pool_->count(1);
+        }
     }
 
     /// Initial states, one box per experiment within its own, from which existence is proved.
     void set_starts(std::vector<box> starts) { starts_ = std::move(starts); }
 
-    [[nodiscard]] std::size_t integrations() const { return integrations_; }
+    [[nodiscard]] std::size_t integrations() const {
+        return pool_->integrations() + (recorded_pool_ ? recorded_pool_->integrations() : 0);
+    }
     [[nodiscard]] std::shared_ptr<flow const> flow_of(std::size_t e) const { return flows_[e]; }
     /// In the order of time.
     [[nodiscard]] record const& record_of(std::size_t e) const { return records_[e]; }
@@ -105,7 +129,10 @@ public:
     }
 
     /// Integrates over each of the boxes, then decides and contracts.
+    /// The sets depend on all the boxes, in their order: they share step orders while they are
+    /// integrated together.
     [[nodiscard]] std::vector<assessment<knowledge>> learn(std::vector<box> const& boxes) {
+        auto runs = pool_->borrow();
         std::vector<assessment<knowledge>> results;
         std::vector<std::shared_ptr<knowledge>> found;
         std::vector<std::size_t> open; // boxes that no experiment has refuted
@@ -128,7 +155,7 @@ public:
                 regions.push_back(region);
             }
             auto const& all = problem_->experiments[e].initial;
-            auto const answers = run(e, all, regions);
+            auto const answers = marked(e, runs(e, all, regions));
             bool const choice_matters =
                 flows_[e]->uncertain() || (!is_point(all) && starts_differ(e));
             std::vector<std::size_t> still_open;
@@ -136,6 +163,7 @@ public:
             std::vector<std::size_t> whose;
             for (std::size_t n = 0; n < open.size(); ++n) {
                 auto const k = open[n];
+                ++results[k].cost;
                 auto part = results[k].rest;
                 auto const says = assess(*answers[n], part);
                 found[k]->all_starts.push_back(answers[n]);
@@ -156,8 +184,11 @@ public:
                 }
             }
             if (!promising.empty()) {
-                auto const chosen = run_recorded(e, starts_[e], promising);
+                auto const chosen = flows_[e]->uncertain()
+                                        ? recorded_pool_->borrow()(e, starts_[e], promising)
+                                        : runs(e, starts_[e], promising);
                 for (std::size_t n = 0; n < whose.size(); ++n) {
+                    ++results[whose[n]].cost;
                     found[whose[n]]->chosen_starts.back() = chosen[n];
                 }
             }
@@ -172,16 +203,23 @@ public:
         }
         return results;
     }
-    [[nodiscard]] std::size_t at_once() const {
-        std::size_t most = 1;
-        for (auto const& r : runs_) most = std::max(most, r->at_once());
-        return most;
+    [[nodiscard]] std::size_t at_once() const { return pool_->at_once(); }
+    /// Bytes that responses take.
+    [[nodiscard]] static std::size_t bytes(knowledge const& known) {
+        std::size_t sum = sizeof(knowledge);
+        for (std::size_t e = 0; e < known.all_starts.size(); ++e) {
+            auto const& all = known.all_starts[e];
+            auto const& chosen = known.chosen_starts[e];
+            sum += 2 * sizeof all + all->bytes();
+            if (chosen != all) sum += chosen->bytes();
+        }
+        return sum;
     }
 
     /// One experiment over next to nothing with the recorded inputs, by the options for witnesses.
     [[nodiscard]] std::shared_ptr<response const> run_finely(std::size_t e, box const& initial,
                                                              box const& parameters) {
-        ++integrations_;
+        pool_->count(1);
         auto const fine = make_run(*recorded_[e], problem_->experiments[e], records_[e],
                                    problem_->prior, options_.witness);
         return (*fine)(initial, parameters);
@@ -189,24 +227,7 @@ public:
     /// One experiment over boxes of starts and parameters, for all possible inputs.
     [[nodiscard]] std::vector<std::shared_ptr<response const>>
     run(std::size_t e, box const& initial, std::vector<box> const& parameters) {
-        integrations_ += parameters.size();
-        auto answers = (*runs_[e])(initial, parameters);
-        if (!flows_[e]->uncertain()) return answers;
-        if (!lasting_[e]) { // at a point the inputs alone make the radii
-            ++integrations_;
-            auto whole = problem_->experiments[e];
-            whole.outliers = whole.measurements.size(); // misfits end nothing
-            auto const at_point =
-                make_run(*flows_[e], whole, records_[e], problem_->prior, options_.run);
-            lasting_[e] =
-                (*at_point)(point_box(mid(whole.initial)), point_box(mid(problem_->prior)))->radius;
-        }
-        for (auto& answer : answers) {
-            auto own = std::make_shared<response>(*answer);
-            own->lasting = *lasting_[e];
-            answer = std::move(own);
-        }
-        return answers;
+        return marked(e, pool_->borrow()(e, initial, parameters));
     }
     [[nodiscard]] std::shared_ptr<response const> run(std::size_t e, box const& initial,
                                                       box const& parameters) {
@@ -214,12 +235,16 @@ public:
     }
 
 private:
-    /// For the recorded inputs alone.
+    /// Notes how much of the radii is due to uncertain inputs.
     [[nodiscard]] std::vector<std::shared_ptr<response const>>
-    run_recorded(std::size_t e, box const& initial, std::vector<box> const& parameters) {
-        if (!recorded_runs_[e]) return run(e, initial, parameters);
-        integrations_ += parameters.size();
-        return (*recorded_runs_[e])(initial, parameters);
+    marked(std::size_t e, std::vector<std::shared_ptr<response const>> answers) const {
+        if (!flows_[e]->uncertain()) return answers;
+        for (auto& answer : answers) {
+            auto own = std::make_shared<response>(*answer);
+            own->lasting = lasting_[e];
+            answer = std::move(own);
+        }
+        return answers;
     }
     static bool is_point(box const& x) {
         return std::all_of(x.begin(), x.end(), [](interval const& side) {
@@ -274,11 +299,10 @@ private:
     std::vector<std::shared_ptr<flow const>> flows_;
     std::vector<record> records_;
     std::vector<box> starts_;
-    std::vector<std::unique_ptr<experiment_run>> runs_;
-    std::vector<std::shared_ptr<flow const>> recorded_;          ///< `flows_`, without input errors
-    std::vector<std::unique_ptr<experiment_run>> recorded_runs_; ///< where these differ
-    std::vector<std::optional<std::vector<double>>> lasting_;    ///< see `response`
-    std::size_t integrations_ = 0;
+    std::vector<std::shared_ptr<flow const>> recorded_; ///< `flows_`, without input errors
+    std::vector<std::vector<double>> lasting_;          ///< see `response`
+    std::unique_ptr<run_pool> pool_;
+    std::unique_ptr<run_pool> recorded_pool_; ///< where inputs have errors
 };
 
 } // namespace sivid

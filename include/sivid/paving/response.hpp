@@ -88,6 +88,14 @@ struct response {
     [[nodiscard]] double shrinking_radius(std::size_t y) const {
         return y < lasting.size() ? std::max(0.0, radius[y] - lasting[y]) : radius[y];
     }
+    /// Memory that it takes; its table is shared.
+    [[nodiscard]] std::size_t bytes() const {
+        return sizeof(response) +
+               sizeof(normalised_unknowns::side) *
+                   (unknowns.initial.size() + unknowns.parameters.size()) +
+               sizeof(double) * (coefficients.capacity() + radius.capacity() + lasting.capacity()) +
+               sizeof(interval) * bounds.capacity();
+    }
 };
 
 /// Collects the outputs of a run, one by one, and lays them out for a response.
