@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
 #include "console/diagnosis_output.hpp"
+#include "console/program.hpp"
 #include "effects.hpp"
 #include "manoeuvres.hpp"
 
@@ -13,7 +14,7 @@ int run(diagnose_command const& c) {
     auto const model = sivid::record_model(c.craft);
     auto const data = sivid::read_dataset(c.dataset, sivid::names_of(model.about));
     auto const problem = sivid::problem_from_dataset(data, model);
-    prepare_folder(c.out);
+    console::prepare_folder(c.out);
 
     console::progress_line progress(c.quiet);
     sivid::diagnosis_options options;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
 #include "console/console.hpp"
+#include "console/program.hpp"
 
 #include <sivid/io/checkpoint.hpp>
 #include <sivid/io/checkpoint_reader.hpp>
@@ -150,13 +151,13 @@ std::string seen_from(std::filesystem::path const& here, std::filesystem::path c
 int exit_code_of(sivid::verdict v) {
     switch (v) {
     case sivid::verdict::consistent:
-        return exit_code::consistent;
+        return console::consistent;
     case sivid::verdict::inconsistent:
-        return exit_code::inconsistent;
+        return console::inconsistent;
     case sivid::verdict::undecided:
         break;
     }
-    return exit_code::undecided;
+    return console::undecided;
 }
 
 } // namespace
@@ -167,7 +168,7 @@ int run(identify_command const& c) {
     auto const data = sivid::read_dataset(c.dataset, sivid::names_of(model.about));
     auto const problem = sivid::problem_from_dataset(data, model, c.outliers);
     auto const digest = sivid::dataset_digest(c.dataset);
-    prepare_folder(c.out);
+    console::prepare_folder(c.out);
 
     console::watch_interrupts();
     console::progress_line progress(c.quiet);
