@@ -168,7 +168,6 @@ int run(identify_command const& c) {
     auto const data = sivid::read_dataset(c.dataset, sivid::names_of(model.about));
     auto const problem = sivid::problem_from_dataset(data, model, c.outliers);
     auto const digest = sivid::dataset_digest(c.dataset);
-    auto const further = sivid::assumptions_of(data);
     console::prepare_folder(c.out);
 
     console::watch_interrupts();
@@ -218,7 +217,6 @@ int run(identify_command const& c) {
     auto const motion = sivid::find_explaining_motion(problem, found);
     report::identification_report_options about{.dataset = data.id,
                                                 .meanings = constant_meanings(),
-                                                .further_assumptions = further,
                                                 .plane = report::plane_channels{"x", "y", "psi"},
                                                 .date = console::today(),
                                                 .machine = console::machine_text(),
@@ -240,7 +238,6 @@ int run(identify_command const& c) {
         c.out / "result.json",
         sivid::identification_json(problem, found,
                                    {.dataset = data.id,
-                                    .further_assumptions = further,
                                     .source_folder = seen_from(c.out, c.dataset),
                                     .source_digest = digest}));
     print_summary(problem, found, data.id, c.out);

@@ -36,7 +36,7 @@ public:
 
     [[nodiscard]] diagnosis_run operator()() {
         auto& d = run_.result;
-        d.assumptions.push_back("inputs exact");
+        d.assumptions.push_back(input_assumption(run_.base.experiments));
         screening tried(run_.base, run_.catalogue, options_.screening);
         measure_gap(tried);
         if (d.gap != gap_verdict::none && !stopped_) {

@@ -99,8 +99,11 @@ private:
                                                               record const& samples,
                                                               box const& initial,
                                                               box const& parameters) {
-    return std::make_shared<response>(response{
-        normalised_unknowns(initial, parameters), nullptr, {}, {}, {}, samples.size(), e.outliers});
+    auto answer = std::make_shared<response>(
+        response{normalised_unknowns(initial, parameters), nullptr, {}, {}, {}, {}, 0, 0});
+    answer->measurements = samples.size();
+    answer->allowed = e.outliers;
+    return answer;
 }
 
 /// Taylor models in lanes: a lane that is done takes the next box.
@@ -355,6 +358,8 @@ SIVID_KERNEL(9, 2)
     using namespace paving_detail;
     options.enclosure.minimum_step = minimum_step_for(e, options.enclosure.minimum_step);
     auto const unknowns = unknown_count(e.initial, prior);
+    // What uncertain inputs cost, no smaller box gives back.
+    if (f.uncertain()) options.hopeless = 1e300;
     if (options.set == carried_set::taylor_model) {
         if (unknowns <= 2) return make_taylor_run<2, 4>(f, e, samples, options);
         if (unknowns == 3) return make_taylor_run<3, 4>(f, e, samples, options);
