@@ -133,6 +133,30 @@ TEST_CASE("kinks, jumps, held and linear inputs, and a state that is not measure
     }
 }
 
+TEST_CASE("inputs that lie within their error bounds refute nothing") {
+    for (std::size_t trial = 0; trial < 24; ++trial) {
+        draws d(1200 + trial);
+        auto const kind =
+            trial % 2 == 0 ? sivid::interpolation::hold : sivid::interpolation::linear;
+        two_tanks tanks(d, kind, 0.02, false);
+        // What was recorded lies off the true input by nearly the stated error.
+        auto& input = std::get<sivid::sampled_signal>(tanks.problem.experiments[0].inputs[0]);
+        std::vector<double> recorded, errors;
+        for (double const u : input.values()) {
+            errors.push_back(d.uniform(0.2, 0.6));
+            recorded.push_back(u + 0.99 * errors.back());
+        }
+        auto const times = input.times();
+        input = sivid::sampled_signal(times, recorded, kind);
+        interval_observer exact(tanks.problem, 0);
+        CAPTURE(trial);
+        CHECK(exact({sivid::point_box(tanks.truth)}, 1).refuted == 1);
+        input = sivid::sampled_signal(times, recorded, kind, errors);
+        interval_observer stated(tanks.problem, 0);
+        CHECK(stated(boxes_about(tanks.truth, tanks.problem.prior, d), 1).refuted == 0);
+    }
+}
+
 TEST_CASE("a point that is refuted at a level has a larger inflation") {
     std::size_t refuted = 0;
     for (std::size_t trial = 0; trial < 60; ++trial) {

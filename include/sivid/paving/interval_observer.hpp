@@ -12,7 +12,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <tuple>
 #include <utility>
 #include <variant>
@@ -29,7 +28,7 @@ namespace sivid {
 /// between theirs, parameters anywhere in the box), and the lower one likewise. At a measurement
 /// the states are cut down to what the measured bound, grown by the inflation asked for, allows.
 /// @guarantee  a refuted box contains no parameter that explains the experiment with its bounds
-///             grown by `level`, whatever the start in its box
+///             grown by `level`, whatever the start and the errors of the inputs in their bounds
 /// @cost  about four evaluations of the rates for each slice of time, eight boxes at once
 /// @ref   M. Müller, Über das Fundamentaltheorem in der Theorie der gewöhnlichen
 ///        Differentialgleichungen, Math. Z. 26 (1927); the faces are widened a little, so that it
@@ -122,7 +121,7 @@ public:
 private:
     struct step {
         operation op;
-        std::int32_t index;
+        int index;
         node_id target, a, b;
     };
     struct program {
@@ -186,13 +185,15 @@ private:
             rise_high_[i].fill(0);
         }
     }
-    /// Times and inputs from t0 to t1, within one piece of every input.
+    /// Times and inputs, with their errors, from t0 to t1, within one piece of every input.
     void write_inputs(double t0, double t1) {
         auto const t = traits::bounds(t0, t1);
         write(times_, [&](std::size_t) { return t; });
         write(inputs_, [&](std::size_t i) {
             auto const& u = std::get<sampled_signal>(experiment_->inputs[i]);
-            return u.template value<number>(u.piece(t0), t);
+            auto const k = u.piece(t0);
+            double const e = std::max(u.error_bound(k, t0), u.error_bound(k, t1));
+            return traits::add(u.template value<number>(k, t), traits::bounds(-e, e));
         });
     }
     /// From one tick to the next, in slices that are short against the bounds' own width.
@@ -225,7 +226,7 @@ private:
         }
     }
     static double up(double x) { return std::nextafter(x, detail::infinity); }
-    static double down(double x) { return std::nextafter(x, -detail::infinity); }
+    static double down(double x) { return -up(-x); }
     /// The end of a line, rounded up.
     static double end_above(double x, double slope, double t0, double t1) {
         return up(std::fma(slope, slope >= 0 ? up(t1 - t0) : down(t1 - t0), x));
