@@ -182,6 +182,7 @@ int run(identify_command const& c) {
         return !console::interrupted();
     };
     if (c.memory) options.search.memory = static_cast<std::size_t>(1e6 * *c.memory);
+    options.search.batches = 4; // whatever the threads, so that the result is the same
     options.search.workers = threads_for(c.threads);
     checkpoint_file checkpoint(c, sivid::problem_digest(problem, options, digest));
     options.resume = checkpoint.state();

@@ -79,7 +79,7 @@ TEST_CASE("killed at random moments with kill -9, identify resumes and finds the
     support::draws d(5301);
     for (auto const& arguments :
          {std::vector<std::string>{uncertain_starts(folder).string(), "--boxes", "1500"},
-          std::vector<std::string>{h3, "--algorithm", "report-1", "--boxes", "600"}}) {
+          std::vector<std::string>{h3, "--algorithm", "report-1", "--boxes", "200"}}) {
         auto const call = std::vector<std::string>{"identify"} + arguments +
                           std::vector<std::string>{"--accuracy", "1e-5", "--budget", "3600"};
         auto const undisturbed = folder.path() / "undisturbed", out = folder.path() / "killed";
