@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -21,6 +22,11 @@ namespace sivid {
 struct inflation_options {
     double relative_width = 0.05; ///< stop when upper - lower is at most this share of upper
     double seconds = 3;
+    /// Stop after so many integrations of an experiment over a box and boxes bounded, together:
+    /// unlike the time, the same on every machine.
+    std::size_t work = std::numeric_limits<std::size_t>::max();
+    /// So many in all where it is open then whether the inflation is above 1.
+    std::size_t verdict_work = 0;
     bool only_verdict = false;        ///< stop as soon as lower > 1 or upper <= 1
     std::function<bool()> keep_going; ///< false stops the search with what is proved until then
     data_test_options test;
@@ -107,6 +113,9 @@ public:
             guess->starts.size() == starts.size()) {
             auto const& p = guess->parameters;
             improve(map_ ? mid(map_->forward(point_box(p))) : p, guess->starts);
+            // Where the way back from the reduced problem ends beside the prior, the guess may do
+            // better than what its descent came to.
+            if (upper_ > 1.001 * guess->inflation) try_witness(p, guess->starts);
         }
         if (!witness_) improve(mid(working().prior), starts);
         auto const propose = [this](inflation_relaxation const& found, bool complete) {
@@ -114,7 +123,7 @@ public:
         };
         while (!search_.exhausted() && !finished()) {
             search_.aim_at(target());
-            search_.step(propose, [this] { return in_time(); });
+            search_.step(propose, [this] { return within_limits(); });
             if (promise_) {
                 improve(promise_->point, promise_->starts);
                 promise_.reset();
@@ -131,13 +140,19 @@ private:
     [[nodiscard]] double elapsed() const {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
     }
-    [[nodiscard]] bool in_time() const {
-        return elapsed() < options_->seconds && (!options_->keep_going || options_->keep_going());
+    [[nodiscard]] std::size_t work() const {
+        return search_.integrations() + search_.tested() + points_.integrations();
+    }
+    [[nodiscard]] bool within_limits() const {
+        bool const open = upper_ > 1 && !(search_.lower() > 1);
+        auto const most = open ? std::max(options_->work, options_->verdict_work) : options_->work;
+        return work() < most && elapsed() < options_->seconds &&
+               (!options_->keep_going || options_->keep_going());
     }
     [[nodiscard]] bool finished() const {
         double const lower = search_.lower();
         if (options_->only_verdict && (lower > 1 || upper_ <= 1)) return true;
-        return lower >= (1 - options_->relative_width) * upper_ || !in_time();
+        return lower >= (1 - options_->relative_width) * upper_ || !within_limits();
     }
     [[nodiscard]] double target() const {
         double const enough = (1 - options_->relative_width) * upper_;
@@ -150,26 +165,27 @@ private:
     void consider(inflation_relaxation const& found, bool complete) {
         double const enough = (1 - 0.2 * options_->relative_width) * upper_;
         if (found.point.empty() || !(found.approximate_value < enough)) return;
-        if (!complete && witness_ && improving_ > 0.2 * elapsed()) return;
+        if (!complete && witness_ && 10 * descents_ > search_.tested()) return;
         if (promise_ && !(found.approximate_value < promise_->approximate_value)) return;
         promise_ = found;
     }
     /// Descends from a point of the working problem and verifies where that leads.
     void improve(std::vector<double> const& point, std::vector<std::vector<double>> const& starts) {
-        double const begin = elapsed();
-        auto const better = fit_(point, starts, [this] { return in_time(); });
+        ++descents_;
+        auto const better = fit_(point, starts, [this] { return within_limits(); });
         if (better.parameters.empty()) {
             verify(point, starts);
         } else if (better.inflation < upper_) {
             verify(better.parameters, better.starts);
         }
-        improving_ += elapsed() - begin;
     }
     void verify(std::vector<double> const& point, std::vector<std::vector<double>> starts) {
-        verified_witness candidate{map_ ? map_->approximate_preimage(problem_->prior, point)
-                                        : point,
-                                   std::move(starts),
-                                   {}};
+        try_witness(map_ ? map_->approximate_preimage(problem_->prior, point) : point,
+                    std::move(starts));
+    }
+    /// @param parameters  of the problem itself
+    void try_witness(std::vector<double> parameters, std::vector<std::vector<double>> starts) {
+        verified_witness candidate{std::move(parameters), std::move(starts), {}};
         move_inside(candidate.parameters, problem_->prior);
         for (std::size_t s = 0; s < candidate.starts.size(); ++s) {
             move_inside(candidate.starts[s], problem_->experiments[s].initial);
@@ -215,7 +231,7 @@ private:
     inflation_search search_;
     minimax_fitter fit_;
     double upper_ = detail::infinity;
-    double improving_ = 0; ///< seconds
+    std::size_t descents_ = 0;
     std::optional<inflation_relaxation> promise_;
     std::optional<verified_witness> witness_;
 };
