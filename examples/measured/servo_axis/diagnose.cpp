@@ -381,9 +381,8 @@ int run(diagnose_command const& c) {
     sivid::diagnosis_options options;
     // The rest is for the hold-out record and the tables.
     options.seconds = 0.8 * c.budget;
-    options.gap_seconds = 0.1 * c.budget;
-    options.verify_seconds = 0.3 * c.budget;
-    options.each_seconds = 0.03 * c.budget;
+    options.gap.bound.share = 0.12;
+    options.exclusions.share = 0.37;
     options.screening.seconds = 0.5 * c.budget;
     options.screening.most_effects = 3;
     // The force has a new slope every 5 ms.

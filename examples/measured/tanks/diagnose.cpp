@@ -191,9 +191,7 @@ int run(diagnose_command const& c) {
     sivid::diagnosis_options options;
     // The rest is for the hold-out record and the tables.
     options.seconds = 0.75 * c.budget;
-    options.gap_seconds = 0.12 * c.budget;
-    options.verify_seconds = 0.2 * c.budget;
-    options.each_seconds = 0.03 * c.budget;
+    options.gap.bound.share = 0.16;
     options.screening.seconds = 0.5 * c.budget;
     options.screening.most_effects = 3;
     console::watch(options, progress);
