@@ -40,7 +40,7 @@ private:
             if (!effort_->go_on("verifying a witness")) return false;
             auto const& s = candidate_of(k);
             auto& c = run_->result.causes[k];
-            auto proved = verify_fit(s);
+            auto proved = verify_fit(s, effort_->test());
             c.inflation = proved.range;
             c.assumptions = proved.assumptions;
             if (proved.range.upper() <= 1) c.verdict = cause_verdict::explains;

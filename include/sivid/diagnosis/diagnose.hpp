@@ -58,7 +58,7 @@ private:
     void look_first() {
         auto const base = run_.candidates.front();
         auto& bound = run_.base_bound;
-        bound = verify_fit(base);
+        bound = verify_fit(base, options_.test);
         know_gap();
         bool const explained = run_.result.gap == gap_verdict::none;
         if (!explained) {

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace sivid {
 
@@ -31,18 +32,29 @@ struct gap_options {
 }
 
 /// A validated run at the fit: nothing is known from below.
-[[nodiscard]] inline verified_inflation verify_fit(screened const& s) {
-    auto result = verify_at(s.problem, s.fit);
+[[nodiscard]] inline verified_inflation verify_fit(screened const& s,
+                                                   data_test_options const& test = {}) {
+    auto result = verify_at(s.problem, s.fit, test);
     result.range = interval_traits<interval>::bounds(0, result.range.upper());
     return result;
 }
 
 /// Adds what a search proves to what is known.
 inline void tighten(verified_inflation& known, screened const& s, inflation_options const& search) {
-    auto const proved = bound_inflation(s.problem, &s.fit, search);
-    if (proved.value.upper() <= known.range.upper()) known.witness = proved.witness;
-    if (known.hull.size() == 0) known.hull = proved.hull;
-    double const upper = std::min(proved.value.upper(), known.range.upper());
+    auto proved = bound_inflation(s.problem, &s.fit, search);
+    double upper = proved.value.upper();
+    if (proved.witness && starts_follow_parameters(s.problem)) {
+        // The search lets added states start anywhere in their ranges.
+        approximate_fit at;
+        at.parameters = proved.witness->parameters;
+        at.starts = proved.witness->starts;
+        auto verified = verify_at(s.problem, at, search.test);
+        upper = verified.range.upper();
+        proved.witness = std::move(verified.witness);
+    }
+    if (upper <= known.range.upper()) known.witness = std::move(proved.witness);
+    upper = std::min(upper, known.range.upper());
+    if (known.hull.size() == 0 && upper <= proved.value.upper()) known.hull = proved.hull;
     double const lower = std::max(proved.value.lower(), known.range.lower());
     known.range = interval_traits<interval>::bounds(std::min(lower, upper), upper);
 }

@@ -166,15 +166,13 @@ public:
         return most;
     }
 
-    /// One experiment at a point, by the options for witnesses.
-    [[nodiscard]] std::shared_ptr<response const> run_point(std::size_t e,
-                                                            std::vector<double> const& initial,
-                                                            std::vector<double> const& parameters) {
+    /// One experiment over next to nothing, by the options for witnesses.
+    [[nodiscard]] std::shared_ptr<response const> run_finely(std::size_t e, box const& initial,
+                                                             box const& parameters) {
         ++integrations_;
-        auto const& experiment = problem_->experiments[e];
-        auto const point =
-            make_run(*flows_[e], experiment, records_[e], problem_->prior, options_.witness);
-        return (*point)(point_box(initial), point_box(parameters));
+        auto const fine = make_run(*flows_[e], problem_->experiments[e], records_[e],
+                                   problem_->prior, options_.witness);
+        return (*fine)(initial, parameters);
     }
     /// One experiment over boxes of starts and parameters.
     [[nodiscard]] std::vector<std::shared_ptr<response const>>

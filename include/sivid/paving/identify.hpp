@@ -90,12 +90,12 @@ struct identification {
 verify_witness(data_test& test, identification_problem const& problem,
                std::vector<double> const& parameters,
                std::vector<std::vector<double>> const& starts) {
-    verified_witness result{parameters, starts, {}};
-    if (!contains(problem.prior, parameters)) return std::nullopt;
+    auto point = point_within(problem.prior, parameters);
+    verified_witness result{mid(point), {}, {}};
     for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
-        if (!contains(problem.experiments[s].initial, starts[s])) return std::nullopt;
-        auto const answer = test.run_point(s, starts[s], parameters);
-        auto point = point_box(parameters);
+        auto const start = point_within(problem.experiments[s].initial, starts[s]);
+        result.starts.push_back(mid(start));
+        auto const answer = test.run_finely(s, start, point);
         if (!assess(*answer, point).explained) return std::nullopt;
         auto& violated = result.violated.emplace_back();
         auto const values = output_ranges(*answer, point);
@@ -191,7 +191,9 @@ inline void draw(identification& result, reduction const& map, subpaving const& 
         auto guess = fit();
         if (!guess.parameters.empty()) {
             result.witness = verify_witness(test, working, guess.parameters, guess.starts);
-            for (auto const& x0 : guess.starts) starts.push_back(point_box(x0));
+            for (std::size_t s = 0; s < guess.starts.size(); ++s) {
+                starts.push_back(point_within(working.experiments[s].initial, guess.starts[s]));
+            }
             result.guess = std::move(guess);
         }
     }

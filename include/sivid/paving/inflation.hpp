@@ -46,17 +46,19 @@ struct inflation_bound {
 
 /// Encloses the inflation at one point by validated runs: for each experiment the (q+1)-th largest
 /// misfit, and the largest of these. Infinite where a run fails.
-/// @param test  of the same problem without limits of outliers
-/// @param what  receives the violated measurements
+/// @param test    of the same problem without limits of outliers
+/// @param starts  one point, or next to a point, per experiment
+/// @param what    receives the violated measurements
 [[nodiscard]] inline interval inflation_at(data_test& test, identification_problem const& problem,
+                                           box const& parameters, std::vector<box> const& starts,
                                            verified_witness& what) {
     double least = 0;
     double most = 0;
-    auto const point = point_box(what.parameters);
-    what.violated.clear();
+    what = {mid(parameters), {}, {}};
     for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
-        auto const answer = test.run_point(s, what.starts[s], what.parameters);
-        auto const values = output_ranges(*answer, point);
+        what.starts.push_back(mid(starts[s]));
+        auto const answer = test.run_finely(s, starts[s], parameters);
+        auto const values = output_ranges(*answer, parameters);
         std::vector<double> low(answer->measurements, 0.0);
         std::vector<double> high(answer->measurements, detail::infinity);
         auto& violated = what.violated.emplace_back(answer->measurements, true);
@@ -144,13 +146,13 @@ private:
         return search_.integrations() + search_.tested() + points_.integrations();
     }
     [[nodiscard]] bool within_limits() const {
-        bool const open = upper_ > 1 && !(search_.lower() > 1);
-        auto const most = open ? std::max(options_->work, options_->verdict_work) : options_->work;
-        return work() < most && elapsed() < options_->seconds &&
+        return work() < most_work_ && elapsed() < options_->seconds &&
                (!options_->keep_going || options_->keep_going());
     }
-    [[nodiscard]] bool finished() const {
-        double const lower = search_.lower();
+    [[nodiscard]] bool finished() {
+        double const lower = search_.lower(); // meaningless within a step
+        most_work_ = options_->work;
+        if (upper_ > 1 && !(lower > 1)) most_work_ = std::max(most_work_, options_->verdict_work);
         if (options_->only_verdict && (lower > 1 || upper_ <= 1)) return true;
         return lower >= (1 - options_->relative_width) * upper_ || !within_limits();
     }
@@ -179,35 +181,25 @@ private:
             verify(better.parameters, better.starts);
         }
     }
-    void verify(std::vector<double> const& point, std::vector<std::vector<double>> starts) {
-        try_witness(map_ ? map_->approximate_preimage(problem_->prior, point) : point,
-                    std::move(starts));
+    void verify(std::vector<double> const& point, std::vector<std::vector<double>> const& starts) {
+        try_witness(map_ ? map_->approximate_preimage(problem_->prior, point) : point, starts);
     }
-    /// @param parameters  of the problem itself
-    void try_witness(std::vector<double> parameters, std::vector<std::vector<double>> starts) {
-        verified_witness candidate{std::move(parameters), std::move(starts), {}};
-        move_inside(candidate.parameters, problem_->prior);
-        for (std::size_t s = 0; s < candidate.starts.size(); ++s) {
-            move_inside(candidate.starts[s], problem_->experiments[s].initial);
+    /// @param point  of the problem itself
+    void try_witness(std::vector<double> const& point,
+                     std::vector<std::vector<double>> const& starts) {
+        verified_witness candidate;
+        std::vector<box> from;
+        for (std::size_t s = 0; s < starts.size(); ++s) {
+            from.push_back(point_within(problem_->experiments[s].initial, starts[s]));
         }
-        auto const value = inflation_at(points_, *problem_, candidate);
+        auto const parameters = point_within(problem_->prior, point);
+        auto const value = inflation_at(points_, *problem_, parameters, from, candidate);
         if (value.upper() < upper_) {
             upper_ = value.upper();
             witness_ = std::move(candidate);
             search_.drop_above(upper_);
         }
     }
-    /// Into the box and, where that has a width, off its bounds, which enclose decimals.
-    static void move_inside(std::vector<double>& x, box const& where) {
-        for (std::size_t j = 0; j < x.size(); ++j) {
-            double const lo = where[j].lower();
-            double const hi = where[j].upper();
-            x[j] = lo < hi ? std::clamp(x[j], std::nextafter(lo, hi),
-                                        std::max(std::nextafter(lo, hi), std::nextafter(hi, lo)))
-                           : lo;
-        }
-    }
-
     [[nodiscard]] inflation_bound report() {
         inflation_bound result;
         result.value = interval_traits<interval>::bounds(std::min(search_.lower(), upper_), upper_);
@@ -232,6 +224,7 @@ private:
     minimax_fitter fit_;
     double upper_ = detail::infinity;
     std::size_t descents_ = 0;
+    std::size_t most_work_ = std::max(options_->work, options_->verdict_work);
     std::optional<inflation_relaxation> promise_;
     std::optional<verified_witness> witness_;
 };

@@ -38,7 +38,7 @@ public:
     [[nodiscard]] approximate_fit operator()(std::vector<double> const& parameters,
                                              std::vector<std::vector<double>> const& starts,
                                              std::function<bool()> const& go_on = {}) {
-        campaign_->set_accuracy(0.1); // kinks are met to some 1e-5
+        campaign_->set_accuracy(1e-3); // as what it ends with is judged
         descent down(*campaign_);
         descent_point best;
         if (!down.evaluate(campaign_->variables(parameters, starts), best)) return {};
