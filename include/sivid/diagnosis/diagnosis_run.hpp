@@ -25,12 +25,12 @@ namespace sivid {
 struct diagnosis_options {
     double seconds = 60;              ///< for everything; what is not finished then stays undecided
     gap_options gap{};                ///< the certified inflation of the model
-    step_effort answer{20, 0.1};      ///< the certified inflation of the answer
-    step_effort hulls{40, 0.08};      ///< the hulls of the answer's parameters
-    step_effort exclusion{6, 0.04};   ///< one candidate that seems excluded ...
-    step_effort exclusions{40, 0.25}; ///< ... and all of them
-    step_effort part{3, 0.02};        ///< the inflation of one scenario or channel ...
-    double parts_share = 0.15;        ///< ... and of all of them, see `step_effort::share`
+    step_effort answer{10, 0.04};     ///< the certified inflation of the answer
+    step_effort hulls{12, 0.04};      ///< the hulls of the answer's parameters
+    step_effort exclusion{12, 0.03};  ///< one candidate that seems excluded ...
+    step_effort exclusions{36, 0.08}; ///< ... and all of them
+    step_effort part{2, 0.01};        ///< the inflation of one scenario or channel ...
+    double parts_share = 0.05;        ///< ... and of all of them, see `step_effort::share`
     screening_options screening{};
     choice_options choice{};
     data_test_options test{};      ///< how boxes of parameters are enclosed
@@ -59,8 +59,8 @@ struct diagnosis_run {
 /// Judges the model and the answer of a diagnosis by hold-out data and adds the figures: the only
 /// place where such data are read, after everything is chosen.
 /// @param seconds, boxes  what the bounds of both may spend, see `step_effort`
-inline void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds = 12,
-                             data_test_options const& test = {}, std::size_t boxes = 50) {
+inline void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds = 6,
+                             data_test_options const& test = {}, std::size_t boxes = 24) {
     if (data.empty() || run.candidates.empty()) return;
     auto const judge = [&](screened const& candidate, verified_inflation const& bound) {
         auto const judged = data.judged_by(candidate, run.base, run.catalogue);

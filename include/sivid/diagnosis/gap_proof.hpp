@@ -16,7 +16,7 @@ namespace sivid {
 
 /// How the inflation of a candidate is bounded.
 struct gap_options {
-    step_effort bound{50, 0.4};      ///< for both bounds ...
+    step_effort bound{50, 0.3};      ///< for both bounds ...
     std::size_t verdict_boxes = 120; ///< ... and in all while it is open whether there is a gap
     step_effort no_gap{4, 0.02};     ///< where there is none: for the lower bound
     double relative_width = 0.03;    ///< of the bounds that are wanted
