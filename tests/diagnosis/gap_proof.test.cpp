@@ -36,7 +36,7 @@ TEST_CASE("no box: nothing is proved from below") {
     auto const s = fitted(small_campaign::with_drag(0.3));
     diagnosis_effort effort(100, {}, {});
     gap_options none;
-    none.bound.boxes = none.verdict_boxes = 0;
+    none.bound.boxes = none.further_boxes = 0;
     auto bound = verify_fit(s);
     prove_gap(bound, s, effort, none);
     CHECK(gap_of(bound.range) == gap_verdict::undecided);

@@ -383,7 +383,7 @@ int run(diagnose_command const& c) {
     options.seconds = 0.8 * c.budget;
     // So many boxes of parameters, or this share of the time, whichever is less.
     options.gap.bound = {300, 0.12};
-    options.gap.verdict_boxes = 900;
+    options.gap.further_boxes = 900;
     options.answer = {60, 0.05};
     options.hulls = {60, 0.05};
     options.exclusion = {60, 0.04};

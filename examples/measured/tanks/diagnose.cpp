@@ -193,7 +193,7 @@ int run(diagnose_command const& c) {
     options.seconds = 0.75 * c.budget;
     // One experiment: a box costs little.
     options.gap.bound = {1000, 0.16};
-    options.gap.verdict_boxes = 2000;
+    options.gap.further_boxes = 2000;
     options.answer = {300, 0.05};
     options.hulls = {300, 0.05};
     options.exclusion = {300, 0.04};

@@ -17,7 +17,7 @@ namespace sivid {
 /// How the inflation of a candidate is bounded.
 struct gap_options {
     step_effort bound{50, 0.3};      ///< for both bounds ...
-    std::size_t verdict_boxes = 120; ///< ... and in all while it is open whether there is a gap
+    std::size_t further_boxes = 120; ///< ... see `inflation_options::further_work`
     step_effort no_gap{4, 0.02};     ///< where there is none: for the lower bound
     double relative_width = 0.03;    ///< of the bounds that are wanted
     /// Where more than twice as many experiments are at hand, so many of the hardest are tried
@@ -82,11 +82,11 @@ inline void prove_gap(verified_inflation& known, screened const& s, diagnosis_ef
     search.relative_width = options.relative_width;
     if (!explained) {
         auto enough = options.bound;
-        enough.boxes = std::max(enough.boxes, options.verdict_boxes);
-        search.verdict_work = effort.search(s.problem, enough).work;
+        enough.boxes = std::max(enough.boxes, options.further_boxes);
+        search.further_work = effort.search(s.problem, enough).work;
         auto brief = search;
         brief.seconds *= 0.6;
-        brief.verdict_work = 0;
+        brief.further_work = 0;
         std::size_t spent = 0;
         double const fewer = refuted_by_few(s, options.hardest, brief, spent);
         auto const upper = known.range.upper();

@@ -25,8 +25,9 @@ struct inflation_options {
     /// Stop after so many integrations of an experiment over a box and boxes bounded, together:
     /// unlike the time, the same on every machine.
     std::size_t work = std::numeric_limits<std::size_t>::max();
-    /// So many in all where it is open then whether the inflation is above 1.
-    std::size_t verdict_work = 0;
+    /// So many in all where it is open then whether the inflation is above 1, or where the bounds
+    /// have come near each other but are more than a tenth apart.
+    std::size_t further_work = 0;
     bool only_verdict = false;        ///< stop as soon as lower > 1 or upper <= 1
     std::function<bool()> keep_going; ///< false stops the search with what is proved until then
     data_test_options test;
@@ -152,7 +153,9 @@ private:
     [[nodiscard]] bool finished() {
         double const lower = search_.lower(); // meaningless within a step
         most_work_ = options_->work;
-        if (upper_ > 1 && !(lower > 1)) most_work_ = std::max(most_work_, options_->verdict_work);
+        bool const open = upper_ > 1 && !(lower > 1);
+        bool const near = lower > 0.6 * upper_ && lower < 0.9 * upper_;
+        if (open || near) most_work_ = std::max(most_work_, options_->further_work);
         if (options_->only_verdict && (lower > 1 || upper_ <= 1)) return true;
         return lower >= (1 - options_->relative_width) * upper_ || !within_limits();
     }
@@ -224,7 +227,7 @@ private:
     minimax_fitter fit_;
     double upper_ = detail::infinity;
     std::size_t descents_ = 0;
-    std::size_t most_work_ = std::max(options_->work, options_->verdict_work);
+    std::size_t most_work_ = std::max(options_->work, options_->further_work);
     std::optional<inflation_relaxation> promise_;
     std::optional<verified_witness> witness_;
 };
