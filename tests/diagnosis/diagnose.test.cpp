@@ -4,6 +4,8 @@
 #include "diagnosis/small_catalogue.hpp"
 #include "support/catch.hpp"
 
+#include <algorithm>
+
 using namespace sivid;
 
 namespace {
@@ -69,6 +71,59 @@ TEST_CASE("a missing drag is found, proved and sized, and holds on data that cho
     for (auto const& other : d.causes) {
         bool const has_truth = std::count(other.effects.begin(), other.effects.end(), "quadratic");
         if (has_truth) CHECK(other.verdict != cause_verdict::excluded);
+    }
+}
+
+TEST_CASE("whether there is a gap, and where, is said before anything that takes long") {
+    std::vector<std::string> steps;
+    diagnosis_options options;
+    options.progress = [&](std::string const& what) {
+        steps.push_back(what);
+        return true;
+    };
+    options.first_sentence = [&](std::string const& text) { steps.push_back("says: " + text); };
+    (void)run(small_campaign::with_drag(0.3), options);
+    auto const said = [](std::string const& s) { return s.starts_with("says: "); };
+    auto const at = [&](std::string const& step) {
+        auto const f = std::find(steps.begin(), steps.end(), step);
+        REQUIRE(f != steps.end());
+        return f - steps.begin();
+    };
+    auto const first = std::find_if(steps.begin(), steps.end(), said) - steps.begin();
+    // One fit, one pass over the equations.
+    CHECK(first == 2);
+    CHECK_THAT(steps[2], ContainsSubstring("no parameter was found that explains the data"));
+    // The place next, before any box of parameters; the proof last, and only then is it claimed.
+    auto const bounding = at("bounding the gap");
+    CHECK_THAT(steps[bounding - 1], ContainsSubstring("equation v"));
+    for (auto k = first; k < bounding; ++k) {
+        CHECK_THAT(steps[k], !ContainsSubstring("a gap is proved"));
+    }
+    auto const proof = at("says: a gap is proved: equation v (proved)");
+    CHECK(proof > bounding);
+    CHECK(std::count_if(steps.begin(), steps.end(), said) <= 4);
+    CHECK(std::none_of(steps.begin() + proof + 1, steps.end(), said));
+}
+
+TEST_CASE("no gap is said once it is proved") {
+    std::string said;
+    diagnosis_options options;
+    options.first_sentence = [&](std::string const& text) { said += text; };
+    (void)run({}, options);
+    CHECK(said == "no gap: parameters are proved to explain the data");
+}
+
+TEST_CASE("work limits what is done, not the clock: twice the time, the same result") {
+    auto const of = [](double seconds) {
+        return run(small_campaign::with_slope(0.3), {.seconds = seconds}).result;
+    };
+    auto const a = of(200), b = of(400);
+    CHECK(a.inflation.lower() == b.inflation.lower());
+    CHECK(a.inflation.upper() == b.inflation.upper());
+    REQUIRE(a.causes.size() == b.causes.size());
+    for (std::size_t k = 0; k < a.causes.size(); ++k) {
+        CHECK(a.causes[k].verdict == b.causes[k].verdict);
+        CHECK(a.causes[k].inflation.lower() == b.causes[k].inflation.lower());
     }
 }
 

@@ -24,7 +24,9 @@ holdout_judgement judged(small_campaign::truth const& real, std::vector<std::siz
     }
     if (bound_of_fit != nullptr) *bound_of_fit = bound;
     holdout const kept({small_campaign::experiment(2, real)});
-    return judge_by_holdout(fitted, bound, kept.judged_by(fitted, base, catalogue), 2);
+    inflation_options search;
+    search.seconds = 2;
+    return judge_by_holdout(fitted, bound, kept.judged_by(fitted, base, catalogue), search);
 }
 
 } // namespace

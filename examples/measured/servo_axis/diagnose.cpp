@@ -334,16 +334,20 @@ int run(diagnose_command const& c) {
     sivid::diagnosis_options options;
     // The rest is for the hold-out record and the tables.
     options.seconds = 0.8 * c.budget;
-    options.gap_seconds = 0.1 * c.budget;
-    options.verify_seconds = 0.3 * c.budget;
-    options.each_seconds = 0.03 * c.budget;
+    // So many boxes of parameters, or this share of the time, whichever is less.
+    options.gap.bound = {300, 0.12};
+    options.gap.further_boxes = 900;
+    options.answer = {60, 0.05};
+    options.hulls = {60, 0.05};
+    options.exclusion = {60, 0.04};
+    options.exclusions = {600, 0.37};
     options.screening.seconds = 0.5 * c.budget;
     options.screening.most_effects = 3;
     console::watch(options, progress);
     auto run = sivid::diagnose(problem, axis_catalogue(), options);
     progress.finish();
     progress.note("judging by the validation record");
-    sivid::judge_by_holdout(run, kept, 0.1 * c.budget);
+    sivid::judge_by_holdout(run, kept, 0.1 * c.budget, options.test, 120);
     std::signal(SIGINT, SIG_DFL);
     for (auto const& a : assumptions_of(c, windows.size())) run.result.assumptions.push_back(a);
 

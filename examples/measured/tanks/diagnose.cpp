@@ -181,16 +181,22 @@ int run(diagnose_command const& c) {
     sivid::diagnosis_options options;
     // The rest is for the hold-out record and the tables.
     options.seconds = 0.75 * c.budget;
-    options.gap_seconds = 0.15 * c.budget;
-    options.verify_seconds = 0.2 * c.budget;
-    options.each_seconds = 0.03 * c.budget;
+    // One experiment: a box costs little.
+    options.gap.bound = {1000, 0.16};
+    options.gap.further_boxes = 2000;
+    options.gap.observers = 0.3;
+    options.answer = {300, 0.05};
+    options.hulls = {300, 0.05};
+    options.exclusion = {300, 0.04};
+    options.exclusions = {3000, 0.27};
+    options.part = {60, 0.01};
     options.screening.seconds = 0.5 * c.budget;
     options.screening.most_effects = 3;
     console::watch(options, progress);
     auto run = sivid::diagnose(problem, catalogue(), options);
     progress.finish();
     progress.note("judging by the validation record");
-    sivid::judge_by_holdout(run, kept, 0.08 * c.budget);
+    sivid::judge_by_holdout(run, kept, 0.08 * c.budget, options.test, 1000);
     for (auto const& a : assumptions_of(c)) run.result.assumptions.push_back(a);
     std::optional<validity> valid;
     if (!run.result.interrupted && run.result.gap != sivid::gap_verdict::none) {

@@ -5,6 +5,8 @@
 #include <sivid/diagnosis/broken_relation.hpp>
 #include <sivid/diagnosis/candidate.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/diagnosis/diagnosis_effort.hpp>
+#include <sivid/diagnosis/gap_proof.hpp>
 #include <sivid/diagnosis/holdout_judgement.hpp>
 #include <sivid/diagnosis/manoeuvre.hpp>
 #include <sivid/diagnosis/place_estimate.hpp>
@@ -21,22 +23,22 @@
 namespace sivid {
 
 struct diagnosis_options {
-    double seconds = 60;       ///< for everything; what is not finished then stays undecided
-    double gap_seconds = 4;    ///< for the certified inflation
-    double verify_seconds = 3; ///< for the verdicts on candidates
-    double each_seconds = 0.5; ///< of these, for one candidate that seems excluded
-    /// Where more than twice as many experiments are at hand, so many of the hardest are tried
-    /// first for a refutation.
-    std::size_t hardest = 4;
-    double hull_seconds = 1;  ///< for the hulls of the answer's parameters
-    double parts_seconds = 2; ///< for the inflation of single scenarios and channels
+    double seconds = 60;              ///< for everything; what is not finished then stays undecided
+    gap_options gap{};                ///< the certified inflation of the model
+    step_effort answer{10, 0.04};     ///< the certified inflation of the answer
+    step_effort hulls{12, 0.04};      ///< the hulls of the answer's parameters
+    step_effort exclusion{12, 0.03};  ///< one candidate that seems excluded ...
+    step_effort exclusions{36, 0.08}; ///< ... and all of them
+    step_effort part{2, 0.01};        ///< the inflation of one scenario or channel ...
+    double parts_share = 0.05;        ///< ... and of all of them, see `step_effort::share`
     screening_options screening{};
     choice_options choice{};
     data_test_options test{};      ///< how boxes of parameters are enclosed
     std::vector<manoeuvre> menu{}; ///< from which the next experiment is proposed
     /// Called with what is being done; false ends with what is known so far.
     std::function<bool(std::string const&)> progress{};
-    /// Called once it is known whether there is a gap, and where.
+    /// Called with what is known of whether there is a gap, and where: first before anything that
+    /// takes long, then as often as more is known.
     std::function<void(std::string const&)> first_sentence{};
 };
 
@@ -56,18 +58,22 @@ struct diagnosis_run {
 
 /// Judges the model and the answer of a diagnosis by hold-out data and adds the figures: the only
 /// place where such data are read, after everything is chosen.
-inline void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds = 4,
-                             data_test_options const& test = {}) {
+/// @param seconds, boxes  what the bounds of both may spend, see `step_effort`
+inline void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds = 6,
+                             data_test_options const& test = {}, std::size_t boxes = 24) {
     if (data.empty() || run.candidates.empty()) return;
-    auto const& base = run.candidates.front();
-    auto const before = judge_by_holdout(
-        base, run.base_bound, data.judged_by(base, run.base, run.catalogue), seconds / 2, test);
+    auto const judge = [&](screened const& candidate, verified_inflation const& bound) {
+        auto const judged = data.judged_by(candidate, run.base, run.catalogue);
+        inflation_options search;
+        search.seconds = seconds / 2;
+        search.work = boxes / 2 * (run.base.experiments.size() + judged.experiments.size() + 1);
+        search.test = test;
+        return judge_by_holdout(candidate, bound, judged, search);
+    };
+    auto const before = judge(run.candidates.front(), run.base_bound);
     run.holdout_before = before;
     if (run.result.causes.empty()) return;
-    auto const& answer = run.candidates[run.answer];
-    auto const after =
-        judge_by_holdout(answer, run.answer_bound, data.judged_by(answer, run.base, run.catalogue),
-                         seconds / 2, test);
+    auto const after = judge(run.candidates[run.answer], run.answer_bound);
     run.holdout_after = after;
     holdout_figures figures;
     figures.inflation_before = before.at_witness;

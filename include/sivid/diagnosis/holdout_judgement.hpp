@@ -63,12 +63,12 @@ inline void add_tube(identification_problem const& judged, box const& parameters
 /// nothing else is.
 /// @param bound   what was proved about the candidate's fit
 /// @param judged  `holdout::judged_by` of the candidate
+/// @param search  what the bounds may spend
 /// @guarantee  `at_witness` and `over_fits` enclose what they say
 [[nodiscard]] inline holdout_judgement judge_by_holdout(screened const& fitted,
                                                         verified_inflation const& bound,
                                                         identification_problem const& judged,
-                                                        double seconds,
-                                                        data_test_options const& test = {}) {
+                                                        inflation_options const& search) {
     holdout_judgement result;
     auto const& p = bound.witness ? bound.witness->parameters : fitted.fit.parameters;
     if (p.size() != judged.prior.size()) return result;
@@ -88,10 +88,7 @@ inline void add_tube(identification_problem const& judged, box const& parameters
     bool const delayed = diagnosis_detail::has_delays(judged.model);
     if (!delayed && bound.witness && bound.range.upper() < detail::infinity) {
         inflation_bound fit{bound.range, bound.witness, bound.hull, 0, 0, 0};
-        inflation_options options;
-        options.seconds = seconds;
-        options.test = test;
-        auto proved = holdout_inflation(fitted.problem, fit, judged, options);
+        auto proved = holdout_inflation(fitted.problem, fit, judged, search);
         if (starts_follow_parameters(judged)) {
             // The search lets added states start anywhere in their ranges: only what it says from
             // below holds.

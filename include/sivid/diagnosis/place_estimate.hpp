@@ -2,7 +2,9 @@
 #ifndef SIVID_DIAGNOSIS_PLACE_ESTIMATE_HPP
 #define SIVID_DIAGNOSIS_PLACE_ESTIMATE_HPP
 
+#include <sivid/diagnosis/estimated_place.hpp>
 #include <sivid/diagnosis/law_search.hpp>
+#include <sivid/diagnosis/missing_rate_scales.hpp>
 #include <sivid/diagnosis/place_search.hpp>
 #include <sivid/paving/fit.hpp>
 
@@ -17,28 +19,6 @@
 #include <vector>
 
 namespace sivid {
-
-/// A missing rate d(t) of one equation in one scenario, with its uncertainty.
-struct estimated_rate {
-    std::string scenario;
-    std::vector<double> times, values, deviations;
-};
-
-/// A place where model and data part, estimated and not proved.
-struct estimated_place {
-    place_kind kind = place_kind::equation;
-    std::vector<std::size_t> members; ///< states, channels or the input
-    std::string name;
-    double loss = 0;         ///< what the score loses without it
-    std::string scenario;    ///< where it is seen best
-    double from = 0, to = 0; ///< [s]
-    double missing = 0;      ///< mean missing rate there, or the sensor's fault
-    double deviation = 0;    ///< its standard deviation; 0 when not known
-    std::string unit;
-    std::string law;    ///< "" when none stands out
-    std::string regime; ///< "" when everywhere
-    std::vector<estimated_rate> rates;
-};
 
 /// One set of places that was allowed to be wrong.
 struct tried_places {
@@ -62,121 +42,20 @@ struct place_options {
     std::map<std::string, std::string> equation_names;
 };
 
-namespace diagnosis_detail {
-
-/// What a second is to a motion of twenty seconds, and not less [s]: the time in which a missing
-/// rate may change.
-[[nodiscard]] inline double rate_time(identification_problem const& problem) {
-    double longest = 0;
-    for (auto const& e : problem.experiments) {
-        for (auto const& m : e.measurements) longest = std::max(longest, m.time - e.begin);
-    }
-    return std::max(1.0, longest / 20);
-}
-
-/// Of states, then of inputs. Typical sizes of the rates along a motion: four times their root mean
-/// square. An equation that rests is as uncertain as the others of its unit, or as its errors
-/// within `rate_time`.
-[[nodiscard]] inline std::vector<missing_rate_scale> rate_scales(campaign& c,
-                                                                 arrow_vector const& z) {
-    auto const& about = c.problem().model.about;
-    std::vector<double> squares(about.states.size(), 0.0);
-    double count = 0;
-    for (std::size_t e = 0; e < c.experiments(); ++e) {
-        simulated_trace seen;
-        if (!c.trace(e, z, seen)) continue;
-        for (auto const& rate : seen.rates) {
-            for (std::size_t i = 0; i < rate.size(); ++i) squares[i] += rate[i] * rate[i];
-            ++count;
-        }
-    }
-    std::vector<missing_rate_scale> scales;
-    double const time = rate_time(c.problem());
-    double error = std::numeric_limits<double>::infinity();
-    for (std::size_t e = 0; e < c.experiments(); ++e) {
-        for (double const r : c.radii(e)) error = std::min(error, r);
-    }
-    for (std::size_t i = 0; i < squares.size(); ++i) {
-        double largest = squares[i];
-        for (std::size_t j = 0; j < squares.size(); ++j) {
-            if (about.states[j].unit == about.states[i].unit)
-                largest = std::max(largest, squares[j]);
-        }
-        double const own = std::sqrt(squares[i] / std::max(count, 1.0));
-        double const unit = std::sqrt(largest / std::max(count, 1.0));
-        double const size = std::max({4 * own, 2 * unit, 20 * error / time});
-        scales.push_back({size, 2.0 / 3 * size / std::sqrt(time)});
-    }
-    for (std::size_t i = 0; i < about.inputs.size(); ++i) {
-        double largest = 0;
-        for (auto const& e : c.problem().experiments) {
-            auto const* samples = std::get_if<sampled_signal>(&e.inputs[i]);
-            if (samples == nullptr) continue;
-            for (double const u : samples->values()) largest = std::max(largest, std::abs(u));
-        }
-        double const size = largest > 0 ? largest : 1;
-        scales.push_back({size, 2.0 / 3 * size / std::sqrt(time)});
-    }
-    return scales;
-}
-
-/// The stretch, of any length, over which the mean of a missing rate stands out most from its
-/// uncertainty.
-/// @param covariances  per experiment, of `count` alternating targets, of which this is number `c`
-inline void locate(estimated_place& p, std::vector<Eigen::MatrixXd> const& covariances,
-                   std::size_t count, std::size_t c) {
-    double most = -1;
-    for (std::size_t e = 0; e < std::min(p.rates.size(), covariances.size()); ++e) {
-        auto const& r = p.rates[e];
-        auto const n = static_cast<Eigen::Index>(r.times.size());
-        Eigen::VectorXd weight = Eigen::VectorXd::Zero(n); // of the trapezoidal rule
-        for (Eigen::Index k = 0; k + 1 < n; ++k) {
-            auto const i = static_cast<std::size_t>(k);
-            weight[k] += 0.5 * (r.times[i + 1] - r.times[i]);
-            weight[k + 1] += 0.5 * (r.times[i + 1] - r.times[i]);
-        }
-        auto const at = [&](Eigen::Index k) {
-            return k * static_cast<Eigen::Index>(count) + static_cast<Eigen::Index>(c);
-        };
-        for (Eigen::Index first = 0; first < n; ++first) {
-            double length = 0, sum = 0, variance = 0;
-            for (Eigen::Index last = first; last < n; ++last) {
-                double cross = 0;
-                for (Eigen::Index k = first; k < last; ++k) {
-                    cross += weight[k] * covariances[e](at(k), at(last));
-                }
-                variance +=
-                    weight[last] * (2 * cross + weight[last] * covariances[e](at(last), at(last)));
-                length += weight[last];
-                sum += weight[last] * r.values[static_cast<std::size_t>(last)];
-                if (last == first || !(variance > 0)) continue;
-                double const clear = std::abs(sum) / std::sqrt(variance);
-                if (!(clear > most)) continue;
-                most = clear;
-                p.scenario = r.scenario;
-                p.from = r.times[static_cast<std::size_t>(first)];
-                p.to = r.times[static_cast<std::size_t>(last)];
-                p.missing = sum / length;
-                p.deviation = std::sqrt(variance) / length;
-            }
-        }
-    }
-}
-
-} // namespace diagnosis_detail
-
 /// Where does the model depart from the data, and how? Nothing is reported when some parameters
 /// explain all of it.
 /// @cost  some tens of fits, each of them some ten simulations with sensitivities
 class place_estimator {
 public:
-    explicit place_estimator(identification_problem const& problem, place_options options = {})
-        : problem_(&problem), options_(std::move(options)) {}
+    /// @param base  the best fit of the problem where it is known already
+    explicit place_estimator(identification_problem const& problem, place_options options = {},
+                             approximate_fit const* base = nullptr)
+        : problem_(&problem), options_(std::move(options)), base_(base) {}
 
     [[nodiscard]] place_estimate operator()() {
         auto const begin = std::chrono::steady_clock::now();
         place_estimate result;
-        result.base = fitter(*problem_)();
+        result.base = base_ != nullptr ? *base_ : fitter(*problem_)();
         result.inflation = result.base.inflation;
         if (!(result.base.inflation <= 1) && !result.base.parameters.empty()) search(result);
         result.seconds =
@@ -235,7 +114,7 @@ private:
         place_fitter fit(*problem_, places_of(problem_->model, measured, sampled));
         auto const base = fit.plain(result.base.parameters, result.base.starts);
         fit.release({});
-        fit.set_scales(diagnosis_detail::rate_scales(fit.simulations(), fit.vector_of(base)));
+        fit.set_scales(missing_rate_scales(fit.simulations(), fit.vector_of(base)));
         place_search sets(fit, base, options_.search);
         sets.run();
         auto best = sets.best();
@@ -292,7 +171,7 @@ private:
         auto const& targets = fit.targets();
         auto const c = static_cast<std::size_t>(std::find(targets.begin(), targets.end(), target) -
                                                 targets.begin());
-        diagnosis_detail::locate(p, covariances, targets.size(), c);
+        locate(p, covariances, targets.size(), c);
     }
 
     /// A sensor's fault is named after what of it moves the channel most.
@@ -385,11 +264,14 @@ private:
 
     identification_problem const* problem_;
     place_options options_;
+    approximate_fit const* base_;
 };
 
+/// @param base  the best fit of the problem where it is known already
 [[nodiscard]] inline place_estimate estimate_places(identification_problem const& problem,
-                                                    place_options options = {}) {
-    return place_estimator(problem, std::move(options))();
+                                                    place_options options = {},
+                                                    approximate_fit const* base = nullptr) {
+    return place_estimator(problem, std::move(options), base)();
 }
 
 } // namespace sivid

@@ -151,17 +151,9 @@ public:
     }
 
     [[nodiscard]] arrow_vector vector_of(place_state const& s) const {
-        auto z = arrow_vector::like(campaign_.lower(), 0);
-        auto const& free = campaign_.free_parameters();
-        for (std::size_t k = 0; k < free.size(); ++k) {
-            z.global[static_cast<Eigen::Index>(k)] = s.parameters[free[k]];
-        }
+        auto z = campaign_.variables(s.parameters, s.starts);
         for (std::size_t e = 0; e < campaign_.experiments(); ++e) {
-            auto const& columns = campaign_.layout(e).start_column;
-            Eigen::Index at = 0;
-            for (std::size_t i = 0; i < columns.size(); ++i) {
-                if (columns[i] != sensitivity_layout::none) z.local[e][at++] = s.starts[e][i];
-            }
+            auto at = static_cast<Eigen::Index>(campaign_.free_starts(e));
             for (std::size_t k = 0; k < campaign_.knots(e).size(); ++k) {
                 for (auto const i : targets_) {
                     bool const known = !s.missing.empty() && !s.missing[e][i].empty();

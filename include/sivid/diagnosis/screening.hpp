@@ -74,11 +74,8 @@ public:
     void polish() {
         constexpr double close = 1.05;
         for (auto& s : tried_) {
-            bool const delayed =
-                !s.problem.model.input_delays.empty() || !s.problem.model.channel_delays.empty();
             double const before = s.figures.inflation;
-            if (delayed || !(before > 1 && before < close) || seconds() > options_.seconds)
-                continue;
+            if (!(before > 1 && before < close) || seconds() > options_.seconds) continue;
             auto better = minimax_fitter(s.problem)(s.fit.parameters, s.fit.starts,
                                                     [this] { return !stopped_; });
             if (!(better.inflation < before)) continue;

@@ -153,6 +153,22 @@ public:
         }
         return x0;
     }
+    /// The variables at these parameters and starts, no disturbances.
+    [[nodiscard]] arrow_vector variables(std::vector<double> const& parameters,
+                                         std::vector<std::vector<double>> const& starts) const {
+        auto z = arrow_vector::like(lower_, 0);
+        for (std::size_t k = 0; k < free_.size(); ++k) {
+            z.global[static_cast<Eigen::Index>(k)] = parameters[free_[k]];
+        }
+        for (std::size_t e = 0; e < starts.size(); ++e) {
+            auto const& columns = layouts_[e].start_column;
+            Eigen::Index k = 0;
+            for (std::size_t i = 0; i < columns.size(); ++i) {
+                if (columns[i] != sensitivity_layout::none) z.local[e][k++] = starts[e][i];
+            }
+        }
+        return z;
+    }
     /// [knot * disturbed equations + equation]
     [[nodiscard]] std::vector<double> disturbance(std::size_t e, arrow_vector const& z) const {
         auto const first = static_cast<std::ptrdiff_t>(starts_[e]);

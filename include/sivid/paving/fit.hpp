@@ -33,6 +33,24 @@ struct approximate_fit {
     double squares = std::numeric_limits<double>::infinity();
 };
 
+/// What a descent came to, simulated once more with care; only infinite figures where it came to
+/// nothing.
+[[nodiscard]] inline approximate_fit fit_at(campaign& c, descent_point here) {
+    approximate_fit result;
+    if (!std::isfinite(here.inflation)) return result;
+    c.set_accuracy(1e-3);
+    residual_lists fine;
+    if (c.residuals(here.at, fine)) here.residuals = std::move(fine);
+    c.set_accuracy(1);
+    result.inflation = inflation_of(here.residuals, c.outliers());
+    result.parameters = c.parameters(here.at);
+    for (std::size_t e = 0; e < c.experiments(); ++e) {
+        result.starts.push_back(c.start(e, here.at));
+    }
+    result.residuals = std::move(here.residuals);
+    return result;
+}
+
 /// Minimises the inflation: least squares that leave out what looks like an outlier, then a higher
 /// power, then Chebyshev steps on the largest residuals, without the q largest of each experiment.
 /// Models with delays are welcome. All in plain doubles.
@@ -90,20 +108,10 @@ public:
     /// The residuals at a point, without any descent.
     [[nodiscard]] approximate_fit at(std::vector<double> const& parameters,
                                      std::vector<std::vector<double>> const& starts) {
-        auto z = start_point(0);
-        auto const& free = campaign_->free_parameters();
-        for (std::size_t k = 0; k < free.size(); ++k) {
-            z.global[static_cast<Eigen::Index>(k)] = parameters[free[k]];
-        }
-        for (std::size_t e = 0; e < starts.size(); ++e) {
-            Eigen::Index k = 0;
-            auto const& columns = campaign_->layout(e).start_column;
-            for (std::size_t i = 0; i < columns.size(); ++i) {
-                if (columns[i] != sensitivity_layout::none) z.local[e][k++] = starts[e][i];
-            }
-        }
         descent_point here;
-        if (!descent(*campaign_).evaluate(std::move(z), here)) return {};
+        if (!descent(*campaign_).evaluate(campaign_->variables(parameters, starts), here)) {
+            return {};
+        }
         return finished(std::move(here));
     }
 
@@ -159,19 +167,8 @@ private:
     }
 
     [[nodiscard]] approximate_fit finished(descent_point here) {
-        approximate_fit result;
+        auto result = fit_at(*campaign_, std::move(here));
         result.squares = squares_;
-        if (!std::isfinite(here.inflation)) return result;
-        campaign_->set_accuracy(1e-3);
-        residual_lists fine;
-        if (campaign_->residuals(here.at, fine)) here.residuals = std::move(fine);
-        campaign_->set_accuracy(1);
-        result.inflation = inflation_of(here.residuals, campaign_->outliers());
-        result.parameters = campaign_->parameters(here.at);
-        for (std::size_t e = 0; e < campaign_->experiments(); ++e) {
-            result.starts.push_back(campaign_->start(e, here.at));
-        }
-        result.residuals = std::move(here.residuals);
         return result;
     }
 

@@ -257,6 +257,7 @@ private:
         auto brief = options;
         brief.only_verdict = false;
         brief.seconds = 0.3 * options.seconds;
+        brief.work = options.work / 3;
         auto const found = bound_inflation(there, nullptr, brief);
         result.at_witness = found.value;
         result.boxes += found.boxes;
@@ -272,7 +273,8 @@ private:
                                         fitted.value.upper(), map ? map->forward(start) : start,
                                         options);
     search.narrow([&] {
-        return elapsed() < options.seconds && (!options.keep_going || options.keep_going());
+        return search.tested() + search.integrations() < options.work &&
+               elapsed() < options.seconds && (!options.keep_going || options.keep_going());
     });
     result.over_fits = search.range();
     if (is_empty(result.over_fits)) result.over_fits = result.at_witness;

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -21,6 +22,12 @@ namespace sivid {
 struct inflation_options {
     double relative_width = 0.05; ///< stop when upper - lower is at most this share of upper
     double seconds = 3;
+    /// Stop after so many integrations of an experiment over a box and boxes bounded, together:
+    /// unlike the time, the same on every machine.
+    std::size_t work = std::numeric_limits<std::size_t>::max();
+    /// So many in all where it is open then whether the inflation is above 1, or where the bounds
+    /// have come near each other but are more than a tenth apart.
+    std::size_t further_work = 0;
     bool only_verdict = false;        ///< stop as soon as lower > 1 or upper <= 1
     std::function<bool()> keep_going; ///< false stops the search with what is proved until then
     data_test_options test;
@@ -112,6 +119,9 @@ public:
             guess->starts.size() == starts.size()) {
             auto const& p = guess->parameters;
             improve(map_ ? mid(map_->forward(point_box(p))) : p, guess->starts);
+            // Where the way back from the reduced problem ends beside the prior, the guess may do
+            // better than what its descent came to.
+            if (upper_ > 1.001 * guess->inflation) try_witness(p, guess->starts);
         }
         if (!witness_) improve(mid(working().prior), starts);
         auto const propose = [this](inflation_relaxation const& found, bool complete) {
@@ -119,7 +129,7 @@ public:
         };
         while (!search_.exhausted() && !finished()) {
             search_.aim_at(target());
-            search_.step(propose, [this] { return in_time(); });
+            search_.step(propose, [this] { return within_limits(); });
             if (promise_) {
                 improve(promise_->point, promise_->starts);
                 promise_.reset();
@@ -136,13 +146,21 @@ private:
     [[nodiscard]] double elapsed() const {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
     }
-    [[nodiscard]] bool in_time() const {
-        return elapsed() < options_->seconds && (!options_->keep_going || options_->keep_going());
+    [[nodiscard]] std::size_t work() const {
+        return search_.integrations() + search_.tested() + points_.integrations();
     }
-    [[nodiscard]] bool finished() const {
-        double const lower = search_.lower();
+    [[nodiscard]] bool within_limits() const {
+        return work() < most_work_ && elapsed() < options_->seconds &&
+               (!options_->keep_going || options_->keep_going());
+    }
+    [[nodiscard]] bool finished() {
+        double const lower = search_.lower(); // meaningless within a step
+        most_work_ = options_->work;
+        bool const open = upper_ > 1 && !(lower > 1);
+        bool const near = lower > 0.6 * upper_ && lower < 0.9 * upper_;
+        if (open || near) most_work_ = std::max(most_work_, options_->further_work);
         if (options_->only_verdict && (lower > 1 || upper_ <= 1)) return true;
-        return lower >= (1 - options_->relative_width) * upper_ || !in_time();
+        return lower >= (1 - options_->relative_width) * upper_ || !within_limits();
     }
     [[nodiscard]] double target() const {
         double const enough = (1 - options_->relative_width) * upper_;
@@ -155,29 +173,32 @@ private:
     void consider(inflation_relaxation const& found, bool complete) {
         double const enough = (1 - 0.2 * options_->relative_width) * upper_;
         if (found.point.empty() || !(found.approximate_value < enough)) return;
-        if (!complete && witness_ && improving_ > 0.2 * elapsed()) return;
+        if (!complete && witness_ && 10 * descents_ > search_.tested()) return;
         if (promise_ && !(found.approximate_value < promise_->approximate_value)) return;
         promise_ = found;
     }
     /// Descends from a point of the working problem and verifies where that leads.
     void improve(std::vector<double> const& point, std::vector<std::vector<double>> const& starts) {
-        double const begin = elapsed();
-        auto const better = fit_(point, starts, [this] { return in_time(); });
+        ++descents_;
+        auto const better = fit_(point, starts, [this] { return within_limits(); });
         if (better.parameters.empty()) {
             verify(point, starts);
         } else if (better.inflation < upper_) {
             verify(better.parameters, better.starts);
         }
-        improving_ += elapsed() - begin;
     }
     void verify(std::vector<double> const& point, std::vector<std::vector<double>> const& starts) {
+        try_witness(map_ ? map_->approximate_preimage(problem_->prior, point) : point, starts);
+    }
+    /// @param point  of the problem itself
+    void try_witness(std::vector<double> const& point,
+                     std::vector<std::vector<double>> const& starts) {
         verified_witness candidate;
         std::vector<box> from;
         for (std::size_t s = 0; s < starts.size(); ++s) {
             from.push_back(point_within(problem_->experiments[s].initial, starts[s]));
         }
-        auto const parameters = point_within(
-            problem_->prior, map_ ? map_->approximate_preimage(problem_->prior, point) : point);
+        auto const parameters = point_within(problem_->prior, point);
         auto const value = inflation_at(points_, *problem_, parameters, from, candidate);
         if (value.upper() < upper_) {
             upper_ = value.upper();
@@ -208,7 +229,8 @@ private:
     inflation_search search_;
     minimax_fitter fit_;
     double upper_ = detail::infinity;
-    double improving_ = 0; ///< seconds
+    std::size_t descents_ = 0;
+    std::size_t most_work_ = std::max(options_->work, options_->further_work);
     std::optional<inflation_relaxation> promise_;
     std::optional<verified_witness> witness_;
 };

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_CANDIDATE_VERDICTS_HPP
+#define SIVID_DIAGNOSIS_CANDIDATE_VERDICTS_HPP
+
+#include <sivid/diagnosis/candidate_order.hpp>
+#include <sivid/diagnosis/describe_candidate.hpp>
+#include <sivid/diagnosis/diagnosis_run.hpp>
+#include <sivid/diagnosis/gap_proof.hpp>
+#include <sivid/paving/identify.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// Proves what can be proved about the causes of a diagnosis: witnesses for what explains,
+/// emptiness for what does not.
+class candidate_verdicts {
+public:
+    /// @param run  its candidates, answer and causes (in the order given) are known
+    candidate_verdicts(diagnosis_run& run, candidate_order const& order, diagnosis_effort& effort,
+                       diagnosis_options const& options)
+        : run_(&run), order_(&order), effort_(&effort), options_(&options) {}
+
+    void operator()() {
+        if (verify_witnesses()) exclude();
+    }
+
+private:
+    [[nodiscard]] screened const& candidate_of(std::size_t k) const {
+        return run_->candidates[order_->order()[k]];
+    }
+
+    /// @returns false when it was stopped
+    bool verify_witnesses() {
+        for (std::size_t k = 0; k < order_->order().size(); ++k) {
+            if (!order_->of_interest(order_->order()[k])) continue;
+            if (!effort_->go_on("verifying a witness")) return false;
+            auto const& s = candidate_of(k);
+            auto& c = run_->result.causes[k];
+            auto proved = verify_fit(s, effort_->test());
+            c.inflation = proved.range;
+            c.assumptions = proved.assumptions;
+            if (proved.range.upper() <= 1) c.verdict = cause_verdict::explains;
+            if (proved.witness) {
+                c.witness = named(s.problem, proved.witness->parameters, proved.witness->starts);
+            }
+            if (order_->order()[k] == run_->answer) {
+                run_->answer_bound = std::move(proved);
+                sharpen_answer(s, c);
+            }
+        }
+        return true;
+    }
+
+    /// The least inflation of the answer from below, and the box that its best parameters lie in.
+    void sharpen_answer(screened const& s, cause& c) {
+        auto& bound = run_->answer_bound;
+        if (!diagnosis_detail::has_delays(s.problem.model)) {
+            tighten(bound, s, effort_->search(s.problem, options_->answer));
+        }
+        c.inflation = bound.range;
+        run_->result.shrink_fit = shrink(run_->result.inflation, bound.range);
+        bound_parameters(s, c);
+    }
+
+    /// Hulls of the effect's parameters: every value that explains the data lies in them.
+    void bound_parameters(screened const& s, cause& c) {
+        if (!(c.inflation.upper() <= 1) || diagnosis_detail::has_delays(s.problem.model)) return;
+        if (!effort_->go_on("bounding the effect's parameters")) return;
+        identify_options options;
+        options.only_hulls = true;
+        options.test = effort_->test();
+        options.search.seconds = effort_->seconds_of(options_->hulls);
+        options.search.boxes = options_->hulls.boxes;
+        auto const found = identify(s.problem, options);
+        auto const own = run_->base.prior.size();
+        for (std::size_t k = 0; k < c.parameters.size(); ++k) {
+            c.parameters[k].hull = found.hull[own + k];
+        }
+    }
+
+    /// Fewest effects first, within an effort for all of them.
+    void exclude() {
+        auto& causes = run_->result.causes;
+        double const end = effort_->left() - effort_->seconds_of(options_->exclusions);
+        std::size_t left = options_->exclusions.boxes;
+        std::vector<std::size_t> open(causes.size());
+        for (std::size_t k = 0; k < open.size(); ++k) open[k] = k;
+        std::stable_sort(open.begin(), open.end(), [&](std::size_t a, std::size_t b) {
+            return causes[a].effects.size() < causes[b].effects.size();
+        });
+        for (auto const k : open) {
+            auto const& s = candidate_of(k);
+            auto& c = causes[k];
+            if (c.verdict == cause_verdict::explains) continue;
+            if (diagnosis_detail::has_delays(s.problem.model)) continue;
+            if (s.figures.explains()) continue; // nothing to refute
+            if (left == 0 || effort_->left() < end) return;
+            if (!effort_->go_on("excluding " + c.effects.front())) return;
+            auto each = options_->exclusion;
+            each.boxes = std::min(each.boxes, left);
+            auto search = effort_->search(s.problem, each);
+            search.only_verdict = true;
+            std::size_t spent = 0;
+            bool const wide = has_wide_starts(s.problem);
+            if (wide) search.seconds *= 0.5; // each for observers and sets of trajectories
+            double const fewer =
+                wide ? inflation_refuted_by_observers(s.problem, 2, search.seconds)
+                     : refuted_by_few(s, options_->gap.hardest, search, spent);
+            auto proved = interval_traits<interval>::bounds(fewer, detail::infinity);
+            if (!(fewer > 1)) {
+                auto const found = bound_inflation(s.problem, &s.fit, search);
+                spent += diagnosis_effort::boxes_of(s.problem, found);
+                proved = found.value;
+            }
+            left -= std::min(left, spent);
+            c.inflation = intersect(c.inflation, proved); // both contain it
+            if (c.inflation.lower() > 1) c.verdict = cause_verdict::excluded;
+        }
+    }
+
+    diagnosis_run* run_;
+    candidate_order const* order_;
+    diagnosis_effort* effort_;
+    diagnosis_options const* options_;
+};
+
+} // namespace sivid
+
+#endif

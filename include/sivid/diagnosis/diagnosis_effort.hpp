@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_DIAGNOSIS_EFFORT_HPP
+#define SIVID_DIAGNOSIS_DIAGNOSIS_EFFORT_HPP
+
+#include <sivid/paving/inflation.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <utility>
+
+namespace sivid {
+
+/// What one step of a diagnosis may spend. The boxes end it on a machine that keeps up, at the same
+/// place whatever its speed and load; the share of all time ends it on any other.
+struct step_effort {
+    std::size_t boxes = 0; ///< of parameters, each with all experiments
+    double share = 0;      ///< of the time for the whole diagnosis
+};
+
+/// The clock of a diagnosis and what asks whether it may go on.
+class diagnosis_effort {
+public:
+    /// @param seconds   for everything
+    /// @param test      how boxes are enclosed
+    /// @param progress  called with what is being done; false ends the diagnosis; may be empty
+    diagnosis_effort(double seconds, data_test_options test,
+                     std::function<bool(std::string const&)> progress)
+        : all_(seconds), test_(std::move(test)), progress_(std::move(progress)) {}
+
+    [[nodiscard]] double seconds() const {
+        return std::chrono::duration<double>(clock::now() - begin_).count();
+    }
+    [[nodiscard]] double left() const { return std::max(0.0, all_ - seconds()); }
+    [[nodiscard]] bool stopped() const { return stopped_; }
+    [[nodiscard]] data_test_options const& test() const { return test_; }
+
+    /// Whether there is time for a step.
+    bool go_on(std::string const& what) {
+        if (left() <= 0 || (progress_ && !progress_(what))) stopped_ = true;
+        return !stopped_;
+    }
+
+    /// Seconds that a step may last from now on.
+    [[nodiscard]] double seconds_of(step_effort const& e) const {
+        return std::min(left(), e.share * all_);
+    }
+    /// A search for the inflation of a problem that spends no more.
+    [[nodiscard]] inflation_options search(identification_problem const& p,
+                                           step_effort const& e) const {
+        inflation_options result;
+        result.test = test_;
+        result.seconds = seconds_of(e);
+        result.work = e.boxes * (p.experiments.size() + 1);
+        return result;
+    }
+    /// What such a search has spent, in boxes.
+    [[nodiscard]] static std::size_t boxes_of(identification_problem const& p,
+                                              inflation_bound const& found) {
+        return (found.boxes + found.integrations) / (p.experiments.size() + 1) + 1;
+    }
+
+private:
+    using clock = std::chrono::steady_clock;
+
+    double all_;
+    data_test_options test_;
+    std::function<bool(std::string const&)> progress_;
+    bool stopped_ = false;
+    clock::time_point begin_ = clock::now();
+};
+
+} // namespace sivid
+
+#endif
