@@ -35,6 +35,7 @@ struct identify_command {
     std::optional<std::size_t> boxes;
     std::optional<std::size_t> outliers;
     bool compare = false;
+    bool online = false; ///< the measurements one after the other, as they would arrive
     bool quiet = false;
     std::string command_line; ///< for the report's footer
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
 #include "console/console.hpp"
+#include "online.hpp"
 
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset_digest.hpp>
@@ -90,6 +91,13 @@ int exit_code_of(sivid::verdict v) {
     return exit_code::undecided;
 }
 
+sivid::online_options online_options_of(identify_command const& c) {
+    sivid::online_options options;
+    options.refinement.accuracy = c.accuracy;
+    if (c.boxes) options.refinement.boxes = *c.boxes;
+    return options;
+}
+
 } // namespace
 
 int run(identify_command const& c) {
@@ -99,9 +107,11 @@ int run(identify_command const& c) {
     auto const problem = sivid::problem_from_dataset(data, model, c.outliers);
     auto const digest = sivid::dataset_digest(c.dataset);
     auto const further = sivid::assumptions_of(data);
+    if (c.online && (c.compare || c.algorithm != "contracting"))
+        throw bad_request("--online goes with neither --algorithm nor --compare");
     prepare_folder(c.out);
 
-    console::watch_interrupts();
+    if (!c.online) console::watch_interrupts();
     console::progress_line progress(c.quiet);
     sivid::identify_options options;
     options.algorithm = algorithm_of(c.algorithm);
@@ -112,10 +122,14 @@ int run(identify_command const& c) {
         progress.show(console::paving_words(p));
         return !console::interrupted();
     };
-    progress.note(std::string{"identifying "} + data.id + " (" + words_of(c.algorithm) +
-                  ", at most " + report::duration_text(options.search.seconds) +
-                  "; Ctrl-C stops early)");
-    auto const found = sivid::identify(problem, options);
+    if (c.online)
+        progress.note(data.id + ", measurement by measurement");
+    else
+        progress.note(std::string{"identifying "} + data.id + " (" + words_of(c.algorithm) +
+                      ", at most " + report::duration_text(options.search.seconds) +
+                      "; Ctrl-C stops early)");
+    auto const found = c.online ? identify_online(problem, online_options_of(c), std::cout)
+                                : sivid::identify(problem, options);
     progress.finish();
 
     std::optional<sivid::identification> baseline;

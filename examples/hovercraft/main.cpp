@@ -154,6 +154,8 @@ private:
                       "outliers allowed in each scenario, instead of the data set's own fraction");
         s->add_flag("--compare", c.compare,
                     "spend 40 % of the budget on the report's Algorithm 1 and show both");
+        s->add_flag("--online", c.online,
+                    "feed the measurements in the order of time, and print what each update took");
         s->add_flag("--quiet", c.quiet, "no progress");
         add_variants(*s, shared_);
         s->callback([this] {
