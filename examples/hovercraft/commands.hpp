@@ -34,6 +34,7 @@ struct identify_command {
     double budget = 50;      ///< [s]
     std::optional<std::size_t> boxes;
     std::optional<std::size_t> outliers;
+    bool fewest_outliers = false; ///< the smallest budgets that explain the data
     bool compare = false;
     bool online = false; ///< the measurements one after the other, as they would arrive
     bool quiet = false;

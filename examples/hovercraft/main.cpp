@@ -7,11 +7,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include <charconv>
 #include <exception>
 #include <functional>
 #include <iostream>
 #include <map>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -150,8 +152,9 @@ private:
             ->check(CLI::Range(0.0, 1e9))
             ->capture_default_str();
         s->add_option("--boxes", c.boxes, "test at most so many boxes");
-        s->add_option("--outliers", c.outliers,
-                      "outliers allowed in each scenario, instead of the data set's own fraction");
+        s->add_option("--outliers", outliers_,
+                      "outliers allowed in each scenario, instead of the data set's own fraction; "
+                      "auto: the fewest that explain the data, with proof that fewer do not");
         s->add_flag("--compare", c.compare,
                     "spend 40 % of the budget on the report's Algorithm 1 and show both");
         s->add_flag("--online", c.online,
@@ -161,10 +164,23 @@ private:
         s->callback([this] {
             action_ = [this] {
                 identify_.craft = shared_.craft();
+                read_outliers();
                 identify_.command_line = line_;
                 return run(identify_);
             };
         });
+    }
+
+    void read_outliers() {
+        identify_.fewest_outliers = outliers_ == "auto";
+        if (outliers_.empty() || identify_.fewest_outliers) return;
+        std::size_t count = 0;
+        auto const* const end = outliers_.data() + outliers_.size();
+        auto const read = std::from_chars(outliers_.data(), end, count);
+        if (read.ec != std::errc{} || read.ptr != end)
+            throw bad_request(std::string{"--outliers: write a whole number or auto, not "} +
+                              sivid::in_quotes(outliers_));
+        identify_.outliers = count;
     }
 
     void add_check() {
@@ -320,7 +336,7 @@ private:
     generate_command generate_;
     simulate_command simulate_;
     rank_command rank_;
-    std::string relative_;
+    std::string relative_, outliers_;
     std::vector<std::string> absolute_, unknown_{"Sv", "Sg", "L"};
     bool combined_ = false, hold_ = false;
     std::function<int()> action_;

@@ -3,6 +3,7 @@
 #define SIVID_PAVING_IDENTIFICATION_HPP
 
 #include <sivid/model/combination.hpp>
+#include <sivid/paving/fewest_outliers.hpp>
 #include <sivid/paving/fit.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/verdict.hpp>
@@ -55,6 +56,7 @@ struct identification {
     std::vector<combination_hull> combinations;
     std::vector<std::size_t> entangled; ///< parameters known only through `combinations`
     std::vector<forced_outlier> forced;
+    std::optional<fewest_outliers> fewest; ///< of `smallest_outlier_budget`, when it was asked for
     std::vector<std::string> assumptions;
     std::optional<approximate_fit> guess; ///< the best fit found, not proved
     std::size_t boxes = 0;
