@@ -4,7 +4,7 @@
 
 #include <sivid/io/csv_table.hpp>
 #include <sivid/io/json_document.hpp>
-#include <sivid/paving/fewest_outliers.hpp>
+#include <sivid/paving/detail/fewest_outliers.hpp>
 #include <sivid/paving/subpaving.hpp>
 
 #include <array>

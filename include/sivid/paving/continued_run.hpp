@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_CONTINUED_RUN_HPP
 #define SIVID_PAVING_CONTINUED_RUN_HPP
 
-#include <sivid/paving/affine_output.hpp>
+#include <sivid/paving/detail/affine_output.hpp>
 #include <sivid/paving/experiment_run.hpp>
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/problem.hpp>
-#include <sivid/paving/response_judgement.hpp>
+#include <sivid/paving/detail/response_judgement.hpp>
 #include <sivid/paving/set_test.hpp>
 
 #include <algorithm>

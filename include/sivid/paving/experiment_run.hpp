@@ -5,7 +5,7 @@
 #include <sivid/enclosure/observation.hpp>
 #include <sivid/enclosure/parametric_flow.hpp>
 #include <sivid/enclosure/trajectory.hpp>
-#include <sivid/paving/affine_output.hpp>
+#include <sivid/paving/detail/affine_output.hpp>
 #include <sivid/paving/problem.hpp>
 #include <sivid/paving/response.hpp>
 

@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_GROWING_RESPONSE_HPP
 #define SIVID_PAVING_GROWING_RESPONSE_HPP
 
-#include <sivid/paving/affine_output.hpp>
+#include <sivid/paving/detail/affine_output.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/response.hpp>
 #include <sivid/space/box.hpp>

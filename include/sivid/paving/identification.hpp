@@ -3,7 +3,7 @@
 #define SIVID_PAVING_IDENTIFICATION_HPP
 
 #include <sivid/model/combination.hpp>
-#include <sivid/paving/fewest_outliers.hpp>
+#include <sivid/paving/detail/fewest_outliers.hpp>
 #include <sivid/paving/fit.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/verdict.hpp>

@@ -4,7 +4,7 @@
 
 #include <sivid/paving/data_test.hpp>
 #include <sivid/paving/dependence.hpp>
-#include <sivid/paving/drawing.hpp>
+#include <sivid/paving/detail/drawing.hpp>
 #include <sivid/paving/fit.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/invert.hpp>

@@ -3,10 +3,10 @@
 #define SIVID_PAVING_ONLINE_IDENTIFICATION_HPP
 
 #include <sivid/paving/dependence.hpp>
-#include <sivid/paving/drawing.hpp>
-#include <sivid/paving/online_paving.hpp>
-#include <sivid/paving/online_update.hpp>
-#include <sivid/paving/online_witness.hpp>
+#include <sivid/paving/detail/drawing.hpp>
+#include <sivid/paving/detail/online_paving.hpp>
+#include <sivid/paving/detail/online_update.hpp>
+#include <sivid/paving/detail/online_witness.hpp>
 #include <sivid/paving/reduction.hpp>
 #include <sivid/space/box_cover.hpp>
 

@@ -4,7 +4,7 @@
 
 #include <sivid/paving/cut_contraction.hpp>
 #include <sivid/paving/data_test.hpp>
-#include <sivid/paving/fewest_outliers.hpp>
+#include <sivid/paving/detail/fewest_outliers.hpp>
 #include <sivid/paving/frontier.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/problem.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_PAVING_RESPONSE_JUDGEMENT_HPP
-#define SIVID_PAVING_RESPONSE_JUDGEMENT_HPP
+#ifndef SIVID_PAVING_DETAIL_RESPONSE_JUDGEMENT_HPP
+#define SIVID_PAVING_DETAIL_RESPONSE_JUDGEMENT_HPP
 
 #include <sivid/paving/cut_contraction.hpp>
 #include <sivid/paving/local_response.hpp>

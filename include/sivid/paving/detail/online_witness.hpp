@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_PAVING_ONLINE_WITNESS_HPP
-#define SIVID_PAVING_ONLINE_WITNESS_HPP
+#ifndef SIVID_PAVING_DETAIL_ONLINE_WITNESS_HPP
+#define SIVID_PAVING_DETAIL_ONLINE_WITNESS_HPP
 
 #include <sivid/paving/continued_run.hpp>
 #include <sivid/paving/data_test.hpp>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_PAVING_ONLINE_UPDATE_HPP
-#define SIVID_PAVING_ONLINE_UPDATE_HPP
+#ifndef SIVID_PAVING_DETAIL_ONLINE_UPDATE_HPP
+#define SIVID_PAVING_DETAIL_ONLINE_UPDATE_HPP
 
 #include <sivid/measurement/record.hpp>
 #include <sivid/paving/data_test.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/online_paving.hpp>
+#include <sivid/paving/detail/online_paving.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/space/box.hpp>
 

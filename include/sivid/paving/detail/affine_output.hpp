@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_PAVING_AFFINE_OUTPUT_HPP
-#define SIVID_PAVING_AFFINE_OUTPUT_HPP
+#ifndef SIVID_PAVING_DETAIL_AFFINE_OUTPUT_HPP
+#define SIVID_PAVING_DETAIL_AFFINE_OUTPUT_HPP
 
 #include <sivid/enclosure/observation.hpp>
 #include <sivid/enclosure/parametric_set.hpp>

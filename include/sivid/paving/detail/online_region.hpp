@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_PAVING_ONLINE_REGION_HPP
-#define SIVID_PAVING_ONLINE_REGION_HPP
+#ifndef SIVID_PAVING_DETAIL_ONLINE_REGION_HPP
+#define SIVID_PAVING_DETAIL_ONLINE_REGION_HPP
 
 #include <sivid/paving/continued_run.hpp>
 #include <sivid/paving/growing_response.hpp>

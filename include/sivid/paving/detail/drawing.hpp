@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_PAVING_DRAWING_HPP
-#define SIVID_PAVING_DRAWING_HPP
+#ifndef SIVID_PAVING_DETAIL_DRAWING_HPP
+#define SIVID_PAVING_DETAIL_DRAWING_HPP
 
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/invert.hpp>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_PAVING_ONLINE_PAVING_HPP
-#define SIVID_PAVING_ONLINE_PAVING_HPP
+#ifndef SIVID_PAVING_DETAIL_ONLINE_PAVING_HPP
+#define SIVID_PAVING_DETAIL_ONLINE_PAVING_HPP
 
 #include <sivid/paving/frontier.hpp>
-#include <sivid/paving/online_test.hpp>
+#include <sivid/paving/detail/online_test.hpp>
 #include <sivid/paving/subpaving.hpp>
 
 #include <algorithm>

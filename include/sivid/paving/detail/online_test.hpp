@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_PAVING_ONLINE_TEST_HPP
-#define SIVID_PAVING_ONLINE_TEST_HPP
+#ifndef SIVID_PAVING_DETAIL_ONLINE_TEST_HPP
+#define SIVID_PAVING_DETAIL_ONLINE_TEST_HPP
 
 #include <sivid/paving/continued_run.hpp>
 #include <sivid/paving/data_test.hpp>
-#include <sivid/paving/online_region.hpp>
+#include <sivid/paving/detail/online_region.hpp>
 #include <sivid/paving/problem.hpp>
-#include <sivid/paving/response_judgement.hpp>
+#include <sivid/paving/detail/response_judgement.hpp>
 
 #include <algorithm>
 #include <cstddef>
