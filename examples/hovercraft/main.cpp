@@ -152,6 +152,18 @@ private:
             ->check(CLI::Range(0.0, 1e9))
             ->capture_default_str();
         s->add_option("--boxes", c.boxes, "test at most so many boxes");
+        s->add_option("--memory", c.memory, "at most so many megabytes of boxes and knowledge")
+            ->check(CLI::Range(0.0, 1e9));
+        s->add_option("--checkpoint", c.checkpoint,
+                      "save the search in OUT/checkpoint.txt every so many seconds")
+            ->check(CLI::Range(0.0, 1e9));
+        s->add_flag("--resume", c.resume,
+                    "go on from OUT/checkpoint.txt, after a kill or with larger budgets; keeps "
+                    "saving, every 10 s unless --checkpoint says otherwise");
+        s->add_option("--threads", c.threads,
+                      "threads (0: all); the result does not depend on it")
+            ->check(CLI::Range(0, 1024))
+            ->capture_default_str();
         s->add_option("--outliers", outliers_,
                       "outliers allowed in each scenario, instead of the data set's own fraction; "
                       "auto: the fewest that explain the data, with proof that fewer do not");

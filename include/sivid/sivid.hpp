@@ -92,6 +92,7 @@
 #include <sivid/enclosure/tube_step.hpp>
 #include <sivid/enclosure/variation_bound.hpp>
 #include <sivid/paving/arrow_system.hpp>
+#include <sivid/paving/box_batches.hpp>
 #include <sivid/paving/box_explorer.hpp>
 #include <sivid/paving/campaign.hpp>
 #include <sivid/paving/certificate.hpp>
@@ -102,17 +103,21 @@
 #include <sivid/paving/cut_program.hpp>
 #include <sivid/paving/data_test.hpp>
 #include <sivid/paving/descent.hpp>
+#include <sivid/paving/executor.hpp>
 #include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/fit.hpp>
 #include <sivid/paving/flat_paving.hpp>
 #include <sivid/paving/frontier.hpp>
 #include <sivid/paving/holdout_inflation.hpp>
+#include <sivid/paving/identification_state.hpp>
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/inflation.hpp>
 #include <sivid/paving/inflation_certificate.hpp>
 #include <sivid/paving/inflation_relaxation.hpp>
 #include <sivid/paving/inflation_search.hpp>
+#include <sivid/paving/inversion_options.hpp>
 #include <sivid/paving/invert.hpp>
+#include <sivid/paving/lesson.hpp>
 #include <sivid/paving/linear_contraction.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/mean_value_cut.hpp>
@@ -120,6 +125,7 @@
 #include <sivid/paving/minimax_fit.hpp>
 #include <sivid/paving/minimax_lp.hpp>
 #include <sivid/paving/misfit.hpp>
+#include <sivid/paving/paving_search.hpp>
 #include <sivid/paving/plain_campaign.hpp>
 #include <sivid/paving/plain_run.hpp>
 #include <sivid/paving/preimage_paving.hpp>
@@ -129,6 +135,8 @@
 #include <sivid/paving/relaxed_intersection.hpp>
 #include <sivid/paving/residuals.hpp>
 #include <sivid/paving/response.hpp>
+#include <sivid/paving/run_pool.hpp>
+#include <sivid/paving/search_state.hpp>
 #include <sivid/paving/set_test.hpp>
 #include <sivid/paving/static_block.hpp>
 #include <sivid/paving/static_inversion.hpp>

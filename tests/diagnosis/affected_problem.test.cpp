@@ -32,8 +32,10 @@ TEST_CASE("starts of added states follow the parameters they depend on") {
     CHECK(p.experiments[0].initial[2].lower() == 0.75);
     CHECK(p.experiments[0].initial[2].upper() == 1);
     CHECK(p.choice.unknown[1] == "lag.tau"); // in the order of writing
+    CHECK(starts_follow_parameters(p));
     p.prior[2] = interval(0.125);
     start_added_states(p);
+    CHECK_FALSE(starts_follow_parameters(p));
     CHECK(p.experiments[0].initial[2].lower() == 0.875);
     CHECK(p.experiments[0].initial[2].upper() == 0.875);
 }

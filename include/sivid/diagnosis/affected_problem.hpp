@@ -76,6 +76,16 @@ inline void start_added_states(identification_problem& problem) {
     }
 }
 
+/// Whether a state that effects added starts at a value that the parameters decide: of its initial
+/// range then only one value belongs to a parameter.
+[[nodiscard]] inline bool starts_follow_parameters(identification_problem const& problem) {
+    return std::any_of(
+        problem.experiments.begin(), problem.experiments.end(), [&](experiment const& e) {
+            return std::any_of(problem.model.added_states.begin(), problem.model.added_states.end(),
+                               [&](added_state const& a) { return width(e.initial[a.state]) > 0; });
+        });
+}
+
 /// The same experiments, with effects joined to the model. The parameters of the effects become
 /// further unknowns, with the effects' priors.
 ///   A parameter that is feasible for `base` is feasible here with all effects neutral.

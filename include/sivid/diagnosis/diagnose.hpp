@@ -79,18 +79,28 @@ private:
         return search;
     }
     /// A validated run at the fit: nothing is known from below.
-    [[nodiscard]] static verified_inflation at_point(screened const& s) {
-        auto result = verify_at(s.problem, s.fit);
+    [[nodiscard]] verified_inflation at_point(screened const& s) const {
+        auto result = verify_at(s.problem, s.fit, options_.test);
         result.range = interval_traits<interval>::bounds(0, result.range.upper());
         return result;
     }
     /// Adds what a search proves to what is known.
-    static void tighten(verified_inflation& known, screened const& s,
-                        inflation_options const& search) {
-        auto const proved = bound_inflation(s.problem, &s.fit, search);
-        if (proved.value.upper() <= known.range.upper()) known.witness = proved.witness;
-        if (known.hull.size() == 0) known.hull = proved.hull;
-        double const upper = std::min(proved.value.upper(), known.range.upper());
+    void tighten(verified_inflation& known, screened const& s,
+                 inflation_options const& search) const {
+        auto proved = bound_inflation(s.problem, &s.fit, search);
+        double upper = proved.value.upper();
+        if (proved.witness && starts_follow_parameters(s.problem)) {
+            // The search lets added states start anywhere in their ranges.
+            approximate_fit at;
+            at.parameters = proved.witness->parameters;
+            at.starts = proved.witness->starts;
+            auto verified = verify_at(s.problem, at, options_.test);
+            upper = verified.range.upper();
+            proved.witness = std::move(verified.witness);
+        }
+        if (upper <= known.range.upper()) known.witness = std::move(proved.witness);
+        upper = std::min(upper, known.range.upper());
+        if (known.hull.size() == 0 && upper <= proved.value.upper()) known.hull = proved.hull;
         double const lower = std::max(proved.value.lower(), known.range.lower());
         known.range = interval_traits<interval>::bounds(std::min(lower, upper), upper);
     }

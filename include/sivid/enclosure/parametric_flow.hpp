@@ -26,17 +26,23 @@ void parametric_flow<N, D, C>::begin(std::size_t lane, double time, box const& i
     normalised_unknowns unknowns(initial, parameters);
     if (unknowns.variables > (D == 0 ? 0 : N))
         throw std::invalid_argument("parametric_flow: too many unknowns");
-    for (std::size_t j = 0; j < parameters_.size(); ++j) {
-        normalised_unknowns::put(unknowns.parameters[j], lane, parameters_[j]);
-        normalised_unknowns::put(unknowns.parameters[j], lane, column_parameters_[j]);
-        normalised_unknowns::put(unknowns.parameters[j], lane, tube_parameters_[j]);
+    end(lane);
+    // Whatever the lanes held must not show: one that stands idle may decide which of several
+    // bounds all lanes get.
+    bool const alone = !side_by_side::any(running_);
+    for (std::size_t l = 0; l < width; ++l) {
+        if (l != lane && !alone) continue;
+        for (std::size_t j = 0; j < parameters_.size(); ++j) {
+            normalised_unknowns::put(unknowns.parameters[j], l, parameters_[j]);
+            normalised_unknowns::put(unknowns.parameters[j], l, column_parameters_[j]);
+            normalised_unknowns::put(unknowns.parameters[j], l, tube_parameters_[j]);
+        }
     }
     centre_.set_parameters(parameters_);
     derivative_.set_parameters(column_parameters_);
     tube_.set_parameters(tube_parameters_);
     observe_.set_parameters(parameters_);
-    end(lane);
-    if (!side_by_side::any(running_)) { // a fresh start for all
+    if (alone) { // a fresh start for all
         set_ = set_type(flow_->states());
         // Knots of sampled inputs keep steps short; what lies between them decides on the order.
         order_ = flow_->sampled_inputs().empty() ? options_.order

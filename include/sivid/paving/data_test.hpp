@@ -2,10 +2,11 @@
 #ifndef SIVID_PAVING_DATA_TEST_HPP
 #define SIVID_PAVING_DATA_TEST_HPP
 
+#include <sivid/paving/detail/response_judgement.hpp>
 #include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/problem.hpp>
-#include <sivid/paving/detail/response_judgement.hpp>
+#include <sivid/paving/run_pool.hpp>
 #include <sivid/paving/set_test.hpp>
 
 #include <algorithm>
@@ -43,6 +44,9 @@ struct data_test_options {
 /// The outlier rule is the consistent reading of the report's Algorithm 2.
 class data_test {
 public:
+    /// `judge` and `learn` are for several threads at once.
+    static constexpr bool concurrent = true;
+
     /// Responses of the experiments over a region: for all starts, and for the chosen ones.
     struct knowledge {
         box region;
@@ -58,15 +62,22 @@ public:
             flows_.push_back(std::make_shared<flow const>(problem.model, problem.choice, e.inputs));
             records_.push_back(sorted(e.measurements));
             starts_.push_back(e.initial);
-            runs_.push_back(
-                make_run(*flows_.back(), e, records_.back(), problem.prior, options.run));
         }
+        pool_ = std::make_unique<run_pool>(
+            [&problem, flows = flows_, records = records_.data(), run = options.run] {
+                run_set runs;
+                for (std::size_t e = 0; e < flows.size(); ++e) {
+                    runs.push_back(make_run(*flows[e], problem.experiments[e], records[e],
+                                            problem.prior, run));
+                }
+                return runs;
+            });
     }
 
     /// Initial states, one box per experiment within its own, from which existence is proved.
     void set_starts(std::vector<box> starts) { starts_ = std::move(starts); }
 
-    [[nodiscard]] std::size_t integrations() const { return integrations_; }
+    [[nodiscard]] std::size_t integrations() const { return pool_->integrations(); }
     [[nodiscard]] std::shared_ptr<flow const> flow_of(std::size_t e) const { return flows_[e]; }
     /// In the order of time.
     [[nodiscard]] record const& record_of(std::size_t e) const { return records_[e]; }
@@ -93,7 +104,10 @@ public:
     }
 
     /// Integrates over each of the boxes, then decides and contracts.
+    /// The sets depend on all the boxes, in their order: they share step orders while they are
+    /// integrated together.
     [[nodiscard]] std::vector<assessment<knowledge>> learn(std::vector<box> const& boxes) {
+        auto runs = pool_->borrow();
         std::vector<assessment<knowledge>> results;
         std::vector<std::shared_ptr<knowledge>> found;
         std::vector<std::size_t> open; // boxes that no experiment has refuted
@@ -116,13 +130,14 @@ public:
                 regions.push_back(region);
             }
             auto const& all = problem_->experiments[e].initial;
-            auto const answers = run(e, all, regions);
+            auto const answers = runs(e, all, regions);
             bool const start_matters = !is_point(all) && starts_differ(e);
             std::vector<std::size_t> still_open;
             std::vector<box> promising;
             std::vector<std::size_t> whose;
             for (std::size_t n = 0; n < open.size(); ++n) {
                 auto const k = open[n];
+                ++results[k].cost;
                 auto part = results[k].rest;
                 auto const says = assess(*answers[n], part);
                 found[k]->all_starts.push_back(answers[n]);
@@ -143,8 +158,9 @@ public:
                 }
             }
             if (!promising.empty()) {
-                auto const chosen = run(e, starts_[e], promising);
+                auto const chosen = runs(e, starts_[e], promising);
                 for (std::size_t n = 0; n < whose.size(); ++n) {
+                    ++results[whose[n]].cost;
                     found[whose[n]]->chosen_starts.back() = chosen[n];
                 }
             }
@@ -159,27 +175,31 @@ public:
         }
         return results;
     }
-    [[nodiscard]] std::size_t at_once() const {
-        std::size_t most = 1;
-        for (auto const& r : runs_) most = std::max(most, r->at_once());
-        return most;
+    [[nodiscard]] std::size_t at_once() const { return pool_->at_once(); }
+    /// Bytes that responses take.
+    [[nodiscard]] static std::size_t bytes(knowledge const& known) {
+        std::size_t sum = sizeof(knowledge);
+        for (std::size_t e = 0; e < known.all_starts.size(); ++e) {
+            auto const& all = known.all_starts[e];
+            auto const& chosen = known.chosen_starts[e];
+            sum += 2 * sizeof all + all->bytes();
+            if (chosen != all) sum += chosen->bytes();
+        }
+        return sum;
     }
 
-    /// One experiment at a point, by the options for witnesses.
-    [[nodiscard]] std::shared_ptr<response const> run_point(std::size_t e,
-                                                            std::vector<double> const& initial,
-                                                            std::vector<double> const& parameters) {
-        ++integrations_;
-        auto const& experiment = problem_->experiments[e];
-        auto const point =
-            make_run(*flows_[e], experiment, records_[e], problem_->prior, options_.witness);
-        return (*point)(point_box(initial), point_box(parameters));
+    /// One experiment over next to nothing, by the options for witnesses.
+    [[nodiscard]] std::shared_ptr<response const> run_finely(std::size_t e, box const& initial,
+                                                             box const& parameters) {
+        pool_->count(1);
+        auto const fine = make_run(*flows_[e], problem_->experiments[e], records_[e],
+                                   problem_->prior, options_.witness);
+        return (*fine)(initial, parameters);
     }
     /// One experiment over boxes of starts and parameters.
     [[nodiscard]] std::vector<std::shared_ptr<response const>>
     run(std::size_t e, box const& initial, std::vector<box> const& parameters) {
-        integrations_ += parameters.size();
-        return (*runs_[e])(initial, parameters);
+        return pool_->borrow()(e, initial, parameters);
     }
     [[nodiscard]] std::shared_ptr<response const> run(std::size_t e, box const& initial,
                                                       box const& parameters) {
@@ -214,8 +234,7 @@ private:
     std::vector<std::shared_ptr<flow const>> flows_;
     std::vector<record> records_;
     std::vector<box> starts_;
-    std::vector<std::unique_ptr<experiment_run>> runs_;
-    std::size_t integrations_ = 0;
+    std::unique_ptr<run_pool> pool_;
 };
 
 } // namespace sivid

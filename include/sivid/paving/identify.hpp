@@ -7,6 +7,7 @@
 #include <sivid/paving/detail/drawing.hpp>
 #include <sivid/paving/fit.hpp>
 #include <sivid/paving/identification.hpp>
+#include <sivid/paving/identification_state.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/problem.hpp>
 #include <sivid/paving/reduction.hpp>
@@ -15,6 +16,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -37,6 +40,13 @@ struct identify_options {
     bool only_hulls = false;
     /// Boxes tested to draw the paving of the prior, when the search ran in products of parameters.
     std::size_t drawn_boxes = 1500;
+    /// Called with the state every `search.checkpoint_seconds` of the search and when a budget ends
+    /// it (in place of `search.checkpoint`).
+    std::function<void(identification_state const&)> checkpoint = nullptr;
+    /// Goes on from here (in place of `search.resume`): for the same problem and options but for
+    /// budgets and threads. The result is the one of an uninterrupted run, bit for bit, on the same
+    /// program and kind of processor; proved it is on any.
+    std::shared_ptr<identification_state const> resume = nullptr;
 };
 
 namespace paving_detail {
@@ -83,16 +93,21 @@ find_forced(data_test& test, identification_problem const& problem, box const& h
     result.assumptions.push_back("inputs exact");
     std::vector<box> starts;
     if (options.algorithm == algorithm::contracting) {
-        fitter fit(working);
-        auto guess = fit();
+        auto guess = options.resume ? options.resume->guess.value_or(approximate_fit{})
+                                    : fitter(working)();
         if (!guess.parameters.empty()) {
             result.witness = verify_witness(test, working, guess.parameters, guess.starts);
-            for (auto const& x0 : guess.starts) starts.push_back(point_box(x0));
+            for (std::size_t s = 0; s < guess.starts.size(); ++s) {
+                starts.push_back(point_within(working.experiments[s].initial, guess.starts[s]));
+            }
             result.guess = std::move(guess);
         }
     }
-    auto const spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin);
-    options.search.seconds = std::max(0.0, options.search.seconds - spent.count());
+    auto const since_begin = [begin] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    };
+    double const spent = since_begin() + (options.resume ? options.resume->seconds : 0);
+    options.search.seconds = std::max(0.0, options.search.seconds - spent);
     auto const structure = dependence_of(working);
     auto const map = options.algorithm == algorithm::contracting
                          ? reduction::find(working, structure)
@@ -104,7 +119,18 @@ find_forced(data_test& test, identification_problem const& problem, box const& h
     if (result.guess) searching.set_starts(starts);
     auto search = options.search;
     if (map) search.keep_outside = true; // what is drawn is told from them
+    search.checkpoint = nullptr;
+    if (options.checkpoint) {
+        search.checkpoint = [&](search_state const& now) {
+            options.checkpoint({result.guess, spent, now});
+        };
+    }
+    search.resume = nullptr;
+    if (options.resume) search.resume = {options.resume, &options.resume->search};
+    auto const integrated = searching.integrations();
     auto found = invert(searching, posed.prior, search);
+    // Not what was integrated but what the result stands on: resuming repeats some.
+    result.integrations = found.cost + integrated - searching.integrations();
     auto const left = found.paving.outer_hull();
     result.reason = found.reason;
     result.boxes = found.tested;
@@ -136,8 +162,8 @@ find_forced(data_test& test, identification_problem const& problem, box const& h
     }
     if (reduced) result.integrations += reduced->integrations();
     result.integrations += test.integrations();
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.seconds = since_begin();
+    if (options.resume) result.seconds += options.resume->seconds + options.resume->search.seconds;
     return result;
 }
 

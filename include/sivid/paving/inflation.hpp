@@ -40,17 +40,19 @@ struct inflation_bound {
 
 /// Encloses the inflation at one point by validated runs: for each experiment the (q+1)-th largest
 /// misfit, and the largest of these. Infinite where a run fails.
-/// @param test  of the same problem without limits of outliers
-/// @param what  receives the violated measurements
+/// @param test    of the same problem without limits of outliers
+/// @param starts  one point, or next to a point, per experiment
+/// @param what    receives the violated measurements
 [[nodiscard]] inline interval inflation_at(data_test& test, identification_problem const& problem,
+                                           box const& parameters, std::vector<box> const& starts,
                                            verified_witness& what) {
     double least = 0;
     double most = 0;
-    auto const point = point_box(what.parameters);
-    what.violated.clear();
+    what = {mid(parameters), {}, {}};
     for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
-        auto const answer = test.run_point(s, what.starts[s], what.parameters);
-        auto const values = output_ranges(*answer, point);
+        what.starts.push_back(mid(starts[s]));
+        auto const answer = test.run_finely(s, starts[s], parameters);
+        auto const values = output_ranges(*answer, parameters);
         std::vector<double> low(answer->measurements, 0.0);
         std::vector<double> high(answer->measurements, detail::infinity);
         auto& violated = what.violated.emplace_back(answer->measurements, true);
@@ -165,33 +167,21 @@ private:
         }
         improving_ += elapsed() - begin;
     }
-    void verify(std::vector<double> const& point, std::vector<std::vector<double>> starts) {
-        verified_witness candidate{map_ ? map_->approximate_preimage(problem_->prior, point)
-                                        : point,
-                                   std::move(starts),
-                                   {}};
-        move_inside(candidate.parameters, problem_->prior);
-        for (std::size_t s = 0; s < candidate.starts.size(); ++s) {
-            move_inside(candidate.starts[s], problem_->experiments[s].initial);
+    void verify(std::vector<double> const& point, std::vector<std::vector<double>> const& starts) {
+        verified_witness candidate;
+        std::vector<box> from;
+        for (std::size_t s = 0; s < starts.size(); ++s) {
+            from.push_back(point_within(problem_->experiments[s].initial, starts[s]));
         }
-        auto const value = inflation_at(points_, *problem_, candidate);
+        auto const parameters = point_within(
+            problem_->prior, map_ ? map_->approximate_preimage(problem_->prior, point) : point);
+        auto const value = inflation_at(points_, *problem_, parameters, from, candidate);
         if (value.upper() < upper_) {
             upper_ = value.upper();
             witness_ = std::move(candidate);
             search_.drop_above(upper_);
         }
     }
-    /// Into the box and, where that has a width, off its bounds, which enclose decimals.
-    static void move_inside(std::vector<double>& x, box const& where) {
-        for (std::size_t j = 0; j < x.size(); ++j) {
-            double const lo = where[j].lower();
-            double const hi = where[j].upper();
-            x[j] = lo < hi ? std::clamp(x[j], std::nextafter(lo, hi),
-                                        std::max(std::nextafter(lo, hi), std::nextafter(hi, lo)))
-                           : lo;
-        }
-    }
-
     [[nodiscard]] inflation_bound report() {
         inflation_bound result;
         result.value = interval_traits<interval>::bounds(std::min(search_.lower(), upper_), upper_);

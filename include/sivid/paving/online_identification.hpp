@@ -180,7 +180,7 @@ private:
         std::vector<box> starts;
         bool uncertain = false;
         for (std::size_t e = 0; e < w.starts.size(); ++e) {
-            starts.push_back(point_box(w.starts[e]));
+            starts.push_back(point_within(problem_.experiments[e].initial, w.starts[e]));
             uncertain = uncertain || !subset(problem_.experiments[e].initial, starts[e]);
         }
         if (!uncertain) return;

@@ -81,6 +81,14 @@ struct response {
     std::size_t allowed = 0;      ///< outliers
 
     [[nodiscard]] std::size_t outputs() const { return bounds.size(); }
+    /// Memory that it takes; its table is shared.
+    [[nodiscard]] std::size_t bytes() const {
+        return sizeof(response) +
+               sizeof(normalised_unknowns::side) *
+                   (unknowns.initial.size() + unknowns.parameters.size()) +
+               sizeof(double) * (coefficients.capacity() + radius.capacity()) +
+               sizeof(interval) * bounds.capacity();
+    }
 };
 
 /// Collects the outputs of a run, one by one, and lays them out for a response.

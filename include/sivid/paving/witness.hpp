@@ -6,6 +6,7 @@
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/problem.hpp>
+#include <sivid/space/box.hpp>
 
 #include <cstddef>
 #include <optional>
@@ -13,17 +14,18 @@
 
 namespace sivid {
 
-/// Verifies a guess by one validated run per experiment, at the guessed point.
+/// Verifies a guess by one validated run per experiment, at the guessed point and with the recorded
+/// inputs.
 [[nodiscard]] inline std::optional<verified_witness>
 verify_witness(data_test& test, identification_problem const& problem,
                std::vector<double> const& parameters,
                std::vector<std::vector<double>> const& starts) {
-    verified_witness result{parameters, starts, {}};
-    if (!contains(problem.prior, parameters)) return std::nullopt;
+    auto point = point_within(problem.prior, parameters);
+    verified_witness result{mid(point), {}, {}};
     for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
-        if (!contains(problem.experiments[s].initial, starts[s])) return std::nullopt;
-        auto const answer = test.run_point(s, starts[s], parameters);
-        auto point = point_box(parameters);
+        auto const start = point_within(problem.experiments[s].initial, starts[s]);
+        result.starts.push_back(mid(start));
+        auto const answer = test.run_finely(s, start, point);
         if (!assess(*answer, point).explained) return std::nullopt;
         auto& violated = result.violated.emplace_back();
         auto const values = output_ranges(*answer, point);

@@ -26,6 +26,9 @@ inline void draw(identification& result, reduction const& map, subpaving const& 
     drawing.seconds = 10; // nothing is integrated
     drawing.progress = nullptr;
     drawing.hull_gain = 0;
+    drawing.memory = inversion_options{}.memory; // few boxes
+    drawing.checkpoint = nullptr;
+    drawing.resume = nullptr;
     result.paving = invert(test, prior, drawing).paving;
     std::vector<box> inside, left;
     for (auto const& b : reduced.boxes()) {

@@ -80,7 +80,7 @@ public:
             starts.push_back(e.measurements.empty() ? mid(e.initial) : guess.starts[next++]);
         }
         guess_ = std::move(guess);
-        if (guess_->inflation <= 1) verify(last_, std::move(starts));
+        if (guess_->inflation <= 1) verify(last_, starts);
     }
     [[nodiscard]] std::optional<approximate_fit> const& guess() const { return guess_; }
 
@@ -91,13 +91,16 @@ private:
         bool violated = false; ///< not proved to hold
     };
 
-    void verify(std::vector<double> parameters, std::vector<std::vector<double>> starts) {
-        if (!contains(problem_->prior, parameters)) return;
+    void verify(std::vector<double> const& parameters,
+                std::vector<std::vector<double>> const& starts) {
         auto const count = problem_->experiments.size();
+        parameters_ = point_within(problem_->prior, parameters);
+        starts_.clear();
+        witness_ = verified_witness{mid(parameters_), {}, {}};
         for (std::size_t e = 0; e < count; ++e) {
-            if (!contains(problem_->experiments[e].initial, starts[e])) return;
+            starts_.push_back(point_within(problem_->experiments[e].initial, starts[e]));
+            witness_->starts.push_back(mid(starts_[e]));
         }
-        witness_ = verified_witness{std::move(parameters), std::move(starts), {}};
         runs_.clear();
         runs_.resize(count);
         time_.assign(count, 0);
@@ -115,7 +118,7 @@ private:
         runs_[e] = std::make_unique<paving_detail::doubleton_continuation>(*flows_[e], own.begin,
                                                                            options_.enclosure);
         time_[e] = own.begin;
-        (void)runs_[e]->begin(point_box(witness_->starts[e]), point_box(witness_->parameters));
+        (void)runs_[e]->begin(starts_[e], parameters_);
     }
     /// @returns false when the witness is lost
     bool test(std::size_t e, measurement const& m) {
@@ -145,6 +148,8 @@ private:
     std::vector<std::vector<tested_sample>> tested_;
     std::vector<std::size_t> violated_;
     std::optional<verified_witness> witness_;
+    box parameters_; ///< of the witness: points within the decimal boxes
+    std::vector<box> starts_;
     std::optional<approximate_fit> guess_;
     std::vector<double> last_; ///< where the next fit begins
 };
