@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
 #include "console/console.hpp"
+#include "console/program.hpp"
 #include "online.hpp"
 
 #include <sivid/io/checkpoint.hpp>
@@ -165,13 +166,13 @@ std::string seen_from(std::filesystem::path const& here, std::filesystem::path c
 int exit_code_of(sivid::verdict v) {
     switch (v) {
     case sivid::verdict::consistent:
-        return exit_code::consistent;
+        return console::consistent;
     case sivid::verdict::inconsistent:
-        return exit_code::inconsistent;
+        return console::inconsistent;
     case sivid::verdict::undecided:
         break;
     }
-    return exit_code::undecided;
+    return console::undecided;
 }
 
 sivid::online_options online_options_of(identify_command const& c) {
@@ -189,14 +190,13 @@ int run(identify_command const& c) {
     auto const data = sivid::read_dataset(c.dataset, sivid::names_of(model.about));
     auto problem = sivid::problem_from_dataset(data, model, c.outliers);
     auto const digest = sivid::dataset_digest(c.dataset);
-    auto const further = sivid::assumptions_of(data);
     if (c.online && (c.compare || c.algorithm != "contracting"))
         throw bad_request("--online goes with neither --algorithm nor --compare");
     if (c.online && (c.checkpoint || c.resume))
         throw bad_request("--online goes with neither --checkpoint nor --resume");
     if (c.online && c.fewest_outliers)
         throw bad_request("--outliers auto needs all measurements: it does not go with --online");
-    prepare_folder(c.out);
+    console::prepare_folder(c.out);
 
     if (!c.online) console::watch_interrupts();
     console::progress_line progress(c.quiet);
@@ -269,7 +269,6 @@ int run(identify_command const& c) {
     auto const motion = sivid::find_explaining_motion(problem, found);
     report::identification_report_options about{.dataset = data.id,
                                                 .meanings = constant_meanings(),
-                                                .further_assumptions = further,
                                                 .plane = report::plane_channels{"x", "y", "psi"},
                                                 .date = console::today(),
                                                 .machine = console::machine_text(),
@@ -291,7 +290,6 @@ int run(identify_command const& c) {
         c.out / "result.json",
         sivid::identification_json(problem, found,
                                    {.dataset = data.id,
-                                    .further_assumptions = further,
                                     .source_folder = seen_from(c.out, c.dataset),
                                     .source_digest = digest}));
     print_summary(problem, found, data.id, c.out);

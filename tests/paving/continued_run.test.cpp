@@ -16,7 +16,7 @@ namespace {
 /// The family's outputs as a response, so that parts of the box can be looked at.
 response response_of(continued_run const& run, continued_run::family f,
                      std::vector<output_polynomial> const& outputs) {
-    response r{run.unknowns(f), run.table(f), {}, {}, {}, outputs.size(), 0};
+    response r{run.unknowns(f), run.table(f), {}, {}, {}, {}, outputs.size(), 0};
     response_builder rows(r.table->size());
     for (auto const& y : outputs) {
         rows.add([&](std::size_t m) { return y.coefficients[m]; }, y.radius,

@@ -44,7 +44,7 @@ struct scene {
     }
     /// The response of the first measurements that arrived, all at once.
     [[nodiscard]] response plain(std::size_t count, std::size_t q) const {
-        response r{unknowns, table, {}, {}, {}, count, q};
+        response r{unknowns, table, {}, {}, {}, {}, count, q};
         response_builder rows(table->size());
         for (std::size_t k = 0; k < count; ++k) {
             auto const& y = all[k].output;

@@ -240,7 +240,8 @@ SIVID_KERNEL(9, 2)
                                                                        run_options const& options) {
     using namespace paving_detail;
     auto const unknowns = unknown_count(e.initial, prior);
-    auto const& how = options.enclosure;
+    auto how = options.enclosure;
+    how.minimum_step = minimum_step_for(e, how.minimum_step);
     if (options.set == carried_set::taylor_model) {
         if (unknowns <= 2) return make_taylor_continuation<2, 4>(f, e.begin, how);
         if (unknowns == 3) return make_taylor_continuation<3, 4>(f, e.begin, how);

@@ -33,7 +33,7 @@ public:
     growing_response(normalised_unknowns unknowns, std::shared_ptr<monomial_table const> table,
                      std::size_t outliers)
         : known_(std::make_shared<response>(
-              response{std::move(unknowns), std::move(table), {}, {}, {}, 0, outliers})) {}
+              response{std::move(unknowns), std::move(table), {}, {}, {}, {}, 0, outliers})) {}
 
     /// A measurement with what the family's output is at its time.
     struct arrival {
@@ -53,7 +53,7 @@ public:
                     a.bound);
             samples.push_back(a.sample);
         }
-        response news{known_->unknowns, known_->table, {}, {}, {}, arrivals.size(), 0};
+        response news{known_->unknowns, known_->table, {}, {}, {}, {}, arrivals.size(), 0};
         std::move(all).finish(news);
         append(news, samples, classify(news, samples, live));
     }
@@ -93,7 +93,7 @@ public:
     [[nodiscard]] bool concerned(box const& part) const {
         if (lost_ || failed_now_) return true;
         if (news_.empty()) return false;
-        response fresh{known_->unknowns, known_->table, {}, {}, {}, news_.size(), 0};
+        response fresh{known_->unknowns, known_->table, {}, {}, {}, {}, news_.size(), 0};
         response_builder rows(known_->table->size());
         for (auto const y : news_) {
             rows.add([&](std::size_t m) { return known_->coefficients[m * known_->outputs() + y]; },

@@ -90,7 +90,7 @@ find_forced(data_test& test, identification_problem const& problem, box const& h
     }
     data_test test(working, options.test);
     identification result(problem.prior);
-    result.assumptions.push_back("inputs exact");
+    result.assumptions.push_back(input_assumption(problem.experiments));
     std::vector<box> starts;
     if (options.algorithm == algorithm::contracting) {
         auto guess = options.resume ? options.resume->guess.value_or(approximate_fit{})

@@ -97,7 +97,7 @@ public:
     [[nodiscard]] identification result() {
         auto const begin = std::chrono::steady_clock::now();
         identification result(problem_.prior);
-        result.assumptions.push_back("inputs exact");
+        result.assumptions.push_back(input_assumption(problem_.experiments));
         if (!witness_->exists() && last_.verdict != verdict::inconsistent) witness_->find();
         result.witness = witness_->get();
         result.guess = witness_->guess();

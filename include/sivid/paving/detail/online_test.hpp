@@ -30,6 +30,8 @@ public:
         : problem_(&problem), options_(std::move(options)) {
         for (auto const& e : problem.experiments) {
             flows_.push_back(std::make_unique<flow>(problem.model, problem.choice, e.inputs));
+            // What uncertain inputs cost, no smaller box gives back.
+            if (flows_.back()->uncertain()) options_.run.hopeless = 1e300;
             runs_.push_back(make_continued_run(*flows_.back(), e, problem.prior, options_.run));
             arrived_.emplace_back();
             front_.push_back(e.begin);
