@@ -8,10 +8,12 @@ foreach(kernel "2,4" "3,4" "4,3" "6,2" "9,2")
     set(source "${PROJECT_BINARY_DIR}/kernels/kernel_${name}.cpp")
     file(CONFIGURE OUTPUT "${source}" CONTENT [[
 // SPDX-License-Identifier: MIT
-#include <sivid/paving/experiment_run.hpp>
+#include <sivid/paving/continued_run.hpp>
 namespace sivid::paving_detail {
 template std::unique_ptr<experiment_run> make_taylor_run<@kernel@>(
     flow const&, experiment const&, record const&, run_options const&);
+template std::unique_ptr<continued_run> make_taylor_continuation<@kernel@>(
+    flow const&, double, enclosure_options const&);
 }
 ]] @ONLY)
     list(APPEND sivid_kernel_sources "${source}")

@@ -2,6 +2,7 @@
 #include "commands.hpp"
 #include "console/console.hpp"
 #include "console/program.hpp"
+#include "online.hpp"
 
 #include <sivid/io/checkpoint.hpp>
 #include <sivid/io/checkpoint_reader.hpp>
@@ -11,6 +12,7 @@
 #include <sivid/io/identification_json.hpp>
 #include <sivid/io/problem_digest.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
+#include <sivid/paving/outlier_budget.hpp>
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
 
@@ -75,6 +77,19 @@ void print_summary(sivid::identification_problem const& problem, sivid::identifi
         std::cout << "\n";
     }
     if (!found.forced.empty()) std::cout << "  proved outliers: " << found.forced.size() << "\n";
+    if (found.fewest) {
+        std::cout << "  outliers needed: " << report::count_text(found.fewest->total.most);
+        if (found.fewest->total.exact()) {
+            std::cout << ", proved to be the fewest";
+        } else {
+            std::cout << " suffice, at least " << report::count_text(found.fewest->total.least)
+                      << " by proof";
+        }
+        for (auto const& e : problem.experiments) {
+            if (e.outliers > 0) std::cout << "; " << e.name << " " << e.outliers;
+        }
+        std::cout << "\n";
+    }
     std::cout << "  " << report::duration_text(found.seconds) << ", " << found.boxes << " boxes, "
               << found.integrations << " validated integrations\n"
               << "  written: " << (out / "report.html").string()
@@ -160,17 +175,30 @@ int exit_code_of(sivid::verdict v) {
     return console::undecided;
 }
 
+sivid::online_options online_options_of(identify_command const& c) {
+    sivid::online_options options;
+    options.refinement.accuracy = c.accuracy;
+    if (c.boxes) options.refinement.boxes = *c.boxes;
+    return options;
+}
+
 } // namespace
 
 int run(identify_command const& c) {
     namespace report = sivid::report;
     auto const model = sivid::record_model(c.craft);
     auto const data = sivid::read_dataset(c.dataset, sivid::names_of(model.about));
-    auto const problem = sivid::problem_from_dataset(data, model, c.outliers);
+    auto problem = sivid::problem_from_dataset(data, model, c.outliers);
     auto const digest = sivid::dataset_digest(c.dataset);
+    if (c.online && (c.compare || c.algorithm != "contracting"))
+        throw bad_request("--online goes with neither --algorithm nor --compare");
+    if (c.online && (c.checkpoint || c.resume))
+        throw bad_request("--online goes with neither --checkpoint nor --resume");
+    if (c.online && c.fewest_outliers)
+        throw bad_request("--outliers auto needs all measurements: it does not go with --online");
     console::prepare_folder(c.out);
 
-    console::watch_interrupts();
+    if (!c.online) console::watch_interrupts();
     console::progress_line progress(c.quiet);
     sivid::identify_options options;
     options.algorithm = algorithm_of(c.algorithm);
@@ -181,6 +209,18 @@ int run(identify_command const& c) {
         progress.show(console::paving_words(p));
         return !console::interrupted();
     };
+    std::optional<sivid::smallest_budget> fewest;
+    if (c.fewest_outliers) {
+        progress.note(data.id + ": how many outliers are needed");
+        sivid::outlier_search_options least;
+        least.seconds = 0.5 * c.budget;
+        least.keep_going = [] { return !console::interrupted(); };
+        fewest = sivid::smallest_outlier_budget(problem, least);
+        for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
+            problem.experiments[e].outliers = fewest->budgets[e];
+        }
+        options.search.seconds = std::max(0.0, options.search.seconds - fewest->seconds);
+    }
     if (c.memory) options.search.memory = static_cast<std::size_t>(1e6 * *c.memory);
     options.search.batches = 4; // whatever the threads, so that the result is the same
     options.search.workers = threads_for(c.threads);
@@ -196,11 +236,23 @@ int run(identify_command const& c) {
     } else if (c.resume) {
         progress.note("no checkpoint in " + c.out.string() + ": beginning anew");
     }
-    progress.note(std::string{"identifying "} + data.id + " (" + words_of(c.algorithm) +
-                  ", at most " + report::duration_text(options.search.seconds) +
-                  "; Ctrl-C stops early)");
-    auto const found = sivid::identify(problem, options);
+    if (c.online)
+        progress.note(data.id + ", measurement by measurement");
+    else
+        progress.note(std::string{"identifying "} + data.id + " (" + words_of(c.algorithm) +
+                      ", at most " + report::duration_text(options.search.seconds) +
+                      "; Ctrl-C stops early)");
+    auto found = c.online ? identify_online(problem, online_options_of(c), std::cout)
+                          : sivid::identify(problem, options);
     progress.finish();
+
+    if (fewest) {
+        found.fewest = *fewest;
+        if (!found.witness && fewest->witness) { // of the same budgets
+            found.witness = fewest->witness;
+            found.verdict = sivid::verdict::consistent;
+        }
+    }
 
     std::optional<sivid::identification> baseline;
     if (c.compare && !console::interrupted()) {

@@ -6,9 +6,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include <charconv>
 #include <functional>
 #include <map>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -159,19 +161,35 @@ private:
                       "threads (0: all); the result does not depend on it")
             ->check(CLI::Range(0, 1024))
             ->capture_default_str();
-        s->add_option("--outliers", c.outliers,
-                      "outliers allowed in each scenario, instead of the data set's own fraction");
+        s->add_option("--outliers", outliers_,
+                      "outliers allowed in each scenario, instead of the data set's own fraction; "
+                      "auto: the fewest that explain the data, with proof that fewer do not");
         s->add_flag("--compare", c.compare,
                     "spend 40 % of the budget on the report's Algorithm 1 and show both");
+        s->add_flag("--online", c.online,
+                    "feed the measurements in the order of time, and print what each update took");
         s->add_flag("--quiet", c.quiet, "no progress");
         add_variants(*s, shared_);
         s->callback([this] {
             action_ = [this] {
                 identify_.craft = shared_.craft();
+                read_outliers();
                 identify_.command_line = line_;
                 return run(identify_);
             };
         });
+    }
+
+    void read_outliers() {
+        identify_.fewest_outliers = outliers_ == "auto";
+        if (outliers_.empty() || identify_.fewest_outliers) return;
+        std::size_t count = 0;
+        auto const* const end = outliers_.data() + outliers_.size();
+        auto const read = std::from_chars(outliers_.data(), end, count);
+        if (read.ec != std::errc{} || read.ptr != end)
+            throw bad_request(std::string{"--outliers: write a whole number or auto, not "} +
+                              sivid::in_quotes(outliers_));
+        identify_.outliers = count;
     }
 
     void add_check() {
@@ -327,7 +345,7 @@ private:
     generate_command generate_;
     simulate_command simulate_;
     rank_command rank_;
-    std::string relative_;
+    std::string relative_, outliers_;
     std::vector<std::string> absolute_, unknown_{"Sv", "Sg", "L"};
     bool combined_ = false, hold_ = false;
     std::function<int()> action_;

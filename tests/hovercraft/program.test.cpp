@@ -63,6 +63,42 @@ TEST_CASE("identify writes a report, a result and two tables, and says 0 when co
         CHECK_THAT(entry.path().filename().string(), !ContainsSubstring(".part"));
 }
 
+TEST_CASE("measurement by measurement, each update is printed, and the result is checked as any") {
+    temporary_folder const folder;
+    auto const out = (folder.path() / "out").string();
+    auto const r = run({"identify", h3, "--out", out, "--online", "--quiet"});
+    CHECK(r.code == 0);
+    CHECK_THAT(r.out, ContainsSubstring("t = 0.1 s, 6 samples") &&
+                          ContainsSubstring("180 samples") &&
+                          ContainsSubstring("30 updates, the longest took") &&
+                          ContainsSubstring("h3: consistent"));
+    CHECK(json_of(fs::path{out} / "result.json")["verdict"] == "consistent");
+    CHECK(run({"check", out, "--sample", "4"}).code == 0);
+    for (auto const& other : {"--compare", "--algorithm=report-1", "--outliers=auto"}) {
+        auto const refused = run({"identify", h3, "--out", out, "--online", other});
+        CHECK(refused.code == 2);
+        CHECK_THAT(refused.err, ContainsSubstring("--online"));
+    }
+}
+
+TEST_CASE("the fewest outliers are found, stored and checked") {
+    temporary_folder const folder;
+    auto const data = (folder.path() / "data").string(), out = (folder.path() / "out").string();
+    REQUIRE(run({"generate", "--scenario", "S3", "--outliers", "2", "--seed", "5", "--relative",
+                 "0.01", "--out", data})
+                .code == 0);
+    auto const r = run({"identify", data, "--out", out, "--outliers", "auto", "--quiet"});
+    CHECK(r.code == 0);
+    CHECK_THAT(r.out, ContainsSubstring("outliers needed: 2, proved to be the fewest"));
+    auto const fewest = json_of(fs::path{out} / "result.json")["outliers"]["fewest"];
+    CHECK(fewest["total"]["least"] == 2);
+    CHECK(fewest["total"]["most"] == 2);
+    auto const checked = run({"check", out, "--sample", "4", "--budget", "60"});
+    CHECK_THAT(checked.out, ContainsSubstring("outliers needed"));
+    CHECK_THAT(checked.out, !ContainsSubstring("REFUTED"));
+    CHECK(run({"identify", data, "--out", out, "--outliers", "some"}).code == 2);
+}
+
 TEST_CASE("a quiet run says nothing on stderr, 3 when undecided, 4 when inconsistent") {
     temporary_folder const folder;
     auto const data = (folder.path() / "data").string(), out = (folder.path() / "out").string();

@@ -2,6 +2,7 @@
 #ifndef SIVID_IO_IDENTIFICATION_CHECK_HPP
 #define SIVID_IO_IDENTIFICATION_CHECK_HPP
 
+#include <sivid/io/fewest_outliers_check.hpp>
 #include <sivid/io/forced_outlier_check.hpp>
 #include <sivid/io/identification_consistency.hpp>
 #include <sivid/paving/certificate.hpp>
@@ -57,6 +58,13 @@ public:
         add([&] {
             return check_forced<Fast>(*problem_, *stored_, hits_, options_.certificate.enclosure,
                                       0.5 * options_.seconds);
+        });
+        add([&] {
+            auto how = options_.certificate;
+            if (options_.all) how.runs_per_claim = static_cast<std::size_t>(-1);
+            return check_fewest<Fast>(*problem_, *stored_, how, 0.5 * options_.seconds,
+                                      options_.all ? 0 : std::max<std::size_t>(options_.sample, 1),
+                                      options_.seed + 2);
         });
         box_cover cover_found;
         add([&] {

@@ -97,7 +97,21 @@ struct identification_json_options {
 
     json.key("outliers").begin_object().key("budget").begin_object(layout::one_line);
     for (auto const& s : problem.experiments) json.key(s.name).integer(s.outliers);
-    json.end_object().key("forced").begin_array();
+    json.end_object();
+    if (found.fewest) {
+        auto const write = [&](std::string const& key, proved_count const& c) {
+            json.key(key).begin_object(layout::one_line).key("least").integer(c.least);
+            json.key("most").integer(c.most).end_object();
+        };
+        json.key("fewest").begin_object();
+        write("total", found.fewest->total);
+        json.key("alone").begin_object();
+        for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
+            write(problem.experiments[s].name, found.fewest->alone[s]);
+        }
+        json.end_object().end_object();
+    }
+    json.key("forced").begin_array();
     for (auto const& f : found.forced) {
         auto const samples = sorted(problem.experiments[f.experiment].measurements);
         auto const& m = samples[f.measurement];

@@ -4,6 +4,7 @@
 
 #include <sivid/io/csv_table.hpp>
 #include <sivid/io/json_document.hpp>
+#include <sivid/paving/detail/fewest_outliers.hpp>
 #include <sivid/paving/subpaving.hpp>
 
 #include <array>
@@ -48,6 +49,9 @@ struct stored_identification {
     std::optional<witness_point> witness;
     std::map<std::string, std::size_t> budget; ///< of outliers, by scenario
     std::vector<outlier> forced;
+    /// How many outliers are needed, in all and by scenario; nothing when the result does not say.
+    std::optional<proved_count> fewest;
+    std::map<std::string, proved_count> fewest_alone;
     std::vector<paved_box> rows;                    ///< of boxes.csv, read outward
     std::map<std::string, std::size_t> stated_rows; ///< how many of each kind, if stated
 };
@@ -119,6 +123,17 @@ inline void read_result(json_value const& root, stored_identification& result) {
     auto const& budget = outliers.at("budget");
     for (std::size_t s = 0; s < budget.members().size(); ++s)
         result.budget[budget.name_of(s)] = count(budget.members()[s]);
+    auto const read_count = [](json_value const& entry) {
+        proved_count const c{count(entry.at("least")), count(entry.at("most"))};
+        if (c.least > c.most) entry.fail("least is above most", "correct it");
+        return c;
+    };
+    if (auto const* fewest = outliers.find("fewest")) {
+        result.fewest = read_count(fewest->at("total"));
+        auto const& alone = fewest->at("alone");
+        for (std::size_t s = 0; s < alone.members().size(); ++s)
+            result.fewest_alone[alone.name_of(s)] = read_count(alone.members()[s]);
+    }
     for (auto const& f : outliers.at("forced").elements())
         result.forced.push_back(
             {f.at("scenario").string(), *nearest(f.at("t").number()), f.at("channel").string()});

@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_DATA_TEST_HPP
 #define SIVID_PAVING_DATA_TEST_HPP
 
-#include <sivid/paving/cut_contraction.hpp>
+#include <sivid/paving/detail/response_judgement.hpp>
 #include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/problem.hpp>
@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -53,8 +52,8 @@ public:
     /// ones.
     struct knowledge {
         box region;
-        std::vector<std::shared_ptr<response const>> all_starts;
-        std::vector<std::shared_ptr<response const>> chosen_starts;
+        response_list all_starts;
+        response_list chosen_starts;
     };
 
     data_test(identification_problem const& problem, data_test_options const& options)
@@ -260,38 +259,12 @@ private:
 
     /// Contracts and decides by responses alone. @returns the largest non-affine share.
     double judge(knowledge const& known, assessment<knowledge>& a) const {
-        bool inside = true;
-        double share = 0;
-        a.smear.assign(a.rest.size(), 0.0);
-        for (std::size_t e = 0; e < known.all_starts.size(); ++e) {
-            auto part = a.rest;
-            auto const says = assess(*known.all_starts[e], part);
-            if (says.refuted) {
-                a.verdict = box_verdict::outside;
-                return 0;
-            }
-            bool holds = says.explained;
-            if (!holds && known.chosen_starts[e] != known.all_starts[e]) {
-                auto copy = a.rest;
-                holds = assess(*known.chosen_starts[e], copy).explained;
-            }
-            inside = inside && holds;
-            if (!holds) {
-                share = std::max(share, says.sharpness);
-                if (known.all_starts[e]->outputs() < known.all_starts[e]->measurements) {
-                    share = std::numeric_limits<double>::infinity();
-                }
-            }
-            if (options_.contract) a.rest = std::move(part);
-            add_smear(a, says.smear);
-        }
-        a.verdict = inside ? box_verdict::inside : box_verdict::undecided;
-        bool const cuts = !inside && options_.contract && options_.cut;
-        if (cuts && !cut_contraction()(known.all_starts, a.rest)) {
-            a.verdict = box_verdict::outside;
-            return 0;
-        }
-        return share;
+        auto found = judge_by_responses(known.all_starts, known.chosen_starts, std::move(a.rest),
+                                        options_.contract, options_.cut);
+        a.verdict = found.verdict;
+        a.rest = std::move(found.rest);
+        a.smear = std::move(found.smear);
+        return found.share;
     }
 
     identification_problem const* problem_;

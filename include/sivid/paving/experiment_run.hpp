@@ -5,6 +5,7 @@
 #include <sivid/enclosure/observation.hpp>
 #include <sivid/enclosure/parametric_flow.hpp>
 #include <sivid/enclosure/trajectory.hpp>
+#include <sivid/paving/detail/affine_output.hpp>
 #include <sivid/paving/problem.hpp>
 #include <sivid/paving/response.hpp>
 
@@ -242,34 +243,15 @@ private:
         auto const& u = answer->unknowns;
         run_.begin(experiment_->begin, initial, parameters);
         look_.set_ensemble(run_.ensemble());
-        answer->table = std::make_shared<monomial_table const>(linear_table(u.variables));
+        answer->table = linear_table(u.variables);
         response_builder collected(answer->table->size());
         auto const& deviation = run_.ensemble().deviation;
-        auto const n = initial.size();
-        auto const keep = [&](observation<interval> const& y, interval const& bound) {
-            // y = gradient . r + rest, r = radius * q; sides without a variable join the rest.
-            std::vector<double> c(u.variables + 1, 0.0);
-            auto rest = y.defined ? y.rest : traits::entire();
-            double affine = 0;
-            for (std::size_t k = 0; k < y.gradient.size(); ++k) {
-                auto const& side = k < n ? u.initial[k] : u.parameters[k - n];
-                auto const g = traits::point(y.gradient[k]);
-                if (side.radius == 0) {
-                    rest = traits::add(rest, traits::mul(g, deviation[k]));
-                    continue;
-                }
-                auto const exact = traits::mul(g, traits::point(side.radius));
-                c[1 + side.variable] = mid(exact);
-                affine += std::abs(mid(exact));
-                auto const lost = rad(exact);
-                rest = traits::add(rest, traits::bounds(-lost, lost));
-            }
-            c[0] = mid(rest);
-            double const radius = rad(rest);
-            collected.add([&](std::size_t m) { return c[m]; }, radius, bound);
-            bool const fails = y.defined && traits::disjoint(y.value, bound);
-            return kept_output{fails,
-                               !(2 * radius <= options_.hopeless * (2 * affine + width(bound)))};
+        auto const keep = [&](observation<interval> const& seen, interval const& bound) {
+            auto const y = affine_output(seen, u, deviation);
+            collected.add([&](std::size_t m) { return y.coefficients[m]; }, y.radius, bound);
+            bool const fails = seen.defined && traits::disjoint(seen.value, bound);
+            return kept_output{
+                fails, !(2 * y.radius <= options_.hopeless * (2 * y.spread() + width(bound)))};
         };
         measurement_walk walk(*samples_, answer->allowed);
         while (!walk.done()) {
@@ -283,19 +265,6 @@ private:
         }
         std::move(collected).finish(*answer);
         return answer;
-    }
-
-    static monomial_table linear_table(std::size_t variables) {
-        monomial_table t;
-        t.variables = variables;
-        t.degree = 1;
-        t.exponents.emplace_back(variables, std::uint8_t{0});
-        for (std::size_t v = 0; v < variables; ++v) {
-            t.exponents.emplace_back(variables, std::uint8_t{0});
-            t.exponents.back()[v] = 1;
-        }
-        t.find_lines();
-        return t;
     }
 
     experiment const* experiment_;

@@ -2,15 +2,16 @@
 #ifndef SIVID_PAVING_IDENTIFY_HPP
 #define SIVID_PAVING_IDENTIFY_HPP
 
-#include <sivid/model/combination.hpp>
 #include <sivid/paving/data_test.hpp>
+#include <sivid/paving/dependence.hpp>
+#include <sivid/paving/detail/drawing.hpp>
 #include <sivid/paving/fit.hpp>
+#include <sivid/paving/identification.hpp>
 #include <sivid/paving/identification_state.hpp>
 #include <sivid/paving/invert.hpp>
-#include <sivid/paving/preimage_paving.hpp>
-#include <sivid/paving/preimage_volume.hpp>
 #include <sivid/paving/problem.hpp>
 #include <sivid/paving/reduction.hpp>
+#include <sivid/paving/witness.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -48,87 +49,6 @@ struct identify_options {
     std::shared_ptr<identification_state const> resume = nullptr;
 };
 
-/// How the volumes of a paving were computed.
-enum class volume_source {
-    boxes,   ///< summed over its boxes
-    preimage ///< proved for the preimage of a finer paving of products of the parameters
-};
-
-/// A parameter and one initial state per experiment that are proved to explain the data.
-struct verified_witness {
-    std::vector<double> parameters;
-    std::vector<std::vector<double>> starts;
-    /// Per experiment and measurement (in order of time): whether the witness violates it.
-    std::vector<std::vector<bool>> violated;
-};
-
-/// A combination of parameters with what the data allow it.
-struct combination_hull {
-    combination what;
-    interval hull;
-};
-
-/// A measurement that every feasible parameter violates.
-struct forced_outlier {
-    std::size_t experiment = 0;
-    std::size_t measurement = 0; ///< index in the order of time
-};
-
-/// What was found about a problem; everything in it is proved, `guess` excepted.
-struct identification {
-    explicit identification(box const& prior) : paving(prior), hull(prior) {}
-
-    sivid::verdict verdict = sivid::verdict::undecided;
-    stop_reason reason = stop_reason::decided;
-    /// Of the prior: inside boxes are proved, what no other box covers is excluded by proof.
-    subpaving paving;
-    volume_source volumes = volume_source::boxes;
-    box hull; ///< contains every feasible parameter; empty sides when there is none
-    std::optional<verified_witness> witness;
-    std::vector<combination_hull> combinations;
-    std::vector<std::size_t> entangled; ///< parameters known only through `combinations`
-    std::vector<forced_outlier> forced;
-    std::vector<std::string> assumptions;
-    std::optional<approximate_fit> guess; ///< the best fit found, not proved
-    std::size_t boxes = 0;
-    std::size_t integrations = 0;
-    double seconds = 0;
-};
-
-/// Verifies a guess by one validated run per experiment, at the guessed point and with the recorded
-/// inputs.
-[[nodiscard]] inline std::optional<verified_witness>
-verify_witness(data_test& test, identification_problem const& problem,
-               std::vector<double> const& parameters,
-               std::vector<std::vector<double>> const& starts) {
-    auto point = point_within(problem.prior, parameters);
-    verified_witness result{mid(point), {}, {}};
-    for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
-        auto const start = point_within(problem.experiments[s].initial, starts[s]);
-        result.starts.push_back(mid(start));
-        auto const answer = test.run_finely(s, start, point);
-        if (!assess(*answer, point).explained) return std::nullopt;
-        auto& violated = result.violated.emplace_back();
-        auto const values = output_ranges(*answer, point);
-        for (std::size_t y = 0; y < values.size(); ++y) {
-            violated.push_back(!subset(values[y], answer->bounds[y]));
-        }
-        violated.resize(answer->measurements, true);
-    }
-    return result;
-}
-
-/// How the equations of all experiments depend on the unknown parameters.
-[[nodiscard]] inline dependence_structure dependence_of(identification_problem const& problem) {
-    std::vector<bound_model> bound;
-    for (auto const& e : problem.experiments) {
-        bound.push_back(bind(problem.model, problem.choice, e.inputs));
-    }
-    std::vector<bound_model const*> models;
-    for (auto const& m : bound) models.push_back(&m);
-    return find_combinations(models);
-}
-
 namespace paving_detail {
 
 /// Measurements that fail for every parameter that is left.
@@ -144,34 +64,6 @@ find_forced(data_test& test, identification_problem const& problem, box const& h
         }
     }
     return forced;
-}
-
-/// Draws the paving of a reduced prior in the original one, and measures it there.
-inline void draw(identification& result, reduction const& map, subpaving const& reduced,
-                 box const& prior, identify_options const& options) {
-    preimage_test test(map, reduced);
-    auto drawing = options.search;
-    drawing.boxes = options.drawn_boxes;
-    drawing.seconds = 10; // nothing is integrated
-    drawing.progress = nullptr;
-    drawing.hull_gain = 0;
-    drawing.memory = inversion_options{}.memory; // few boxes
-    drawing.checkpoint = nullptr;
-    drawing.resume = nullptr;
-    result.paving = invert(test, prior, drawing).paving;
-    std::vector<box> inside, left;
-    for (auto const& b : reduced.boxes()) {
-        if (b.verdict == box_verdict::outside) continue;
-        left.push_back(b.set);
-        if (b.verdict == box_verdict::inside) inside.push_back(b.set);
-    }
-    preimage_volume const volume(map, prior);
-    std::size_t const cells = std::clamp<std::size_t>(400'000 / (left.size() + 1), 8, 200);
-    result.paving.set_volumes(volume(inside, cells), volume(left, cells));
-    result.volumes = volume_source::preimage;
-    result.hull = result.paving.outer_hull();
-    if (!result.paving.has_outer()) return;
-    result.hull = intersect(result.hull, map.backward(prior, reduced.outer_hull()));
 }
 
 } // namespace paving_detail
@@ -243,7 +135,8 @@ inline void draw(identification& result, reduction const& map, subpaving const& 
     result.reason = found.reason;
     result.boxes = found.tested;
     if (map) {
-        paving_detail::draw(result, *map, found.paving, problem.prior, options);
+        paving_detail::draw(result, *map, found.paving, problem.prior, options.search,
+                            options.drawn_boxes);
     } else {
         result.paving = std::move(found.paving);
         result.hull = left;

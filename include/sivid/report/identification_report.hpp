@@ -113,6 +113,10 @@ private:
                                     "their stated values.");
         view_.assumptions.insert(view_.assumptions.end(), options_.further_assumptions.begin(),
                                  options_.further_assumptions.end());
+        if (found_.fewest) {
+            view_.proved.push_back(fewest_outliers_sentence(found_.fewest->total.least,
+                                                            found_.fewest->total.most));
+        }
         view_.statistics = {found_.seconds, found_.boxes, found_.integrations,
                             std::string{to_string(found_.reason)}};
         view_.version = std::string{"sivid "} + std::string{version};

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -87,6 +88,23 @@ namespace sivid::report {
         return "Neither was a parameter vector proved to explain the data, nor was the whole prior "
                "excluded.";
     }
+}
+
+/// How many outliers the data need; both numbers are proved.
+[[nodiscard]] inline std::string fewest_outliers_sentence(std::uint64_t least,
+                                                          std::uint64_t most) {
+    if (most == 0) return "No outlier is needed to explain the data.";
+    auto const number = [](std::uint64_t n) {
+        return count_text(n) + (n == 1 ? " measurement" : " measurements");
+    };
+    if (least == most) {
+        return "Every parameter vector of the prior violates at least " + number(least) +
+               ", and some violates no more: so many outliers are needed, and suffice.";
+    }
+    return (least == 0 ? std::string{"It is open whether outliers are needed"}
+                       : "Every parameter vector of the prior violates at least " +
+                             number(least)) +
+           "; " + number(most) + " as outliers suffice.";
 }
 
 /// What was proved, sentence by sentence.

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_DETAIL_DRAWING_HPP
+#define SIVID_PAVING_DETAIL_DRAWING_HPP
+
+#include <sivid/paving/identification.hpp>
+#include <sivid/paving/invert.hpp>
+#include <sivid/paving/preimage_paving.hpp>
+#include <sivid/paving/preimage_volume.hpp>
+#include <sivid/paving/reduction.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace sivid {
+
+namespace paving_detail {
+
+/// Draws the paving of a reduced prior in the original one, and measures it there.
+/// @param reduced  covers the reduced prior, outside boxes kept
+/// @param boxes    tested to draw it
+inline void draw(identification& result, reduction const& map, subpaving const& reduced,
+                 box const& prior, inversion_options drawing, std::size_t boxes) {
+    preimage_test test(map, reduced);
+    drawing.boxes = boxes;
+    drawing.seconds = 10; // nothing is integrated
+    drawing.progress = nullptr;
+    drawing.hull_gain = 0;
+    drawing.memory = inversion_options{}.memory; // few boxes
+    drawing.checkpoint = nullptr;
+    drawing.resume = nullptr;
+    result.paving = invert(test, prior, drawing).paving;
+    std::vector<box> inside, left;
+    for (auto const& b : reduced.boxes()) {
+        if (b.verdict == box_verdict::outside) continue;
+        left.push_back(b.set);
+        if (b.verdict == box_verdict::inside) inside.push_back(b.set);
+    }
+    preimage_volume const volume(map, prior);
+    std::size_t const cells = std::clamp<std::size_t>(400'000 / (left.size() + 1), 8, 200);
+    result.paving.set_volumes(volume(inside, cells), volume(left, cells));
+    result.volumes = volume_source::preimage;
+    result.hull = result.paving.outer_hull();
+    if (!result.paving.has_outer()) return;
+    result.hull = intersect(result.hull, map.backward(prior, reduced.outer_hull()));
+}
+
+} // namespace paving_detail
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_IDENTIFICATION_HPP
+#define SIVID_PAVING_IDENTIFICATION_HPP
+
+#include <sivid/model/combination.hpp>
+#include <sivid/paving/detail/fewest_outliers.hpp>
+#include <sivid/paving/fit.hpp>
+#include <sivid/paving/subpaving.hpp>
+#include <sivid/paving/verdict.hpp>
+#include <sivid/space/box.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sivid {
+
+/// How the volumes of a paving were computed.
+enum class volume_source {
+    boxes,   ///< summed over its boxes
+    preimage ///< proved for the preimage of a finer paving of products of the parameters
+};
+
+/// A parameter and one initial state per experiment that are proved to explain the data.
+struct verified_witness {
+    std::vector<double> parameters;
+    std::vector<std::vector<double>> starts;
+    /// Per experiment and measurement (in order of time): whether the witness violates it.
+    std::vector<std::vector<bool>> violated;
+};
+
+/// A combination of parameters with what the data allow it.
+struct combination_hull {
+    combination what;
+    interval hull;
+};
+
+/// A measurement that every feasible parameter violates.
+struct forced_outlier {
+    std::size_t experiment = 0;
+    std::size_t measurement = 0; ///< index in the order of time
+};
+
+/// What was found about a problem; everything in it is proved, `guess` excepted.
+struct identification {
+    explicit identification(box const& prior) : paving(prior), hull(prior) {}
+
+    sivid::verdict verdict = sivid::verdict::undecided;
+    stop_reason reason = stop_reason::decided;
+    /// Of the prior: inside boxes are proved, what no other box covers is excluded by proof.
+    subpaving paving;
+    volume_source volumes = volume_source::boxes;
+    box hull; ///< contains every feasible parameter; empty sides when there is none
+    std::optional<verified_witness> witness;
+    std::vector<combination_hull> combinations;
+    std::vector<std::size_t> entangled; ///< parameters known only through `combinations`
+    std::vector<forced_outlier> forced;
+    std::optional<fewest_outliers> fewest; ///< of `smallest_outlier_budget`, when it was asked for
+    std::vector<std::string> assumptions;
+    std::optional<approximate_fit> guess; ///< the best fit found, not proved
+    std::size_t boxes = 0;
+    std::size_t integrations = 0;
+    double seconds = 0;
+};
+
+} // namespace sivid
+
+#endif
