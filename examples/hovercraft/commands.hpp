@@ -91,6 +91,15 @@ struct rank_command {
 };
 [[nodiscard]] int run(rank_command const& command);
 
+struct describe_command {
+    hovercraft craft;
+    bool dot = false; ///< in the DOT language of Graphviz
+    /// Of the bound model: its constants are folded, these stay; empty for the model as written.
+    std::vector<std::string> unknown;
+};
+/// Writes to the standard output.
+[[nodiscard]] int run(describe_command const& command);
+
 /// Creates the folder for results.
 /// @throws bad_request when that is impossible
 inline void prepare_folder(std::filesystem::path const& folder) {
