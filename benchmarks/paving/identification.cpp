@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: MIT
 // Whole identifications, each from a cold start of `identify`, fit included:
-//     sivid_benchmark_identification [--seconds S] [--accuracy A] [--outliers Q] FOLDER...
+//     sivid_benchmark_identification [--seconds S] [--boxes N] [--accuracy A] [--outliers Q]
+//                                    [--threads N] [--batches N] [--report-1] FOLDER...
 // For each data set of the hovercraft first the hulls alone, then the paving.
 #include "model.hpp"
 
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
 #include <sivid/paving/identify.hpp>
+#ifdef SIVID_HAS_TBB
+#include <sivid/parallel/tbb_executor.hpp>
+#endif
 
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <exception>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -62,14 +67,28 @@ int main(int count, char** arguments) {
                 options.search.accuracy = value();
             } else if (words[i] == "--outliers") {
                 outliers = static_cast<std::size_t>(value());
+            } else if (words[i] == "--boxes") {
+                options.search.boxes = static_cast<std::size_t>(value());
+            } else if (words[i] == "--batches") {
+                options.search.batches = static_cast<std::size_t>(value());
+            } else if (words[i] == "--report-1") {
+                options.algorithm = sivid::algorithm::report_1;
+            } else if (words[i] == "--threads") {
+#ifdef SIVID_HAS_TBB
+                options.search.workers = sivid::tbb_executor(static_cast<std::size_t>(value()));
+#else
+                throw std::invalid_argument("--threads: built without oneTBB (libtbb-dev)");
+#endif
             } else {
                 auto const data = sivid::read_dataset(words[i], sivid::names_of(model.about));
                 auto const problem = sivid::problem_from_dataset(data, model, outliers);
                 std::printf("%s: %zu parameters, %zu experiments\n", data.id.c_str(),
                             problem.prior.size(), problem.experiments.size());
-                auto hulls = options;
-                hulls.only_hulls = true;
-                measure(problem, "hulls", hulls);
+                if (options.algorithm == sivid::algorithm::contracting) {
+                    auto hulls = options;
+                    hulls.only_hulls = true;
+                    measure(problem, "hulls", hulls);
+                }
                 measure(problem, "paving", options);
             }
         }

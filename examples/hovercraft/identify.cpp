@@ -1,18 +1,28 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
 #include "console/console.hpp"
+#include "console/program.hpp"
 
+#include <sivid/io/checkpoint.hpp>
+#include <sivid/io/checkpoint_reader.hpp>
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset_digest.hpp>
 #include <sivid/io/identification_csv.hpp>
 #include <sivid/io/identification_json.hpp>
+#include <sivid/io/problem_digest.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
 
+#ifdef SIVID_HAS_TBB
+#include <sivid/parallel/tbb_executor.hpp>
+#endif
+
 #include <chrono>
 #include <cstdio>
 #include <iostream>
+#include <memory>
+#include <utility>
 
 namespace hovercraft_example {
 
@@ -71,6 +81,66 @@ void print_summary(sivid::identification_problem const& problem, sivid::identifi
               << " and result.json, boxes.csv, outputs.csv beside it\n";
 }
 
+sivid::executor threads_for([[maybe_unused]] std::size_t threads) {
+    if (threads == 1) return {};
+#ifdef SIVID_HAS_TBB
+    return sivid::tbb_executor(threads);
+#else
+    throw bad_request("--threads: this program was built without oneTBB; install it (Debian: "
+                      "libtbb-dev), configure and build anew, or leave the option out");
+#endif
+}
+
+/// The search's file in the folder of results.
+class checkpoint_file {
+public:
+    /// @throws bad_request, sivid::input_error  when what is there must not be overwritten or
+    ///         cannot be resumed
+    checkpoint_file(identify_command const& c, std::string problem)
+        : file_{c.out / "checkpoint.txt"},
+          problem_{std::move(problem)},
+          used_{c.checkpoint || c.resume} {
+        bool const there = std::filesystem::exists(file_);
+        if (there && c.resume) {
+            state_ = std::make_shared<sivid::identification_state const>(
+                sivid::read_checkpoint(file_, problem_));
+        } else if (there && c.checkpoint) {
+            throw bad_request(file_.string() + " holds an unfinished search; add --resume to go "
+                                               "on with it, or remove it to begin anew");
+        }
+    }
+    [[nodiscard]] bool used() const { return used_; }
+    [[nodiscard]] std::shared_ptr<sivid::identification_state const> const& state() const {
+        return state_;
+    }
+    /// A disk that is full must not end the search: it is said once.
+    void save(sivid::identification_state const& now) {
+        try {
+            sivid::write_checkpoint(file_, now, problem_);
+        } catch (sivid::output_error const& e) {
+            if (!warned_) std::cerr << "warning: no checkpoint: " << e.what() << "\n";
+            warned_ = true;
+        }
+    }
+    /// What to do with it once the results are written.
+    void finish(sivid::stop_reason why) const {
+        if (!used_) return;
+        if (why == sivid::stop_reason::decided || why == sivid::stop_reason::accuracy_reached) {
+            std::error_code ignored;
+            std::filesystem::remove(file_, ignored);
+        } else if (std::filesystem::exists(file_)) {
+            std::cout << "  to go on from here: --resume and a larger budget\n";
+        }
+    }
+
+private:
+    std::filesystem::path file_;
+    std::string problem_;
+    bool used_ = false;
+    bool warned_ = false;
+    std::shared_ptr<sivid::identification_state const> state_;
+};
+
 /// The way from one folder to another, if there is one.
 std::string seen_from(std::filesystem::path const& here, std::filesystem::path const& there) {
     std::error_code fault;
@@ -81,13 +151,13 @@ std::string seen_from(std::filesystem::path const& here, std::filesystem::path c
 int exit_code_of(sivid::verdict v) {
     switch (v) {
     case sivid::verdict::consistent:
-        return exit_code::consistent;
+        return console::consistent;
     case sivid::verdict::inconsistent:
-        return exit_code::inconsistent;
+        return console::inconsistent;
     case sivid::verdict::undecided:
         break;
     }
-    return exit_code::undecided;
+    return console::undecided;
 }
 
 } // namespace
@@ -98,8 +168,7 @@ int run(identify_command const& c) {
     auto const data = sivid::read_dataset(c.dataset, sivid::names_of(model.about));
     auto const problem = sivid::problem_from_dataset(data, model, c.outliers);
     auto const digest = sivid::dataset_digest(c.dataset);
-    auto const further = sivid::assumptions_of(data);
-    prepare_folder(c.out);
+    console::prepare_folder(c.out);
 
     console::watch_interrupts();
     console::progress_line progress(c.quiet);
@@ -112,6 +181,20 @@ int run(identify_command const& c) {
         progress.show(console::paving_words(p));
         return !console::interrupted();
     };
+    if (c.memory) options.search.memory = static_cast<std::size_t>(1e6 * *c.memory);
+    options.search.workers = threads_for(c.threads);
+    checkpoint_file checkpoint(c, sivid::problem_digest(problem, options, digest));
+    options.resume = checkpoint.state();
+    if (checkpoint.used()) {
+        options.search.checkpoint_seconds = c.checkpoint.value_or(10);
+        options.checkpoint = [&](sivid::identification_state const& s) { checkpoint.save(s); };
+    }
+    if (auto const& s = options.resume) {
+        progress.note("resuming after " + std::to_string(s->search.tested) + " boxes and " +
+                      report::duration_text(s->seconds + s->search.seconds));
+    } else if (c.resume) {
+        progress.note("no checkpoint in " + c.out.string() + ": beginning anew");
+    }
     progress.note(std::string{"identifying "} + data.id + " (" + words_of(c.algorithm) +
                   ", at most " + report::duration_text(options.search.seconds) +
                   "; Ctrl-C stops early)");
@@ -123,6 +206,8 @@ int run(identify_command const& c) {
         auto other = options;
         other.algorithm = sivid::algorithm::report_1;
         other.search.seconds = c.budget - options.search.seconds;
+        other.checkpoint = nullptr;
+        other.resume = nullptr;
         progress.note("the same by Algorithm 1 of the report, for comparison");
         baseline = sivid::identify(problem, other);
         progress.finish();
@@ -132,7 +217,6 @@ int run(identify_command const& c) {
     auto const motion = sivid::find_explaining_motion(problem, found);
     report::identification_report_options about{.dataset = data.id,
                                                 .meanings = constant_meanings(),
-                                                .further_assumptions = further,
                                                 .plane = report::plane_channels{"x", "y", "psi"},
                                                 .date = console::today(),
                                                 .machine = console::machine_text(),
@@ -154,7 +238,6 @@ int run(identify_command const& c) {
         c.out / "result.json",
         sivid::identification_json(problem, found,
                                    {.dataset = data.id,
-                                    .further_assumptions = further,
                                     .source_folder = seen_from(c.out, c.dataset),
                                     .source_digest = digest}));
     print_summary(problem, found, data.id, c.out);
@@ -164,6 +247,7 @@ int run(identify_command const& c) {
                   << report::duration_text(baseline->seconds) << ", " << baseline->boxes
                   << " boxes\n";
     }
+    checkpoint.finish(found.reason);
     return exit_code_of(found.verdict);
 }
 

@@ -2,14 +2,11 @@
 // hovercraft identify | check | diagnose | generate | simulate | rank | describe: the reference
 // example on the command line.
 #include "commands.hpp"
-
-#include <sivid/io/text_file.hpp>
+#include "console/program.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include <exception>
 #include <functional>
-#include <iostream>
 #include <map>
 #include <string>
 #include <utility>
@@ -128,7 +125,7 @@ public:
         try {
             app_.parse(argc, argv);
         } catch (CLI::ParseError const& e) {
-            return app_.exit(e) == 0 ? 0 : static_cast<int>(exit_code::bad_input);
+            return app_.exit(e) == 0 ? 0 : static_cast<int>(console::bad_input);
         }
         return action_();
     }
@@ -151,6 +148,18 @@ private:
             ->check(CLI::Range(0.0, 1e9))
             ->capture_default_str();
         s->add_option("--boxes", c.boxes, "test at most so many boxes");
+        s->add_option("--memory", c.memory, "at most so many megabytes of boxes and knowledge")
+            ->check(CLI::Range(0.0, 1e9));
+        s->add_option("--checkpoint", c.checkpoint,
+                      "save the search in OUT/checkpoint.txt every so many seconds")
+            ->check(CLI::Range(0.0, 1e9));
+        s->add_flag("--resume", c.resume,
+                    "go on from OUT/checkpoint.txt, after a kill or with larger budgets; keeps "
+                    "saving, every 10 s unless --checkpoint says otherwise");
+        s->add_option("--threads", c.threads,
+                      "threads (0: all); the result does not depend on it")
+            ->check(CLI::Range(0, 1024))
+            ->capture_default_str();
         s->add_option("--outliers", c.outliers,
                       "outliers allowed in each scenario, instead of the data set's own fraction");
         s->add_flag("--compare", c.compare,
@@ -342,30 +351,10 @@ private:
     std::function<int()> action_;
 };
 
-std::string command_line_of(int argc, char** argv) {
-    std::string text = "hovercraft";
-    for (int i = 1; i < argc; ++i) text += std::string{" "} + argv[i];
-    return text;
-}
-
-int refuse(std::exception const& e) {
-    std::cerr << "hovercraft: " << e.what() << "\n";
-    return exit_code::bad_input;
-}
-
 } // namespace
 
 int main(int argc, char** argv) {
-    try {
-        return program(command_line_of(argc, argv))(argc, argv);
-    } catch (sivid::input_error const& e) {
-        return refuse(e);
-    } catch (bad_request const& e) {
-        return refuse(e);
-    } catch (std::invalid_argument const& e) { // an unknown constant, for instance
-        return refuse(e);
-    } catch (std::exception const& e) {
-        std::cerr << "hovercraft: internal error: " << e.what() << "\n";
-        return exit_code::internal_error;
-    }
+    return console::guarded("hovercraft", [&] {
+        return program(console::command_line("hovercraft", argc, argv))(argc, argv);
+    });
 }

@@ -32,8 +32,10 @@ TEST_CASE("starts of added states follow the parameters they depend on") {
     CHECK(p.experiments[0].initial[2].lower() == 0.75);
     CHECK(p.experiments[0].initial[2].upper() == 1);
     CHECK(p.choice.unknown[1] == "lag.tau"); // in the order of writing
+    CHECK(starts_follow_parameters(p));
     p.prior[2] = interval(0.125);
     start_added_states(p);
+    CHECK_FALSE(starts_follow_parameters(p));
     CHECK(p.experiments[0].initial[2].lower() == 0.875);
     CHECK(p.experiments[0].initial[2].upper() == 0.875);
 }
@@ -47,4 +49,13 @@ TEST_CASE("analytic inputs are read at the begin") {
     base.experiments[0].inputs = {analytic_signal::from([](auto const& t) { return 1 / t; })};
     CHECK_THROWS_AS(affected(base, {effects::input_lag("lag", "u", "N", 5, {0.1_dec, 1_dec})}),
                     std::domain_error);
+}
+
+TEST_CASE("a state that starts at an uncertain input starts within its error") {
+    auto base = small_campaign::problem();
+    base.experiments[0].inputs = {
+        sampled_signal({0, 5}, {1, 2}, interpolation::linear, {0.25, 0.5})};
+    auto const p = affected(base, {effects::input_lag("lag", "u", "N", 5, {0.1_dec, 1_dec})});
+    CHECK(p.experiments[0].initial[2].lower() == 0.75);
+    CHECK(p.experiments[0].initial[2].upper() == 1.25);
 }

@@ -11,8 +11,8 @@ TEST_CASE("waiting boxes come by volume or by age, and their hull is known") {
     using paving_detail::frontier;
     for (auto const order : {search_order::largest_first, search_order::first_in}) {
         frontier<int> waiting(order);
-        waiting.push(box{between(0, 1)}, 1, nullptr);
-        waiting.push(box{between(4, 6)}, 2, nullptr);
+        waiting.push(box{between(0, 1)}, 1, 0);
+        waiting.push(box{between(4, 6)}, 2, 0);
         CHECK(waiting.volume() == 3);
         auto const all = waiting.hull(box{between(-1, -1)});
         CHECK(all[0].lower() == -1);

@@ -173,3 +173,27 @@ TEST_CASE("relative volumes enclose the exact quotient") {
     CHECK(relative_volume(box{between(0, 1), between(3, 3)}, flat).upper() == 0.5);
     CHECK(relative_volume(flat, flat).lower() == 1);
 }
+
+TEST_CASE("a point within a box is off its bounds, and a side without doubles within stays whole") {
+    std::mt19937_64 generator(20261120);
+    std::uniform_real_distribution<double> uniform(-2, 2);
+    for (int k = 0; k < 1000; ++k) {
+        double const a = uniform(generator);
+        double const b = uniform(generator);
+        box const where{interval_traits<interval>::bounds(std::min(a, b), std::max(a, b)),
+                        hull(0.1_dec, 0.1_dec), interval(0.5), hull(0_dec, 1_dec)};
+        auto const x = point_within(where, {uniform(generator), 0.3, 0.1, -1.0});
+        CHECK(subset(x, where));
+        CHECK(x[0].lower() == x[0].upper());
+        CHECK(where[0].lower() < x[0].lower());
+        CHECK(x[0].upper() < where[0].upper());
+        CHECK(x[1].lower() == where[1].lower());
+        CHECK(x[1].upper() == where[1].upper());
+        CHECK(x[2].lower() == 0.5);
+        CHECK(x[3].lower() > 1e-100);
+        CHECK(x[3].upper() < 1e-10);
+        auto const again = point_within(where, mid(x));
+        CHECK(again[0].lower() == x[0].lower());
+        CHECK(again[3].lower() == x[3].lower());
+    }
+}

@@ -18,10 +18,13 @@ namespace sivid {
 
 namespace diagnosis_detail {
 
-/// Encloses an input at one time.
+/// Encloses an input at one time, its error included.
 inline interval input_at(signal const& s, double t) {
     if (auto const* sampled = std::get_if<sampled_signal>(&s)) {
-        return sampled->value<interval>(sampled->piece(t), interval(t));
+        using traits = interval_traits<interval>;
+        auto const piece = sampled->piece(t);
+        double const e = sampled->error_bound(piece, t);
+        return traits::add(sampled->value<interval>(piece, interval(t)), traits::bounds(-e, e));
     }
     auto const& formula = std::get<analytic_signal>(s);
     graph g;
@@ -74,6 +77,16 @@ inline void start_added_states(identification_problem& problem) {
         }
         e.initial = box(std::move(sides));
     }
+}
+
+/// Whether a state that effects added starts at a value that the parameters decide: of its initial
+/// range then only one value belongs to a parameter.
+[[nodiscard]] inline bool starts_follow_parameters(identification_problem const& problem) {
+    return std::any_of(
+        problem.experiments.begin(), problem.experiments.end(), [&](experiment const& e) {
+            return std::any_of(problem.model.added_states.begin(), problem.model.added_states.end(),
+                               [&](added_state const& a) { return width(e.initial[a.state]) > 0; });
+        });
 }
 
 /// The same experiments, with effects joined to the model. The parameters of the effects become

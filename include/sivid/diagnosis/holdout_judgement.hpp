@@ -91,7 +91,14 @@ inline void add_tube(identification_problem const& judged, box const& parameters
         inflation_options options;
         options.seconds = seconds;
         options.test = test;
-        auto const proved = holdout_inflation(fitted.problem, fit, judged, options);
+        auto proved = holdout_inflation(fitted.problem, fit, judged, options);
+        if (starts_follow_parameters(judged)) {
+            // The search lets added states start anywhere in their ranges: only what it says from
+            // below holds.
+            for (auto* range : {&proved.over_fits, &proved.at_witness}) {
+                *range = interval_traits<interval>::bounds(range->lower(), detail::infinity);
+            }
+        }
         result.over_fits = proved.over_fits;
         auto const both = intersect(result.at_witness, proved.at_witness);
         if (!is_empty(both)) result.at_witness = both;

@@ -41,6 +41,8 @@ public:
     using entry = taylor_model<N, D>;
     using tube_entry = typename flow_type::tube_entry;
 
+    /// @throws std::invalid_argument for inputs with error bounds: the tubes that bound derivatives
+    ///         are those of the recorded inputs
     sensitive_flow(flow const& f, enclosure_options const& options)
         : flow_(&f),
           options_(options),
@@ -50,7 +52,12 @@ public:
           observe_(f.observe_jacobian(), 0),
           parameters_(f.parameters()),
           tube_parameters_(f.parameters()),
-          around_(f.states()) {}
+          around_(f.states()) {
+        if (f.uncertain()) {
+            throw std::invalid_argument("sensitive_flow: inputs with error bounds are not "
+                                        "supported; give signals without bounds");
+        }
+    }
 
     /// See `parametric_flow::begin`.
     void begin(double time, box const& initial, box const& parameters) {

@@ -130,6 +130,8 @@ private:
 ///   The order of the derivatives' series is `options.variational_order`, about half of the
 ///   states' order by default, which is enough for the states: for derivatives as sharp as the
 ///   states, set it to `options.order`.
+/// @throws std::invalid_argument for inputs with error bounds: steps bound the derivatives on the
+///         recorded inputs only
 /// @cost  that of `integrate` and about n (n + parameters) products of matrix entries a step
 template <class I = interval>
 [[nodiscard]] sensitivity_tube<I>
@@ -139,6 +141,10 @@ integrate_with_sensitivities(std::shared_ptr<flow const> f, basic_box<I> const& 
     if (!(from <= to)) {
         throw std::invalid_argument(
             "integrate_with_sensitivities: the end lies before the begin");
+    }
+    if (f->uncertain()) {
+        throw std::invalid_argument("integrate_with_sensitivities: inputs with error bounds are "
+                                    "not supported; give signals without bounds");
     }
     trajectory<I> run(*f, options);
     run.begin(from, initial, parameters);

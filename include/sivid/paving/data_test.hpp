@@ -6,6 +6,7 @@
 #include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/problem.hpp>
+#include <sivid/paving/run_pool.hpp>
 #include <sivid/paving/set_test.hpp>
 
 #include <algorithm>
@@ -39,12 +40,17 @@ struct data_test_options {
 
 /// Tests boxes of parameters against all experiments of a problem.
 ///   outside: in some experiment more than `outliers` measurements certainly fail, whatever the
-///   start; inside: in every experiment at least n - `outliers` certainly hold, for the starts
-///   given to `set_starts` (any start in the box proves existence).
+///   start and, within their error bounds, the inputs; inside: in every experiment at least n -
+///   `outliers` certainly hold, for the starts given to `set_starts` and for the recorded inputs
+///   (any start in the box and any possible input prove existence).
 /// The outlier rule is the consistent reading of the report's Algorithm 2.
 class data_test {
 public:
-    /// Responses of the experiments over a region: for all starts, and for the chosen ones.
+    /// `judge` and `learn` are for several threads at once.
+    static constexpr bool concurrent = true;
+
+    /// Responses of the experiments over a region: for all starts and inputs, and for the chosen
+    /// ones.
     struct knowledge {
         box region;
         std::vector<std::shared_ptr<response const>> all_starts;
@@ -59,15 +65,44 @@ public:
             flows_.push_back(std::make_shared<flow const>(problem.model, problem.choice, e.inputs));
             records_.push_back(sorted(e.measurements));
             starts_.push_back(e.initial);
-            runs_.push_back(
-                make_run(*flows_.back(), e, records_.back(), problem.prior, options.run));
+            recorded_.push_back(
+                flows_.back()->uncertain()
+                    ? std::make_shared<flow const>(problem.model, problem.choice, nominal(e.inputs))
+                    : flows_.back());
+        }
+        auto const pool_of = [&](std::vector<std::shared_ptr<flow const>> const& flows) {
+            return std::make_unique<run_pool>(
+                [&problem, flows, records = records_.data(), run = options.run] {
+                    run_set runs;
+                    for (std::size_t e = 0; e < flows.size(); ++e) {
+                        runs.push_back(make_run(*flows[e], problem.experiments[e], records[e],
+                                                problem.prior, run));
+                    }
+                    return runs;
+                });
+        };
+        pool_ = pool_of(flows_);
+        for (std::size_t e = 0; e < flows_.size(); ++e) {
+            lasting_.emplace_back();
+            if (!flows_[e]->uncertain()) continue;
+            if (!recorded_pool_) recorded_pool_ = pool_of(recorded_);
+            // At a point the inputs alone make the radii.
+            auto whole = problem.experiments[e];
+            whole.outliers = whole.measurements.size(); // misfits end nothing
+            auto const at_point =
+                make_run(*flows_[e], whole, records_[e], problem.prior, options.run);
+            lasting_[e] =
+                (*at_point)(point_box(mid(whole.initial)), point_box(mid(problem.prior)))->radius;
+            pool_->count(1);
         }
     }
 
     /// Initial states, one box per experiment within its own, from which existence is proved.
     void set_starts(std::vector<box> starts) { starts_ = std::move(starts); }
 
-    [[nodiscard]] std::size_t integrations() const { return integrations_; }
+    [[nodiscard]] std::size_t integrations() const {
+        return pool_->integrations() + (recorded_pool_ ? recorded_pool_->integrations() : 0);
+    }
     [[nodiscard]] std::shared_ptr<flow const> flow_of(std::size_t e) const { return flows_[e]; }
     /// In the order of time.
     [[nodiscard]] record const& record_of(std::size_t e) const { return records_[e]; }
@@ -94,7 +129,10 @@ public:
     }
 
     /// Integrates over each of the boxes, then decides and contracts.
+    /// The sets depend on all the boxes, in their order: they share step orders while they are
+    /// integrated together.
     [[nodiscard]] std::vector<assessment<knowledge>> learn(std::vector<box> const& boxes) {
+        auto runs = pool_->borrow();
         std::vector<assessment<knowledge>> results;
         std::vector<std::shared_ptr<knowledge>> found;
         std::vector<std::size_t> open; // boxes that no experiment has refuted
@@ -117,13 +155,15 @@ public:
                 regions.push_back(region);
             }
             auto const& all = problem_->experiments[e].initial;
-            auto const answers = run(e, all, regions);
-            bool const start_matters = !is_point(all) && starts_differ(e);
+            auto const answers = marked(e, runs(e, all, regions));
+            bool const choice_matters =
+                flows_[e]->uncertain() || (!is_point(all) && starts_differ(e));
             std::vector<std::size_t> still_open;
             std::vector<box> promising;
             std::vector<std::size_t> whose;
             for (std::size_t n = 0; n < open.size(); ++n) {
                 auto const k = open[n];
+                ++results[k].cost;
                 auto part = results[k].rest;
                 auto const says = assess(*answers[n], part);
                 found[k]->all_starts.push_back(answers[n]);
@@ -138,14 +178,17 @@ public:
                 // Not worth a run where neither the box nor, later, parts of it might hold.
                 bool const sharp = answers[n]->outputs() == answers[n]->measurements &&
                                    says.sharpness <= options_.sharp_enough;
-                if (start_matters && !says.explained && (says.may_hold || sharp)) {
+                if (choice_matters && !says.explained && (says.may_hold || sharp)) {
                     promising.push_back(found[k]->region);
                     whose.push_back(k);
                 }
             }
             if (!promising.empty()) {
-                auto const chosen = run(e, starts_[e], promising);
+                auto const chosen = flows_[e]->uncertain()
+                                        ? recorded_pool_->borrow()(e, starts_[e], promising)
+                                        : runs(e, starts_[e], promising);
                 for (std::size_t n = 0; n < whose.size(); ++n) {
+                    ++results[whose[n]].cost;
                     found[whose[n]]->chosen_starts.back() = chosen[n];
                 }
             }
@@ -160,27 +203,31 @@ public:
         }
         return results;
     }
-    [[nodiscard]] std::size_t at_once() const {
-        std::size_t most = 1;
-        for (auto const& r : runs_) most = std::max(most, r->at_once());
-        return most;
+    [[nodiscard]] std::size_t at_once() const { return pool_->at_once(); }
+    /// Bytes that responses take.
+    [[nodiscard]] static std::size_t bytes(knowledge const& known) {
+        std::size_t sum = sizeof(knowledge);
+        for (std::size_t e = 0; e < known.all_starts.size(); ++e) {
+            auto const& all = known.all_starts[e];
+            auto const& chosen = known.chosen_starts[e];
+            sum += 2 * sizeof all + all->bytes();
+            if (chosen != all) sum += chosen->bytes();
+        }
+        return sum;
     }
 
-    /// One experiment at a point, by the options for witnesses.
-    [[nodiscard]] std::shared_ptr<response const> run_point(std::size_t e,
-                                                            std::vector<double> const& initial,
-                                                            std::vector<double> const& parameters) {
-        ++integrations_;
-        auto const& experiment = problem_->experiments[e];
-        auto const point =
-            make_run(*flows_[e], experiment, records_[e], problem_->prior, options_.witness);
-        return (*point)(point_box(initial), point_box(parameters));
+    /// One experiment over next to nothing with the recorded inputs, by the options for witnesses.
+    [[nodiscard]] std::shared_ptr<response const> run_finely(std::size_t e, box const& initial,
+                                                             box const& parameters) {
+        pool_->count(1);
+        auto const fine = make_run(*recorded_[e], problem_->experiments[e], records_[e],
+                                   problem_->prior, options_.witness);
+        return (*fine)(initial, parameters);
     }
-    /// One experiment over boxes of starts and parameters.
+    /// One experiment over boxes of starts and parameters, for all possible inputs.
     [[nodiscard]] std::vector<std::shared_ptr<response const>>
     run(std::size_t e, box const& initial, std::vector<box> const& parameters) {
-        integrations_ += parameters.size();
-        return (*runs_[e])(initial, parameters);
+        return marked(e, pool_->borrow()(e, initial, parameters));
     }
     [[nodiscard]] std::shared_ptr<response const> run(std::size_t e, box const& initial,
                                                       box const& parameters) {
@@ -188,6 +235,17 @@ public:
     }
 
 private:
+    /// Notes how much of the radii is due to uncertain inputs.
+    [[nodiscard]] std::vector<std::shared_ptr<response const>>
+    marked(std::size_t e, std::vector<std::shared_ptr<response const>> answers) const {
+        if (!flows_[e]->uncertain()) return answers;
+        for (auto& answer : answers) {
+            auto own = std::make_shared<response>(*answer);
+            own->lasting = lasting_[e];
+            answer = std::move(own);
+        }
+        return answers;
+    }
     static bool is_point(box const& x) {
         return std::all_of(x.begin(), x.end(), [](interval const& side) {
             return interval_traits<interval>::is_point(side);
@@ -241,8 +299,10 @@ private:
     std::vector<std::shared_ptr<flow const>> flows_;
     std::vector<record> records_;
     std::vector<box> starts_;
-    std::vector<std::unique_ptr<experiment_run>> runs_;
-    std::size_t integrations_ = 0;
+    std::vector<std::shared_ptr<flow const>> recorded_; ///< `flows_`, without input errors
+    std::vector<std::vector<double>> lasting_;          ///< see `response`
+    std::unique_ptr<run_pool> pool_;
+    std::unique_ptr<run_pool> recorded_pool_; ///< where inputs have errors
 };
 
 } // namespace sivid

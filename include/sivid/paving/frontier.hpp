@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -22,36 +21,71 @@ enum class search_order {
 namespace paving_detail {
 
 /// Waiting boxes as a heap: by volume, or by age.
-template <class Knowledge>
+/// @tparam Load  what waits with a box
+template <class Load>
 class frontier {
 public:
     explicit frontier(search_order order) : order_(order) {}
 
     struct item {
         box set;
-        std::shared_ptr<Knowledge const> known;
         double volume = 0;
-        double rank = 0;
-        double age = 0;
+        std::size_t number = 0; ///< in the order of coming
+        Load load{};
     };
 
-    void push(box x, double volume, std::shared_ptr<Knowledge const> known) {
+    void push(box x, double volume, Load load) {
         total_ += volume;
-        double const age = static_cast<double>(pushed_++);
-        double const rank = order_ == search_order::first_in ? -age : volume;
-        items_.push_back({std::move(x), std::move(known), volume, rank, -age});
-        std::push_heap(items_.begin(), items_.end(), after);
+        items_.push_back({std::move(x), volume, pushed_++, std::move(load)});
+        std::push_heap(items_.begin(), items_.end(), after());
     }
     [[nodiscard]] item pop() {
-        std::pop_heap(items_.begin(), items_.end(), after);
+        std::pop_heap(items_.begin(), items_.end(), after());
         auto next = std::move(items_.back());
         items_.pop_back();
         total_ -= next.volume;
         return next;
     }
+    /// Items as they were when `pushed` had come and `volume()` was `total`.
+    void restore(std::vector<item> items, std::size_t pushed, double total) {
+        items_ = std::move(items);
+        std::make_heap(items_.begin(), items_.end(), after());
+        pushed_ = pushed;
+        total_ = total;
+    }
     [[nodiscard]] bool empty() const { return items_.empty(); }
     [[nodiscard]] std::size_t size() const { return items_.size(); }
+    [[nodiscard]] std::size_t pushed() const { return pushed_; }
     [[nodiscard]] double volume() const { return std::max(0.0, total_); }
+    /// As summed up, with its rounding errors.
+    [[nodiscard]] double running_volume() const { return total_; }
+    /// In no particular order.
+    [[nodiscard]] std::vector<item> const& items() const { return items_; }
+    /// The next one, which must exist.
+    [[nodiscard]] item const& next() const { return items_.front(); }
+    /// The next items in their order, at most `count`; valid until the next push or pop.
+    [[nodiscard]] std::vector<item*> best(std::size_t count) {
+        std::vector<item*> result;
+        std::vector<std::size_t> open;
+        auto const later = [this](std::size_t a, std::size_t b) {
+            return after()(items_[a], items_[b]);
+        };
+        auto const look_at = [&](std::size_t i) {
+            if (i >= items_.size()) return;
+            open.push_back(i);
+            std::push_heap(open.begin(), open.end(), later);
+        };
+        look_at(0);
+        while (result.size() < count && !open.empty()) {
+            std::pop_heap(open.begin(), open.end(), later);
+            auto const i = open.back();
+            open.pop_back();
+            result.push_back(&items_[i]);
+            look_at(2 * i + 1);
+            look_at(2 * i + 2);
+        }
+        return result;
+    }
     /// The smallest box around `around` and all that waits.
     [[nodiscard]] box hull(box around) const {
         for (auto const& i : items_) around = sivid::hull(around, i.set);
@@ -59,8 +93,13 @@ public:
     }
 
 private:
-    static bool after(item const& a, item const& b) {
-        return a.rank < b.rank || (a.rank == b.rank && a.age < b.age);
+    [[nodiscard]] auto after() const {
+        return [order = order_](item const& a, item const& b) {
+            if (order == search_order::largest_first && a.volume != b.volume) {
+                return a.volume < b.volume;
+            }
+            return a.number > b.number;
+        };
     }
 
     search_order order_;

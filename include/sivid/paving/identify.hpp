@@ -5,6 +5,7 @@
 #include <sivid/model/combination.hpp>
 #include <sivid/paving/data_test.hpp>
 #include <sivid/paving/fit.hpp>
+#include <sivid/paving/identification_state.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/preimage_paving.hpp>
 #include <sivid/paving/preimage_volume.hpp>
@@ -14,6 +15,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -36,6 +39,13 @@ struct identify_options {
     bool only_hulls = false;
     /// Boxes tested to draw the paving of the prior, when the search ran in products of parameters.
     std::size_t drawn_boxes = 1500;
+    /// Called with the state every `search.checkpoint_seconds` of the search and when a budget ends
+    /// it (in place of `search.checkpoint`).
+    std::function<void(identification_state const&)> checkpoint = nullptr;
+    /// Goes on from here (in place of `search.resume`): for the same problem and options but for
+    /// budgets and threads. The result is the one of an uninterrupted run, bit for bit, on the same
+    /// program and kind of processor; proved it is on any.
+    std::shared_ptr<identification_state const> resume = nullptr;
 };
 
 /// How the volumes of a paving were computed.
@@ -85,17 +95,18 @@ struct identification {
     double seconds = 0;
 };
 
-/// Verifies a guess by one validated run per experiment, at the guessed point.
+/// Verifies a guess by one validated run per experiment, at the guessed point and with the recorded
+/// inputs.
 [[nodiscard]] inline std::optional<verified_witness>
 verify_witness(data_test& test, identification_problem const& problem,
                std::vector<double> const& parameters,
                std::vector<std::vector<double>> const& starts) {
-    verified_witness result{parameters, starts, {}};
-    if (!contains(problem.prior, parameters)) return std::nullopt;
+    auto point = point_within(problem.prior, parameters);
+    verified_witness result{mid(point), {}, {}};
     for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
-        if (!contains(problem.experiments[s].initial, starts[s])) return std::nullopt;
-        auto const answer = test.run_point(s, starts[s], parameters);
-        auto point = point_box(parameters);
+        auto const start = point_within(problem.experiments[s].initial, starts[s]);
+        result.starts.push_back(mid(start));
+        auto const answer = test.run_finely(s, start, point);
         if (!assess(*answer, point).explained) return std::nullopt;
         auto& violated = result.violated.emplace_back();
         auto const values = output_ranges(*answer, point);
@@ -144,6 +155,9 @@ inline void draw(identification& result, reduction const& map, subpaving const& 
     drawing.seconds = 10; // nothing is integrated
     drawing.progress = nullptr;
     drawing.hull_gain = 0;
+    drawing.memory = inversion_options{}.memory; // few boxes
+    drawing.checkpoint = nullptr;
+    drawing.resume = nullptr;
     result.paving = invert(test, prior, drawing).paving;
     std::vector<box> inside, left;
     for (auto const& b : reduced.boxes()) {
@@ -184,19 +198,24 @@ inline void draw(identification& result, reduction const& map, subpaving const& 
     }
     data_test test(working, options.test);
     identification result(problem.prior);
-    result.assumptions.push_back("inputs exact");
+    result.assumptions.push_back(input_assumption(problem.experiments));
     std::vector<box> starts;
     if (options.algorithm == algorithm::contracting) {
-        fitter fit(working);
-        auto guess = fit();
+        auto guess = options.resume ? options.resume->guess.value_or(approximate_fit{})
+                                    : fitter(working)();
         if (!guess.parameters.empty()) {
             result.witness = verify_witness(test, working, guess.parameters, guess.starts);
-            for (auto const& x0 : guess.starts) starts.push_back(point_box(x0));
+            for (std::size_t s = 0; s < guess.starts.size(); ++s) {
+                starts.push_back(point_within(working.experiments[s].initial, guess.starts[s]));
+            }
             result.guess = std::move(guess);
         }
     }
-    auto const spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin);
-    options.search.seconds = std::max(0.0, options.search.seconds - spent.count());
+    auto const since_begin = [begin] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    };
+    double const spent = since_begin() + (options.resume ? options.resume->seconds : 0);
+    options.search.seconds = std::max(0.0, options.search.seconds - spent);
     auto const structure = dependence_of(working);
     auto const map = options.algorithm == algorithm::contracting
                          ? reduction::find(working, structure)
@@ -208,7 +227,18 @@ inline void draw(identification& result, reduction const& map, subpaving const& 
     if (result.guess) searching.set_starts(starts);
     auto search = options.search;
     if (map) search.keep_outside = true; // what is drawn is told from them
+    search.checkpoint = nullptr;
+    if (options.checkpoint) {
+        search.checkpoint = [&](search_state const& now) {
+            options.checkpoint({result.guess, spent, now});
+        };
+    }
+    search.resume = nullptr;
+    if (options.resume) search.resume = {options.resume, &options.resume->search};
+    auto const integrated = searching.integrations();
     auto found = invert(searching, posed.prior, search);
+    // Not what was integrated but what the result stands on: resuming repeats some.
+    result.integrations = found.cost + integrated - searching.integrations();
     auto const left = found.paving.outer_hull();
     result.reason = found.reason;
     result.boxes = found.tested;
@@ -239,8 +269,8 @@ inline void draw(identification& result, reduction const& map, subpaving const& 
     }
     if (reduced) result.integrations += reduced->integrations();
     result.integrations += test.integrations();
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.seconds = since_begin();
+    if (options.resume) result.seconds += options.resume->seconds + options.resume->search.seconds;
     return result;
 }
 

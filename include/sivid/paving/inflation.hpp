@@ -39,18 +39,21 @@ struct inflation_bound {
 };
 
 /// Encloses the inflation at one point by validated runs: for each experiment the (q+1)-th largest
-/// misfit, and the largest of these. Infinite where a run fails.
-/// @param test  of the same problem without limits of outliers
-/// @param what  receives the violated measurements
+/// misfit, and the largest of these. Infinite where a run fails. The runs are those of the recorded
+/// inputs: where inputs have error bounds, others may do better, and nothing is known from below.
+/// @param test    of the same problem without limits of outliers
+/// @param starts  one point, or next to a point, per experiment
+/// @param what    receives the violated measurements
 [[nodiscard]] inline interval inflation_at(data_test& test, identification_problem const& problem,
+                                           box const& parameters, std::vector<box> const& starts,
                                            verified_witness& what) {
     double least = 0;
     double most = 0;
-    auto const point = point_box(what.parameters);
-    what.violated.clear();
+    what = {mid(parameters), {}, {}};
     for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
-        auto const answer = test.run_point(s, what.starts[s], what.parameters);
-        auto const values = output_ranges(*answer, point);
+        what.starts.push_back(mid(starts[s]));
+        auto const answer = test.run_finely(s, starts[s], parameters);
+        auto const values = output_ranges(*answer, parameters);
         std::vector<double> low(answer->measurements, 0.0);
         std::vector<double> high(answer->measurements, detail::infinity);
         auto& violated = what.violated.emplace_back(answer->measurements, true);
@@ -61,7 +64,9 @@ struct inflation_bound {
             violated[y] = !subset(values[y], answer->bounds[y]);
         }
         auto const q = problem.experiments[s].outliers;
-        least = std::max(least, largest_after(std::move(low), q));
+        if (!any_uncertain(problem.experiments[s].inputs)) {
+            least = std::max(least, largest_after(std::move(low), q));
+        }
         most = std::max(most, largest_after(std::move(high), q));
     }
     return interval_traits<interval>::bounds(least, most);
@@ -165,33 +170,21 @@ private:
         }
         improving_ += elapsed() - begin;
     }
-    void verify(std::vector<double> const& point, std::vector<std::vector<double>> starts) {
-        verified_witness candidate{map_ ? map_->approximate_preimage(problem_->prior, point)
-                                        : point,
-                                   std::move(starts),
-                                   {}};
-        move_inside(candidate.parameters, problem_->prior);
-        for (std::size_t s = 0; s < candidate.starts.size(); ++s) {
-            move_inside(candidate.starts[s], problem_->experiments[s].initial);
+    void verify(std::vector<double> const& point, std::vector<std::vector<double>> const& starts) {
+        verified_witness candidate;
+        std::vector<box> from;
+        for (std::size_t s = 0; s < starts.size(); ++s) {
+            from.push_back(point_within(problem_->experiments[s].initial, starts[s]));
         }
-        auto const value = inflation_at(points_, *problem_, candidate);
+        auto const parameters = point_within(
+            problem_->prior, map_ ? map_->approximate_preimage(problem_->prior, point) : point);
+        auto const value = inflation_at(points_, *problem_, parameters, from, candidate);
         if (value.upper() < upper_) {
             upper_ = value.upper();
             witness_ = std::move(candidate);
             search_.drop_above(upper_);
         }
     }
-    /// Into the box and, where that has a width, off its bounds, which enclose decimals.
-    static void move_inside(std::vector<double>& x, box const& where) {
-        for (std::size_t j = 0; j < x.size(); ++j) {
-            double const lo = where[j].lower();
-            double const hi = where[j].upper();
-            x[j] = lo < hi ? std::clamp(x[j], std::nextafter(lo, hi),
-                                        std::max(std::nextafter(lo, hi), std::nextafter(hi, lo)))
-                           : lo;
-        }
-    }
-
     [[nodiscard]] inflation_bound report() {
         inflation_bound result;
         result.value = interval_traits<interval>::bounds(std::min(search_.lower(), upper_), upper_);
@@ -225,7 +218,8 @@ private:
 /// Bounds the factor by which all measured bounds must grow until some parameter of the prior
 /// explains the data,
 ///   \f$ \lambda^* = \min_p \max_s \min_{x_{0s}} (q_s+1)\text{-th largest } |y_i - m_i|/e_i \f$;
-/// the boxes of the initial states do not grow. lower > 1 proves that no parameter explains the
+/// the boxes of the initial states and the error bounds of inputs do not grow; where inputs have
+/// such bounds, the least is over them, too. lower > 1 proves that no parameter explains the
 /// data, upper <= 1 that one does.
 /// @param guess  where the upper bound may start; without it the search proposes points itself
 /// @guarantee  `value` contains the inflation whenever the search ends

@@ -28,6 +28,8 @@ struct assessment {
     std::shared_ptr<Knowledge const> knowledge = nullptr;
     /// What was known did not suffice to say more; the test could learn about this box.
     bool blind = false;
+    /// What learning about this box took, in a unit of the test's (data_test: integrations).
+    std::size_t cost = 0;
 };
 
 /// A test of boxes against a set: sound verdicts and a sound contraction, completeness not
@@ -47,6 +49,8 @@ concept learning_set_test = requires(T test, box const& x,
 
 /// A learning test that separates judging by what is known, which is cheap, from learning, which
 /// it does for several boxes at once.
+///   `judge` hands on the knowledge that it was given, or none. What both answer depends on their
+///   arguments alone, bit for bit; what `learn` says of a box may depend on its companions.
 template <class T>
 concept batch_set_test = learning_set_test<T> &&
     requires(T test, box const& x, std::shared_ptr<typename T::knowledge const> const& known,
@@ -56,8 +60,24 @@ concept batch_set_test = learning_set_test<T> &&
     { test.at_once() } -> std::convertible_to<std::size_t>;
 };
 
+/// A batch test that says `static constexpr bool concurrent = true`: several threads may judge and
+/// learn with it at once.
+template <class T>
+concept concurrent_set_test = batch_set_test<T> && bool(T::concurrent);
+
+/// A test that knows how many bytes its knowledge takes.
+template <class T>
+concept measured_set_test = requires(T test, typename T::knowledge const& known) {
+    { test.bytes(known) } -> std::convertible_to<std::size_t>;
+};
+
 template <class T>
 concept set_test = plain_set_test<T> || learning_set_test<T>;
+
+/// A test whose knowledge can be learnt anew from the boxes that it was learnt about, so that a
+/// search can be interrupted and resumed.
+template <class T>
+concept resumable_set_test = plain_set_test<T> || batch_set_test<T>;
 
 } // namespace sivid
 

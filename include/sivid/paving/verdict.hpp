@@ -27,6 +27,7 @@ enum class stop_reason {
     accuracy_reached, ///< what is undecided is smaller than asked for
     time_budget,
     box_budget,
+    memory_budget,
     cancelled
 };
 
@@ -64,6 +65,8 @@ enum class stop_reason {
         return "time budget spent";
     case stop_reason::box_budget:
         return "box budget spent";
+    case stop_reason::memory_budget:
+        return "memory budget spent";
     case stop_reason::cancelled:
         return "cancelled";
     }

@@ -5,6 +5,7 @@
 #include <sivid/number/interval_traits.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <initializer_list>
 #include <stdexcept>
@@ -93,6 +94,26 @@ template <class I>
 [[nodiscard]] std::vector<double> mid(basic_box<I> const& x) {
     std::vector<double> result(x.size());
     for (std::size_t i = 0; i < x.size(); ++i) result[i] = interval_traits<I>::mid(x[i]);
+    return result;
+}
+
+/// The point x moved into the box and off its bounds, which may be outward neighbours of the
+/// decimals that are meant. A side that has no double off its bounds stays whole: what is proved
+/// over the result holds for some point of the box that is meant.
+/// @given  finite sides
+template <class I>
+[[nodiscard]] basic_box<I> point_within(basic_box<I> const& where, std::vector<double> const& x) {
+    using traits = interval_traits<I>;
+    basic_box<I> result(where.size());
+    for (std::size_t i = 0; i < where.size(); ++i) {
+        // By a little of the width, lest a bound of 0 give a denormal number.
+        double const off = 0x1p-50 * traits::width(where[i]);
+        double const lo = std::max(traits::lower(where[i]) + off,
+                                   std::nextafter(traits::lower(where[i]), HUGE_VAL));
+        double const hi = std::min(traits::upper(where[i]) - off,
+                                   std::nextafter(traits::upper(where[i]), -HUGE_VAL));
+        result[i] = lo <= hi ? traits::point(std::clamp(x[i], lo, hi)) : where[i];
+    }
     return result;
 }
 

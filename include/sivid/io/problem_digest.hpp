@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IO_PROBLEM_DIGEST_HPP
+#define SIVID_IO_PROBLEM_DIGEST_HPP
+
+#include <sivid/io/sha256.hpp>
+#include <sivid/number/decimal_output.hpp>
+#include <sivid/paving/identify.hpp>
+
+#include <concepts>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+namespace sivid {
+
+namespace io_detail {
+
+/// Text in which different values are written differently.
+class canonical_text {
+public:
+    template <class... Values>
+    canonical_text& operator()(std::string_view name, Values const&... values) {
+        text_.append(name);
+        (put(values), ...);
+        text_ += '\n';
+        return *this;
+    }
+    [[nodiscard]] std::string const& text() const { return text_; }
+
+private:
+    void put(std::string const& s) {
+        text_ += ' ';
+        text_ += std::to_string(s.size()) + ':';
+        text_ += s;
+    }
+    void put(double x) {
+        text_ += ' ';
+        text_ += to_hex(x);
+    }
+    template <class T>
+        requires std::integral<T> || std::is_enum_v<T>
+    void put(T x) {
+        text_ += ' ';
+        text_ += std::to_string(static_cast<long long>(x));
+    }
+    void put(interval const& x) {
+        put(x.lower());
+        put(x.upper());
+    }
+    template <class Items>
+        requires requires(Items const& items) {
+            items.begin();
+            items.size();
+        }
+    void put(Items const& items) {
+        put(items.size());
+        for (auto const& i : items) put(i);
+    }
+
+    std::string text_;
+};
+
+inline void describe(canonical_text& t, graph const& g) {
+    for (auto const& n : g.nodes()) {
+        t("node", n.op, n.a, n.b, n.companion, n.index);
+        if (n.op == operation::literal) t("literal", g.value(n).enclosure, g.value(n).nearest);
+    }
+}
+
+inline void describe(canonical_text& t, recorded_model const& m) {
+    t("model", m.about.name);
+    for (auto const& s : m.about.states) t("state", s.name, s.limit);
+    for (auto const& i : m.about.inputs) t("input", i.name);
+    for (auto const& c : m.about.channels) t("channel", c.name);
+    for (auto const& c : m.about.constants) {
+        t("constant", c.name, c.nominal.enclosure, c.nominal.nearest);
+    }
+    describe(t, m.g);
+    t("rate", m.rate)("observe", m.observe);
+    for (auto const& d : m.input_delays) t("input delay", d.index, d.constant);
+    for (auto const& d : m.channel_delays) t("channel delay", d.index, d.constant);
+    for (auto const& s : m.added_states) t("added state", s.state, s.at_begin);
+}
+
+inline void describe(canonical_text& t, identification_problem const& p) {
+    describe(t, p.model);
+    t("unknown", p.choice.unknown)("prior", p.prior);
+    for (auto const& [name, value] : p.choice.fixed) t("fixed", name, value);
+    for (auto const& e : p.experiments) {
+        t("experiment", e.name, e.begin, e.initial, e.outliers);
+        for (auto const& m : e.measurements) t("measured", m.time, m.channel, m.bound);
+        for (auto const& input : e.inputs) {
+            if (auto const* sampled = std::get_if<sampled_signal>(&input)) {
+                t("sampled", sampled->kind(), sampled->times(), sampled->values());
+                if (!sampled->exact()) t("errors", sampled->errors());
+            } else if (auto const* formula = std::get_if<analytic_signal>(&input)) {
+                describe(t("formula", formula->value), formula->g);
+            }
+        }
+    }
+}
+
+inline void describe(canonical_text& t, run_options const& o) {
+    auto const& e = o.enclosure;
+    t("run", o.set, o.hopeless, e.order, e.variational_order, e.method.has_value(), e.tolerance,
+      e.relative_tolerance, e.minimum_step, e.maximum_step, e.maximum_steps, e.widest,
+      e.remainder_share);
+    if (!e.method) return;
+    t("method", e.method->name, e.method->order);
+    auto const coefficients = [&t](std::vector<surd> const& list) {
+        for (auto const& x : list) t("surd", x.numerator, x.denominator, x.factor, x.radicand);
+    };
+    for (auto const& row : e.method->a) coefficients(row);
+    coefficients(e.method->b);
+    coefficients(e.method->c);
+}
+
+/// Everything that decides what a search does; budgets and threads do not.
+inline void describe(canonical_text& t, identify_options const& o) {
+    auto const& s = o.search;
+    t("options", o.algorithm, o.only_hulls, o.drawn_boxes);
+    t("search", s.accuracy, s.accuracy_of_hull, s.hull_gain, s.sufficient_ratio, s.order,
+      s.keep_outside, s.batches);
+    t("test", o.test.contract, o.test.cut, o.test.sharp_enough);
+    describe(t, o.test.run);
+    describe(t, o.test.witness);
+}
+
+} // namespace io_detail
+
+/// A digest of a problem and of the options that decide what its search does: SHA-256 over model
+/// (its recorded equations), constants, prior, inputs, measurements and options, numbers exact.
+/// Budgets of time, boxes and memory, and threads are not in it.
+/// @param also  what else it shall depend on, the digest of the data set's files for instance
+/// @cost  linear in the problem
+[[nodiscard]] inline std::string problem_digest(identification_problem const& problem,
+                                                identify_options const& options,
+                                                std::string const& also = {}) {
+    io_detail::canonical_text text;
+    describe(text, problem);
+    describe(text, options);
+    return sha256(text("also", also).text());
+}
+
+} // namespace sivid
+
+#endif // SIVID_IO_PROBLEM_DIGEST_HPP

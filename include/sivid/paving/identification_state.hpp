@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_IDENTIFICATION_STATE_HPP
+#define SIVID_PAVING_IDENTIFICATION_STATE_HPP
+
+#include <sivid/paving/fit.hpp>
+#include <sivid/paving/search_state.hpp>
+
+#include <optional>
+
+namespace sivid {
+
+/// Everything that an interrupted identification needs to go on where it was. A witness is not in
+/// it: the fit is verified again.
+struct identification_state {
+    std::optional<approximate_fit> guess;
+    double seconds = 0; ///< spent before the search
+    search_state search;
+};
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_INVERSION_OPTIONS_HPP
+#define SIVID_PAVING_INVERSION_OPTIONS_HPP
+
+#include <sivid/paving/executor.hpp>
+#include <sivid/paving/frontier.hpp>
+#include <sivid/paving/search_state.hpp>
+#include <sivid/paving/subpaving.hpp>
+#include <sivid/paving/verdict.hpp>
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <memory>
+
+namespace sivid {
+
+/// The state of a running search.
+struct paving_progress {
+    double seconds = 0;
+    std::size_t tested = 0;  ///< boxes tested
+    std::size_t pending = 0; ///< boxes that wait
+    double inner = 0;        ///< relative volume proved inside (approximately, for display)
+    double outer = 1;        ///< relative volume not proved outside
+};
+
+struct inversion_options {
+    /// A box is left undecided when no side is wider than this fraction of the prior's side.
+    double accuracy = 1e-3;
+    /// `accuracy` is a fraction of the hull of all that is not proved outside, instead.
+    bool accuracy_of_hull = false;
+    /// Stop when, since half as many boxes were tested, no side of that hull has shrunk by more
+    /// than this fraction (0: never).
+    double hull_gain = 0;
+    /// Stop when the inner volume reaches this fraction of the outer one (1: never).
+    double sufficient_ratio = 0.5;
+    double seconds = 60;
+    std::size_t boxes = 10'000'000;
+    /// Bytes for waiting and paved boxes and for what was learnt about them: what they hold,
+    /// without the allocator's share and the spare room of growing lists (at most as much again for
+    /// boxes).
+    std::size_t memory = std::numeric_limits<std::size_t>::max();
+    search_order order = search_order::largest_first;
+    /// Whether proved outside boxes are kept in the result (for pictures).
+    bool keep_outside = true;
+    /// Called after each test; false stops the search with what is proved until then.
+    std::function<bool(paving_progress const&)> progress = nullptr;
+
+    /// A test that learns about several boxes at once gets up to so many full sets of boxes at a
+    /// time, which different threads can work on. It is part of what the result depends on; how
+    /// many threads there are is not.
+    std::size_t batches = 1;
+    /// Judges and learns for tests that allow it (concurrent_set_test).
+    executor workers{};
+
+    /// Called with the state every `checkpoint_seconds`, between two tests, and when a budget or a
+    /// cancellation ends the search. Never takes more than a tenth of the time.
+    std::function<void(search_state const&)> checkpoint = nullptr;
+    double checkpoint_seconds = 10;
+    /// Goes on from here. The time of the earlier runs counts; the budgets may have changed, the
+    /// test, the prior and the other options must be the same.
+    std::shared_ptr<search_state const> resume = nullptr;
+};
+
+struct inversion {
+    subpaving paving;
+    stop_reason reason = stop_reason::decided;
+    std::size_t tested = 0;
+    std::size_t cost = 0; ///< sum over the tests, in their unit
+    double seconds = 0;   ///< of all runs
+};
+
+} // namespace sivid
+
+#endif
