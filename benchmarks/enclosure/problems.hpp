@@ -135,6 +135,120 @@ struct lotka_volterra {
     }
 };
 
+/// ARCH-COMP, category nonlinear dynamics: a quadrotor (Beard, Quadrotor Dynamics and Control,
+/// 2008, equations 16 to 19) with PD control of height, roll and pitch. States: position north,
+/// east and height; velocities forward, to the right and down; roll, pitch, yaw; their rates.
+struct quadrotor {
+    static constexpr auto name = "quadrotor";
+    static constexpr auto states = sivid::states({{"x1", "m", 5},
+                                                  {"x2", "m", 5},
+                                                  {"x3", "m", 5},
+                                                  {"x4", "m/s", 5},
+                                                  {"x5", "m/s", 5},
+                                                  {"x6", "m/s", 5},
+                                                  {"x7", "rad", 1},
+                                                  {"x8", "rad", 1},
+                                                  {"x9", "rad", 1},
+                                                  {"x10", "rad/s", 1},
+                                                  {"x11", "rad/s", 1},
+                                                  {"x12", "rad/s", 1}});
+    static constexpr auto inputs = sivid::no_inputs;
+    static constexpr auto channels = sivid::channels({{"x3", "m"}});
+    static constexpr auto constants = [] {
+        using namespace sivid::literals;
+        return sivid::constants({{"g", "m/s^2", 9.81_dec},
+                                 {"R", "m", 0.1_dec},
+                                 {"l", "m", 0.5_dec},
+                                 {"Mrotor", "kg", 0.1_dec},
+                                 {"M", "kg", 1_dec},
+                                 {"height", "m", 1_dec}});
+    }();
+    template <class T>
+    sivid::vec<T, 12> rate(T const&, sivid::vec<T, 12> const& s, sivid::vec<T, 6> const& c,
+                           sivid::vec<T, 0> const&) const {
+        auto const& [north, east, up, forward, right, down, roll, pitch, yaw, p, q, r] = s;
+        auto const& [g, radius, arm, rotor, centre, height] = c;
+        T const mass = centre + 4 * rotor;
+        T const body = 2 * centre * sqr(radius) / 5;
+        T const jx = body + 2 * sqr(arm) * rotor;
+        T const jz = body + 4 * sqr(arm) * rotor;
+        T const thrust = mass * g - 10 * (up - height) + 3 * down;
+        T const about_roll = -roll - p, about_pitch = -pitch - q;
+        T const sr = sin(roll), cr = cos(roll), sp = sin(pitch), cp = cos(pitch);
+        T const sy = sin(yaw), cy = cos(yaw);
+        T const turn = (sr * q + cr * r) / cp;
+        return {
+            cp * cy * forward + (sr * sp * cy - cr * sy) * right + (cr * sp * cy + sr * sy) * down,
+            cp * sy * forward + (sr * sp * sy + cr * cy) * right + (cr * sp * sy - sr * cy) * down,
+            sp * forward - sr * cp * right - cr * cp * down,
+            r * right - q * down - g * sp,
+            p * down - r * forward + g * cp * sr,
+            q * forward - p * right + g * cp * cr - thrust / mass,
+            p + sp * turn,
+            cr * q - sr * r,
+            turn,
+            (jx - jz) / jx * q * r + about_roll / jx,
+            (jz - jx) / jx * p * r + about_pitch / jx,
+            T(0)};
+    }
+    template <class T>
+    sivid::vec<T, 1> observe(T const&, sivid::vec<T, 12> const& s, sivid::vec<T, 6> const&,
+                             sivid::vec<T, 0> const&) const {
+        return {s[2]};
+    }
+};
+
+/// A driven mass with dry friction: v' = 2 cos t - k sign(v) - v/5. The drive is stronger than the
+/// friction whenever v crosses 0, so that nothing sticks.
+struct dry_friction {
+    static constexpr auto name = "dry friction";
+    static constexpr auto states = sivid::states({{"x", "m", 4}, {"v", "m/s", 4}});
+    static constexpr auto inputs = sivid::no_inputs;
+    static constexpr auto channels = sivid::channels({{"x", "m"}});
+    static constexpr auto constants = [] {
+        using namespace sivid::literals;
+        return sivid::constants({{"k", "m/s^2", 0.25_dec}});
+    }();
+    template <class T>
+    sivid::vec<T, 2> rate(T const& t, sivid::vec<T, 2> const& s, sivid::vec<T, 1> const& c,
+                          sivid::vec<T, 0> const&) const {
+        return {s[1], 2 * cos(t) - c[0] * sign(s[1]) - s[1] / 5};
+    }
+    template <class T>
+    sivid::vec<T, 1> observe(T const&, sivid::vec<T, 2> const& s, sivid::vec<T, 1> const&,
+                             sivid::vec<T, 0> const&) const {
+        return {s[0]};
+    }
+};
+
+/// A positioning loop whose force saturates at 1 and whose sensor has a dead band of 0.05.
+struct saturated_servo {
+    static constexpr auto name = "saturated servo";
+    static constexpr auto states = sivid::states({{"x", "m", 4}, {"v", "m/s", 4}});
+    static constexpr auto inputs = sivid::no_inputs;
+    static constexpr auto channels = sivid::channels({{"x", "m"}});
+    static constexpr auto constants = [] {
+        using namespace sivid::literals;
+        return sivid::constants({{"gain", "1/s^2", 4_dec}});
+    }();
+    bool saturates = true, dead = true;
+    template <class T>
+    sivid::vec<T, 2> rate(T const& t, sivid::vec<T, 2> const& s, sivid::vec<T, 1> const& c,
+                          sivid::vec<T, 0> const&) const {
+        using namespace sivid::literals;
+        auto const& [x, v] = s;
+        T const error = sin(t) - x;
+        T const seen = dead ? deadband(error, T(0.05_dec)) : error;
+        T const force = saturates ? saturate(c[0] * seen, T(-1), T(1)) : c[0] * seen;
+        return {v, force - 2 * v};
+    }
+    template <class T>
+    sivid::vec<T, 1> observe(T const&, sivid::vec<T, 2> const& s, sivid::vec<T, 1> const&,
+                             sivid::vec<T, 0> const&) const {
+        return {s[0]};
+    }
+};
+
 /// Stiff relaxation to cos t, with a slow follower: x' = -k (x - cos t) - sin t,  y' = (x - y)/2
 struct relaxation {
     static constexpr auto name = "relaxation";

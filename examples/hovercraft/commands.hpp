@@ -87,6 +87,15 @@ struct rank_command {
 };
 [[nodiscard]] int run(rank_command const& command);
 
+struct describe_command {
+    hovercraft craft;
+    bool dot = false; ///< in the DOT language of Graphviz
+    /// Of the bound model: its constants are folded, these stay; empty for the model as written.
+    std::vector<std::string> unknown;
+};
+/// Writes to the standard output.
+[[nodiscard]] int run(describe_command const& command);
+
 /// What the constants mean: Table 2.1 of the report.
 [[nodiscard]] inline std::map<std::string, std::string> constant_meanings() {
     return {{"m", "mass"},

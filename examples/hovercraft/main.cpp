@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// hovercraft identify | check | diagnose | generate | simulate | rank: the reference example on the
-// command line.
+// hovercraft identify | check | diagnose | generate | simulate | rank | describe: the reference
+// example on the command line.
 #include "commands.hpp"
 #include "console/program.hpp"
 
@@ -120,6 +120,7 @@ public:
         add_generate();
         add_simulate();
         add_rank();
+        add_describe();
     }
 
     int operator()(int argc, char** argv) {
@@ -329,6 +330,22 @@ private:
         });
     }
 
+    void add_describe() {
+        auto* const s = app_.add_subcommand(
+            "describe", "the model: names, units, and its equations as recorded, line by line");
+        s->add_flag("--dot", describe_.dot, "the graph in the DOT language of Graphviz");
+        s->add_option("--unknown", describe_.unknown,
+                      "as bound for identification: these constants stay, the others are folded")
+            ->delimiter(',');
+        add_variants(*s, shared_);
+        s->callback([this] {
+            action_ = [this] {
+                describe_.craft = shared_.craft();
+                return run(describe_);
+            };
+        });
+    }
+
     static void add_scenario(CLI::App& s, std::string& scenario, std::filesystem::path& out) {
         std::string names = "all (S1, S2, S3), a JSON file, or one of:";
         for (auto const& b : built_in_scenarios()) names += std::string{" "} + std::string{b.name};
@@ -345,6 +362,7 @@ private:
     generate_command generate_;
     simulate_command simulate_;
     rank_command rank_;
+    describe_command describe_;
     std::string relative_, outliers_;
     std::vector<std::string> absolute_, unknown_{"Sv", "Sg", "L"};
     bool combined_ = false, hold_ = false;

@@ -349,3 +349,23 @@ TEST_CASE("simulate and rank write their tables and pages") {
     CHECK_THAT(k.out, ContainsSubstring("D22 negligible for r', but it does not occur in r'"));
     CHECK(rows(folder.path() / "rank" / "ranking.csv") > 20);
 }
+
+TEST_CASE("describe prints the model as text and as a graph, bound or as written") {
+    auto const text = run({"describe"});
+    CHECK(text.code == 0);
+    CHECK(text.err.empty());
+    CHECK_THAT(text.out, StartsWith("model hovercraft\n") &&
+                             ContainsSubstring("= 1.297     [kg]") &&
+                             ContainsSubstring("inputs only") && ContainsSubstring("y.psi"));
+    auto const dot = run({"describe", "--dot", "--friction", "as-printed"});
+    CHECK(dot.code == 0);
+    CHECK_THAT(dot.out, StartsWith("digraph \"hovercraft\" {\n") && EndsWith("}\n"));
+    auto const bound = run({"describe", "--unknown", "Sv,L"});
+    CHECK(bound.code == 0);
+    CHECK_THAT(bound.out, ContainsSubstring("unknown parameters\n  Sv  [m^2]\n  L   [m]\n") &&
+                              !ContainsSubstring("Cdelta"));
+    auto const wrong = run({"describe", "--unknown", "Sw"});
+    CHECK(wrong.code == 2);
+    CHECK(wrong.out.empty());
+    CHECK_THAT(wrong.err, ContainsSubstring("unknown constant 'Sw'"));
+}

@@ -347,19 +347,10 @@ basic_box<I> stepper<I>::perturbed(tube_step<I> const& step, double to, basic_bo
 }
 
 template <class I>
-doubleton<I> stepper<I>::map(tube_step<I> const& step, double to) {
-    if (step.dissipative) return map_long(step, to);
+interval_matrix<I> stepper<I>::flow_derivative(tube_step<I> const& step, I const& s) {
     auto const n = flow_->states();
     auto const columns = n + flow_->parameters();
-    I const s = span(step.from, to);
     auto const q = step.variational_order;
-    auto const& deviation = ensemble_->deviation;
-    auto const direct =
-        perturbed(step, to, intersect(sum(start_, s, q, tube_lagrange_), step.tube));
-    if (step.jumps) {
-        // No derivative exists across a jump.
-        return restarted(to, direct);
-    }
     interval_matrix<I> j(n, columns);
     I power = traits::point(1.0);
     for (std::size_t k = 0; k < q; ++k) power = traits::mul(power, s);
@@ -384,7 +375,34 @@ doubleton<I> stepper<I>::map(tube_step<I> const& step, double to) {
             j(i, c) = traits::add(polynomial, value);
         }
     }
-    return step.start.mapped(to, perturbed(step, to, centre_image(step, s)), j, direct, deviation);
+    return j;
+}
+
+template <class I>
+std::optional<interval_matrix<I>> stepper<I>::known_derivative(tube_step<I> const& step,
+                                                               double to) {
+    if (step.jumps) return std::nullopt;
+    if (!step.dissipative) return flow_derivative(step, span(step.from, to));
+    auto const map = long_map_ && to == step.to
+                         ? long_map_
+                         : long_->map(step.from, to, step.start.centre, step.tube);
+    if (!map) return std::nullopt;
+    return map->derivative;
+}
+
+template <class I>
+doubleton<I> stepper<I>::map(tube_step<I> const& step, double to) {
+    if (step.dissipative) return map_long(step, to);
+    I const s = span(step.from, to);
+    auto const& deviation = ensemble_->deviation;
+    auto const direct = perturbed(
+        step, to, intersect(sum(start_, s, step.variational_order, tube_lagrange_), step.tube));
+    if (step.jumps) {
+        // No derivative exists across a jump.
+        return restarted(to, direct);
+    }
+    return step.start.mapped(to, perturbed(step, to, centre_image(step, s)),
+                             flow_derivative(step, s), direct, deviation);
 }
 
 } // namespace sivid

@@ -22,10 +22,10 @@ class tube {
     using traits = interval_traits<I>;
 
 public:
-    tube(std::shared_ptr<flow const> f, enclosure_options const& options, ensemble<I> e,
+    tube(std::shared_ptr<flow const> f, enclosure_options const& options, sivid::ensemble<I> e,
          doubleton<I> start)
         : flow_(std::move(f)),
-          ensemble_(std::make_unique<ensemble<I>>(std::move(e))),
+          ensemble_(std::make_unique<sivid::ensemble<I>>(std::move(e))),
           stepper_(std::make_unique<stepper<I>>(*flow_, options)),
           end_(std::move(start)) {
         stepper_->set_ensemble(*ensemble_);
@@ -60,6 +60,17 @@ public:
     /// A box that contains all states at time t.
     [[nodiscard]] basic_box<I> at(double t) const { return set_at(t).hull; }
 
+    /// Index of the step with from < t <= to, or 0 at the begin.
+    /// @throws std::out_of_range outside [begin_time, end_time], and without a step
+    [[nodiscard]] std::size_t step_index(double t) const {
+        if (steps_.empty() || !(t >= begin_time() && t <= end_time())) {
+            throw std::out_of_range("tube: time outside the proved span");
+        }
+        auto const found =
+            std::lower_bound(steps_.begin(), steps_.end(), t,
+                             [](tube_step<I> const& s, double time) { return s.to < time; });
+        return static_cast<std::size_t>(found - steps_.begin());
+    }
     /// A box that contains all states at all times in [from, to].
     [[nodiscard]] basic_box<I> over(double from, double to) const {
         if (!(from <= to))
@@ -71,6 +82,14 @@ public:
         }
         return result;
     }
+
+    /// Encloses \f$ \partial x(t) / \partial (x(from), p) \f$ over the k-th step, which begins at
+    /// `from`, for all members: see `stepper::derivative`.
+    /// @param t  in (from, to] of that step
+    [[nodiscard]] std::optional<interval_matrix<I>> step_derivative(std::size_t k, double t) const {
+        return stepper_->derivative(steps_[k], t);
+    }
+    [[nodiscard]] sivid::ensemble<I> const& ensemble() const { return *ensemble_; }
 
     /// Encloses the channels at time t.
     [[nodiscard]] basic_box<I> observe_at(double t) const {
@@ -86,18 +105,10 @@ public:
 
 private:
     /// The step with from < t <= to, or the first one at the begin.
-    [[nodiscard]] tube_step<I> const& step_at(double t) const {
-        if (steps_.empty() || !(t >= begin_time() && t <= end_time())) {
-            throw std::out_of_range("tube: time outside the proved span");
-        }
-        auto const found =
-            std::lower_bound(steps_.begin(), steps_.end(), t,
-                             [](tube_step<I> const& s, double time) { return s.to < time; });
-        return *found;
-    }
+    [[nodiscard]] tube_step<I> const& step_at(double t) const { return steps_[step_index(t)]; }
 
     std::shared_ptr<flow const> flow_;
-    std::unique_ptr<ensemble<I>> ensemble_;
+    std::unique_ptr<sivid::ensemble<I>> ensemble_;
     std::unique_ptr<stepper<I>> stepper_;
     std::vector<tube_step<I>> steps_;
     doubleton<I> end_;

@@ -18,6 +18,13 @@ namespace sivid {
     return {text.data(), end.ptr};
 }
 
+/// The shortest decimal that reads back as the same double.
+[[nodiscard]] inline std::string nearest_text(double x) {
+    std::array<char, 64> text{};
+    auto const end = std::to_chars(text.data(), text.data() + text.size(), x);
+    return {text.data(), end.ptr};
+}
+
 } // namespace sivid
 
 #endif

@@ -129,6 +129,10 @@ public:
         for (std::size_t i = 0; i < result.size(); ++i) result[i] = range(lane_of(swept_[i], lane));
         return result;
     }
+    /// The tubes of the last proved steps themselves: for each q and \f$ \tau \in [-1, 1] \f$, the last
+    /// variable, the states at \f$ t + h (1 + \tau) / 2 \f$, where h is the step's length times 1 + 4
+    /// units.
+    [[nodiscard]] std::vector<tube_entry> const& swept_models() const { return swept_; }
 
 private:
     /// Makes computed sums of a few dozen non-negative numbers upper bounds.

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_MODEL_GRAPH_LISTING_HPP
+#define SIVID_MODEL_GRAPH_LISTING_HPP
+
+#include <sivid/model/bound_model.hpp>
+#include <sivid/model/model.hpp>
+#include <sivid/model/rewrite.hpp>
+#include <sivid/number/decimal_output.hpp>
+#include <sivid/number/nearest_text.hpp>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// How often the value of a node has to be computed.
+enum class graph_part {
+    fixed,      ///< once: literals alone
+    parameters, ///< once for each box of parameters: constants of the model alone
+    inputs,     ///< once for each scenario: time and inputs alone
+    both,       ///< inputs and constants, but no state
+    states      ///< along each trajectory
+};
+
+[[nodiscard]] constexpr graph_part part_of(std::uint8_t depends) {
+    if ((depends & on_state) != 0) return graph_part::states;
+    bool const parameters = (depends & on_constant) != 0;
+    bool const inputs = (depends & (on_input | on_time)) != 0;
+    if (parameters && inputs) return graph_part::both;
+    return parameters ? graph_part::parameters : inputs ? graph_part::inputs : graph_part::fixed;
+}
+
+[[nodiscard]] constexpr std::string_view to_string(graph_part p) {
+    switch (p) {
+    case graph_part::fixed:
+        return "fixed";
+    case graph_part::parameters:
+        return "parameters only";
+    case graph_part::inputs:
+        return "inputs only";
+    case graph_part::both:
+        return "inputs and parameters";
+    case graph_part::states:
+        return "states";
+    }
+    return "";
+}
+
+/// The operations that some outputs of a graph need, in the order of evaluation, with the names of
+/// the model: what `describe` and `to_dot` show. Refers to the model it was made of.
+class graph_listing {
+public:
+    struct output {
+        std::string name; ///< "u'" for a rate, "y.u" for a channel
+        node_id value = 0;
+    };
+    struct line {
+        node_id id = 0;
+        std::size_t number = 0; ///< from 1, of an operation; leaves have none
+        std::size_t uses = 0;   ///< by operations and outputs
+        graph_part part = graph_part::states;
+        bool companion = false; ///< only the series of another operation need it
+    };
+
+    explicit graph_listing(recorded_model const& m) : about_(&m.about), g_(&m.g) {
+        for (std::size_t k = 0; k < m.about.constants.size(); ++k) constants_.push_back(k);
+        list_outputs(m.rate, m.observe);
+        for (auto const& a : m.added_states) {
+            outputs_.push_back({m.about.states[a.state].name + "(begin)", a.at_begin});
+        }
+        list();
+    }
+    explicit graph_listing(bound_model const& m)
+        : about_(&m.about), g_(&m.g), constants_(m.parameters) {
+        list_outputs(m.rate, m.observe);
+        list();
+    }
+
+    [[nodiscard]] model_description const& about() const { return *about_; }
+    [[nodiscard]] graph const& nodes() const { return *g_; }
+    [[nodiscard]] std::vector<output> const& outputs() const { return outputs_; }
+    /// Leaves and operations, operands first.
+    [[nodiscard]] std::vector<line> const& lines() const { return lines_; }
+    [[nodiscard]] std::size_t operations() const { return operations_; }
+    [[nodiscard]] std::size_t operations(graph_part part) const {
+        std::size_t n = 0;
+        for (auto const& l : lines_) n += l.number > 0 && l.part == part ? 1 : 0;
+        return n;
+    }
+    [[nodiscard]] std::size_t shared() const {
+        std::size_t n = 0;
+        for (auto const& l : lines_) n += l.number > 0 && l.uses > 1 ? 1 : 0;
+        return n;
+    }
+
+    /// A leaf by its name, an operation by its number: "Ff", "2.5", "%7".
+    [[nodiscard]] std::string operand(node_id i) const {
+        auto const& n = (*g_)[i];
+        auto const k = static_cast<std::size_t>(n.index);
+        switch (n.op) {
+        case operation::literal:
+            return literal_text(g_->value(n));
+        case operation::time:
+            return "t";
+        case operation::state:
+            return about_->states[k].name;
+        case operation::constant:
+            return about_->constants[constants_[k]].name;
+        case operation::input:
+            return about_->inputs[k].name;
+        default:
+            return "%" + std::to_string(numbers_[i]);
+        }
+    }
+    /// The operation as a formula of its operands: "Ff / %7", "sin(psi)".
+    [[nodiscard]] std::string formula(node_id i) const {
+        auto const& n = (*g_)[i];
+        auto const a = operand(n.a);
+        switch (n.op) {
+        case operation::neg:
+            return "-" + a;
+        case operation::add:
+            return a + " + " + operand(n.b);
+        case operation::sub:
+            return a + " - " + operand(n.b);
+        case operation::mul:
+            return a + " * " + operand(n.b);
+        case operation::div:
+            return a + " / " + operand(n.b);
+        case operation::sqr:
+            return a + "^2";
+        case operation::pown:
+            return a + "^" + std::to_string(n.index);
+        default:
+            return std::string(name(n.op)) + "(" + a +
+                   (is_binary(n.op) ? ", " + operand(n.b) : "") + ")";
+        }
+    }
+
+    /// A literal as it was presumably written: its shortest decimal; in brackets when it is more
+    /// uncertain than a decimal is.
+    [[nodiscard]] static std::string literal_text(literal const& l) {
+        using traits = interval_traits<interval>;
+        double const size = traits::mag(l.enclosure);
+        bool const decimal = width(l.enclosure) <= 3e-16 * size;
+        return decimal ? nearest_text(l.nearest) : sivid::to_string(l.enclosure);
+    }
+
+private:
+    void list_outputs(std::vector<node_id> const& rate, std::vector<node_id> const& observe) {
+        for (std::size_t i = 0; i < rate.size(); ++i) {
+            outputs_.push_back({about_->states[i].name + "'", rate[i]});
+        }
+        for (std::size_t y = 0; y < observe.size(); ++y) {
+            outputs_.push_back({"y." + about_->channels[y].name, observe[y]});
+        }
+    }
+    void list() {
+        std::vector<node_id> roots;
+        for (auto const& o : outputs_) roots.push_back(o.value);
+        auto const needed = reachable(*g_, roots);
+        auto const evaluated = operands_of(*g_, roots);
+        std::vector<std::size_t> uses(g_->size(), 0);
+        for (auto const i : roots) ++uses[i];
+        for (std::size_t k = 0; k < g_->size(); ++k) {
+            auto const& n = g_->nodes()[k];
+            if (!needed[k] || is_leaf(n.op)) continue;
+            ++uses[n.a];
+            if (is_binary(n.op)) ++uses[n.b];
+        }
+        numbers_.assign(g_->size(), 0);
+        for (std::size_t k = 0; k < g_->size(); ++k) {
+            if (!needed[k]) continue;
+            auto const i = static_cast<node_id>(k);
+            line l;
+            l.id = i;
+            l.uses = uses[k];
+            l.part = part_of(g_->depends(i));
+            l.companion = !evaluated[k];
+            if (!is_leaf((*g_)[i].op)) l.number = numbers_[k] = ++operations_;
+            lines_.push_back(l);
+        }
+    }
+
+    model_description const* about_;
+    graph const* g_;
+    std::vector<std::size_t> constants_; ///< index of a constant leaf among the model's constants
+    std::vector<output> outputs_;
+    std::vector<line> lines_;
+    std::vector<std::size_t> numbers_;
+    std::size_t operations_ = 0;
+};
+
+} // namespace sivid
+
+#endif
