@@ -7,6 +7,7 @@
 #include <sivid/number/arithmetic.hpp>
 #include <sivid/number/bernstein.hpp>
 #include <sivid/number/cancellation.hpp>
+#include <sivid/number/coefficient_rows.hpp>
 #include <sivid/number/decimal.hpp>
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/number/decimal_text.hpp>
@@ -48,11 +49,13 @@
 #include <sivid/model/arithmetic.hpp>
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/combination.hpp>
+#include <sivid/model/describe.hpp>
 #include <sivid/model/differentiate.hpp>
 #include <sivid/model/effect.hpp>
 #include <sivid/model/effects.hpp>
 #include <sivid/model/expression.hpp>
 #include <sivid/model/graph.hpp>
+#include <sivid/model/graph_listing.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/model/operation.hpp>
 #include <sivid/model/plain_program.hpp>
@@ -60,7 +63,9 @@
 #include <sivid/model/series.hpp>
 #include <sivid/model/tape.hpp>
 #include <sivid/model/taylor_arithmetic.hpp>
+#include <sivid/model/to_dot.hpp>
 #include <sivid/model/unit.hpp>
+#include <sivid/enclosure/derivative_set.hpp>
 #include <sivid/enclosure/dissipative_step.hpp>
 #include <sivid/enclosure/doubleton.hpp>
 #include <sivid/enclosure/expansion.hpp>
@@ -84,7 +89,9 @@
 #include <sivid/enclosure/perturbed_step.hpp>
 #include <sivid/enclosure/plain_model.hpp>
 #include <sivid/enclosure/runge_kutta.hpp>
+#include <sivid/enclosure/sensitive_flow.hpp>
 #include <sivid/enclosure/sensitive_simulator.hpp>
+#include <sivid/enclosure/sensitivity_tube.hpp>
 #include <sivid/enclosure/simulate.hpp>
 #include <sivid/enclosure/simulation_mesh.hpp>
 #include <sivid/enclosure/stepper.hpp>

@@ -227,6 +227,36 @@ TEST_CASE("Taylor models: norms are upper bounds in every rounding mode") {
     }
 }
 
+TEST_CASE("Taylor models: the norms of a multiple bound what became of its coefficients") {
+    draws d(12);
+    for (int trial = 0; trial < 300; ++trial) {
+        auto const a = wild_model<3, 3>(d);
+        constexpr double factors[] = {1, -3, 1e-3, 1e-290, 1e-310, 5e-324, 1e150, 0};
+        double const m = factors[d.below(8)] * d.uniform(0.5, 1);
+        for (int const mode : modes) {
+            taylor_model<3, 3> b;
+            in_mode(mode, [&] { b = scaled(a, m); });
+            if (!std::isfinite(b.r)) continue;
+            CAPTURE(trial, mode, m);
+            rational spread = 0;
+            for (std::size_t k = 0; k <= 3; ++k) {
+                rational norm = 0;
+                for (auto i = monomials_of(b).first[k]; i < monomials_of(b).first[k + 1]; ++i) {
+                    norm += abs(rational(b.c[i]));
+                }
+                REQUIRE(norm <= rational(b.norms[k]));
+                REQUIRE(rational(b.norms[k]) <=
+                        rational(a.norms[k]) * abs(rational(m)) * rational(1 + 1e-12) +
+                            rational(2 * b.tiny));
+                spread += k > 0 ? norm : rational(0);
+            }
+            REQUIRE(spread <= rational(b.spread()));
+        }
+    }
+    // What no variable enters stays so.
+    REQUIRE(scaled(taylor_model<2, 2>::constant(3), 1.0 / 3).is_constant());
+}
+
 TEST_CASE("Taylor models: constants and variables") {
     using model = taylor_model<2, 2>;
     auto const x = model::variable(1, 3.0, 0.25);

@@ -72,9 +72,13 @@ public:
         : flow_(&f),
           stride_(max_order + 1),
           columns_(f.states() + (which == variations::by_state_and_parameter ? f.parameters() : 0)),
-          series_(f.rate_jacobian(), max_order),
+          program_(which == variations::by_state ? &f.rate_state_jacobian() : &f.rate_jacobian()),
+          entries_(which == variations::by_state ? f.state_entries() : f.entries().size()),
+          series_(*program_, max_order),
           x_(f.states() * stride_, arithmetic::point(0.0)),
-          v_(f.states() * columns_ * stride_, arithmetic::point(0.0)) {}
+          v_(f.states() * columns_ * stride_, arithmetic::point(0.0)) {
+        if constexpr (arithmetic::keeps_rows) v_rows_ = {f.states() * columns_, stride_};
+    }
 
     template <class Box>
     void set_parameters(Box const& p) {
@@ -107,14 +111,14 @@ public:
         }
         for (std::size_t i = 0; i < n; ++i) {
             for (std::size_t c = 0; c < columns_; ++c) {
-                v(i, c, 0) = arithmetic::point(i == c ? 1.0 : 0.0);
+                set_variation(i, c, 0, arithmetic::point(i == c ? 1.0 : 0.0));
             }
         }
         for (std::size_t k = 0; k < order; ++k) {
             for (std::size_t i = 0; i < n; ++i) {
                 for (std::size_t c = 0; c < columns_; ++c) {
                     if (flow_->sensitive(i, c))
-                        v(i, c, k + 1) = over(next_variation(i, c, k), k + 1);
+                        set_variation(i, c, k + 1, over(next_variation(i, c, k), k + 1));
                 }
             }
         }
@@ -149,6 +153,10 @@ private:
     T& v(std::size_t i, std::size_t c, std::size_t k) {
         return v_[(i * columns_ + c) * stride_ + k];
     }
+    void set_variation(std::size_t i, std::size_t c, std::size_t k, T const& value) {
+        v(i, c, k) = value;
+        if constexpr (arithmetic::keeps_rows) v_rows_.put(i * columns_ + c, k, value);
+    }
     [[nodiscard]] auto state_at() const {
         return [this](std::size_t i, std::size_t k) -> T const& { return x_[i * stride_ + k]; };
     }
@@ -156,15 +164,25 @@ private:
     [[nodiscard]] T next_variation(std::size_t i, std::size_t c, std::size_t k) {
         auto const n = flow_->states();
         typename arithmetic::accumulator sum;
-        for (auto const& e : flow_->entries()) {
+        for (std::size_t m = 0; m < entries_; ++m) {
+            auto const& e = flow_->entries()[m];
             if (e.row != i) continue;
-            bool const varies = flow_->rate_jacobian().output_varies(e.output);
+            bool const varies = program_->output_varies(e.output);
             if (e.column >= n) {
                 if (e.column == c && (k == 0 || varies)) sum.add(series_.output(e.output, k));
                 continue;
             }
             if (!flow_->sensitive(e.column, c)) continue;
             std::size_t const last = varies ? k : 0;
+            if constexpr (arithmetic::keeps_rows) {
+                // V starts as the identity.
+                std::size_t const to =
+                    e.column == c ? last : std::min(last, k - std::min<std::size_t>(k, 1));
+                if (k >= 2 && to >= 2) {
+                    series_.add_convolution(sum, e.output, v_rows_, e.column * columns_ + c, k, to);
+                    continue;
+                }
+            }
             for (std::size_t j = 0; j <= last; ++j) {
                 if (k - j == 0 && e.column != c) continue; // V starts as the identity
                 sum.add_product(series_.output(e.output, j), v(e.column, c, k - j));
@@ -177,10 +195,13 @@ private:
     flow const* flow_;
     std::size_t stride_;
     std::size_t columns_;
+    tape const* program_;
+    std::size_t entries_; ///< of the Jacobian, that the program computes
     series<T> series_;
     input_pieces<T> inputs_;
     std::vector<T> x_;
     std::vector<T> v_;
+    [[no_unique_address]] typename model_detail::rows_of<arithmetic>::type v_rows_;
     typename arithmetic::mask jumped_{};
 };
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -30,6 +31,8 @@ public:
         : model_(bind(model, choice, inputs)), signals_(inputs.size()) {
         for (auto const i : model_.sampled) signals_[i] = std::get<sampled_signal>(inputs[i]);
         rate_ = tape(model_.g, model_.rate);
+        rate_state_jacobian_ = with_jacobian(model_.rate, model_.rate_dx, {}, entries_);
+        state_entries_ = std::exchange(entries_, {}).size();
         rate_jacobian_ = with_jacobian(model_.rate, model_.rate_dx, model_.rate_dp, entries_);
         observe_ = tape(model_.g, model_.observe);
         observe_jacobian_ =
@@ -46,6 +49,9 @@ public:
     /// Rates first (outputs 0 .. n-1), then the entries of `entries()`.
     [[nodiscard]] tape const& rate_jacobian() const { return rate_jacobian_; }
     [[nodiscard]] std::vector<jacobian_entry> const& entries() const { return entries_; }
+    /// The same without derivatives by parameters: of `entries()` the first ones.
+    [[nodiscard]] tape const& rate_state_jacobian() const { return rate_state_jacobian_; }
+    [[nodiscard]] std::size_t state_entries() const { return state_entries_; }
     [[nodiscard]] tape const& observe() const { return observe_; }
     [[nodiscard]] tape const& observe_jacobian() const { return observe_jacobian_; }
     [[nodiscard]] std::vector<jacobian_entry> const& observe_entries() const {
@@ -117,7 +123,8 @@ private:
 
     bound_model model_;
     std::vector<sampled_signal> signals_;
-    tape rate_, rate_jacobian_, observe_, observe_jacobian_;
+    std::size_t state_entries_ = 0;
+    tape rate_, rate_jacobian_, rate_state_jacobian_, observe_, observe_jacobian_;
     std::vector<jacobian_entry> entries_, observe_entries_;
     std::vector<bool> sensitive_;
 };

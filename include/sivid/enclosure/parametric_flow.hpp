@@ -106,7 +106,9 @@ double parametric_flow<N, D, C>::propose(std::size_t lane, double rest) const {
                                                             1.0 / static_cast<double>(k)));
         }
     }
-    if (h >= rest) return rest;
+    // A little longer rather than once more: the length aims at a tenth of what is allowed.
+    double const longer = h * std::pow(4.0, 1.0 / static_cast<double>(order_ + 1));
+    if (rest <= std::min(longer, options_.maximum_step)) return rest;
     return h > 0.5 * rest ? std::max(0.5 * rest, std::min(h, options_.minimum_step)) : h;
 }
 

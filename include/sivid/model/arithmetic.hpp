@@ -54,6 +54,7 @@ struct approximate_arithmetic {
     using mask = bool;
     static constexpr std::size_t lanes = 1;
     static constexpr bool keeps_reciprocals = false;
+    static constexpr bool keeps_rows = false;
     using accumulator = plain_accumulator<approximate_arithmetic>;
 
     static double point(double x) { return x; }
@@ -90,6 +91,7 @@ struct proven_arithmetic : interval_traits<I> {
     using accumulator = plain_accumulator<proven_arithmetic>;
     /// Whether division by a series' first coefficient is done by its stored reciprocal.
     static constexpr bool keeps_reciprocals = false;
+    static constexpr bool keeps_rows = false;
 
     static I enclose(interval const& x) { return interval_traits<I>::bounds(x.lower(), x.upper()); }
     static I enclose(literal const& l) { return enclose(l.enclosure); }

@@ -16,6 +16,9 @@ inline node_id derivative_rule(graph& g, node_id i, node_id da, node_id db) {
     auto const n = g[i]; // a copy: building may move the nodes
     auto const one = g.constant(1.0);
     auto const half = g.constant(0.5);
+    // A vanishing derivative times whatever the function itself is computed from: where that is not
+    // defined, the function says so.
+    auto const times = [&g](node_id x, node_id d) { return g.is(d, 0) ? d : g.mul(x, d); };
     switch (n.op) {
     case operation::neg:
         return g.neg(da);
@@ -24,9 +27,9 @@ inline node_id derivative_rule(graph& g, node_id i, node_id da, node_id db) {
     case operation::sub:
         return g.sub(da, db);
     case operation::mul:
-        return g.add(g.mul(da, n.b), g.mul(n.a, db));
+        return g.add(times(n.b, da), times(n.a, db));
     case operation::div:
-        return g.div(g.sub(da, g.mul(i, db)), n.b);
+        return g.div(g.sub(da, times(i, db)), n.b);
     case operation::sqr:
         return g.mul(g.mul(g.constant(2.0), n.a), da);
     case operation::pown: {

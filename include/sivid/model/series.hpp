@@ -4,12 +4,27 @@
 
 #include <sivid/model/arithmetic.hpp>
 #include <sivid/model/tape.hpp>
+#include <sivid/number/coefficient_rows.hpp>
 
 #include <cstddef>
 #include <type_traits>
 #include <vector>
 
 namespace sivid {
+
+namespace model_detail {
+struct nothing {};
+/// What an arithmetic keeps coefficients in for convolutions, if it does.
+template <class Arithmetic>
+struct rows_of {
+    using type = nothing;
+};
+template <class Arithmetic>
+    requires(Arithmetic::keeps_rows)
+struct rows_of<Arithmetic> {
+    using type = typename Arithmetic::rows;
+};
+} // namespace model_detail
 
 /// Taylor series in time of every quantity of a tape, computed order by order.
 ///   Slot s holds \f$ s^{[k]} = s^{(k)}/k! \f$ for k = 0 .. order, where the states' coefficients
@@ -39,6 +54,14 @@ public:
             next += all ? stride_ : 1;
         }
         c_.assign(next, arithmetic::point(0.0));
+        if constexpr (arithmetic::keeps_rows) {
+            row_.assign(program.slots(), no_row);
+            std::size_t rows = 0;
+            for (std::size_t slot = 0; slot < program.slots(); ++slot) {
+                if (program.convolved(slot)) row_[slot] = rows++;
+            }
+            rows_ = typename model_detail::rows_of<arithmetic>::type(rows, stride_);
+        }
         for (std::size_t i = 0; i < program.literals().size(); ++i) {
             at(program.literal_slots()[i], 0) = arithmetic::enclose(program.literals()[i]);
         }
@@ -105,7 +128,19 @@ public:
         advance(program_->principal_varying(), program_->varying().size(), k, state, input);
     }
 
+    /// Adds \f$ \sum_{j=0}^{to} o_j v_{k-j} \f$, o an output that varies and is not principal.
+    void add_convolution(typename arithmetic::accumulator& sum, std::size_t o,
+                         typename model_detail::rows_of<arithmetic>::type const& rows,
+                         std::size_t v, std::size_t k, std::size_t to) const
+        requires(arithmetic::keeps_rows) {
+        sum.add_convolution(rows_, row_[program_->output(o)], rows, v, k, 0, to);
+    }
+
 private:
+    static constexpr std::size_t no_row = ~std::size_t{0};
+    /// Fewer products than that are faster one by one.
+    static constexpr std::size_t worth_rows = 3;
+
     struct flags {
         mask undefined{}, kinked{}, jumped{};
     };
@@ -138,6 +173,9 @@ private:
                 break;
             }
             if (k == 0 && i.op == operation::sign) now_.jumped |= jumps(i);
+            if constexpr (arithmetic::keeps_rows) {
+                if (row_[i.target] != no_row) rows_.put(row_[i.target], k, result);
+            }
         }
     }
 
@@ -183,11 +221,23 @@ private:
     /// Adds \f$ \pm \sum_{j=from}^{to} a_j b_{k-j} \f$.
     void convolve(accumulator& sum, std::size_t a, std::size_t b, std::size_t k, std::size_t from,
                   std::size_t to, double sign = 1) const {
+        if constexpr (arithmetic::keeps_rows) {
+            if (to - from + 1 >= worth_rows && from <= to) {
+                return sum.add_convolution(rows_, row_[a], rows_, row_[b], k, from, to, sign);
+            }
+        }
         for (std::size_t j = from; j <= to; ++j) sum.add_product(get(a, j), get(b, k - j), sign);
     }
     /// \f$ \sum_{j=1}^{to} j a_j b_{k-j} \f$
     T weighted(std::size_t a, std::size_t b, std::size_t k, std::size_t to) const {
         accumulator total;
+        if constexpr (arithmetic::keeps_rows) {
+            if (to >= worth_rows) {
+                total.add_convolution(rows_, row_[a], rows_, row_[b], k, 1, to, 1,
+                                      convolution_weight::order);
+                return total.result();
+            }
+        }
         for (std::size_t j = 1; j <= to; ++j) {
             total.add_product(get(a, j), get(b, k - j), static_cast<double>(j));
         }
@@ -197,6 +247,18 @@ private:
     /// square.
     void square(accumulator& sum, std::size_t a, std::size_t k, std::size_t from,
                 double sign = 1) const {
+        if constexpr (arithmetic::keeps_rows) {
+            if (k >= 2 * from && k - 2 * from + 1 >= worth_rows) {
+                if (k < model_detail::rows_of<arithmetic>::type::at_once) { // all of it is in one
+                                                                            // register
+                    return sum.add_convolution(rows_, row_[a], rows_, row_[a], k, from, k - from,
+                                               sign);
+                }
+                sum.add_convolution(rows_, row_[a], rows_, row_[a], k, from, (k - 1) / 2, 2 * sign);
+                if (k % 2 == 0) sum.add_square(get(a, k / 2), sign);
+                return;
+            }
+        }
         for (std::size_t j = from; 2 * j < k; ++j) {
             sum.add_product(get(a, j), get(a, k - j), 2 * sign);
         }
@@ -311,7 +373,10 @@ private:
     std::vector<T> reciprocal_; ///< of what order 0 divides by, where the arithmetic keeps it
     T time_ = arithmetic::point(0.0);
     T time_slope_ = arithmetic::point(1.0);
-    flags now_;           ///< of the present expansion
+    [[no_unique_address]]
+    typename model_detail::rows_of<arithmetic>::type rows_; ///< of what is convolved
+    std::vector<std::size_t> row_;                          ///< the series of each slot in there
+    flags now_;                                             ///< of the present expansion
     flags constant_;      ///< of what depends on the parameters alone: for the principal outputs,
     flags rest_constant_; ///< and for the others
 };

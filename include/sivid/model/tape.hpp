@@ -125,6 +125,8 @@ public:
     /// Whether the recurrences need all coefficients of a slot; of the others only the last one is
     /// read. Outputs are kept, but for principal ones in front of others: they are read at once.
     [[nodiscard]] bool keeps_history(std::size_t slot) const { return history_[slot]; }
+    /// Whether a slot's coefficients are convolved with others'.
+    [[nodiscard]] bool convolved(std::size_t slot) const { return convolved_[slot]; }
     /// How many of `constant()` and of `varying()` the principal outputs need: the first ones.
     [[nodiscard]] std::size_t principal_constant() const { return principal_constant_; }
     [[nodiscard]] std::size_t principal_varying() const { return principal_varying_; }
@@ -173,10 +175,21 @@ private:
         history_.assign(slots_, false);
         auto const keep = [this](std::size_t slot) { history_[slot] = true; };
         for (std::size_t k = first_kept_output; k < outputs_.size(); ++k) keep(outputs_[k]);
+        convolved_.assign(slots_, false);
+        auto const convolve = [&](std::size_t slot) {
+            keep(slot);
+            convolved_[slot] = true;
+        };
         for (auto const& t : terms_) {
             if (!t.a_varies || !t.b_varies) continue;
-            keep(t.a);
-            keep(t.b);
+            convolve(t.a);
+            convolve(t.b);
+        }
+        // Entries of a Jacobian are convolved with the columns that it multiplies.
+        if (first_kept_output > 0) {
+            for (std::size_t k = first_kept_output; k < outputs_.size(); ++k) {
+                if (output_varies_[k]) convolve(outputs_[k]);
+            }
         }
         // What comes later is evaluated when the principal part has gone on to higher orders.
         std::vector<bool> principal(slots_, false);
@@ -202,15 +215,15 @@ private:
             if (is_leaf(i.op) || i.is_sum()) continue;
             bool const convolved = i.op != operation::mul || (i.a_varies && i.b_varies);
             bool const divided = i.op == operation::div || i.op == operation::sqrt;
-            if (convolved && !divided) keep(i.a);
-            if (convolved && is_binary(i.op)) keep(i.b);
-            if (convolved) keep(i.companion);
-            if (i.op != operation::mul && i.op != operation::sqr) keep(i.target);
+            if (convolved && !divided) convolve(i.a);
+            if (convolved && is_binary(i.op)) convolve(i.b);
+            if (convolved) convolve(i.companion);
+            if (i.op != operation::mul && i.op != operation::sqr) convolve(i.target);
         }
     }
 
     std::size_t slots_ = 0;
-    std::vector<bool> history_;
+    std::vector<bool> history_, convolved_;
     std::size_t principal_constant_ = 0, principal_varying_ = 0;
     std::vector<literal> literals_;
     std::vector<std::size_t> literal_slots_;

@@ -5,9 +5,11 @@
 #include <sivid/model/arithmetic.hpp>
 #include <sivid/number/taylor_model_functions.hpp>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <type_traits>
 
 namespace sivid {
 
@@ -20,9 +22,19 @@ struct taylor_arithmetic {
     using mask = typename side_by_side::mask;
     static constexpr std::size_t lanes = side_by_side::count;
     static constexpr bool keeps_reciprocals = true;
+    /// Whether convolutions are done in rows of coefficients: where the lanes are not taken by
+    /// boxes, they are free for orders in time.
+    static constexpr bool keeps_rows = std::is_same_v<C, double>;
+    using rows = coefficient_rows<N, D>;
 
     class accumulator {
     public:
+        void
+        add_convolution(rows const& left, std::size_t a, rows const& right, std::size_t b,
+                        std::size_t k, std::size_t from, std::size_t to, double factor = 1,
+                        convolution_weight weight = convolution_weight::one) requires(keeps_rows) {
+            sum_.add_convolution(left, a, right, b, k, from, to, factor, weight);
+        }
         void add(value_type const& a, double factor = 1) { sum_.add(a, factor); }
         void add_product(value_type const& a, value_type const& b, double factor = 1) {
             sum_.add(a, b, factor);
@@ -60,10 +72,12 @@ struct taylor_arithmetic {
         return a * b;
     }
     static value_type over(value_type const& a, std::size_t k) {
-        using traits = interval_traits<interval>;
-        bool never = false;
-        return scaled(
-            a, traits::div(traits::point(1.0), traits::point(static_cast<double>(k)), never));
+        static auto const inverses = [] {
+            std::array<interval, 64> result;
+            for (std::size_t n = 1; n < result.size(); ++n) result[n] = inverse(n);
+            return result;
+        }();
+        return scaled(a, k < inverses.size() ? inverses[k] : inverse(k));
     }
     static value_type reciprocal(value_type const& a, mask& undefined) {
         return sivid::reciprocal(a, undefined);
@@ -134,6 +148,11 @@ struct taylor_arithmetic {
     static value_type max(value_type const& a, value_type const& b) { return -min(-a, -b); }
 
 private:
+    static interval inverse(std::size_t k) {
+        using traits = interval_traits<interval>;
+        bool never = false;
+        return traits::div(traits::point(1.0), traits::point(static_cast<double>(k)), never);
+    }
     /// A function of the arguments' ranges, lane by lane.
     template <class F, class... Models>
     static value_type by_range(F const& f, Models const&... models) {

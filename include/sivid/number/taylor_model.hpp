@@ -70,7 +70,7 @@ template <std::size_t N, std::size_t D, class C>
     // norm * size first: the unit times a tiny factor would underflow.
     result.r =
         (a.r * (size + rho) + norm * rho + norm * size * model::unit) * model::up + model::tiny;
-    result.finish();
+    result.finish_multiple(a, size);
     result.give_up_when_huge(norm * (size + rho));
     return result;
 }

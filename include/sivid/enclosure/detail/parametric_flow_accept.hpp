@@ -103,9 +103,15 @@ void parametric_flow<N, D, C>::accept(mask moved, C const& to, std::size_t order
                               h >= options_.maximum_step);
     }
     if (order > 0) {
-        if (side_by_side::any(moved & (tail > C(1e-3)))) {
+        // What V's Lagrange term adds to the reach may be a share of what the step may lose anyway.
+        C lasting = C(0.05);
+        for (std::size_t i = 0; i < n; ++i) {
+            lasting = side_by_side::min(lasting, allowed(i) * 0.3 / (set_.reach[i] + C(1e-300)));
+        }
+        lasting = side_by_side::max(lasting, C(1e-3));
+        if (side_by_side::any(moved & (tail > lasting))) {
             flow_order_ = std::min(flow_order + 1, options_.order);
-        } else if (side_by_side::all((tail < C(1e-6)) | !moved) && flow_order > 2) {
+        } else if (side_by_side::all((tail < lasting * 0.01) | !moved) && flow_order > 2) {
             flow_order_ = flow_order - 1;
         }
         adapt_order(moved, length, clamped);

@@ -111,7 +111,12 @@ parametric_flow<N, D, C>::attempt(mask trying, C const& to, std::size_t order,
     C const before = power / h;
     for (std::size_t i = 0; i < n; ++i) {
         C const next = K > 0 ? centre_.state(i, K).norm() * before : centre_.state(i, 1).norm() * h;
-        room_[i] = carried[i] * 1.2 + next + allowed(i) * 0.1;
+        // Room for the truncation that is still accepted, as a second round costs as much as the
+        // first; but not much on the scale of the tube.
+        C const wide = path_[i].spread() * 0.3 + carried[i] * 0.05;
+        C const more =
+            side_by_side::min(allowed(i) * 5.0, side_by_side::max(allowed(i) * 0.1, wide));
+        room_[i] = carried[i] * 1.2 + next + more;
     }
     auto const shortest = h <= C(4 * options_.minimum_step);
     mask proved{};

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace sivid {
 
@@ -57,16 +58,15 @@ struct taylor_model {
     }
 
     /// Recomputes the norms; to be called after `c` was written.
-    void finish() {
-        auto const& first = basis::data.first;
-        for (std::size_t k = 0; k <= D; ++k) {
-            C sum{};
-            for (std::size_t i = first[k]; i < first[k + 1]; ++i) sum += side_by_side::abs(c[i]);
-            norms[k] = sum * up;
-        }
-        above = C(0.0);
-        for (std::size_t k = 1; k <= D; ++k) above += norms[k];
-        above *= up;
+    void finish() { finish(std::make_index_sequence<D + 1>{}); }
+    /// The norms of a multiple, from those of what was multiplied: each coefficient that is not 0
+    /// is rounded once, in the subnormal range by less than itself.
+    void finish_multiple(taylor_model const& a, C const& size) {
+        auto const multiple = [&size](C const& norm) {
+            return norm * size * up + side_by_side::min(norm, C(tiny));
+        };
+        for (std::size_t k = 0; k <= D; ++k) norms[k] = multiple(a.norms[k]);
+        above = multiple(a.above);
     }
     /// Bound of the polynomial without its constant term.
     [[nodiscard]] C spread() const { return above; }
@@ -96,6 +96,34 @@ struct taylor_model {
         result.c[basis::data.variable[v]] = slope;
         result.finish();
         return result;
+    }
+
+private:
+    /// Sum of so many absolute values, as a tree: the additions do not wait for each other.
+    template <std::size_t First, std::size_t Count>
+    [[nodiscard, gnu::always_inline]] C sizes() const {
+        if constexpr (Count == 1) {
+            return side_by_side::abs(c[First]);
+        } else if constexpr (Count <= 16) {
+            return sizes<First, Count / 2>() + sizes<First + Count / 2, Count - Count / 2>();
+        } else {
+            constexpr std::size_t chains = 4;
+            std::array<C, chains> sum{};
+            std::size_t i = First;
+            for (; i + chains <= First + Count; i += chains) {
+                for (std::size_t j = 0; j < chains; ++j) sum[j] += side_by_side::abs(c[i + j]);
+            }
+            for (; i < First + Count; ++i) sum[0] += side_by_side::abs(c[i]);
+            return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+        }
+    }
+    template <std::size_t... K>
+    [[gnu::always_inline]] void finish(std::index_sequence<K...>) {
+        constexpr auto const& first = basis::data.first;
+        ((norms[K] = sizes<first[K], first[K + 1] - first[K]>() * up), ...);
+        C sum{};
+        for (std::size_t k = 1; k <= D; ++k) sum += norms[k];
+        above = sum * up;
     }
 };
 

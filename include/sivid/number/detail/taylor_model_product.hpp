@@ -2,8 +2,10 @@
 #ifndef SIVID_NUMBER_DETAIL_TAYLOR_MODEL_PRODUCT_HPP
 #define SIVID_NUMBER_DETAIL_TAYLOR_MODEL_PRODUCT_HPP
 
+#include <sivid/number/coefficient_rows.hpp>
 #include <sivid/number/detail/taylor_model_class.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -93,7 +95,7 @@ public:
         radius_ += (beyond + a.r * (pb + b.r) + b.r * pa) * size;
         C const mass = pa * pb * size;
         mass_ += mass;
-        own_ += mass * static_cast<double>(monomials<N, D>::data.longest_sum + 1);
+        own_ += mass * (static_cast<double>(monomials<N, D>::data.longest_sum) + rounds(factor));
         additions_ += 1;
     }
     /// Adds factor * a.
@@ -102,8 +104,20 @@ public:
         radius_ += a.r * std::abs(factor);
         C const mass = a.polynomial_norm() * std::abs(factor);
         mass_ += mass;
-        if (std::abs(factor) != 1) own_ += mass;
+        own_ += mass * rounds(factor);
         additions_ += 1;
+    }
+    /// Adds factor * \f$ \sum_{j=from}^{to} w_j a_j b_{k-j} \f$ of two series that are kept in
+    /// rows, the factor a small integer.
+    void add_convolution(
+        coefficient_rows<N, D> const& left, std::size_t a, coefficient_rows<N, D> const& right,
+        std::size_t b, std::size_t k, std::size_t from, std::size_t to, double factor = 1,
+        convolution_weight weight = convolution_weight::one) requires(std::is_same_v<C, double>) {
+        using rows = coefficient_rows<N, D>;
+        if (blocks_ == 0) side_by_side_.fill(0.0);
+        blocks_ += static_cast<double>(to / rows::at_once - from / rows::at_once + 1);
+        convolution_kernel<N, D>::add(side_by_side_.data(), left.begin(a), left.pitch(),
+                                      right.begin(b), right.pitch(), k, from, to, factor, weight);
     }
     [[nodiscard]] model result() const {
         model m{typename model::unset{}};
@@ -112,15 +126,40 @@ public:
     }
     void result_into(model& m) const {
         m.c = c_;
+        C radius = radius_;
+        C mass = mass_;
+        C own = own_;
+        double joined = additions_;
+        double operations = additions_;
+        if constexpr (std::is_same_v<C, double>) {
+            if (blocks_ > 0) {
+                using rows = coefficient_rows<N, D>;
+                std::array<double, rows::sums> total;
+                convolution_kernel<N, D>::add_up(side_by_side_.data(), total.data());
+                for (std::size_t i = 0; i < model::terms; ++i) m.c[i] += total[i];
+                radius += total[model::terms];
+                mass += total[model::terms + 1];
+                // A term is weighted, multiplied, stands in the partial sum that is added to at
+                // most `longest_sum` times a block, the first time to 0, and in three more where
+                // the partial sums join.
+                own += total[model::terms + 1] *
+                       (blocks_ * static_cast<double>(monomials<N, D>::data.longest_sum) + 4);
+                joined += 1;
+                operations += 1 + blocks_ * static_cast<double>(monomials<N, D>::data.longest_sum +
+                                                                2 * D + 4);
+            }
+        }
         // Each operation errs by a unit of its result: within a product by a unit of its own mass,
-        // where its sum joins the total by a unit of the total mass.
-        C const rounding = (own_ + mass_ * additions_) * model::unit;
-        m.r = (radius_ + rounding) * (model::up + 8 * additions_ * model::unit) + model::tiny;
+        // where its sum joins the total by a unit of the total mass; the first one joins 0.
+        C const rounding = (own + mass * std::max(joined - 1, 0.0)) * model::unit;
+        m.r = (radius + rounding) * (model::up + 8 * operations * model::unit) + model::tiny;
         m.finish();
-        m.give_up_when_huge(mass_);
+        m.give_up_when_huge(mass);
     }
 
 private:
+    /// How often multiplying by it rounds.
+    static double rounds(double factor) { return std::abs(factor) == 1 ? 0 : 1; }
     /// The same for a factor that does not depend on the variables.
     void add_multiple(model const& a, model const& number, double factor) {
         C const times = number.c[0] * factor;
@@ -130,7 +169,7 @@ private:
         radius_ += (number.r * (norm + a.r) + a.r * number.norms[0]) * size;
         C const mass = norm * number.norms[0] * size;
         mass_ += mass;
-        own_ += mass * 2.0;
+        own_ += mass * (1 + rounds(factor));
         additions_ += 1;
     }
 
@@ -139,6 +178,13 @@ private:
     C mass_{};
     C own_{};
     double additions_ = 0;
+    double blocks_ = 0; ///< vectors of products that were added to the partial sums
+    struct nothing {};
+    /// Eight partial sums of each coefficient, of what convolutions lose, and of their size.
+    alignas(64) std::conditional_t<
+        std::is_same_v<C, double>,
+        std::array<double, coefficient_rows<N, D>::sums * coefficient_rows<N, D>::at_once>,
+        nothing> side_by_side_;
 };
 
 } // namespace sivid

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_NUMBER_COEFFICIENT_ROWS_HPP
+#define SIVID_NUMBER_COEFFICIENT_ROWS_HPP
+
+#include <sivid/number/detail/pack_target.hpp>
+#include <sivid/number/detail/taylor_model_class.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// Series in time of single Taylor models, once more, with the orders side by side: one row for
+/// each coefficient, each norm, the polynomial's norm and the radius. Coefficients of products of
+/// two series are then dot products of rows, eight orders in one vector register.
+template <std::size_t N, std::size_t D>
+class coefficient_rows {
+public:
+    using model = taylor_model<N, D>;
+    static constexpr std::size_t at_once = 8;
+    /// Rows of a series: coefficients, norms 1 .. D, the polynomial's norm, the radius.
+    static constexpr std::size_t first_norm = model::terms;
+    static constexpr std::size_t whole_norm = first_norm + D;
+    static constexpr std::size_t radius = whole_norm + 1;
+    static constexpr std::size_t count = radius + 1;
+    /// Rows of a sum of convolutions: the coefficients, what is lost, the size; then zeros.
+    static constexpr std::size_t sums = (model::terms + 2 + at_once - 1) / at_once * at_once;
+
+    coefficient_rows() = default;
+    /// @param orders  0 .. orders - 1 of each series will be kept
+    coefficient_rows(std::size_t series, std::size_t orders)
+        : pitch_(at_once + (orders + at_once - 1) / at_once * at_once),
+          blocks_(series * count * pitch_ / at_once) {}
+
+    /// Enters coefficient k of a series.
+    void put(std::size_t series, std::size_t k, model const& a) {
+        double* p = data() + series * count * pitch_ + at_once + k;
+        for (std::size_t i = 0; i < model::terms; ++i, p += pitch_) *p = a.c[i];
+        for (std::size_t d = 1; d <= D; ++d, p += pitch_) *p = a.norms[d];
+        *p = a.polynomial_norm();
+        *(p + pitch_) = a.r;
+    }
+    /// Where coefficient 0 of the first row of a series is; `at_once` numbers in front of each row
+    /// may be read.
+    [[nodiscard]] double const* begin(std::size_t series) const {
+        return blocks_.data()->data() + series * count * pitch_ + at_once;
+    }
+    /// Distance between rows.
+    [[nodiscard]] std::size_t pitch() const { return pitch_; }
+
+private:
+    struct alignas(64) block : std::array<double, at_once> {};
+    double* data() { return blocks_.data()->data(); }
+
+    std::size_t pitch_ = at_once;
+    std::vector<block> blocks_;
+};
+
+/// What the products in a convolution are multiplied by.
+enum class convolution_weight {
+    one,  ///< \f$ \sum_j a_j b_{k-j} \f$
+    order ///< \f$ \sum_j j a_j b_{k-j} \f$
+};
+
+inline namespace SIVID_PACK_TARGET {
+
+/// Eight partial sums, in vector registers, of each coefficient of a sum of convolutions, of what
+/// the products lose, and of their size. Their layout in memory is the same for every target.
+template <std::size_t N, std::size_t D>
+struct convolution_kernel {
+    using rows = coefficient_rows<N, D>;
+    using table = monomials<N, D>;
+    static constexpr std::size_t terms = table::count;
+    static constexpr std::size_t width = rows::at_once;
+
+    typedef double vector __attribute__((vector_size(64)));
+    typedef std::int64_t whole __attribute__((vector_size(64)));
+    typedef double stored __attribute__((vector_size(64), may_alias));
+    typedef double loose __attribute__((vector_size(64), aligned(8), may_alias));
+
+    /// Adds factor * \f$ \sum_{j=from}^{to} w_j a_j b_{k-j} \f$, w as `weight` says. What stands in
+    /// the rows outside of that is not read as a number: it may be a NaN.
+    [[gnu::noinline]] static void add(double* totals, double const* a, std::size_t pitch_a,
+                                      double const* b, std::size_t pitch_b, std::size_t k,
+                                      std::size_t from, std::size_t to, double factor,
+                                      convolution_weight weight) {
+        auto* const sum = reinterpret_cast<stored*>(totals);
+        vector left[rows::count];
+        vector right[rows::count];
+        bool const plain = factor == 1 && weight == convolution_weight::one;
+        for (std::size_t first = from / width * width; first <= to; first += width) {
+            whole order{0, 1, 2, 3, 4, 5, 6, 7};
+            order += static_cast<std::int64_t>(first);
+            whole const used = (order >= static_cast<std::int64_t>(from)) &
+                               (order <= static_cast<std::int64_t>(to));
+            double const* p = a + first;
+            double const* q =
+                b + static_cast<std::ptrdiff_t>(k) - static_cast<std::ptrdiff_t>(first + width - 1);
+            for (std::size_t i = 0; i < rows::count; ++i, p += pitch_a, q += pitch_b) {
+                left[i] = reinterpret_cast<vector>(
+                    reinterpret_cast<whole>(vector(*reinterpret_cast<loose const*>(p))) & used);
+                vector const backward(*reinterpret_cast<loose const*>(q));
+                right[i] =
+                    reinterpret_cast<vector>(reinterpret_cast<whole>(__builtin_shufflevector(
+                                                 backward, backward, 7, 6, 5, 4, 3, 2, 1, 0)) &
+                                             used);
+            }
+            if (!plain) {
+                vector w = vector{} + 1;
+                if (weight == convolution_weight::order) w = __builtin_convertvector(order, vector);
+                double const size = factor < 0 ? -factor : factor;
+                vector const signed_weight = w * factor;
+                vector const unsigned_weight = w * size;
+                for (std::size_t i = 0; i < terms; ++i) left[i] *= signed_weight;
+                for (std::size_t i = terms; i < rows::count; ++i) left[i] *= unsigned_weight;
+            }
+            multiply(sum, left, right, std::make_index_sequence<terms>{});
+            // What the products have beyond degree D, and the radii times everything.
+            vector const pa = left[rows::whole_norm], pb = right[rows::whole_norm];
+            vector const ra = left[rows::radius], rb = right[rows::radius];
+            vector lost = ra * (pb + rb) + rb * pa;
+            vector high{};
+            for (std::size_t d = 1; d <= D; ++d) {
+                high += right[rows::first_norm + D - d];
+                lost += left[rows::first_norm + d - 1] * high;
+            }
+            sum[terms] += lost;
+            sum[terms + 1] += pa * pb;
+        }
+    }
+
+    /// The eight partial sums of each row added up, pair by pair.
+    [[gnu::noinline]] static void add_up(double const* totals, double* result) {
+        auto const* const sum = reinterpret_cast<stored const*>(totals);
+        for (std::size_t t = 0; t < rows::sums; t += width) {
+            vector two[4], four[2];
+            for (std::size_t i = 0; i < 4; ++i) {
+                vector const x = sum[t + 2 * i], y = sum[t + 2 * i + 1];
+                two[i] = __builtin_shufflevector(x, y, 0, 8, 2, 10, 4, 12, 6, 14) +
+                         __builtin_shufflevector(x, y, 1, 9, 3, 11, 5, 13, 7, 15);
+            }
+            for (std::size_t i = 0; i < 2; ++i) {
+                vector const x = two[2 * i], y = two[2 * i + 1];
+                four[i] = __builtin_shufflevector(x, y, 0, 1, 8, 9, 4, 5, 12, 13) +
+                          __builtin_shufflevector(x, y, 2, 3, 10, 11, 6, 7, 14, 15);
+            }
+            vector const all =
+                __builtin_shufflevector(four[0], four[1], 0, 1, 2, 3, 8, 9, 10, 11) +
+                __builtin_shufflevector(four[0], four[1], 4, 5, 6, 7, 12, 13, 14, 15);
+            *reinterpret_cast<loose*>(result + t) = all;
+        }
+    }
+
+private:
+    /// Products up to so many are unrolled: the positions are constants of the instructions.
+    static constexpr std::size_t unrolled = 250;
+
+    template <std::size_t... K>
+    [[gnu::always_inline]] static inline void multiply(stored* sum, vector const* a,
+                                                       vector const* b, std::index_sequence<K...>) {
+        if constexpr (table::products > unrolled) {
+            for (std::size_t k = 0; k < terms; ++k) {
+                vector total = sum[k];
+                for (std::size_t p = table::data.sum[k]; p < table::data.sum[k + 1]; ++p) {
+                    total += a[table::data.pairs[p].left] * b[table::data.pairs[p].right];
+                }
+                sum[k] = total;
+            }
+        } else {
+            (coefficient<table::data.sum[K]>(
+                 sum[K], a, b,
+                 std::make_index_sequence<table::data.sum[K + 1] - table::data.sum[K]>{}),
+             ...);
+        }
+    }
+    template <std::size_t First, std::size_t... P>
+    [[gnu::always_inline]] static inline void
+    coefficient(stored& sum, vector const* a, vector const* b, std::index_sequence<P...>) {
+        vector total = sum;
+        ((total += a[table::data.pairs[First + P].left] * b[table::data.pairs[First + P].right]),
+         ...);
+        sum = total;
+    }
+};
+
+} // namespace SIVID_PACK_TARGET
+} // namespace sivid
+
+#endif

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/number/coefficient_rows.hpp>
+
+#include "support/catch.hpp"
+#include "support/taylor_models.hpp"
+
+#include <sivid/number/taylor_model.hpp>
+
+#include <algorithm>
+#include <cfenv>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+using namespace sivid;
+using support::covers;
+using support::draws;
+using support::exact_polynomial;
+using support::random_model;
+using support::rational;
+
+namespace {
+
+/// Two series of models, in rows and one by one. What stands beyond their orders is NaN.
+template <std::size_t N, std::size_t D>
+struct two_series {
+    static constexpr std::size_t orders = 26;
+    using model = taylor_model<N, D>;
+    std::vector<model> a, b;
+    coefficient_rows<N, D> rows{2, orders};
+
+    two_series(draws& d, std::size_t known, double radius, bool wild) {
+        constexpr double sizes[] = {1, 1e-3, 1e-160, 1e-310, 5e-324, 1e150};
+        auto unknown = model::constant(std::numeric_limits<double>::quiet_NaN());
+        unknown.r = std::numeric_limits<double>::infinity();
+        for (std::size_t k = 0; k < orders; ++k) {
+            for (auto* s : {&a, &b}) {
+                auto const size = wild ? sizes[d.below(6)] : 2.0;
+                s->push_back(k < known ? random_model<N, D>(d, size, 0.8, radius) : unknown);
+                rows.put(s == &a ? 0 : 1, k, s->back());
+            }
+        }
+    }
+};
+
+struct range_of_orders {
+    std::size_t k, from, to;
+};
+range_of_orders draw_range(draws& d, std::size_t most) {
+    auto const k = d.below(most);
+    auto const from = d.below(k + 1);
+    return {k, from, from + d.below(k - from + 1)};
+}
+
+[[gnu::noinline]] void in_mode(int mode, auto const& f) {
+    std::fesetround(mode);
+    f();
+    std::fesetround(FE_TONEAREST);
+}
+
+template <std::size_t N, std::size_t D>
+void check_rounding(std::uint64_t seed, int trials) {
+    draws d(seed);
+    for (int trial = 0; trial < trials; ++trial) {
+        bool const wild = d.coin();
+        auto const r = draw_range(d, 24);
+        // Coefficients that are not used may be anything: those above k, and with from > 0 also
+        // those of b above k - from.
+        two_series<N, D> const s(d, r.k + 1, 0, wild);
+        double const factor = std::array{1.0, -1.0, 2.0}[d.below(3)];
+        auto const weight = d.coin() ? convolution_weight::one : convolution_weight::order;
+        bool const more = d.coin();
+        exact_polynomial<N> expected;
+        for (std::size_t j = r.from; j <= r.to; ++j) {
+            auto const p = support::product(support::exact(s.a[j]), support::exact(s.b[r.k - j]));
+            double const w = weight == convolution_weight::one ? 1 : static_cast<double>(j);
+            expected = support::sum(expected, p, rational(factor * w));
+        }
+        if (more) { // other addends in the same sum, another convolution among them
+            expected = support::sum(expected, support::exact(s.a[0]), rational(-1));
+            for (std::size_t j = 0; j <= r.k; ++j) {
+                expected = support::sum(expected, support::product(support::exact(s.b[j]),
+                                                                   support::exact(s.a[r.k - j])));
+            }
+        }
+        for (int const mode : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+            taylor_model<N, D> result;
+            in_mode(mode, [&] {
+                product_sum<N, D> sum;
+                sum.add_convolution(s.rows, 0, s.rows, 1, r.k, r.from, r.to, factor, weight);
+                if (more) {
+                    sum.add(s.a[0], -1);
+                    sum.add_convolution(s.rows, 1, s.rows, 0, r.k, 0, r.k);
+                }
+                result = sum.result();
+            });
+            CAPTURE(N, D, trial, mode, r.k, r.from, r.to, factor, more);
+            if (!wild) REQUIRE(std::isfinite(result.r));
+            if (std::isfinite(result.r)) REQUIRE(covers(result, expected));
+        }
+    }
+}
+
+template <std::size_t N, std::size_t D>
+void check_members(std::uint64_t seed, int trials) {
+    draws d(seed);
+    for (int trial = 0; trial < trials; ++trial) {
+        auto const r = draw_range(d, 20);
+        two_series<N, D> const s(d, r.k + 1, 0.2, false);
+        product_sum<N, D> rows, single;
+        rows.add_convolution(s.rows, 0, s.rows, 1, r.k, r.from, r.to);
+        for (std::size_t j = r.from; j <= r.to; ++j) single.add(s.a[j], s.b[r.k - j]);
+        auto const result = rows.result();
+        auto const reference = single.result();
+        CAPTURE(N, D, trial, r.k, r.from, r.to);
+        // Not wider than product by product.
+        REQUIRE(result.r <= reference.r * (1 + 1e-12) + 1e-12);
+        for (int sample = 0; sample < 6; ++sample) {
+            auto const q = support::short_point(d, N);
+            rational y = 0;
+            for (std::size_t j = r.from; j <= r.to; ++j) {
+                y += support::member<rational>(d, s.a[j], q) *
+                     support::member<rational>(d, s.b[r.k - j], q);
+            }
+            REQUIRE(support::holds(result, q, y));
+        }
+    }
+}
+
+/// All members at the ends of their radii, with the same signs: nothing may be missing.
+template <std::size_t N, std::size_t D>
+void check_radii(std::uint64_t seed) {
+    draws d(seed);
+    for (std::size_t const k : {0U, 3U, 7U, 8U, 15U, 16U, 23U}) {
+        two_series<N, D> s(d, k + 1, 0, false);
+        for (std::size_t j = 0; j <= k; ++j) {
+            s.a[j] = taylor_model<N, D>::constant(1.0 + static_cast<double>(j));
+            s.b[j] = taylor_model<N, D>::constant(2.0);
+            s.a[j].r = 0.5;
+            s.b[j].r = 0.25;
+            s.rows.put(0, j, s.a[j]);
+            s.rows.put(1, j, s.b[j]);
+        }
+        product_sum<N, D> sum;
+        sum.add_convolution(s.rows, 0, s.rows, 1, k, 0, k);
+        auto const result = sum.result();
+        rational most = 0;
+        for (std::size_t j = 0; j <= k; ++j) {
+            most += rational(1.5 + static_cast<double>(j)) * rational(2.25);
+        }
+        REQUIRE(rational(result.c[0]) + rational(result.r) >= most);
+        REQUIRE(rational(result.c[0]) + rational(result.r) <= most * rational(1 + 1e-12));
+    }
+}
+
+} // namespace
+
+TEST_CASE("Coefficient rows: the radius covers what a convolution rounds and cuts off") {
+    check_rounding<1, 0>(1, 150);
+    check_rounding<2, 1>(2, 100);
+    check_rounding<3, 2>(3, 40);
+    check_rounding<2, 4>(4, 20);
+    check_rounding<4, 3>(5, 8); // its products are not unrolled
+}
+
+TEST_CASE("Coefficient rows: a convolution contains all products of members") {
+    check_members<1, 0>(11, 60);
+    check_members<2, 2>(12, 40);
+    check_members<3, 3>(13, 10);
+}
+
+TEST_CASE("Coefficient rows: every order's radius counts") {
+    check_radii<1, 0>(21);
+    check_radii<2, 1>(22);
+}
+
+TEST_CASE("Coefficient rows: a radius that is not finite stays so") {
+    draws d(31);
+    for (std::size_t const lost : {0U, 4U, 9U}) {
+        two_series<2, 1> s(d, 10, 0.1, false);
+        s.a[lost].r = std::numeric_limits<double>::infinity();
+        s.rows.put(0, lost, s.a[lost]);
+        product_sum<2, 1> sum, other;
+        sum.add_convolution(s.rows, 0, s.rows, 1, 9, 0, 9);
+        REQUIRE(!std::isfinite(sum.result().r));
+        // A convolution that leaves it out knows its value.
+        if (lost == 0) other.add_convolution(s.rows, 0, s.rows, 1, 9, 1, 9);
+        if (lost == 4) other.add_convolution(s.rows, 0, s.rows, 1, 9, 5, 9);
+        if (lost == 9) other.add_convolution(s.rows, 0, s.rows, 1, 9, 0, 8);
+        REQUIRE(std::isfinite(other.result().r));
+    }
+}
