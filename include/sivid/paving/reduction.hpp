@@ -45,8 +45,9 @@ public:
         // Each product needs a parameter of power one that stands in no other product.
         for (auto const& c : structure.combinations) {
             std::optional<std::size_t> pivot;
-            for (std::size_t j = 0; j < c.exponents.size() && !pivot; ++j) {
+            for (std::size_t j = 0; j < c.exponents.size(); ++j) {
                 if (c.exponents[j] != 0 && !is_entangled(j)) return std::nullopt;
+                if (pivot) continue;
                 auto const users = std::count_if(
                     structure.combinations.begin(), structure.combinations.end(),
                     [j](combination const& other) { return other.exponents[j] != 0; });
