@@ -74,6 +74,12 @@ struct forced_outlier {
     std::size_t measurement = 0; ///< index in the order of time
 };
 
+/// The paving of fewer parameters, products among them, in which a search ran.
+struct product_paving {
+    reduction map;
+    subpaving paving; ///< of the prior of `map.problem()`
+};
+
 /// What was found about a problem; everything in it is proved, `guess` excepted.
 struct identification {
     explicit identification(box const& prior) : paving(prior), hull(prior) {}
@@ -83,6 +89,7 @@ struct identification {
     /// Of the prior: inside boxes are proved, what no other box covers is excluded by proof.
     subpaving paving;
     volume_source volumes = volume_source::boxes;
+    std::optional<product_paving> products; ///< what `paving` was drawn from
     box hull; ///< contains every feasible parameter; empty sides when there is none
     std::optional<verified_witness> witness;
     std::vector<combination_hull> combinations;
@@ -128,6 +135,11 @@ verify_witness(data_test& test, identification_problem const& problem,
     return find_combinations(models);
 }
 
+/// Into how many parts the prior of the factors is cut to measure the preimage of so many boxes.
+[[nodiscard]] inline std::size_t volume_cells(std::size_t boxes) {
+    return std::clamp<std::size_t>(400'000 / (boxes + 1), 8, 200);
+}
+
 namespace paving_detail {
 
 /// Measurements that fail for every parameter that is left.
@@ -165,7 +177,7 @@ inline void draw(identification& result, reduction const& map, subpaving const& 
         if (b.verdict == box_verdict::inside) inside.push_back(b.set);
     }
     preimage_volume const volume(map, prior);
-    std::size_t const cells = std::clamp<std::size_t>(400'000 / (left.size() + 1), 8, 200);
+    auto const cells = volume_cells(left.size());
     result.paving.set_volumes(volume(inside, cells), volume(left, cells));
     result.volumes = volume_source::preimage;
     result.hull = result.paving.outer_hull();
@@ -243,6 +255,7 @@ inline void draw(identification& result, reduction const& map, subpaving const& 
     result.boxes = found.tested;
     if (map) {
         paving_detail::draw(result, *map, found.paving, problem.prior, options);
+        result.products.emplace(product_paving{*map, std::move(found.paving)});
     } else {
         result.paving = std::move(found.paving);
         result.hull = left;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -138,6 +139,15 @@ public:
     }
 
     [[nodiscard]] std::vector<side> const& sides() const { return sides_; }
+    /// The formulas of the sides: the name of a parameter, or a product.
+    [[nodiscard]] std::vector<std::string> side_names() const {
+        std::vector<std::string> names;
+        for (std::size_t k = 0; k < sides_.size(); ++k) {
+            names.push_back(sides_[k].product ? sides_[k].product->formula
+                                              : problem_.choice.unknown[k]);
+        }
+        return names;
+    }
 
 private:
     identification_problem problem_;
