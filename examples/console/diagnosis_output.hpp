@@ -119,6 +119,18 @@ inline sivid::screened const* candidate_of(sivid::diagnosis_run const& run,
     return nullptr;
 }
 
+/// What is proved of a model's inflation, as a range.
+inline std::string inflation_words(sivid::diagnosis_run const& run,
+                                   std::vector<std::string> const& effects) {
+    auto known = effects.empty() ? run.result.inflation : sivid::unknown_inflation();
+    for (auto const& c : run.result.causes) {
+        if (!effects.empty() &&
+            std::is_permutation(c.effects.begin(), c.effects.end(), effects.begin(), effects.end()))
+            known = c.inflation;
+    }
+    return sivid::report::outward_text(detail::range_of(known));
+}
+
 inline std::string joined(std::vector<std::string> const& all) {
     std::string text;
     for (auto const& s : all) text += (text.empty() ? "" : " + ") + s;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
 #include "console/console.hpp"
+#include "console/program.hpp"
 
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset_digest.hpp>
@@ -47,11 +48,11 @@ int exit_code_of(outcome o) {
     case outcome::nothing:
         return 0;
     case outcome::refuted:
-        return exit_code::refuted;
+        return console::refuted;
     case outcome::undecided:
         break;
     }
-    return exit_code::undecided;
+    return console::undecided;
 }
 
 template <class Fast>
@@ -80,7 +81,7 @@ int run(check_command const& c) {
     std::cout << "checking " << (c.result / "result.json").string() << " against "
               << folder.lexically_normal().string() << "\n";
     print(source);
-    if (source.found == outcome::refuted) return exit_code::refuted;
+    if (source.found == outcome::refuted) return console::refuted;
     sivid::require_same_problem(problem, stored, c.result / "result.json");
     bool own_budget = true;
     for (auto& e : problem.experiments) {

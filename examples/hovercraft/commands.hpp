@@ -16,16 +16,6 @@
 /// exit code; it throws sivid::input_error, bad_request or sivid::output_error.
 namespace hovercraft_example {
 
-/// Exit codes of sivid's programs.
-enum exit_code {
-    consistent = 0,
-    bad_input = 2,
-    undecided = 3,
-    inconsistent = 4,
-    refuted = 5, ///< of `check`: the result is not what its data prove
-    internal_error = 70
-};
-
 struct identify_command {
     hovercraft craft;
     std::filesystem::path dataset, out;
@@ -94,16 +84,6 @@ struct rank_command {
     std::string command_line;
 };
 [[nodiscard]] int run(rank_command const& command);
-
-/// Creates the folder for results.
-/// @throws bad_request when that is impossible
-inline void prepare_folder(std::filesystem::path const& folder) {
-    std::error_code fault;
-    std::filesystem::create_directories(folder, fault);
-    if (fault || !std::filesystem::is_directory(folder))
-        throw bad_request(std::string{"the folder "} + folder.string() + " cannot be created" +
-                          (fault ? std::string{": "} + fault.message() : ""));
-}
 
 /// What the constants mean: Table 2.1 of the report.
 [[nodiscard]] inline std::map<std::string, std::string> constant_meanings() {

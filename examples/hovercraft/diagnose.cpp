@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
 #include "console/diagnosis_output.hpp"
+#include "console/program.hpp"
 #include "effects.hpp"
 #include "manoeuvres.hpp"
 
@@ -13,8 +14,7 @@ int run(diagnose_command const& c) {
     auto const model = sivid::record_model(c.craft);
     auto const data = sivid::read_dataset(c.dataset, sivid::names_of(model.about));
     auto const problem = sivid::problem_from_dataset(data, model);
-    auto const further = sivid::assumptions_of(data);
-    prepare_folder(c.out);
+    console::prepare_folder(c.out);
 
     console::progress_line progress(c.quiet);
     sivid::diagnosis_options options;
@@ -28,7 +28,6 @@ int run(diagnose_command const& c) {
     auto const kept = sivid::holdout_from_dataset(data, model.about);
     sivid::judge_by_holdout(run, kept);
     auto& d = run.result;
-    d.assumptions.insert(d.assumptions.end(), further.begin(), further.end());
     console::write_diagnosis(d, data.id, console::plot_data(run, kept),
                              console::page_options(run, data.id, c.command_line), c.out,
                              [](auto const&) {});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
+#include "console/program.hpp"
 
 #include <sivid/io/dataset_writer.hpp>
 #include <sivid/io/json_writer.hpp>
@@ -35,7 +36,7 @@ int run(generate_command const& c) {
     auto const model = sivid::record_model(c.craft);
     auto const names = sivid::names_of(model.about);
     auto const made = generate(model, find_scenarios(c.scenario, names), c.options);
-    prepare_folder(c.out);
+    console::prepare_folder(c.out);
     sivid::write_atomically(c.out / "truth.json", truth_json(made, c));
     sivid::write_dataset(made.data, names, c.out);
     for (auto const& s : made.data.scenarios)

@@ -28,9 +28,9 @@
 namespace hovercraft_example {
 
 /// A request that cannot be met: the message says why.
-class bad_request : public std::runtime_error {
+class bad_request : public std::invalid_argument {
 public:
-    using std::runtime_error::runtime_error;
+    using std::invalid_argument::invalid_argument;
 };
 
 struct unknown_parameter {

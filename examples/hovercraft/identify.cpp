@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
 #include "console/console.hpp"
+#include "console/program.hpp"
 
 #include <sivid/io/checkpoint.hpp>
 #include <sivid/io/checkpoint_reader.hpp>
@@ -150,13 +151,13 @@ std::string seen_from(std::filesystem::path const& here, std::filesystem::path c
 int exit_code_of(sivid::verdict v) {
     switch (v) {
     case sivid::verdict::consistent:
-        return exit_code::consistent;
+        return console::consistent;
     case sivid::verdict::inconsistent:
-        return exit_code::inconsistent;
+        return console::inconsistent;
     case sivid::verdict::undecided:
         break;
     }
-    return exit_code::undecided;
+    return console::undecided;
 }
 
 } // namespace
@@ -167,8 +168,7 @@ int run(identify_command const& c) {
     auto const data = sivid::read_dataset(c.dataset, sivid::names_of(model.about));
     auto const problem = sivid::problem_from_dataset(data, model, c.outliers);
     auto const digest = sivid::dataset_digest(c.dataset);
-    auto const further = sivid::assumptions_of(data);
-    prepare_folder(c.out);
+    console::prepare_folder(c.out);
 
     console::watch_interrupts();
     console::progress_line progress(c.quiet);
@@ -217,7 +217,6 @@ int run(identify_command const& c) {
     auto const motion = sivid::find_explaining_motion(problem, found);
     report::identification_report_options about{.dataset = data.id,
                                                 .meanings = constant_meanings(),
-                                                .further_assumptions = further,
                                                 .plane = report::plane_channels{"x", "y", "psi"},
                                                 .date = console::today(),
                                                 .machine = console::machine_text(),
@@ -242,7 +241,6 @@ int run(identify_command const& c) {
         c.out / "result.json",
         sivid::identification_json(problem, found,
                                    {.dataset = data.id,
-                                    .further_assumptions = further,
                                     .source_folder = seen_from(c.out, c.dataset),
                                     .source_digest = digest}));
     print_summary(problem, found, data.id, c.out);

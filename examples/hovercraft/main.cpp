@@ -2,14 +2,11 @@
 // hovercraft identify | check | diagnose | generate | simulate | rank: the reference example on the
 // command line.
 #include "commands.hpp"
-
-#include <sivid/io/text_file.hpp>
+#include "console/program.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include <exception>
 #include <functional>
-#include <iostream>
 #include <map>
 #include <string>
 #include <utility>
@@ -127,7 +124,7 @@ public:
         try {
             app_.parse(argc, argv);
         } catch (CLI::ParseError const& e) {
-            return app_.exit(e) == 0 ? 0 : static_cast<int>(exit_code::bad_input);
+            return app_.exit(e) == 0 ? 0 : static_cast<int>(console::bad_input);
         }
         return action_();
     }
@@ -336,30 +333,10 @@ private:
     std::function<int()> action_;
 };
 
-std::string command_line_of(int argc, char** argv) {
-    std::string text = "hovercraft";
-    for (int i = 1; i < argc; ++i) text += std::string{" "} + argv[i];
-    return text;
-}
-
-int refuse(std::exception const& e) {
-    std::cerr << "hovercraft: " << e.what() << "\n";
-    return exit_code::bad_input;
-}
-
 } // namespace
 
 int main(int argc, char** argv) {
-    try {
-        return program(command_line_of(argc, argv))(argc, argv);
-    } catch (sivid::input_error const& e) {
-        return refuse(e);
-    } catch (bad_request const& e) {
-        return refuse(e);
-    } catch (std::invalid_argument const& e) { // an unknown constant, for instance
-        return refuse(e);
-    } catch (std::exception const& e) {
-        std::cerr << "hovercraft: internal error: " << e.what() << "\n";
-        return exit_code::internal_error;
-    }
+    return console::guarded("hovercraft", [&] {
+        return program(console::command_line("hovercraft", argc, argv))(argc, argv);
+    });
 }

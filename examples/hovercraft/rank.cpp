@@ -2,6 +2,7 @@
 #include "rank.hpp"
 #include "commands.hpp"
 #include "console/console.hpp"
+#include "console/program.hpp"
 
 #include <sivid/io/text_file.hpp>
 #include <sivid/number/decimal_output.hpp>
@@ -72,7 +73,7 @@ std::string judge(std::vector<ranked_equation> const& ranking, std::string const
 int run(rank_command const& c) {
     auto const model = sivid::record_model(c.craft);
     auto const ranking = rank_constants(model);
-    prepare_folder(c.out);
+    console::prepare_folder(c.out);
     auto const ranges = default_ranges();
 
     report::page page{{.kind = "Influence of the constants",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
 #include "console/console.hpp"
+#include "console/program.hpp"
 
 #include <sivid/enclosure/simulate.hpp>
 #include <sivid/enclosure/tube.hpp>
@@ -192,7 +193,7 @@ int run(simulate_command const& c) {
     std::vector<std::unique_ptr<simulated_scenario>> all;
     for (auto const& s : scenarios)
         all.push_back(std::make_unique<simulated_scenario>(model, s, c));
-    prepare_folder(c.out);
+    console::prepare_folder(c.out);
     report::page page{{.kind = "Simulation",
                        .title = c.scenario == "all" ? "Scenarios of Table 2.4" : scenarios[0].name,
                        .lead = c.validated ? "The hovercraft, simulated and enclosed."

@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: MIT
 // sivid-import MAPPING.json --out DIR: recorded files of any form into a data set.
+#include "console/program.hpp"
+
 #include <sivid/io/import_writer.hpp>
 
 #include <CLI/CLI.hpp>
 
-#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <string>
 
 namespace {
-
-enum exit_code { done = 0, bad_input = 2, internal_error = 70 };
-
-int refuse(std::exception const& e) {
-    std::cerr << "sivid-import: " << e.what() << "\n";
-    return bad_input;
-}
 
 int parse_and_run(int argc, char** argv) {
     std::filesystem::path mapping, out;
@@ -28,25 +22,16 @@ int parse_and_run(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (CLI::ParseError const& e) {
-        return app.exit(e) == 0 ? done : bad_input;
+        return app.exit(e) == 0 ? 0 : static_cast<int>(console::bad_input);
     }
     auto const imported = sivid::import_dataset(sivid::read_import_mapping(mapping));
     sivid::write_import(imported, out);
     if (!quiet) std::cout << imported.protocol.text();
-    return done;
+    return console::done;
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-    try {
-        return parse_and_run(argc, argv);
-    } catch (sivid::input_error const& e) {
-        return refuse(e);
-    } catch (sivid::output_error const& e) {
-        return refuse(e);
-    } catch (std::exception const& e) {
-        std::cerr << "sivid-import: internal error: " << e.what() << "\n";
-        return internal_error;
-    }
+    return console::guarded("sivid-import", [&] { return parse_and_run(argc, argv); });
 }

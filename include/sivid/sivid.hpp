@@ -80,6 +80,8 @@
 #include <sivid/enclosure/parametric_flow.hpp>
 #include <sivid/enclosure/parametric_runge_kutta.hpp>
 #include <sivid/enclosure/parametric_set.hpp>
+#include <sivid/enclosure/perturbation_bound.hpp>
+#include <sivid/enclosure/perturbed_step.hpp>
 #include <sivid/enclosure/plain_model.hpp>
 #include <sivid/enclosure/runge_kutta.hpp>
 #include <sivid/enclosure/sensitive_simulator.hpp>
@@ -90,6 +92,7 @@
 #include <sivid/enclosure/trajectory.hpp>
 #include <sivid/enclosure/tube.hpp>
 #include <sivid/enclosure/tube_step.hpp>
+#include <sivid/enclosure/uncertain_input.hpp>
 #include <sivid/enclosure/variation_bound.hpp>
 #include <sivid/paving/arrow_system.hpp>
 #include <sivid/paving/box_batches.hpp>

@@ -50,3 +50,12 @@ TEST_CASE("analytic inputs are read at the begin") {
     CHECK_THROWS_AS(affected(base, {effects::input_lag("lag", "u", "N", 5, {0.1_dec, 1_dec})}),
                     std::domain_error);
 }
+
+TEST_CASE("a state that starts at an uncertain input starts within its error") {
+    auto base = small_campaign::problem();
+    base.experiments[0].inputs = {
+        sampled_signal({0, 5}, {1, 2}, interpolation::linear, {0.25, 0.5})};
+    auto const p = affected(base, {effects::input_lag("lag", "u", "N", 5, {0.1_dec, 1_dec})});
+    CHECK(p.experiments[0].initial[2].lower() == 0.75);
+    CHECK(p.experiments[0].initial[2].upper() == 1.25);
+}

@@ -254,3 +254,19 @@ TEST_CASE("effects on the hovercraft break the relations they act on") {
         }
     }
 }
+
+TEST_CASE("inputs with error bounds leave nothing to prove") {
+    draws d(35);
+    auto const truth = record_model<hovercraft>();
+    auto problem = drive(d, truth, noise::uniform);
+    for (auto& e : problem.experiments) {
+        for (auto& input : e.inputs) {
+            auto const& u = std::get<sampled_signal>(input);
+            input = sampled_signal(u.times(), u.values(), u.kind(),
+                                   std::vector<double>(u.times().size(), 0.01));
+        }
+    }
+    CHECK(find_broken_relations(problem).empty());
+    for (auto const& f : examine_relations(problem))
+        CHECK_THAT(f.reason, ContainsSubstring("error bounds"));
+}

@@ -30,3 +30,33 @@ TEST_CASE("a candidate is described with names and units") {
     CHECK(w.starts[1].states[1].name == "v");
     CHECK(w.starts[1].states[1].value == 2);
 }
+
+TEST_CASE("a place is described in words, its times rounded") {
+    estimated_place p;
+    p.kind = place_kind::input;
+    p.name = "u";
+    p.scenario = "E";
+    p.from = 0.1 + 0.2;
+    p.to = 2;
+    p.missing = 0.5;
+    p.unit = "V";
+    auto const s = described(p);
+    CHECK(s.kind == "input");
+    CHECK(s.where.scenario == "E");
+    CHECK(s.where.from == 0.3);
+    CHECK(s.where.to == 2);
+    CHECK(s.estimate == 0.5);
+    CHECK_FALSE(s.proved);
+}
+
+TEST_CASE("the first sentence says whether there is a gap, and where") {
+    diagnosis d;
+    CHECK(first_sentence_of(d) == "no parameter was found that explains the data");
+    d.gap = gap_verdict::certified;
+    d.where.resize(2);
+    d.where[0].kind = "equation";
+    d.where[0].name = "surge";
+    d.where[1].kind = "sensor";
+    d.where[1].name = "u";
+    CHECK(first_sentence_of(d) == "a gap is proved: equation surge, sensor u");
+}

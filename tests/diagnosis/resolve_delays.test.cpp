@@ -59,3 +59,18 @@ TEST_CASE("resolving delays moves signals and measurements and drops the unknown
     flow const f(r.problem.model, r.problem.choice, e.inputs); // binds
     CHECK_THROWS_AS(resolve_delays(p, {1.25, -0.25, 0.15}), std::invalid_argument);
 }
+
+TEST_CASE("a late signal keeps the error bounds of its samples") {
+    std::vector<double> const errors{0.1, 0.3, 0.2};
+    for (auto const kind : {interpolation::linear, interpolation::hold}) {
+        sampled_signal const u({0.0, 1.0, 3.0}, {2.0, 4.0, 0.0}, kind, errors);
+        auto const late = std::get<sampled_signal>(delayed(u, 0.5, 0));
+        REQUIRE_FALSE(late.exact());
+        for (double t = 0; t < 4; t += 0.0625) {
+            double const past = std::max(t - 0.5, 0.0);
+            CHECK(std::abs(late.error_bound(late.piece(t), t) -
+                           u.error_bound(u.piece(past), past)) < 1e-14);
+        }
+        CHECK(std::get<sampled_signal>(delayed(u.nominal(), 0.5, 0)).exact());
+    }
+}

@@ -2,45 +2,20 @@
 // The program as a user runs it: exit codes, files, messages.
 #include "io/support.hpp"
 #include "support/catch.hpp"
+#include "support/child_program.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include <fcntl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 namespace fs = std::filesystem;
 using io_support::temporary_folder;
 
 namespace {
 
-struct outcome {
-    int code;
-    std::string out, err;
-};
-
-outcome run(std::vector<std::string> arguments) {
-    temporary_folder const folder;
-    arguments.insert(arguments.begin(), IMPORT_PROGRAM);
-    auto const redirect = [&](char const* name, int to) {
-        ::dup2(::open((folder.path() / name).c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), to);
-    };
-    auto const id = ::fork();
-    if (id == 0) {
-        redirect("out", STDOUT_FILENO);
-        redirect("err", STDERR_FILENO);
-        std::vector<char*> argv;
-        for (auto& a : arguments) argv.push_back(a.data());
-        argv.push_back(nullptr);
-        ::execv(IMPORT_PROGRAM, argv.data());
-        ::_exit(127);
-    }
-    int status = 0;
-    ::waitpid(id, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000, folder.read("out"), folder.read("err")};
+support::finished_program run(std::vector<std::string> const& arguments) {
+    return support::run_program(IMPORT_PROGRAM, arguments);
 }
 
 std::string const examples = std::string{SIVID_SOURCE_DIR} + "/examples/import/";

@@ -72,3 +72,12 @@ TEST_CASE("a cell that is no finite number is an error") {
         }
     }
 }
+
+TEST_CASE("a column that is missing is named beside those there are") {
+    csv_table const table{"a.csv", "# log\nt,u\n0,1\n"};
+    CHECK(table.required_column("u") == 1);
+    CHECK_THROWS_WITH(table.required_column("y"),
+                      ContainsSubstring("a.csv: line 2: no column 'y'; it has: 't', 'u'"));
+    csv_table const semicolons{"a.csv", "t;y\n0;1\n"};
+    CHECK_THROWS_WITH(semicolons.required_column("y"), ContainsSubstring("separated by commas"));
+}

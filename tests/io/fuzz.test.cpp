@@ -3,6 +3,7 @@
 // happens.
 #include <sivid/io/dataset.hpp>
 
+#include "io/damaged_text.hpp"
 #include "io/support.hpp"
 #include "support/catch.hpp"
 
@@ -12,71 +13,6 @@ using namespace sivid;
 using io_support::temporary_folder;
 
 namespace {
-
-std::string damaged(std::string text, std::mt19937_64& random) {
-    auto const below = [&](std::size_t n) {
-        return n == 0 ? 0 : static_cast<std::size_t>(random() % n);
-    };
-    static constexpr std::array<std::string_view, 34> tokens{"{",
-                                                             "}",
-                                                             "[",
-                                                             "]",
-                                                             ",",
-                                                             ":",
-                                                             "\"",
-                                                             "\\",
-                                                             "\n",
-                                                             "\r",
-                                                             "#",
-                                                             "null",
-                                                             "true",
-                                                             "1e999",
-                                                             "-1e-999",
-                                                             "nan",
-                                                             "-",
-                                                             ".",
-                                                             "e",
-                                                             "_err",
-                                                             "0.1,0.2",
-                                                             ",,",
-                                                             "\xff",
-                                                             "\xEF\xBB\xBF",
-                                                             "..",
-                                                             "/",
-                                                             "t",
-                                                             "u",
-                                                             "99999999999999999999999",
-                                                             "-0",
-                                                             "1e",
-                                                             "\\u0000",
-                                                             "\\ud800",
-                                                             " "};
-    for (auto times = 1 + below(4); times > 0; --times) {
-        auto const at = below(text.size() + 1);
-        auto const length = below(std::min<std::size_t>(text.size() - at, 12) + 1);
-        switch (below(6)) {
-        case 0:
-            text.erase(at, length);
-            break;
-        case 1:
-            text.insert(at, tokens[below(tokens.size())]);
-            break;
-        case 2:
-            text.replace(at, length, tokens[below(tokens.size())]);
-            break;
-        case 3:
-            if (at < text.size()) text[at] = static_cast<char>(below(256));
-            break;
-        case 4:
-            text.insert(at, text.substr(below(text.size() + 1), below(60)));
-            break;
-        case 5:
-            text.resize(at);
-            break;
-        }
-    }
-    return text;
-}
 
 void run(unsigned seed, int count) {
     std::mt19937_64 random{seed};
@@ -89,7 +25,7 @@ void run(unsigned seed, int count) {
     for (int i = 0; i < count; ++i) {
         auto const& file = files[random() % files.size()];
         auto const original = folder.read(file);
-        auto const spoilt = damaged(original, random);
+        auto const spoilt = io_support::damaged(original, random, 4);
         folder.write(file, spoilt);
         CAPTURE(file, spoilt);
         try {

@@ -10,7 +10,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <map>
+#include <utility>
+#include <vector>
 
 using namespace sivid;
 using outcome = check_finding::outcome;
@@ -201,4 +204,54 @@ TEST_CASE("without a budget nothing is claimed") {
     auto found = check(problem, io_support::stored_result(problem).read(), false, -1);
     CHECK(found["inside boxes"] == outcome::undecided);
     CHECK(found["overall"] == outcome::undecided);
+}
+
+namespace {
+
+/// x' = u - a x, a = 1/2, u = 1 within 0.05: where the state goes depends on what u does.
+struct driven {
+    static constexpr auto name = "driven";
+    static constexpr auto states = sivid::states({{"x", "m", 10}});
+    static constexpr auto inputs = sivid::inputs({{"u", "m/s"}});
+    static constexpr auto channels = sivid::channels({{"x", "m"}});
+    static constexpr auto constants = [] {
+        using namespace sivid::literals;
+        return sivid::constants({{"a", "1/s", 1_dec}});
+    }();
+    template <class T>
+    vec<T, 1> rate(T const&, vec<T, 1> const& x, vec<T, 1> const& c, vec<T, 1> const& u) const {
+        return {u[0] - c[0] * x[0]};
+    }
+    template <class T>
+    vec<T, 1> observe(T const&, vec<T, 1> const& x, vec<T, 1> const&, vec<T, 1> const&) const {
+        return x;
+    }
+};
+
+identification_problem driven_problem(std::vector<double> errors) {
+    experiment run;
+    run.name = "run";
+    run.inputs = {sampled_signal({0, 3}, {1, 1}, interpolation::linear, std::move(errors))};
+    run.initial = {interval(1.0)};
+    for (int k = 1; k <= 6; ++k) {
+        double const t = 0.5 * k, x = 2 - std::exp(-0.5 * t);
+        run.measurements.push_back({t, 0, interval(x - 0.05, x + 0.05)});
+    }
+    return {record_model<driven>(), {{"a"}, {}}, {interval(0.25, 1.0)}, {run}};
+}
+
+} // namespace
+
+TEST_CASE("inputs with errors: confirmed by the recorded ones, excluded for all") {
+    auto const problem = driven_problem({0.05, 0.05});
+    auto const stored = io_support::stored_result(problem).read();
+    auto found = check(problem, stored, true);
+    CHECK(found["witness"] == outcome::verified);
+    CHECK(found["inside boxes"] == outcome::verified);
+    CHECK(found["excluded boxes"] == outcome::verified);
+    CHECK(found["overall"] == outcome::verified);
+    // What exact inputs exclude, inexact ones do not.
+    auto const exact = io_support::stored_result(driven_problem({})).read();
+    CHECK(check(driven_problem({}), exact, true)["overall"] == outcome::verified);
+    CHECK(check(problem, exact, true, 3)["excluded boxes"] != outcome::verified);
 }

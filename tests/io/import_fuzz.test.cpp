@@ -3,11 +3,11 @@
 // a data set that the reader accepts. Nothing else happens.
 #include <sivid/io/import_writer.hpp>
 
+#include "io/damaged_text.hpp"
 #include "io/import_support.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include <array>
 #include <cmath>
 
 using namespace sivid;
@@ -16,64 +16,6 @@ using namespace io_support;
 namespace {
 
 using generator = std::mt19937_64;
-
-std::string damaged(std::string text, generator& random, std::size_t most) {
-    auto const below = [&](std::size_t n) {
-        return n == 0 ? 0 : static_cast<std::size_t>(random() % n);
-    };
-    static constexpr std::array<std::string_view, 36> tokens{
-        "{",          "}",     "[",
-        "]",          ",",     ":",
-        "\"",         "\\",    "\n",
-        "\r\n",       "#",     "null",
-        "nan",        "inf",   "1e999",
-        "-1e-999",    "-",     ".",
-        "e",          ",,",    "\xff",
-        "..",         "t_ms",  "0",
-        "-0",         ";",     "99999999999999999999",
-        "65535",      "32768", "1e308",
-        "-1",         "\t",    "1e-5000",
-        "4294967295", " ",     "0.1"};
-    for (auto times = 1 + below(most); times > 0; --times) {
-        auto const at = below(text.size() + 1);
-        auto const length = below(std::min<std::size_t>(text.size() - at, 12) + 1);
-        switch (below(8)) {
-        case 0:
-            text.erase(at, length);
-            break;
-        case 1:
-            text.insert(at, tokens[below(tokens.size())]);
-            break;
-        case 2:
-            text.replace(at, length, tokens[below(tokens.size())]);
-            break;
-        case 3:
-            if (at < text.size()) text[at] = static_cast<char>(below(256));
-            break;
-        case 4:
-            text.insert(at, text.substr(below(text.size() + 1), below(60)));
-            break;
-        case 5:
-            if (below(4) == 0) text.resize(at);
-            break;
-        case 6: // a line again, or none
-        {
-            auto const line = text.find('\n', at);
-            if (line == std::string::npos) break;
-            auto const end = std::min(text.find('\n', line + 1), text.size() - 1);
-            if (below(2) == 0)
-                text.erase(line, end - line);
-            else
-                text.insert(line, text.substr(line, end - line));
-            break;
-        }
-        case 7:
-            text.insert(at, std::string(below(9), "0123456789"[below(10)]));
-            break;
-        }
-    }
-    return text;
-}
 
 std::string rich_mapping(std::string const& kind) {
     if (kind == "csv")

@@ -38,6 +38,12 @@ TEST_CASE("whatever decides a search changes the digest; budgets and threads do 
     differs([](p& x) { x.experiments[0].measurements.pop_back(); });
     differs([](p& x) { x.experiments[0].inputs.push_back(sampled_signal{}); });
     differs([](p& x) {
+        x.experiments[0].inputs.push_back(sampled_signal({0}, {1}, interpolation::hold));
+    });
+    differs([](p& x) {
+        x.experiments[0].inputs.push_back(sampled_signal({0}, {1}, interpolation::hold, {0.1}));
+    });
+    differs([](p& x) {
         x.experiments[0].inputs.push_back(sampled_signal({0, 1}, {0, 1}, interpolation::linear));
     });
     differs([](p& x) {

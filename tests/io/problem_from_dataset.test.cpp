@@ -3,6 +3,7 @@
 
 #include "io/small_identification.hpp"
 #include "support/catch.hpp"
+#include "support/models.hpp"
 
 using namespace sivid;
 
@@ -73,13 +74,26 @@ TEST_CASE("data of another model are refused") {
                       ContainsSubstring("scenario 'F'"));
 }
 
-TEST_CASE("input errors that are not used are an assumption") {
+TEST_CASE("input errors become bounds of the signals, and what proofs assume says so") {
     auto data = two_scenarios();
-    CHECK(assumptions_of(data).empty());
-    dataset_input input{sampled_signal({0}, {1}, interpolation::hold), {0.1}, {dec("0.1")}};
-    data.scenarios[1].inputs.push_back(input);
-    CHECK(assumptions_of(data).empty()); // held out
-    data.scenarios[0].inputs.push_back(input);
-    REQUIRE(assumptions_of(data).size() == 1);
-    CHECK_THAT(assumptions_of(data)[0], ContainsSubstring("scenario F"));
+    auto const model =
+        support::model_of({1, 2, 1}, [](auto const&, auto const& x, auto const& p, auto const& u) {
+            return std::vector{u[0] - p[0] * p[1] * x[0]};
+        });
+    data.model = model.about.name;
+    data.parameters[0].name = "p1";
+    for (auto& s : data.scenarios) {
+        s.initial.resize(model.about.states.size());
+        s.inputs = {{sampled_signal({0, 1}, {1, 2}, interpolation::hold), {}, {}}};
+    }
+    auto problem = problem_from_dataset(data, model);
+    CHECK_FALSE(any_uncertain(problem.experiments[0].inputs));
+    CHECK(input_assumption(problem.experiments) == "inputs exact");
+    data.scenarios[0].inputs[0].error = {0.1, 0.25};
+    problem = problem_from_dataset(data, model);
+    auto const& u = std::get<sampled_signal>(problem.experiments[0].inputs[0]);
+    CHECK(u.errors() == std::vector{0.1, 0.25});
+    CHECK(u.kind() == interpolation::hold);
+    CHECK(u.values() == std::vector{1.0, 2.0});
+    CHECK(input_assumption(problem.experiments) == "inputs within their stated errors");
 }

@@ -61,3 +61,12 @@ TEST_CASE("a path named by a data set stays inside its folder") {
     }
     CHECK_THROWS_AS(path_inside(set, std::string{"a.csv\0b", 7}, place), input_error);
 }
+
+TEST_CASE("a file that is too large is refused before it is read") {
+    io_support::temporary_folder const folder;
+    folder.write("large.csv", "t,y\n");
+    // A hole, which takes no space on the disk.
+    std::filesystem::resize_file(folder.path() / "large.csv", largest_text + 1);
+    CHECK_THROWS_WITH(read_text(folder.path() / "large.csv"),
+                      ContainsSubstring("larger than 1 GB"));
+}

@@ -100,3 +100,45 @@ TEST_CASE("a signal refuses what it cannot mean") {
     CHECK_THROWS_AS(s({0, 1}, {0, HUGE_VAL}, kind), std::invalid_argument);
     CHECK_THROWS_WITH(s({0, 0}, {0, 1}, kind), ContainsSubstring("increase strictly"));
 }
+
+TEST_CASE("error bounds run between the samples as the values do") {
+    std::vector<double> const times{0, 1, 3}, values{0, 2, 1}, errors{0.5, 0, 0.25};
+    sampled_signal const line(times, values, interpolation::linear, errors);
+    CHECK_FALSE(line.exact());
+    CHECK(line.nominal().exact());
+    CHECK(line.nominal().values() == values);
+    CHECK(line.error_bound(0, 0) == 0.5);
+    CHECK(line.error_bound(1, 1) == 0);
+    CHECK(line.error_bound(1, 3) == 0.25);
+    CHECK(line.error_bound(0, -7) == 0.5); // the nearest sample's, before and after
+    CHECK(line.error_bound(1, 99) == 0.25);
+    sampled_signal const step(times, values, interpolation::hold, errors);
+    CHECK(step.error_bound(step.piece(0.999), 0.999) == 0.5);
+    CHECK(step.error_bound(step.piece(1), 1) == 0);
+    CHECK(step.error_bound(step.piece(8), 8) == 0.25);
+    draws d(43);
+    for (int round = 0; round < 300; ++round) {
+        double const t0 = d.uniform(-1, 1), t1 = t0 + d.uniform(1e-6, 2);
+        double const e0 = d.below(5) == 0 ? 0 : d.uniform(0, 3), e1 = d.uniform(0, 3);
+        sampled_signal const s({t0, t1}, {1, 2}, interpolation::linear, {e0, e1});
+        double const t = std::min(t1, d.uniform(t0, t1));
+        mp const exact = mp(e0) + (mp(e1) - mp(e0)) * (mp(t) - mp(t0)) / (mp(t1) - mp(t0));
+        CHECK(mp(s.error_bound(0, t)) >= exact);
+        CHECK(mp(s.error_bound(0, t)) <= exact + 3e-14);
+    }
+    CHECK(sampled_signal({0}, {1}, interpolation::linear, {0.1}).error_bound(0, 5) == 0.1);
+    CHECK(sampled_signal({0}, {1}, interpolation::hold).error_bound(0, 5) == 0);
+}
+
+TEST_CASE("error bounds that bound nothing are refused") {
+    auto const make = [](std::vector<double> errors) {
+        return sampled_signal({0, 1}, {0, 1}, interpolation::hold, std::move(errors));
+    };
+    CHECK_NOTHROW(make({0, 0.5}));
+    double const nan = std::numeric_limits<double>::quiet_NaN();
+    double const infinity = std::numeric_limits<double>::infinity();
+    for (auto const& bad : std::vector<std::vector<double>>{
+             {0.1}, {0.1, -0.1}, {nan, 0.1}, {0.1, infinity}, {0.1, 0.1, 0.1}}) {
+        CHECK_THROWS_AS(make(bad), std::invalid_argument);
+    }
+}

@@ -321,3 +321,16 @@ TEST_CASE("measurements at the begin, and several of one channel at one time") {
         REQUIRE(contains(ranges[2], 2.4));
     }
 }
+
+TEST_CASE("inputs that change fast may be followed in shorter steps than were asked for") {
+    sivid::experiment e;
+    CHECK(sivid::paving_detail::minimum_step_for(e, 1e-3) == 1e-3);
+    e.inputs = {sivid::sampled_signal({0, 0.05, 0.1}, {1, 2, 3}, sivid::interpolation::hold)};
+    CHECK_THAT(sivid::paving_detail::minimum_step_for(e, 1e-3), WithinRel(1e-3, 1e-12));
+    CHECK(sivid::paving_detail::minimum_step_for(e, 1e-6) == 1e-6);
+    e.inputs.push_back(
+        sivid::sampled_signal({0, 0.005, 0.01}, {1, 2, 3}, sivid::interpolation::linear));
+    CHECK_THAT(sivid::paving_detail::minimum_step_for(e, 1e-3), WithinRel(1e-4, 1e-12));
+    e.inputs = {sivid::sampled_signal({0, 1e-9, 1}, {1, 2, 3}, sivid::interpolation::linear)};
+    CHECK(sivid::paving_detail::minimum_step_for(e, 1e-3) == 1e-6);
+}

@@ -71,3 +71,19 @@ TEST_CASE("the (q+1)-th largest") {
     CHECK(largest_after({3, 1, 2}, 3) == 0);
     CHECK(largest_after({}, 0) == 0);
 }
+
+TEST_CASE("a grown bound holds every output whose misfit is at most the level, and little more") {
+    support::draws d(77);
+    for (int n = 0; n < 2000; ++n) {
+        double const m = d.uniform(-5, 5);
+        auto const bound = support::around(m, d.uniform(1e-6, 2));
+        double const level = d.uniform(0, 20);
+        auto const all = grown(bound, level);
+        double const y = d.uniform(m - 50, m + 50);
+        if (misfit(interval(y), bound).upper() <= level) CHECK(contains(all, y));
+        if (misfit(interval(y), bound).lower() > level * (1 + 1e-12) + 1e-12)
+            CHECK_FALSE(contains(all, y));
+    }
+    auto const half = between(1, detail::infinity);
+    CHECK(equal(grown(half, 7), half));
+}

@@ -2,24 +2,20 @@
 // servo_axis diagnose on the real record, as a user runs it.
 #include "io/support.hpp"
 #include "support/catch.hpp"
+#include "support/child_program.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 namespace fs = std::filesystem;
 using io_support::temporary_folder;
+using support::run_program;
+using support::text_of;
 
 namespace {
-
-std::string text_of(fs::path const& file) {
-    std::ifstream in{file, std::ios::binary};
-    return {std::istreambuf_iterator<char>{in}, {}};
-}
 
 fs::path real_record() {
 #ifdef SIVID_SHARED_DIR
@@ -49,9 +45,9 @@ TEST_CASE("the real axis: offset and friction explain most, the direction the re
     }
     temporary_folder const folder;
     auto const out = folder.path() / "out";
-    auto const command = std::string{SERVO_AXIS_PROGRAM} + " diagnose " + real_record().string() +
-                         " --quiet --budget 200 --out " + out.string() + " > /dev/null";
-    REQUIRE(std::system(command.c_str()) == 0);
+    REQUIRE(run_program(SERVO_AXIS_PROGRAM, {"diagnose", real_record().string(), "--quiet",
+                                             "--budget", "200", "--out", out.string()})
+                .code == 0);
     auto const d = nlohmann::json::parse(text_of(out / "diagnosis.json"));
     CHECK(d["gap"]["verdict"] == "certified");
     CHECK(d["where"][0]["name"] == "force balance");
@@ -81,9 +77,10 @@ TEST_CASE("the real axis: offset and friction explain most, the direction the re
 
 TEST_CASE("a diagnosis without a record is refused", "[servo_axis]") {
     temporary_folder const folder;
-    auto const command = std::string{SERVO_AXIS_PROGRAM} + " diagnose " +
-                         (folder.path() / "nowhere").string() + " --out " +
-                         (folder.path() / "out").string() + " 2> /dev/null";
-    CHECK(WEXITSTATUS(std::system(command.c_str())) == 2);
+    auto const r =
+        run_program(SERVO_AXIS_PROGRAM, {"diagnose", (folder.path() / "nowhere").string(), "--out",
+                                         (folder.path() / "out").string()});
+    CHECK(r.code == 2);
+    CHECK_THAT(r.err, ContainsSubstring("nowhere"));
     CHECK_FALSE(fs::exists(folder.path() / "out"));
 }

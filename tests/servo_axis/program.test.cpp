@@ -3,6 +3,7 @@
 #include "io/support.hpp"
 #include "simulated_axis.hpp"
 #include "support/catch.hpp"
+#include "support/child_program.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -12,53 +13,19 @@
 #include <fstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
-
-#include <fcntl.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace fs = std::filesystem;
 using io_support::temporary_folder;
+using support::text_of;
 
 namespace {
 
-std::string text_of(fs::path const& file) {
-    std::ifstream in{file, std::ios::binary};
-    return {std::istreambuf_iterator<char>{in}, {}};
-}
-
-/// The program with its outputs in files of a folder.
-class child {
+class child : public support::child_program {
 public:
-    child(std::vector<std::string> arguments, fs::path folder) : folder_{std::move(folder)} {
-        arguments.insert(arguments.begin(), SERVO_AXIS_PROGRAM);
-        id_ = ::fork();
-        if (id_ == 0) {
-            redirect(folder_ / "stdout.txt", STDOUT_FILENO);
-            redirect(folder_ / "stderr.txt", STDERR_FILENO);
-            std::vector<char*> argv;
-            for (auto& a : arguments) argv.push_back(a.data());
-            argv.push_back(nullptr);
-            ::execv(SERVO_AXIS_PROGRAM, argv.data());
-            ::_exit(127);
-        }
-    }
-    void interrupt() const { ::kill(id_, SIGINT); }
-    [[nodiscard]] int wait() const {
-        int status = 0;
-        ::waitpid(id_, &status, 0);
-        return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
-    }
-    [[nodiscard]] std::string out() const { return text_of(folder_ / "stdout.txt"); }
-    [[nodiscard]] std::string err() const { return text_of(folder_ / "stderr.txt"); }
-
-private:
-    static void redirect(fs::path const& file, int to) {
-        ::dup2(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), to);
-    }
-    fs::path folder_;
-    ::pid_t id_ = 0;
+    child(std::vector<std::string> arguments, fs::path const& folder)
+        : child_program(SERVO_AXIS_PROGRAM, std::move(arguments), folder) {}
 };
 
 double side(nlohmann::json const& result, char const* name, int end) {
@@ -152,7 +119,7 @@ TEST_CASE("Ctrl-C ends with what is proved until then", "[servo_axis][program]")
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(1500));
-    c.interrupt();
+    c.signal(SIGINT);
     CHECK(c.wait() == 0);
     auto const result = nlohmann::json::parse(text_of(out / "result.json"));
     CHECK(result["stop_reason"] == "cancelled");

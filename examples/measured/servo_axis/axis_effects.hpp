@@ -26,7 +26,7 @@ inline sivid::effect directional_friction() {
 inline std::vector<sivid::effect> axis_catalogue() {
     using namespace sivid::literals;
     namespace any = sivid::effects;
-    return {any::dry_friction("dry_friction", "v", "m/s^2", {0_dec, 0.5_dec}, 0.002_dec),
+    return {any::dry_friction("dry_friction", "v", "m/s^2", {0_dec, 0.5_dec}, 0.001_dec),
             any::constant_rate("offset", "v", "m/s^2", {-0.2_dec, 0.2_dec}),
             directional_friction(),
             any::quadratic_damping("quadratic_damping", "v", "1/m", {0_dec, 20_dec}),

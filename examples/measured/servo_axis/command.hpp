@@ -15,15 +15,6 @@
 
 namespace servo {
 
-/// Exit codes of sivid's programs.
-enum exit_code {
-    consistent = 0,
-    bad_input = 2,
-    undecided = 3,
-    inconsistent = 4,
-    internal_error = 70
-};
-
 /// What the user states about the record: bounds, none of which can be read off the file.
 struct stated_bounds {
     sivid::exact_decimal model_error = *sivid::exact_decimal::parse("0.003");    ///< of q [m]
@@ -56,9 +47,6 @@ struct diagnose_command {
 /// Diagnoses what M v' = F - F_v v leaves out. Ends with 0 whatever it finds.
 /// @throws sivid::input_error, sivid::output_error
 [[nodiscard]] int run(diagnose_command const& c);
-
-/// @throws sivid::output_error
-void prepare_folder(std::filesystem::path const& folder);
 
 /// The problem that the windows pose.
 struct posed_problem {

@@ -2,6 +2,8 @@
 #include "axis_effects.hpp"
 #include "command.hpp"
 #include "console/diagnosis_output.hpp"
+#include "console/program.hpp"
+#include "console/sensitivity.hpp"
 #include "windows.hpp"
 
 #include <sivid/report/table.hpp>
@@ -10,7 +12,6 @@
 #include <array>
 #include <cmath>
 #include <csignal>
-#include <cstdio>
 #include <optional>
 
 namespace servo {
@@ -19,14 +20,9 @@ namespace {
 
 namespace report = sivid::report;
 
-std::string text_of(char const* format, double value) {
-    char buffer[64];
-    std::snprintf(buffer, sizeof buffer, format, value);
-    return buffer;
-}
-std::string in_millimetres(sivid::exact_decimal const& metres) {
-    return metres.times(1000).text() + " mm";
-}
+using console::in_millimetres;
+using console::text_of;
+
 /// A length in m, in mm, three digits.
 std::string millimetres(double metres) { return text_of("%.3g", 1e3 * metres); }
 
@@ -42,7 +38,7 @@ std::vector<std::string> assumptions_of(diagnose_command const& c, std::size_t w
                 "/s of the velocity from a zero-phase low-pass filter (cubic over " +
                 std::to_string(2 * c.windows.filter_half + 1) +
                 " samples), the same for every model",
-            "dry friction is smooth below 0.002 m/s"};
+            "dry friction is smooth below 0.001 m/s"};
 }
 
 window_bounds bounds_of(diagnose_command const& c) {
@@ -153,7 +149,8 @@ chain_link const* find(std::vector<chain_link> const& chain,
     return nullptr;
 }
 
-void add_chain(report::page& page, std::vector<chain_link> const& chain) {
+void add_chain(report::page& page, sivid::diagnosis_run const& run,
+               std::vector<chain_link> const& chain) {
     auto const* base = find(chain, {});
     auto const* dry = find(chain, {"dry_friction"});
     auto const* both = find(chain, {"dry_friction", "offset"});
@@ -182,13 +179,16 @@ void add_chain(report::page& page, std::vector<chain_link> const& chain) {
     }
     report::table t{.columns = {{"model", report::column_kind::symbol}},
                     .rows = {},
-                    .caption = "Root mean square of the position's misfit [mm], estimation record "
-                               "/ validation record (which chose nothing), windows of 0.2 to 2 s "
-                               "from the same starts. Fitted to the windows of the estimation "
-                               "record alone, by least squares."};
+                    .caption =
+                        "Root mean square of the position's misfit [mm], estimation record "
+                        "/ validation record (which chose nothing), windows of 0.2 to 2 s "
+                        "from the same starts. Fitted to the windows of the estimation "
+                        "record alone, by least squares. Inflation: proved range of the factor by "
+                        "which the bound would have to grow, starts within theirs."};
     for (double const length : window_study::lengths) {
         t.columns.push_back({text_of("%g s", length), report::column_kind::number});
     }
+    t.columns.push_back({"inflation", report::column_kind::text});
     for (auto const& link : chain) {
         std::vector<std::string> row{console::model_words(link.effects)};
         for (std::size_t i = 0; i < link.estimation.size(); ++i) {
@@ -196,55 +196,8 @@ void add_chain(report::page& page, std::vector<chain_link> const& chain) {
                           (i < link.validation.size() ? " / " + millimetres(link.validation[i])
                                                       : std::string{}));
         }
+        row.push_back(console::inflation_words(run, link.effects));
         t.rows.push_back(std::move(row));
-    }
-    page.add(t);
-}
-
-/// How the verdict hangs on the bound of the position: the inflation is that factor.
-void add_sensitivity(report::page& page, sivid::diagnosis_run const& run,
-                     diagnose_command const& c) {
-    double const bound = *nearest(c.bounds.model_error);
-    page.section("How the verdict depends on the bound");
-    page.prose("The position bound of " + in_millimetres(c.bounds.model_error) +
-               " is a choice: it says how much model error over " +
-               text_of("%g", c.windows.length) +
-               " s is accepted. An inflation is the factor by which it would have to grow, so that "
-               "each model has its own threshold.");
-    report::table t{.columns = {{"model", report::column_kind::symbol},
-                                {"refuted below [mm]", report::column_kind::number},
-                                {"explains from [mm]", report::column_kind::number},
-                                {"best fit [mm]", report::column_kind::number}},
-                    .rows = {},
-                    .caption =
-                        "Refuted below and explains from: proved thresholds of the bound, - where "
-                        "nothing is proved; best fit: estimate. The foremost "
-                        "candidates, for windows and starts as stated."};
-    auto const add = [&](std::vector<std::string> const& effects, sivid::interval const& range,
-                         double fitted) {
-        auto const scaled = [&](double x, report::rounding how) {
-            return std::isfinite(x) && x > 0 ? report::rounded_text(1e3 * bound * x, how) : "-";
-        };
-        t.rows.push_back({console::model_words(effects),
-                          scaled(range.lower(), report::rounding::down),
-                          scaled(range.upper(), report::rounding::up),
-                          scaled(fitted, report::rounding::nearest)});
-    };
-    auto const& d = run.result;
-    add({}, d.inflation, run.candidates.front().figures.inflation);
-    std::vector<sivid::cause const*> causes;
-    for (auto const& cause : d.causes) causes.push_back(&cause);
-    std::stable_sort(causes.begin(), causes.end(), [](auto const* a, auto const* b) {
-        return a->effects.size() != b->effects.size() ? a->effects.size() < b->effects.size()
-                                                      : a->fitted_inflation < b->fitted_inflation;
-    });
-    std::size_t pairs = 0;
-    std::size_t triples = 0;
-    for (auto const* cause : causes) {
-        auto const size = cause->effects.size();
-        if (size == 2 && ++pairs > 4) continue;
-        if (size > 2 && ++triples > 3) continue;
-        add(cause->effects, cause->inflation, cause->fitted_inflation);
     }
     page.add(t);
 }
@@ -373,7 +326,7 @@ int run(diagnose_command const& c) {
     } else {
         kept_file.reset();
     }
-    prepare_folder(c.out);
+    console::prepare_folder(c.out);
 
     console::progress_line progress(c.quiet);
     progress.note("diagnosing M v' = F - F_v v on " + std::to_string(windows.size()) +
@@ -386,13 +339,11 @@ int run(diagnose_command const& c) {
     options.each_seconds = 0.03 * c.budget;
     options.screening.seconds = 0.5 * c.budget;
     options.screening.most_effects = 3;
-    // The force has a new slope every 5 ms.
-    options.test.run.enclosure.minimum_step = 1e-6;
     console::watch(options, progress);
     auto run = sivid::diagnose(problem, axis_catalogue(), options);
     progress.finish();
     progress.note("judging by the validation record");
-    sivid::judge_by_holdout(run, kept, 0.1 * c.budget, options.test);
+    sivid::judge_by_holdout(run, kept, 0.1 * c.budget);
     std::signal(SIGINT, SIG_DFL);
     for (auto const& a : assumptions_of(c, windows.size())) run.result.assumptions.push_back(a);
 
@@ -401,11 +352,16 @@ int run(diagnose_command const& c) {
     auto const id = "EMPS servo axis, " + c.file;
     auto plots = console::plot_data(run, kept);
     merge_windows(plots);
+    console::stated_bound const bound{1e3 * *nearest(c.bounds.model_error), "mm"};
+    auto const meaning = "The position bound of " + in_millimetres(c.bounds.model_error) +
+                         " is a choice: it says how much model error over " +
+                         text_of("%g", c.windows.length) +
+                         " s is accepted, for windows and starts as stated.";
     console::write_diagnosis(run.result, id, plots, console::page_options(run, id, c.command_line),
                              c.out, [&](report::page& page) {
                                  if (run.candidates.empty()) return;
-                                 if (!chain.empty()) add_chain(page, chain);
-                                 add_sensitivity(page, run, c);
+                                 if (!chain.empty()) add_chain(page, run, chain);
+                                 console::add_sensitivity(page, run, bound, meaning);
                                  if (chain.empty()) return;
                                  add_starts(page, run, chain);
                                  add_values(page, chain);

@@ -2,32 +2,13 @@
 // servo_axis FOLDER --out DIR: identifies a real servo axis (EMPS) from windows of its record;
 // servo_axis diagnose FOLDER --out DIR: what M v' = F - F_v v leaves out of it.
 #include "command.hpp"
-
-#include <sivid/io/text_file.hpp>
+#include "console/program.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include <exception>
-#include <iostream>
-#include <stdexcept>
 #include <string>
 
 namespace {
-
-using sivid::exact_decimal;
-
-exact_decimal positive(std::string const& text, std::string const& what) {
-    auto const value = exact_decimal::parse(text);
-    if (!value || !sivid::enclose(*value) || !value->is_positive())
-        throw std::invalid_argument(what + ": " + sivid::in_quotes(text) +
-                                    " is not a decimal number above 0");
-    return *value;
-}
-
-int refuse(std::exception const& e) {
-    std::cerr << "servo_axis: " << e.what() << "\n";
-    return servo::bad_input;
-}
 
 /// Options of both commands; the texts become exact decimals after parsing.
 struct common_options {
@@ -65,20 +46,15 @@ struct common_options {
         app.add_flag("--quiet", c.quiet, "no progress");
     }
     [[nodiscard]] servo::stated_bounds bounds() const {
-        return {positive(bound, "--bound"), positive(start_position, "--start-position"),
-                positive(start_velocity, "--start-velocity")};
+        return {console::positive_decimal(bound, "--bound"),
+                console::positive_decimal(start_position, "--start-position"),
+                console::positive_decimal(start_velocity, "--start-velocity")};
     }
 };
 
-std::string command_line_of(int argc, char** argv) {
-    std::string text = "servo_axis";
-    for (int i = 1; i < argc; ++i) text += std::string{" "} + argv[i];
-    return text;
-}
-
 int diagnose(int argc, char** argv) {
     servo::diagnose_command c;
-    c.command_line = command_line_of(argc, argv);
+    c.command_line = console::command_line("servo_axis", argc, argv);
     CLI::App app{"What the linear model of a real servo axis (EMPS) leaves out",
                  "servo_axis diagnose"};
     common_options const common(app, c);
@@ -90,7 +66,7 @@ int diagnose(int argc, char** argv) {
     try {
         app.parse(argc - 1, argv + 1);
     } catch (CLI::ParseError const& e) {
-        return app.exit(e) == 0 ? 0 : static_cast<int>(servo::bad_input);
+        return app.exit(e) == 0 ? 0 : static_cast<int>(console::bad_input);
     }
     c.bounds = common.bounds();
     return servo::run(c);
@@ -99,7 +75,7 @@ int diagnose(int argc, char** argv) {
 int parse_and_run(int argc, char** argv) {
     if (argc > 1 && std::string{argv[1]} == "diagnose") return diagnose(argc, argv);
     servo::command c;
-    c.command_line = command_line_of(argc, argv);
+    c.command_line = console::command_line("servo_axis", argc, argv);
     CLI::App app{"Validated identification of a real servo axis (EMPS)\n"
                  "servo_axis diagnose FOLDER --out DIR: what a linear model leaves out"};
     common_options const common(app, c);
@@ -110,7 +86,7 @@ int parse_and_run(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (CLI::ParseError const& e) {
-        return app.exit(e) == 0 ? 0 : static_cast<int>(servo::bad_input);
+        return app.exit(e) == 0 ? 0 : static_cast<int>(console::bad_input);
     }
     c.bounds = common.bounds();
     return servo::run(c);
@@ -119,16 +95,5 @@ int parse_and_run(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
-    try {
-        return parse_and_run(argc, argv);
-    } catch (sivid::input_error const& e) {
-        return refuse(e);
-    } catch (sivid::output_error const& e) {
-        return refuse(e);
-    } catch (std::invalid_argument const& e) {
-        return refuse(e);
-    } catch (std::exception const& e) {
-        std::cerr << "servo_axis: internal error: " << e.what() << "\n";
-        return servo::internal_error;
-    }
+    return console::guarded("servo_axis", [&] { return parse_and_run(argc, argv); });
 }

@@ -27,16 +27,9 @@ struct recording {
 /// @throws sivid::input_error with file, line and column
 [[nodiscard]] inline recording read_recording(std::filesystem::path const& file) {
     auto const table = sivid::csv_table::read(file);
-    auto const find = [&](std::string const& heading) {
-        auto const found = table.column(heading);
-        if (!found)
-            table.fail(table.heading_line(), "no column " + sivid::in_quotes(heading),
-                       "the record needs t_s, force_N and position_m");
-        return *found;
-    };
-    auto const t = find("t_s");
-    auto const f = find("force_N");
-    auto const q = find("position_m");
+    auto const t = table.required_column("t_s");
+    auto const f = table.required_column("force_N");
+    auto const q = table.required_column("position_m");
     recording result;
     for (auto const& row : table.rows()) {
         auto const time = *nearest(table.number(row, t));

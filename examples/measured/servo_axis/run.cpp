@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "command.hpp"
 #include "console/console.hpp"
+#include "console/program.hpp"
 
 #include <sivid/io/explaining_motion.hpp>
 #include <sivid/io/identification_csv.hpp>
@@ -12,10 +13,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 #include <map>
-#include <system_error>
 
 namespace servo {
 
@@ -23,16 +22,8 @@ namespace {
 
 namespace report = sivid::report;
 
-std::string text_of(char const* format, double value) {
-    char buffer[64];
-    std::snprintf(buffer, sizeof buffer, format, value);
-    return buffer;
-}
-
-/// A length given in m, in mm.
-std::string in_millimetres(sivid::exact_decimal const& metres) {
-    return metres.times(1000).text() + " mm";
-}
+using console::in_millimetres;
+using console::text_of;
 
 /// What the proofs rest on beside "inputs exact".
 std::vector<std::string> assumptions_of(posed_problem const& posed, command const& c) {
@@ -268,23 +259,16 @@ void print_summary(posed_problem const& posed, outcome_of_run const& o, command 
 }
 
 int exit_code_of(sivid::verdict v) {
-    if (v == sivid::verdict::consistent) return exit_code::consistent;
-    return v == sivid::verdict::inconsistent ? exit_code::inconsistent : exit_code::undecided;
+    if (v == sivid::verdict::consistent) return console::consistent;
+    return v == sivid::verdict::inconsistent ? console::inconsistent : console::undecided;
 }
 
 } // namespace
 
-void prepare_folder(std::filesystem::path const& folder) {
-    std::error_code fault;
-    std::filesystem::create_directories(folder, fault);
-    if (fault || !std::filesystem::is_directory(folder))
-        throw sivid::output_error("the folder " + folder.string() + " cannot be created");
-}
-
 int run(command const& c) {
     auto const record = read_recording(c.folder / c.file);
     auto const posed = pose(record, c);
-    prepare_folder(c.out);
+    console::prepare_folder(c.out);
 
     console::watch_interrupts();
     console::progress_line progress(c.quiet);

@@ -8,7 +8,6 @@
 #include <sivid/paving/problem.hpp>
 
 #include <cstddef>
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -34,9 +33,7 @@ inline sivid::experiment window_experiment(recording const& r, sample_range cons
                                    all.begin() + static_cast<difference>(w.to + 1));
     };
     sivid::experiment e;
-    char name[40];
-    std::snprintf(name, sizeof name, "%g s", r.time[w.from]);
-    e.name = name;
+    e.name = sivid::exact_decimal::shortest(r.time[w.from]).text() + " s";
     e.begin = r.time[w.from];
     e.inputs = {sivid::sampled_signal(part(r.time), part(r.force), sivid::interpolation::linear)};
     auto const v = sivid::exact_decimal::shortest(approximate_velocity(r, w.from, filter_half));

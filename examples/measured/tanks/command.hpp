@@ -10,9 +10,6 @@
 
 namespace tanks {
 
-/// Exit codes of sivid's programs.
-enum exit_code { done = 0, bad_input = 2, internal_error = 70 };
-
 struct diagnose_command {
     std::filesystem::path folder, out;
     std::string file = "estimation.csv";

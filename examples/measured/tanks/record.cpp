@@ -8,16 +8,9 @@ namespace tanks {
 
 sivid::experiment read_experiment(std::filesystem::path const& file, diagnose_command const& c) {
     auto const table = sivid::csv_table::read(file);
-    auto const find = [&](std::string const& heading) {
-        auto const found = table.column(heading);
-        if (!found)
-            table.fail(table.heading_line(), "no column " + sivid::in_quotes(heading),
-                       "the record needs t_s, pump_voltage_V and level_lower_tank_V");
-        return *found;
-    };
-    auto const t = find("t_s");
-    auto const u = find("pump_voltage_V");
-    auto const y = find("level_lower_tank_V");
+    auto const t = table.required_column("t_s");
+    auto const u = table.required_column("pump_voltage_V");
+    auto const y = table.required_column("level_lower_tank_V");
     sivid::experiment e;
     e.name = file.stem().string();
     std::vector<double> times, voltages;

@@ -18,10 +18,13 @@ namespace sivid {
 
 namespace diagnosis_detail {
 
-/// Encloses an input at one time.
+/// Encloses an input at one time, its error included.
 inline interval input_at(signal const& s, double t) {
     if (auto const* sampled = std::get_if<sampled_signal>(&s)) {
-        return sampled->value<interval>(sampled->piece(t), interval(t));
+        using traits = interval_traits<interval>;
+        auto const piece = sampled->piece(t);
+        double const e = sampled->error_bound(piece, t);
+        return traits::add(sampled->value<interval>(piece, interval(t)), traits::bounds(-e, e));
     }
     auto const& formula = std::get<analytic_signal>(s);
     graph g;

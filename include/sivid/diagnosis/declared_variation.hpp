@@ -17,12 +17,15 @@
 
 namespace sivid {
 
-/// The range of an input over times within one piece.
+/// The range of an input over times within one piece, its error included.
 [[nodiscard]] inline interval input_over(signal const& s, double from, double to) {
     using traits = interval_traits<interval>;
     auto const time = traits::bounds(from, to);
     if (auto const* sampled = std::get_if<sampled_signal>(&s)) {
-        return sampled->value<interval>(sampled->piece(from), time);
+        auto const piece = sampled->piece(from);
+        double const e =
+            std::max(sampled->error_bound(piece, from), sampled->error_bound(piece, to));
+        return traits::add(sampled->value<interval>(piece, time), traits::bounds(-e, e));
     }
     auto const& formula = std::get<analytic_signal>(s);
     graph_range range(formula.g, {formula.value});

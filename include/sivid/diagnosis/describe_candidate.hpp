@@ -3,8 +3,10 @@
 #define SIVID_DIAGNOSIS_DESCRIBE_CANDIDATE_HPP
 
 #include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/diagnosis/place_estimate.hpp>
 #include <sivid/diagnosis/screening.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -60,6 +62,40 @@ namespace sivid {
         result.starts.push_back(std::move(start));
     }
     return result;
+}
+
+namespace diagnosis_detail {
+
+/// Sums of sampling periods lose their last digits.
+[[nodiscard]] inline double shown_time(double t) { return std::round(t * 1e9) / 1e9; }
+
+} // namespace diagnosis_detail
+
+/// A place where model and data part, as a diagnosis states it.
+[[nodiscard]] inline suspected_place described(estimated_place const& p) {
+    suspected_place s;
+    s.kind = p.kind == place_kind::sensor  ? "sensor"
+             : p.kind == place_kind::input ? "input"
+                                           : "equation";
+    s.name = p.name;
+    s.where = {p.scenario, diagnosis_detail::shown_time(p.from),
+               diagnosis_detail::shown_time(p.to)};
+    s.estimate = p.missing;
+    s.unit = p.unit;
+    s.law = p.law;
+    s.regime = p.regime;
+    return s;
+}
+
+/// Whether there is a gap, and where.
+[[nodiscard]] inline std::string first_sentence_of(diagnosis const& d) {
+    std::string text = d.gap == gap_verdict::certified
+                           ? "a gap is proved"
+                           : "no parameter was found that explains the data";
+    for (std::size_t k = 0; k < d.where.size(); ++k) {
+        text += (k == 0 ? ": " : ", ") + d.where[k].kind + " " + d.where[k].name;
+    }
+    return text;
 }
 
 } // namespace sivid

@@ -7,10 +7,10 @@
 #include <sivid/diagnosis/hardest_experiments.hpp>
 #include <sivid/diagnosis/part_inflation.hpp>
 #include <sivid/paving/identify.hpp>
+#include <sivid/paving/observer_refutation.hpp>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -36,7 +36,7 @@ public:
 
     [[nodiscard]] diagnosis_run operator()() {
         auto& d = run_.result;
-        d.assumptions.push_back("inputs exact");
+        d.assumptions.push_back(input_assumption(run_.base.experiments));
         screening tried(run_.base, run_.catalogue, options_.screening);
         measure_gap(tried);
         if (d.gap != gap_verdict::none && !stopped_) {
@@ -113,7 +113,11 @@ private:
         auto const& base = tried.candidates().front();
         auto& bound = run_.base_bound;
         bound = at_point(base);
-        if (!diagnosis_detail::has_delays(base.problem.model)) {
+        bool const enclosed = !diagnosis_detail::has_delays(base.problem.model);
+        bool const wide = has_wide_starts(base.problem);
+        if (enclosed && wide && is_open(bound))
+            refute_by_observers(bound, base, 2 * options_.gap_seconds);
+        if (enclosed && !(bound.range.lower() > 1)) {
             auto search = effort(bound.range.upper() <= 1 ? 0.3 : options_.gap_seconds);
             search.relative_width = 0.03;
             double const fewer = refuted_by_few(base, bound.range.upper(), 0.6 * search.seconds);
@@ -121,8 +125,9 @@ private:
             bound.range = interval_traits<interval>::bounds(std::min(fewer, upper), upper);
             search.seconds = std::min(search.seconds, left());
             tighten(bound, base, search);
-            if (!(bound.range.lower() > 1) && bound.range.upper() > 1 &&
-                go_on("deciding whether there is a gap")) {
+            if (!wide && is_open(bound) && go_on("bounding the states"))
+                refute_by_observers(bound, base, options_.gap_seconds);
+            if (is_open(bound) && go_on("deciding whether there is a gap")) {
                 search = effort(2 * options_.gap_seconds);
                 search.only_verdict = true;
                 tighten(bound, base, search);
@@ -148,6 +153,20 @@ private:
         return bound_inflation(few, nullptr, search).value.lower();
     }
 
+    [[nodiscard]] static bool is_open(verified_inflation const& known) {
+        return !(known.range.lower() > 1) && known.range.upper() > 1;
+    }
+    /// Wide starts and long records, where no box of the search above is carried to the end.
+    void refute_by_observers(verified_inflation& known, screened const& s, double seconds) const {
+        auto const upper = known.range.upper();
+        double const proved =
+            inflation_refuted_by_observers(s.problem, upper, std::min(left(), seconds), [this] {
+                return !options_.progress || options_.progress("bounding the states");
+            });
+        known.range = interval_traits<interval>::bounds(
+            std::max(known.range.lower(), std::min(proved, upper)), upper);
+    }
+
     void find_relations() {
         if (!go_on("proving which equations cannot hold")) return;
         run_.findings = find_broken_relations(run_.base);
@@ -162,7 +181,7 @@ private:
         if (!go_on("looking where the model departs from the data")) return;
         run_.places = estimate_places(run_.base);
         for (auto const& p : run_.places.places) {
-            run_.result.where.push_back(suspected(p));
+            run_.result.where.push_back(described(p));
             prove(run_.result.where.back());
         }
         if (run_.result.where.empty()) return;
@@ -171,21 +190,6 @@ private:
             for (auto const& name : set) text += (text.empty() ? "" : " and ") + name;
             run_.result.where.front().alternatives.push_back(text);
         }
-    }
-    /// Sums of sampling periods lose their last digits.
-    [[nodiscard]] static double shown_time(double t) { return std::round(t * 1e9) / 1e9; }
-    [[nodiscard]] static suspected_place suspected(estimated_place const& p) {
-        suspected_place s;
-        s.kind = p.kind == place_kind::sensor  ? "sensor"
-                 : p.kind == place_kind::input ? "input"
-                                               : "equation";
-        s.name = p.name;
-        s.where = {p.scenario, shown_time(p.from), shown_time(p.to)};
-        s.estimate = p.missing;
-        s.unit = p.unit;
-        s.law = p.law;
-        s.regime = p.regime;
-        return s;
     }
     /// A place whose relation is proved broken gets the proof's window and missing rate.
     void prove(suspected_place& s) const {
@@ -200,15 +204,7 @@ private:
     }
     /// The first sentence, early: whether there is a gap, and where.
     void announce() {
-        if (!options_.first_sentence) return;
-        auto const& d = run_.result;
-        std::string text = d.gap == gap_verdict::certified
-                               ? "a gap is proved"
-                               : "no parameter was found that explains the data";
-        for (std::size_t k = 0; k < d.where.size(); ++k) {
-            text += (k == 0 ? ": " : ", ") + d.where[k].kind + " " + d.where[k].name;
-        }
-        options_.first_sentence(text);
+        if (options_.first_sentence) options_.first_sentence(first_sentence_of(run_.result));
     }
 
     void decide(screening const& tried) {
@@ -296,7 +292,10 @@ private:
             if (!go_on("excluding " + c.effects.front())) return;
             auto search = effort(std::min(options_.verify_seconds - spent, options_.each_seconds));
             search.only_verdict = true;
-            double const fewer = refuted_by_few(s, s.fit.inflation, search.seconds, true);
+            bool const wide = has_wide_starts(s.problem);
+            if (wide) search.seconds *= 0.5; // each for observers and sets of trajectories
+            double const fewer = wide ? inflation_refuted_by_observers(s.problem, 2, search.seconds)
+                                      : refuted_by_few(s, s.fit.inflation, search.seconds, true);
             auto const proved = fewer > 1
                                     ? interval_traits<interval>::bounds(fewer, detail::infinity)
                                     : bound_inflation(s.problem, &s.fit, search).value;
@@ -357,7 +356,7 @@ private:
             rest.where = d.where;
         } else if (go_on("looking for what is left")) {
             run_.remaining_places = estimate_places(nearest.problem);
-            for (auto const& p : run_.remaining_places.places) rest.where.push_back(suspected(p));
+            for (auto const& p : run_.remaining_places.places) rest.where.push_back(described(p));
         }
         d.remainder = std::move(rest);
     }

@@ -68,9 +68,11 @@ inline cell_line input_line(signal const& s, double from, double to) {
     auto const piece = sampled->piece(from);
     auto const first = sampled->value<interval>(piece, traits::point(from));
     auto const last = sampled->value<interval>(piece, traits::point(to));
+    double const e = std::max(sampled->error_bound(piece, from), sampled->error_bound(piece, to));
     return cell_line::of(mid(first), mid(last),
                          traits::hull(traits::sub(first, traits::point(mid(first))),
-                                      traits::sub(last, traits::point(mid(last)))));
+                                      traits::sub(last, traits::point(mid(last)))),
+                         e);
 }
 
 } // namespace diagnosis_detail

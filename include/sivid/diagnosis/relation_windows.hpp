@@ -31,7 +31,9 @@ enum class window_way {
     weak      ///< under a bump, where the state itself was not measured but its integral was
 };
 
-/// The equations of a problem over windows of its experiments without an outlier budget.
+/// The equations of a problem over windows of its experiments without an outlier budget and with
+/// exact inputs. (What inputs within error bounds may do from one moment to the next contradicts
+/// the declared variations of the rates.)
 class relation_windows {
     using traits = interval_traits<interval>;
 
@@ -43,12 +45,13 @@ public:
         problem.require_valid();
         std::vector<experiment const*> trusted;
         for (auto const& e : problem.experiments) {
-            if (e.outliers == 0) trusted.push_back(&e);
+            if (e.outliers == 0 && !any_uncertain(e.inputs)) trusted.push_back(&e);
         }
         if (!problem.model.input_delays.empty() || !problem.model.channel_delays.empty()) {
             obstacle_ = "the model has delays";
         } else if (trusted.empty()) {
-            obstacle_ = "every experiment has an outlier budget: no window can be trusted";
+            obstacle_ = "every experiment has an outlier budget or inputs with error bounds: no "
+                        "window can be trusted";
         }
         if (!obstacle_.empty()) return;
         // The inputs stay leaves, so that all experiments share one graph.

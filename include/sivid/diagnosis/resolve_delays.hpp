@@ -29,18 +29,24 @@ namespace sivid {
     auto const& sampled = std::get<sampled_signal>(s);
     bool const holds = sampled.kind() == interpolation::hold;
     double const first = sampled.approximate(begin);
+    double const first_error = sampled.error_bound(sampled.piece(begin), begin);
     std::vector<double> times{begin};
     std::vector<double> values{first};
-    auto const add = [&](double t, double v) {
+    std::vector<double> errors{first_error};
+    auto const add = [&](double t, double v, double e) {
         if (!(t > times.back())) return;
         times.push_back(t);
         values.push_back(v);
+        errors.push_back(e);
     };
-    if (!holds) add(begin + delay, first);
+    if (!holds) add(begin + delay, first, first_error);
     for (std::size_t k = 0; k < sampled.times().size(); ++k) {
-        if (sampled.times()[k] > begin) add(sampled.times()[k] + delay, sampled.values()[k]);
+        if (!(sampled.times()[k] > begin)) continue;
+        add(sampled.times()[k] + delay, sampled.values()[k],
+            sampled.exact() ? 0 : sampled.errors()[k]);
     }
-    return sampled_signal(std::move(times), std::move(values), sampled.kind());
+    if (sampled.exact()) errors.clear();
+    return sampled_signal(std::move(times), std::move(values), sampled.kind(), std::move(errors));
 }
 
 /// A problem at one value of its delays, in which nothing is late any more.

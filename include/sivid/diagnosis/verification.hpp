@@ -34,7 +34,8 @@ inline bool has_delays(recorded_model const& m) {
 } // namespace diagnosis_detail
 
 /// Encloses the inflation at one point: parameters and delays are those of the guess, so are the
-/// starts but for those that follow from the parameters.
+/// starts but for those that follow from the parameters; inputs are those recorded. Where they have
+/// error bounds nothing is known from below.
 /// @param options  `options.witness` says how the runs are made
 /// @guarantee  upper <= 1: the parameters explain the data, under `assumptions`
 /// @cost  one validated run per experiment
@@ -44,6 +45,11 @@ inline bool has_delays(recorded_model const& m) {
     verified_inflation result;
     if (guess.parameters.size() != problem.prior.size()) return result;
     auto at = problem;
+    bool uncertain = false;
+    for (auto& e : at.experiments) {
+        uncertain = uncertain || any_uncertain(e.inputs);
+        e.inputs = nominal(std::move(e.inputs)); // of which states that effects added follow, too
+    }
     at.prior = point_within(problem.prior, guess.parameters);
     auto const p = mid(at.prior);
     start_added_states(at);
@@ -65,6 +71,7 @@ inline bool has_delays(recorded_model const& m) {
     data_test runs(everything, options);
     verified_witness witness;
     result.range = inflation_at(runs, resolved.problem, resolved.problem.prior, starts, witness);
+    if (uncertain) result.range = interval_traits<interval>::bounds(0, result.range.upper());
     witness.parameters = p;
     result.witness = std::move(witness);
     if (delayed) result.assumptions.push_back("delayed times are rounded to the nearest double");

@@ -58,6 +58,13 @@ public:
 
     [[nodiscard]] sampled_signal const& input(std::size_t i) const { return signals_[i]; }
     [[nodiscard]] std::vector<std::size_t> const& sampled_inputs() const { return model_.sampled; }
+    /// Whether an input has an error bound: each trajectory of the flow then stands for all those
+    /// that the inputs within their bounds cause.
+    [[nodiscard]] bool uncertain() const { return !model_.uncertain.empty(); }
+    /// The inputs with error bounds, by index in the model.
+    [[nodiscard]] std::vector<std::size_t> const& uncertain_inputs() const {
+        return model_.uncertain;
+    }
     /// First knot of a sampled input strictly after t, or +infinity.
     [[nodiscard]] double next_knot(double t) const {
         double next = HUGE_VAL;

@@ -3,7 +3,7 @@
 #define SIVID_ENCLOSURE_OBSERVATION_HPP
 
 #include <sivid/enclosure/doubleton.hpp>
-#include <sivid/enclosure/expansion.hpp>
+#include <sivid/enclosure/uncertain_input.hpp>
 #include <sivid/model/series.hpp>
 
 #include <cstddef>
@@ -40,7 +40,8 @@ public:
         at_centre_.set_parameters(point_box<I>(e.parameter_centre));
     }
 
-    /// All channels at the set's time; a held input has its new value at a knot.
+    /// All channels at the set's time, for all inputs within their error bounds; a held input has
+    /// its new value at a knot.
     /// @guarantee  mean-value form about the set's centre, intersected with the direct evaluation
     [[nodiscard]] std::vector<observation<I>> operator()(doubleton<I> const& set) {
         auto const n = flow_->states();
@@ -107,7 +108,8 @@ public:
 
 private:
     void evaluate(series<I>& s, I const& t, basic_box<I> const& x, double start) {
-        input_pieces<I> const inputs(*flow_, start, t);
+        auto const errors = largest_input_errors(*flow_, start, traits::lower(t), traits::upper(t));
+        auto const inputs = widened(input_pieces<I>(*flow_, start, t), *flow_, errors);
         s.start(t);
         s.advance(
             0, [&x](std::size_t i, std::size_t) { return x[i]; }, inputs);

@@ -42,6 +42,11 @@ void parametric_flow<N, D, C>::begin(std::size_t lane, double time, box const& i
     derivative_.set_parameters(column_parameters_);
     tube_.set_parameters(tube_parameters_);
     observe_.set_parameters(parameters_);
+    if (perturbed_) perturbed_->set_parameters(tube_parameters_);
+    for (auto& x : disturbed_) {
+        if (alone) x = 0.0;
+        side_by_side::put(x, lane, 0.0);
+    }
     if (alone) { // a fresh start for all
         set_ = set_type(flow_->states());
         // Knots of sampled inputs keep steps short; what lies between them decides on the order.
@@ -63,7 +68,8 @@ std::vector<typename parametric_flow<N, D, C>::polynomial> parametric_flow<N, D,
         x.push_back(widened(set_.centre[i], set_.reach[i]));
     }
     auto const t = polynomial::constant(set_.time);
-    input_pieces<polynomial> const inputs(*flow_, set_.time, t);
+    auto const inputs = widened(input_pieces<polynomial>(*flow_, set_.time, t), *flow_,
+                                input_errors(*flow_, set_.time, set_.time));
     observe_.start(t);
     observe_.advance(
         0, [&x](std::size_t i, std::size_t) -> polynomial const& { return x[i]; }, inputs);
@@ -126,8 +132,9 @@ template <std::size_t N, std::size_t D, class C>
 typename parametric_flow<N, D, C>::mask parametric_flow<N, D, C>::useful(mask lanes) {
     for (std::size_t i = 0; i < set_.centre.size(); ++i) {
         double const limit = flow_->model().about.states[i].limit;
-        C const spread = set_.centre[i].spread();
-        C const lost = set_.reach[i];
+        // What uncertain inputs cause is no weakness of the set: no smaller box would lose less.
+        C const spread = set_.centre[i].spread() + disturbed_[i];
+        C const lost = set_.reach[i] - disturbed_[i];
         auto const known =
             (lost <= side_by_side::max(spread, C(0.02 * limit)) * options_.remainder_share) &
             (spread + lost <= C(options_.widest * limit));
@@ -221,7 +228,8 @@ typename parametric_flow<N, D, C>::mask parametric_flow<N, D, C>::advance(C cons
 
     square w;
     mask jumps{};
-    mask const moved = attempt(trying, to, order, flow_order, w, jumps);
+    mask moved = attempt(trying, to, order, flow_order, w, jumps);
+    if (perturbed_ && side_by_side::any(moved)) moved = perturb(moved, to);
     for (std::size_t l = 0; l < width; ++l) {
         if (!side_by_side::test(trying, l)) continue;
         auto& lane = lanes_[l];

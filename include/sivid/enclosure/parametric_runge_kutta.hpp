@@ -36,6 +36,8 @@ void parametric_runge_kutta<N, D>::begin(double time, box const& initial, box co
         implicit_value_->set_parameters(p);
         implicit_next_->set_parameters(wide);
     }
+    if (perturbed_) perturbed_->set_parameters(wide);
+    disturbed_.assign(flow_->states(), 0.0);
     set_ = set_type(flow_->states());
     set_.begin(0, time, *unknowns_);
     swept_.clear();
@@ -103,8 +105,8 @@ template <std::size_t N, std::size_t D>
 bool parametric_runge_kutta<N, D>::useful(enclosure_failure& why) const {
     for (std::size_t i = 0; i < set_.centre.size(); ++i) {
         double const limit = flow_->model().about.states[i].limit;
-        double const spread = set_.centre[i].spread();
-        double const lost = set_.reach[i];
+        double const spread = set_.centre[i].spread() + disturbed_[i];
+        double const lost = set_.reach[i] - disturbed_[i];
         bool const hopeless = lost > options_.remainder_share * std::max(spread, 0.02 * limit);
         if (spread + lost <= options_.widest * limit && !hopeless) continue;
         why.component = i;
@@ -295,6 +297,10 @@ bool parametric_runge_kutta<N, D>::try_step(double to, double& shorten, enclosur
             why.component = i;
             return false;
         }
+        if (perturbed_ && !perturbed_->prove(from, to, times, tube_box_, true)) {
+            shorten = 0.5;
+            return false;
+        }
         accept(to, length, w);
         return true;
     }
@@ -350,6 +356,18 @@ void parametric_runge_kutta<N, D>::accept(double to, interval const& h, Eigen::M
         }
         g = std::move(image);
     }
+    if (perturbed_) {
+        auto const all = sizes(h.upper(), 0);
+        auto const before = Eigen::Map<Eigen::VectorXd const>(disturbed_.data(), all.rows());
+        Eigen::VectorXd const carried = all * before;
+        for (std::size_t i = 0; i < n; ++i) {
+            lost[i] += perturbed_->at_end()[i];
+            tube_box_[i] = widened(tube_box_[i], perturbed_->largest()[i]);
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+            disturbed_[i] = carried[static_cast<Eigen::Index>(i)] + perturbed_->at_end()[i];
+        }
+    }
     for (auto& x : lost) x *= up;
     set_.time = to;
     swept_ = tube_box_;
@@ -357,6 +375,7 @@ void parametric_runge_kutta<N, D>::accept(double to, interval const& h, Eigen::M
     set_.append(lost);
     set_.reduce(10 * n);
     set_.measure();
+    for (std::size_t i = 0; i < n; ++i) disturbed_[i] = std::min(disturbed_[i], set_.reach[i]);
 }
 
 } // namespace sivid

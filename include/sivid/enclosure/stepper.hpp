@@ -78,6 +78,7 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
             std::min(step.order, !smooth ? 1
                                  : options_.variational_order > 0
                                      ? options_.variational_order
+                                 : perturbed_ ? step.order // wide sets even from points
                                      : std::max<std::size_t>(2, (step.order + 1) / 2));
         auto const q = step.variational_order;
         step.smooth = smooth;
@@ -187,6 +188,10 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
         step.variation = std::move(*variation);
         step.start = set;
         step.tube = std::move(b);
+        if (!perturb(step)) {
+            h *= reject_factor;
+            continue;
+        }
         // A step that the end of the interval cut short teaches nothing.
         if (h < proposed) {
             learned_ = std::max(0.05, learned_ * h / proposed);
@@ -297,6 +302,7 @@ std::optional<tube_step<I>> stepper<I>::prove_long(doubleton<I> const& set, doub
         step.variation = Eigen::MatrixXd::Constant(
             static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(ensemble_->deviation.size()),
             HUGE_VAL);
+        if (!perturb(step)) break;
         long_map_ = std::move(map);
         return step;
     }
@@ -309,8 +315,35 @@ template <class I>
 doubleton<I> stepper<I>::map_long(tube_step<I> const& step, double to) {
     auto const map =
         long_map_ ? long_map_ : long_->map(step.from, to, step.start.centre, step.tube);
-    if (!map) return restarted(to, step.tube);
-    return step.start.mapped(to, map->image, map->derivative, step.tube, ensemble_->deviation);
+    auto const direct = perturbed(step, to, step.tube);
+    if (!map) return restarted(to, direct);
+    return step.start.mapped(to, perturbed(step, to, map->image), map->derivative, direct,
+                             ensemble_->deviation);
+}
+
+template <class I>
+bool stepper<I>::perturb(tube_step<I>& step) {
+    if (!perturbed_) return true;
+    I const times = traits::bounds(step.from, step.to);
+    if (!perturbed_->prove(step.from, step.to, times, step.tube, true)) return false;
+    step.perturbation = perturbed_->law();
+    auto const& away = perturbed_->largest();
+    for (std::size_t i = 0; i < away.size(); ++i) {
+        step.swept[i] = traits::add(step.swept[i], traits::bounds(-away[i], away[i]));
+    }
+    return true;
+}
+
+template <class I>
+basic_box<I> stepper<I>::perturbed(tube_step<I> const& step, double to, basic_box<I> x) const {
+    if (!step.perturbation) return x;
+    auto const away = step.perturbation->deviation(input_errors(*flow_, step.from, step.from),
+                                                   input_errors(*flow_, step.from, to),
+                                                   to - step.from);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        x[i] = traits::add(x[i], traits::bounds(-away[i], away[i]));
+    }
+    return x;
 }
 
 template <class I>
@@ -321,7 +354,8 @@ doubleton<I> stepper<I>::map(tube_step<I> const& step, double to) {
     I const s = span(step.from, to);
     auto const q = step.variational_order;
     auto const& deviation = ensemble_->deviation;
-    auto const direct = intersect(sum(start_, s, q, tube_lagrange_), step.tube);
+    auto const direct =
+        perturbed(step, to, intersect(sum(start_, s, q, tube_lagrange_), step.tube));
     if (step.jumps) {
         // No derivative exists across a jump.
         return restarted(to, direct);
@@ -350,7 +384,7 @@ doubleton<I> stepper<I>::map(tube_step<I> const& step, double to) {
             j(i, c) = traits::add(polynomial, value);
         }
     }
-    return step.start.mapped(to, centre_image(step, s), j, direct, deviation);
+    return step.start.mapped(to, perturbed(step, to, centre_image(step, s)), j, direct, deviation);
 }
 
 } // namespace sivid

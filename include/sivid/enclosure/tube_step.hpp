@@ -3,17 +3,20 @@
 #define SIVID_ENCLOSURE_TUBE_STEP_HPP
 
 #include <sivid/enclosure/doubleton.hpp>
+#include <sivid/enclosure/perturbed_step.hpp>
 #include <sivid/space/box.hpp>
 
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <optional>
 
 namespace sivid {
 
 /// A proved step: all solutions that start in `start` at `from` exist on [from, to] and stay in
 /// `tube`, and the derivatives V of the flow by initial state and parameters satisfy
-/// \f$ |V(s) - V(0)| \le variation \f$ there.
+/// \f$ |V(s) - V(0)| \le variation \f$ there. That is said of the recorded inputs; `perturbation`
+/// says how far others within their error bounds may lead away, and `swept` holds for all of them.
 template <class I>
 struct tube_step {
     double from = 0;
@@ -27,6 +30,7 @@ struct tube_step {
     bool jumps = false; ///< the right-hand side may be discontinuous in the tube
     /// Long against the problem's time constants: see `dissipative_step`; no bound in `variation`.
     bool dissipative = false;
+    std::optional<perturbation_law<double>> perturbation; ///< where inputs are uncertain
     basic_box<I> swept; ///< a tighter box for the states over [from, to]
 };
 

@@ -61,6 +61,17 @@ public:
         return std::nullopt;
     }
 
+    /// The column of this heading.
+    /// @throws input_error that names the columns there are
+    [[nodiscard]] std::size_t required_column(std::string_view heading) const {
+        if (auto const found = column(heading)) return *found;
+        std::string known;
+        for (auto const& h : headings_) known += (known.empty() ? "" : ", ") + in_quotes(h);
+        bool const one = headings_.size() == 1;
+        fail(heading_line_, "no column " + in_quotes(std::string{heading}) + "; it has: " + known,
+             one ? "cells are separated by commas" : "rename a column");
+    }
+
     /// The number in a cell that must not be empty; that its double is finite is checked here.
     [[nodiscard]] exact_decimal number(row const& r, std::size_t column) const {
         auto const& cell = r.cells[column];

@@ -65,7 +65,7 @@ struct scenario {
     std::vector<stated_measurement> stated; ///< of the same measurements
     std::vector<initial_range> initial;     ///< one for each state of the model
 
-    /// Whether no input has a stated error, so that proofs rest on "inputs exact".
+    /// Whether no input has a stated error.
     [[nodiscard]] bool inputs_exact() const {
         for (auto const& input : inputs)
             if (!input.error.empty()) return false;

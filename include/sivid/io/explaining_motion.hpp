@@ -21,7 +21,8 @@ enum class motion_source {
     best_guess  ///< the best fit found, about which nothing is proved
 };
 
-/// Proven enclosures of the motions of some parameters, for tables and pictures.
+/// Proven enclosures of the motions of some parameters with the recorded inputs, for tables and
+/// pictures.
 struct explaining_motion {
     motion_source source = motion_source::best_guess;
     box parameters;
@@ -62,7 +63,7 @@ inline explaining_motion enclose_motion(identification_problem const& problem, m
     explaining_motion motion{source, std::move(parameters), std::move(starts), {}, {}};
     for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
         auto const& s = problem.experiments[e];
-        auto const f = std::make_shared<flow const>(problem.model, problem.choice, s.inputs);
+        auto const f = std::make_shared<flow const>(problem.model, problem.choice, nominal(s.inputs));
         double const end = last_measurement(s);
         enclosure_options options;
         if (pieces > 0) options.maximum_step = (end - s.begin) / static_cast<double>(pieces);

@@ -129,13 +129,20 @@ private:
         std::size_t samples = 0;
         auto const p = point_box(w->parameters);
         for (std::size_t e = 0; e < problem_->experiments.size(); ++e) {
-            auto const& own = problem_->experiments[e];
+            auto own = problem_->experiments[e];
+            bool const uncertain = any_uncertain(own.inputs);
+            own.inputs = nominal(std::move(own.inputs)); // any possible input will do
             plain_run<Exact> run(problem_->model, problem_->choice, own, fine);
             auto const known = run(point_box(w->starts[e]), p);
             note_hits(e, known, run.samples());
             samples += run.samples().size();
-            auto const says = decide(known, run.samples(), p, own.outliers);
+            auto says = decide(known, run.samples(), p, own.outliers);
             if (says == run_finding::explained) continue;
+            if (uncertain && says == run_finding::refuted) { // by the recorded inputs, not by all
+                plain_run<Exact> all(problem_->model, problem_->choice, problem_->experiments[e],
+                                     fine);
+                says = decide(all(point_box(w->starts[e]), p), all.samples(), p, own.outliers);
+            }
             if (says == run_finding::open && result.found == outcome::refuted) continue;
             result.found = says == run_finding::refuted ? outcome::refuted : outcome::undecided;
             result.detail = (says == run_finding::refuted ? "it does not explain "

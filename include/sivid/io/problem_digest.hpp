@@ -94,6 +94,7 @@ inline void describe(canonical_text& t, identification_problem const& p) {
         for (auto const& input : e.inputs) {
             if (auto const* sampled = std::get_if<sampled_signal>(&input)) {
                 t("sampled", sampled->kind(), sampled->times(), sampled->values());
+                if (!sampled->exact()) t("errors", sampled->errors());
             } else if (auto const* formula = std::get_if<analytic_signal>(&input)) {
                 describe(t("formula", formula->value), formula->g);
             }

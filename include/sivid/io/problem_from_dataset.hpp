@@ -30,7 +30,10 @@ inline std::vector<experiment> experiments_of(dataset const& data, model_descrip
         }
         experiment e;
         e.name = s.name;
-        for (auto const& input : s.inputs) e.inputs.push_back(input.signal);
+        for (auto const& input : s.inputs) {
+            auto const& u = input.signal;
+            e.inputs.push_back(sampled_signal(u.times(), u.values(), u.kind(), input.error));
+        }
         e.initial = box(s.initial.size());
         for (std::size_t i = 0; i < s.initial.size(); ++i) e.initial[i] = s.initial[i].range;
         e.measurements = s.measurements;
@@ -78,18 +81,6 @@ problem_from_dataset(dataset const& data, recorded_model model,
 [[nodiscard]] inline holdout holdout_from_dataset(dataset const& data,
                                                   model_description const& about) {
     return holdout(io_detail::experiments_of(data, about, scenario_role::holdout, std::nullopt));
-}
-
-/// What a proof about this problem takes for granted of the data set, beyond what the
-/// identification states itself.
-[[nodiscard]] inline std::vector<std::string> assumptions_of(dataset const& data) {
-    std::vector<std::string> result;
-    for (auto const& s : data.scenarios) {
-        if (s.role != scenario_role::fit || s.inputs_exact()) continue;
-        result.push_back(std::string{"the input errors stated for scenario "} + s.name +
-                         " are not used: its recorded inputs count as exact");
-    }
-    return result;
 }
 
 } // namespace sivid

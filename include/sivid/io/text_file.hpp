@@ -4,6 +4,7 @@
 
 #include <sivid/io/input_error.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -21,8 +22,11 @@ public:
     using std::runtime_error::runtime_error;
 };
 
+/// Larger files are refused: they would not fit beside what is made of them.
+inline constexpr std::uintmax_t largest_text = 1'000'000'000; ///< [byte]
+
 /// The whole of a regular file, without its UTF-8 byte-order mark.
-/// @throws input_error when there is no such file or it cannot be read
+/// @throws input_error when there is no such file, or it is too large or cannot be read
 [[nodiscard]] inline std::string read_text(std::filesystem::path const& file) {
     std::error_code fault;
     auto const fail = [&](std::string problem, std::string remedy) {
@@ -32,6 +36,8 @@ public:
     if (!std::filesystem::exists(status)) fail("no such file", "check the path");
     if (!std::filesystem::is_regular_file(status))
         fail("not a regular file", "give the path of a file");
+    if (auto const size = std::filesystem::file_size(file, fault); !fault && size > largest_text)
+        fail("larger than 1 GB", "give a part of it, or fewer samples a second");
     std::ifstream in{file, std::ios::binary};
     std::string text{std::istreambuf_iterator<char>{in}, std::istreambuf_iterator<char>{}};
     if (!in) fail("cannot be read", "check the permissions");

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -22,13 +23,22 @@ enum class interpolation {
 /// A recorded input: doubles at strictly increasing times, with a stated behaviour in between.
 ///   On piece k, \f$ t \in [t_k, t_{k+1}] \f$: \f$ u(t) = u_k + s_k (t - t_k) \f$ with
 ///   \f$ s_k = (u_{k+1} - u_k)/(t_{k+1} - t_k) \f$ (linear) or \f$ s_k = 0 \f$ (hold).
+/// With error bounds \f$ e_k \f$ of the samples the true input is any measurable function within
+/// \f$ u(t) \pm e(t) \f$, where e runs between its samples as u does: along the straight line
+/// from \f$ e_k \f$ to \f$ e_{k+1} \f$, which covers every line between true samples, or held at
+/// \f$ e_k \f$. Before the first and after the last sample the nearest one's bound holds.
 class sampled_signal {
 public:
     sampled_signal() = default;
 
+    /// @param errors  a bound for each sample, 0 or more; none: the samples are exact
     /// @given  as many values as times, at least one, finite, times strictly increasing (checked).
-    sampled_signal(std::vector<double> times, std::vector<double> values, interpolation kind)
-        : times_(std::move(times)), values_(std::move(values)), kind_(kind) {
+    sampled_signal(std::vector<double> times, std::vector<double> values, interpolation kind,
+                   std::vector<double> errors = {})
+        : times_(std::move(times)),
+          values_(std::move(values)),
+          errors_(std::move(errors)),
+          kind_(kind) {
         if (times_.empty() || times_.size() != values_.size()) {
             throw std::invalid_argument(
                 "sampled_signal: needs as many values as times, at least one");
@@ -41,10 +51,24 @@ public:
                 throw std::invalid_argument("sampled_signal: times must increase strictly");
             }
         }
+        if (!errors_.empty() && errors_.size() != values_.size()) {
+            throw std::invalid_argument("sampled_signal: needs as many error bounds as values");
+        }
+        for (double const e : errors_) {
+            if (!(e >= 0) || !std::isfinite(e)) {
+                throw std::invalid_argument(
+                    "sampled_signal: error bounds must be finite and not negative");
+            }
+        }
     }
 
     [[nodiscard]] std::vector<double> const& times() const { return times_; }
     [[nodiscard]] std::vector<double> const& values() const { return values_; }
+    /// Bounds of the samples' errors; empty when they are exact.
+    [[nodiscard]] std::vector<double> const& errors() const { return errors_; }
+    [[nodiscard]] bool exact() const { return errors_.empty(); }
+    /// The same samples without their errors: one of the signals that are possible.
+    [[nodiscard]] sampled_signal nominal() const { return {times_, values_, kind_}; }
     [[nodiscard]] interpolation kind() const { return kind_; }
 
     /// The piece that governs a step which starts at `t` and goes forward; the last piece extends
@@ -85,6 +109,21 @@ public:
                            traits::mul(slope<I>(k), traits::sub(t, traits::point(times_[k]))));
     }
 
+    /// An upper bound of e(t) at a time of piece `k`; between two times of a piece e is at most the
+    /// straight line between their bounds.
+    [[nodiscard]] double error_bound(std::size_t k, double t) const {
+        if (errors_.empty()) return 0;
+        double const here = errors_[k];
+        if (kind_ == interpolation::hold || k + 1 >= times_.size() || t <= times_[k]) return here;
+        double const next = errors_[k + 1];
+        if (t >= times_[k + 1] || here == next) return next;
+        double const share = (t - times_[k]) / (times_[k + 1] - times_[k]);
+        // A handful of roundings, each within a unit of the larger bound.
+        double const unit = 16 * std::numeric_limits<double>::epsilon();
+        double const line = here + share * (next - here) + std::max(here, next) * unit;
+        return std::min(line + std::numeric_limits<double>::min(), std::max(here, next));
+    }
+
     /// The signal in plain floating point, for simulation and plots.
     [[nodiscard]] double approximate(double t) const { return approximate_on(piece(t), t); }
     /// The same on the polynomial of piece `k`.
@@ -97,6 +136,7 @@ public:
 private:
     std::vector<double> times_;
     std::vector<double> values_;
+    std::vector<double> errors_;
     interpolation kind_ = interpolation::linear;
 };
 

@@ -7,6 +7,7 @@
 #include <sivid/model/model.hpp>
 #include <sivid/model/rewrite.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -37,6 +38,22 @@ struct analytic_signal {
 /// An input of a scenario: recorded samples or a formula.
 using signal = std::variant<sampled_signal, analytic_signal>;
 
+/// Whether a signal is known up to an error bound only; formulas are exact.
+[[nodiscard]] inline bool is_uncertain(signal const& s) {
+    auto const* sampled = std::get_if<sampled_signal>(&s);
+    return sampled != nullptr && !sampled->exact();
+}
+[[nodiscard]] inline bool any_uncertain(std::vector<signal> const& inputs) {
+    return std::any_of(inputs.begin(), inputs.end(), is_uncertain);
+}
+/// The inputs as recorded, which are among those that their error bounds allow.
+[[nodiscard]] inline std::vector<signal> nominal(std::vector<signal> inputs) {
+    for (auto& s : inputs) {
+        if (is_uncertain(s)) s = std::get<sampled_signal>(s).nominal();
+    }
+    return inputs;
+}
+
 /// Index of `name` in a list of named things.
 /// @throws std::invalid_argument that names what exists
 template <class Items>
@@ -62,11 +79,13 @@ struct bound_model {
     model_description about;
     std::vector<std::size_t> parameters; ///< index of each unknown among the model's constants
     std::vector<std::size_t> sampled;    ///< inputs that are sampled, by index in the model
+    std::vector<std::size_t> uncertain;  ///< those of them that have error bounds
     graph g;
     std::vector<node_id> rate;
     std::vector<node_id> observe;
     std::vector<std::vector<node_id>> rate_dx, rate_dp;       ///< \f$ \partial f/\partial x, p \f$
     std::vector<std::vector<node_id>> observe_dx, observe_dp; ///< \f$ \partial g/\partial x, p \f$
+    std::vector<std::vector<node_id>> rate_du; ///< \f$ \partial f/\partial u \f$, uncertain inputs
 
     [[nodiscard]] std::size_t state_count() const { return rate.size(); }
     [[nodiscard]] std::size_t parameter_count() const { return parameters.size(); }
@@ -106,6 +125,7 @@ struct bound_model {
     }
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         if (std::holds_alternative<sampled_signal>(inputs[i])) result.sampled.push_back(i);
+        if (is_uncertain(inputs[i])) result.uncertain.push_back(i);
     }
 
     std::vector<node_id> outputs = model.rate;
@@ -140,6 +160,9 @@ struct bound_model {
     result.rate_dp = differentiate(g, result.rate, p);
     result.observe_dx = differentiate(g, result.observe, x);
     result.observe_dp = differentiate(g, result.observe, p);
+    std::vector<node_id> u;
+    for (auto const i : result.uncertain) u.push_back(g.leaf(operation::input, i));
+    if (!u.empty()) result.rate_du = differentiate(g, result.rate, u);
     return result;
 }
 

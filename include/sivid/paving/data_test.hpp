@@ -40,15 +40,17 @@ struct data_test_options {
 
 /// Tests boxes of parameters against all experiments of a problem.
 ///   outside: in some experiment more than `outliers` measurements certainly fail, whatever the
-///   start; inside: in every experiment at least n - `outliers` certainly hold, for the starts
-///   given to `set_starts` (any start in the box proves existence).
+///   start and, within their error bounds, the inputs; inside: in every experiment at least n -
+///   `outliers` certainly hold, for the starts given to `set_starts` and for the recorded inputs
+///   (any start in the box and any possible input prove existence).
 /// The outlier rule is the consistent reading of the report's Algorithm 2.
 class data_test {
 public:
     /// `judge` and `learn` are for several threads at once.
     static constexpr bool concurrent = true;
 
-    /// Responses of the experiments over a region: for all starts, and for the chosen ones.
+    /// Responses of the experiments over a region: for all starts and inputs, and for the chosen
+    /// ones.
     struct knowledge {
         box region;
         std::vector<std::shared_ptr<response const>> all_starts;
@@ -63,22 +65,44 @@ public:
             flows_.push_back(std::make_shared<flow const>(problem.model, problem.choice, e.inputs));
             records_.push_back(sorted(e.measurements));
             starts_.push_back(e.initial);
+            recorded_.push_back(
+                flows_.back()->uncertain()
+                    ? std::make_shared<flow const>(problem.model, problem.choice, nominal(e.inputs))
+                    : flows_.back());
         }
-        pool_ = std::make_unique<run_pool>(
-            [&problem, flows = flows_, records = records_.data(), run = options.run] {
-                run_set runs;
-                for (std::size_t e = 0; e < flows.size(); ++e) {
-                    runs.push_back(make_run(*flows[e], problem.experiments[e], records[e],
-                                            problem.prior, run));
-                }
-                return runs;
-            });
+        auto const pool_of = [&](std::vector<std::shared_ptr<flow const>> const& flows) {
+            return std::make_unique<run_pool>(
+                [&problem, flows, records = records_.data(), run = options.run] {
+                    run_set runs;
+                    for (std::size_t e = 0; e < flows.size(); ++e) {
+                        runs.push_back(make_run(*flows[e], problem.experiments[e], records[e],
+                                                problem.prior, run));
+                    }
+                    return runs;
+                });
+        };
+        pool_ = pool_of(flows_);
+        for (std::size_t e = 0; e < flows_.size(); ++e) {
+            lasting_.emplace_back();
+            if (!flows_[e]->uncertain()) continue;
+            if (!recorded_pool_) recorded_pool_ = pool_of(recorded_);
+            // At a point the inputs alone make the radii.
+            auto whole = problem.experiments[e];
+            whole.outliers = whole.measurements.size(); // misfits end nothing
+            auto const at_point =
+                make_run(*flows_[e], whole, records_[e], problem.prior, options.run);
+            lasting_[e] =
+                (*at_point)(point_box(mid(whole.initial)), point_box(mid(problem.prior)))->radius;
+            pool_->count(1);
+        }
     }
 
     /// Initial states, one box per experiment within its own, from which existence is proved.
     void set_starts(std::vector<box> starts) { starts_ = std::move(starts); }
 
-    [[nodiscard]] std::size_t integrations() const { return pool_->integrations(); }
+    [[nodiscard]] std::size_t integrations() const {
+        return pool_->integrations() + (recorded_pool_ ? recorded_pool_->integrations() : 0);
+    }
     [[nodiscard]] std::shared_ptr<flow const> flow_of(std::size_t e) const { return flows_[e]; }
     /// In the order of time.
     [[nodiscard]] record const& record_of(std::size_t e) const { return records_[e]; }
@@ -131,8 +155,9 @@ public:
                 regions.push_back(region);
             }
             auto const& all = problem_->experiments[e].initial;
-            auto const answers = runs(e, all, regions);
-            bool const start_matters = !is_point(all) && starts_differ(e);
+            auto const answers = marked(e, runs(e, all, regions));
+            bool const choice_matters =
+                flows_[e]->uncertain() || (!is_point(all) && starts_differ(e));
             std::vector<std::size_t> still_open;
             std::vector<box> promising;
             std::vector<std::size_t> whose;
@@ -153,13 +178,15 @@ public:
                 // Not worth a run where neither the box nor, later, parts of it might hold.
                 bool const sharp = answers[n]->outputs() == answers[n]->measurements &&
                                    says.sharpness <= options_.sharp_enough;
-                if (start_matters && !says.explained && (says.may_hold || sharp)) {
+                if (choice_matters && !says.explained && (says.may_hold || sharp)) {
                     promising.push_back(found[k]->region);
                     whose.push_back(k);
                 }
             }
             if (!promising.empty()) {
-                auto const chosen = runs(e, starts_[e], promising);
+                auto const chosen = flows_[e]->uncertain()
+                                        ? recorded_pool_->borrow()(e, starts_[e], promising)
+                                        : runs(e, starts_[e], promising);
                 for (std::size_t n = 0; n < whose.size(); ++n) {
                     ++results[whose[n]].cost;
                     found[whose[n]]->chosen_starts.back() = chosen[n];
@@ -189,18 +216,18 @@ public:
         return sum;
     }
 
-    /// One experiment over next to nothing, by the options for witnesses.
+    /// One experiment over next to nothing with the recorded inputs, by the options for witnesses.
     [[nodiscard]] std::shared_ptr<response const> run_finely(std::size_t e, box const& initial,
                                                              box const& parameters) {
         pool_->count(1);
-        auto const fine = make_run(*flows_[e], problem_->experiments[e], records_[e],
+        auto const fine = make_run(*recorded_[e], problem_->experiments[e], records_[e],
                                    problem_->prior, options_.witness);
         return (*fine)(initial, parameters);
     }
-    /// One experiment over boxes of starts and parameters.
+    /// One experiment over boxes of starts and parameters, for all possible inputs.
     [[nodiscard]] std::vector<std::shared_ptr<response const>>
     run(std::size_t e, box const& initial, std::vector<box> const& parameters) {
-        return pool_->borrow()(e, initial, parameters);
+        return marked(e, pool_->borrow()(e, initial, parameters));
     }
     [[nodiscard]] std::shared_ptr<response const> run(std::size_t e, box const& initial,
                                                       box const& parameters) {
@@ -208,6 +235,17 @@ public:
     }
 
 private:
+    /// Notes how much of the radii is due to uncertain inputs.
+    [[nodiscard]] std::vector<std::shared_ptr<response const>>
+    marked(std::size_t e, std::vector<std::shared_ptr<response const>> answers) const {
+        if (!flows_[e]->uncertain()) return answers;
+        for (auto& answer : answers) {
+            auto own = std::make_shared<response>(*answer);
+            own->lasting = lasting_[e];
+            answer = std::move(own);
+        }
+        return answers;
+    }
     static bool is_point(box const& x) {
         return std::all_of(x.begin(), x.end(), [](interval const& side) {
             return interval_traits<interval>::is_point(side);
@@ -261,7 +299,10 @@ private:
     std::vector<std::shared_ptr<flow const>> flows_;
     std::vector<record> records_;
     std::vector<box> starts_;
+    std::vector<std::shared_ptr<flow const>> recorded_; ///< `flows_`, without input errors
+    std::vector<std::vector<double>> lasting_;          ///< see `response`
     std::unique_ptr<run_pool> pool_;
+    std::unique_ptr<run_pool> recorded_pool_; ///< where inputs have errors
 };
 
 } // namespace sivid

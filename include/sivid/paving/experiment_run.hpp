@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace sivid {
@@ -98,8 +99,11 @@ private:
                                                               record const& samples,
                                                               box const& initial,
                                                               box const& parameters) {
-    return std::make_shared<response>(response{
-        normalised_unknowns(initial, parameters), nullptr, {}, {}, {}, samples.size(), e.outliers});
+    auto answer = std::make_shared<response>(
+        response{normalised_unknowns(initial, parameters), nullptr, {}, {}, {}, {}, 0, 0});
+    answer->measurements = samples.size();
+    answer->allowed = e.outliers;
+    return answer;
 }
 
 /// Taylor models in lanes: a lane that is done takes the next box.
@@ -314,6 +318,20 @@ std::unique_ptr<experiment_run> make_taylor_run(flow const& f, experiment const&
     return normalised_unknowns(initial, prior).variables;
 }
 
+/// The smallest step for an experiment: pieces of inputs may be shorter than the smallest step that
+/// was asked for, and each may take fifty. Samples that nearly coincide do not count.
+[[nodiscard]] inline double minimum_step_for(experiment const& e, double asked) {
+    double shortest = detail::infinity;
+    for (auto const& input : e.inputs) {
+        auto const* u = std::get_if<sampled_signal>(&input);
+        if (u == nullptr) continue;
+        for (std::size_t k = 1; k < u->times().size(); ++k) {
+            shortest = std::min(shortest, u->times()[k] - u->times()[k - 1]);
+        }
+    }
+    return std::min(asked, std::max(shortest / 50, 1e-6));
+}
+
 #ifdef SIVID_COMPILED_KERNELS
 // The library sivid::kernels holds these: the dear part of every program that identifies.
 #define SIVID_KERNEL(N, D)                                                                         \
@@ -334,9 +352,12 @@ SIVID_KERNEL(9, 2)
 [[nodiscard]] inline std::unique_ptr<experiment_run> make_run(flow const& f, experiment const& e,
                                                               record const& samples,
                                                               box const& prior,
-                                                              run_options const& options) {
+                                                              run_options options) {
     using namespace paving_detail;
+    options.enclosure.minimum_step = minimum_step_for(e, options.enclosure.minimum_step);
     auto const unknowns = unknown_count(e.initial, prior);
+    // What uncertain inputs cost, no smaller box gives back.
+    if (f.uncertain()) options.hopeless = 1e300;
     if (options.set == carried_set::taylor_model) {
         if (unknowns <= 2) return make_taylor_run<2, 4>(f, e, samples, options);
         if (unknowns == 3) return make_taylor_run<3, 4>(f, e, samples, options);

@@ -197,7 +197,7 @@ private:
     [[nodiscard]] static double blur_of(response const& r) {
         double most = 0;
         for (std::size_t y = 0; y < r.outputs(); ++y) {
-            most = std::max(most, 2 * r.radius[y] / width(r.bounds[y]));
+            most = std::max(most, 2 * r.shrinking_radius(y) / width(r.bounds[y]));
         }
         return most;
     }

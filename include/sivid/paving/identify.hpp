@@ -102,7 +102,8 @@ struct identification {
     double seconds = 0;
 };
 
-/// Verifies a guess by one validated run per experiment, at the guessed point.
+/// Verifies a guess by one validated run per experiment, at the guessed point and with the recorded
+/// inputs.
 [[nodiscard]] inline std::optional<verified_witness>
 verify_witness(data_test& test, identification_problem const& problem,
                std::vector<double> const& parameters,
@@ -209,7 +210,7 @@ inline void draw(identification& result, reduction const& map, subpaving const& 
     }
     data_test test(working, options.test);
     identification result(problem.prior);
-    result.assumptions.push_back("inputs exact");
+    result.assumptions.push_back(input_assumption(problem.experiments));
     std::vector<box> starts;
     if (options.algorithm == algorithm::contracting) {
         auto guess = options.resume ? options.resume->guess.value_or(approximate_fit{})

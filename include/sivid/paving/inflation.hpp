@@ -39,7 +39,8 @@ struct inflation_bound {
 };
 
 /// Encloses the inflation at one point by validated runs: for each experiment the (q+1)-th largest
-/// misfit, and the largest of these. Infinite where a run fails.
+/// misfit, and the largest of these. Infinite where a run fails. The runs are those of the recorded
+/// inputs: where inputs have error bounds, others may do better, and nothing is known from below.
 /// @param test    of the same problem without limits of outliers
 /// @param starts  one point, or next to a point, per experiment
 /// @param what    receives the violated measurements
@@ -63,7 +64,9 @@ struct inflation_bound {
             violated[y] = !subset(values[y], answer->bounds[y]);
         }
         auto const q = problem.experiments[s].outliers;
-        least = std::max(least, largest_after(std::move(low), q));
+        if (!any_uncertain(problem.experiments[s].inputs)) {
+            least = std::max(least, largest_after(std::move(low), q));
+        }
         most = std::max(most, largest_after(std::move(high), q));
     }
     return interval_traits<interval>::bounds(least, most);
@@ -215,7 +218,8 @@ private:
 /// Bounds the factor by which all measured bounds must grow until some parameter of the prior
 /// explains the data,
 ///   \f$ \lambda^* = \min_p \max_s \min_{x_{0s}} (q_s+1)\text{-th largest } |y_i - m_i|/e_i \f$;
-/// the boxes of the initial states do not grow. lower > 1 proves that no parameter explains the
+/// the boxes of the initial states and the error bounds of inputs do not grow; where inputs have
+/// such bounds, the least is over them, too. lower > 1 proves that no parameter explains the
 /// data, upper <= 1 that one does.
 /// @param guess  where the upper bound may start; without it the search proposes points itself
 /// @guarantee  `value` contains the inflation whenever the search ends

@@ -177,7 +177,7 @@ private:
             auto const& table = *r.table;
             auto const& local = locals_[w.block];
             double const size = std::abs(w.value);
-            result.blur[w.block] += size * r.radius[w.function] * scales_[w.block][w.function];
+            result.blur[w.block] += size * r.shrinking_radius(w.function) * scales_[w.block][w.function];
             result.slack += size * blocks_[w.block].margin[w.function];
             for (std::size_t m = 0; m < table.size(); ++m) {
                 double c = size * scales_[w.block][w.function] *
@@ -212,7 +212,7 @@ private:
             }
         }
         for (std::size_t y = 0; y < count; ++y) {
-            blur += (*known_)[s]->radius[y] * scales_[s][y];
+            blur += (*known_)[s]->shrinking_radius(y) * scales_[s][y];
         }
         double const n = std::max<double>(1, static_cast<double>(count));
         result.slack = slack / n;

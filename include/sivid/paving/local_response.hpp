@@ -214,8 +214,9 @@ struct response_verdict {
             continue;
         }
         // A radius that is small against the measurement leaves only a thin undecided rim.
-        if (known.radius[y] > 0.05 * rad(bound)) {
-            result.sharpness = std::max(result.sharpness, known.radius[y] / spread);
+        double const radius = known.shrinking_radius(y);
+        if (radius > 0.05 * rad(bound)) {
+            result.sharpness = std::max(result.sharpness, radius / spread);
         }
         double const scale = 1 / std::max(rad(bound), 1e-300);
         linear_constraint row;

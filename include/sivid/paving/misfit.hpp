@@ -55,6 +55,18 @@ struct measured_ends {
     return traits::bounds(std::max(from, 0.0), to);
 }
 
+/// All outputs whose misfit is at most `level`. A bound that is not bounded does not grow.
+/// @guarantee  contains them
+[[nodiscard]] inline interval grown(interval const& bound, double level) {
+    using traits = interval_traits<interval>;
+    if (!is_bounded(bound)) return bound;
+    auto const [lo, hi] = measured_ends(bound);
+    auto const half = traits::point(0.5);
+    auto const middle = traits::mul(half, traits::add(lo, hi));
+    auto const way = traits::mul(traits::point(level), traits::mul(half, traits::sub(hi, lo)));
+    return traits::bounds(traits::sub(middle, way).lower(), traits::add(middle, way).upper());
+}
+
 /// The (q+1)-th largest; zero when there are no more than q.
 [[nodiscard]] inline double largest_after(std::vector<double> values, std::size_t q) {
     if (q >= values.size()) return 0;

@@ -26,13 +26,20 @@ public:
         for (auto const& e : problem.experiments) {
             runs_.push_back(
                 std::make_unique<plain_run<I>>(problem.model, problem.choice, e, options));
+            recorded_.emplace_back();
+            if (!any_uncertain(e.inputs)) continue;
+            auto exact = e;
+            exact.inputs = nominal(e.inputs);
+            recorded_.back() =
+                std::make_unique<plain_run<I>>(problem.model, problem.choice, exact, options);
         }
     }
 
     /// What the experiments say of a region: of all of them, or of those up to one that refutes it.
     struct knowledge {
-        std::vector<plain_outputs<I>> all, chosen; ///< for all starts, for the chosen ones
-        bool refuted = false;                      ///< the whole region is
+        /// For all starts and inputs, for the chosen starts and the recorded inputs.
+        std::vector<plain_outputs<I>> all, chosen;
+        bool refuted = false; ///< the whole region is
     };
 
     [[nodiscard]] std::size_t runs() const { return count_; }
@@ -50,14 +57,15 @@ public:
                             run_finding::refuted;
             if (known.refuted || !has_chosen(e)) continue;
             ++count_;
-            known.chosen[e] = (*runs_[e])(starts_[e], region);
+            auto const& starts = e < starts_.size() ? starts_[e] : own.initial;
+            known.chosen[e] = (*(recorded_[e] ? recorded_[e] : runs_[e]))(starts, region);
         }
         return known;
     }
 
     /// Decides a part of the region that is known.
-    /// @guarantee  explained: for each parameter of the part there are starts for which every
-    /// experiment holds; refuted: for no parameter of it
+    /// @guarantee  explained: for each parameter of the part there are starts and inputs for which
+    /// every experiment holds; refuted: for no parameter of it
     [[nodiscard]] run_finding judge(knowledge const& known, box const& part) const {
         if (known.refuted) return run_finding::refuted;
         bool explained = true;
@@ -91,12 +99,14 @@ public:
 
 private:
     [[nodiscard]] bool has_chosen(std::size_t e) const {
-        return e < starts_.size() && !subset(problem_->experiments[e].initial, starts_[e]);
+        return recorded_[e] ||
+               (e < starts_.size() && !subset(problem_->experiments[e].initial, starts_[e]));
     }
 
     identification_problem const* problem_;
     std::vector<box> starts_;
     std::vector<std::unique_ptr<plain_run<I>>> runs_;
+    std::vector<std::unique_ptr<plain_run<I>>> recorded_; ///< where inputs have error bounds
     std::size_t count_ = 0;
 };
 

@@ -25,9 +25,24 @@ struct experiment {
     std::size_t outliers = 0; ///< at most so many of the measurements may violate their bounds
 };
 
+/// What proofs take for granted of the inputs: that they are the recorded ones, or that they stay
+/// within stated errors of them.
+[[nodiscard]] inline std::string input_assumption(std::vector<experiment> const& experiments) {
+    bool some = false, all = true;
+    for (auto const& e : experiments) {
+        for (auto const& u : e.inputs) {
+            some = some || is_uncertain(u);
+            all = all && is_uncertain(u);
+        }
+    }
+    if (!some) return "inputs exact";
+    return all ? "inputs within their stated errors"
+               : "inputs within their stated errors, exact where none is stated";
+}
+
 /// Which parameters in `prior` can explain all experiments?
-///   p is feasible when for every experiment there is an initial state in its box for which at most
-///   `outliers` of its measurements are violated.
+///   p is feasible when for every experiment there are an initial state in its box and inputs
+///   within their error bounds for which at most `outliers` of its measurements are violated.
 struct identification_problem {
     recorded_model model;
     parameter_choice choice; ///< `choice.unknown` names the sides of `prior`

@@ -76,17 +76,24 @@ struct response {
     /// together.
     std::vector<double> coefficients;
     std::vector<double> radius;
+    /// About how much of the radii is due to uncertain inputs and stays however small the box;
+    /// empty: nothing. A preference, no proof rests on it.
+    std::vector<double> lasting;
     std::vector<interval> bounds; ///< the measurements that were reached, in their order
     std::size_t measurements = 0; ///< all of the experiment
     std::size_t allowed = 0;      ///< outliers
 
     [[nodiscard]] std::size_t outputs() const { return bounds.size(); }
+    /// What a smaller box may take from an output's radius.
+    [[nodiscard]] double shrinking_radius(std::size_t y) const {
+        return y < lasting.size() ? std::max(0.0, radius[y] - lasting[y]) : radius[y];
+    }
     /// Memory that it takes; its table is shared.
     [[nodiscard]] std::size_t bytes() const {
         return sizeof(response) +
                sizeof(normalised_unknowns::side) *
                    (unknowns.initial.size() + unknowns.parameters.size()) +
-               sizeof(double) * (coefficients.capacity() + radius.capacity()) +
+               sizeof(double) * (coefficients.capacity() + radius.capacity() + lasting.capacity()) +
                sizeof(interval) * bounds.capacity();
     }
 };

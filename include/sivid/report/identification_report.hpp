@@ -77,6 +77,19 @@ private:
         return about().constants[index_of(about().constants, names()[j], "constant")].unit;
     }
 
+    [[nodiscard]] static std::string sentence_of(std::string const& assumption) {
+        if (assumption == "inputs exact") {
+            return "The recorded inputs are exact, at their samples and in between as the data set "
+                   "states.";
+        }
+        if (assumption.starts_with("inputs within their stated errors")) {
+            return "At every time the true inputs lie within their stated errors of the recorded "
+                   "ones, in whatever way they vary there; inputs without a stated error are "
+                   "exact.";
+        }
+        return assumption;
+    }
+
     void add_result() {
         view_.dataset = options_.dataset;
         view_.model = about().name;
@@ -86,10 +99,7 @@ private:
         view_.volume_inner = shown_share(found_.paving.inner_volume());
         view_.volume_outer = shown_share(found_.paving.outer_volume());
         for (std::string const& a : found_.assumptions) {
-            view_.assumptions.push_back(a == "inputs exact"
-                                            ? "The recorded inputs are exact, at their samples and "
-                                              "in between as the data set states."
-                                            : a);
+            view_.assumptions.push_back(sentence_of(a));
         }
         std::size_t budget = 0;
         for (experiment const& e : problem_.experiments) {

@@ -80,6 +80,20 @@ void parametric_flow<N, D, C>::accept(mask moved, C const& to, std::size_t order
             g = std::move(image);
         }
     }
+    if (perturbed_) {
+        square all;
+        sizes(length, flow_order, 0, all);
+        std::vector<C> carried(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            C const own = side_by_side::select(moved, perturbed_->at_end()[i], C(0.0));
+            lost[i] += own;
+            carried[i] = own;
+            for (std::size_t c = 0; c < n; ++c) carried[i] += all[i * n + c] * disturbed_[c];
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+            disturbed_[i] = side_by_side::select(moved, carried[i], disturbed_[i]);
+        }
+    }
     for (auto& x : lost) x *= up;
     bool clamped = true;
     for (std::size_t l = 0; l < width; ++l) {
@@ -100,12 +114,17 @@ void parametric_flow<N, D, C>::accept(mask moved, C const& to, std::size_t order
     }
     for (std::size_t i = 0; i < n; ++i) {
         set_.centre[i] = select(moved, next[i], set_.centre[i]);
-        swept_[i] = select(moved, tube_box_[i], swept_[i]);
+        auto const during =
+            perturbed_ ? widened(tube_box_[i], perturbed_->largest()[i]) : tube_box_[i];
+        swept_[i] = select(moved, during, swept_[i]);
     }
     set_.time = side_by_side::select(moved, to, set_.time);
     set_.append(lost);
     set_.reduce(10 * n, running_);
     set_.measure();
+    for (std::size_t i = 0; i < n && perturbed_; ++i) {
+        disturbed_[i] = side_by_side::min(disturbed_[i], set_.reach[i]);
+    }
     stale_ = true;
 }
 

@@ -231,6 +231,15 @@ parametric_flow<N, D, C>::attempt(mask trying, C const& to, std::size_t order,
     return proved;
 }
 
+template <std::size_t N, std::size_t D, class C>
+typename parametric_flow<N, D, C>::mask parametric_flow<N, D, C>::perturb(mask moved, C const& to) {
+    C const half = (to - set_.time) * (0.5 * (1 + 4 * polynomial::unit));
+    auto const times = tube_entry::constant(set_.time) + tube_entry::variable(N, half, half);
+    mask const bounded = perturbed_->prove(set_.time, to, times, tube_box_, moved);
+    reject(moved & !bounded, failure_reason::minimum_step, C(0.5));
+    return bounded;
+}
+
 } // namespace sivid
 
 #endif

@@ -6,6 +6,7 @@
 #include <sivid/enclosure/failure.hpp>
 #include <sivid/enclosure/options.hpp>
 #include <sivid/enclosure/parametric_set.hpp>
+#include <sivid/enclosure/perturbed_step.hpp>
 #include <sivid/model/taylor_arithmetic.hpp>
 #include <sivid/number/guard.hpp>
 
@@ -29,7 +30,9 @@ namespace sivid {
 /// P(q) \pm E \f$), K and L their orders, and b(q, s) a tube:
 ///   centre  \f$ x(s; P) \in \sum_{k \le K} s^k x_k + s^{K+1} x_{K+1}(b) \f$
 ///   flow    \f$ V(s) \in \sum_{k<L} s^k V_k + s^L J_L(b) (1 + [-W, W]) \f$
-/// and the tube is proved when both images lie strictly inside it.
+/// and the tube is proved when both images lie strictly inside it. Inputs with error bounds: the
+/// step is that of the recorded inputs, and what the others may add (see `perturbed_step`) goes into
+/// the generators.
 ///
 /// With lanes, W families advance together, each at its own time and with its own step. No lane's
 /// proof rests on another; shared are orders, the choice of generators to keep, and which of
@@ -74,6 +77,8 @@ public:
           truncation_(f.states()) {
         if (options.order < 1)
             throw std::invalid_argument("enclosure_options: order must be at least 1");
+        if (f.uncertain()) perturbed_.emplace(f);
+        disturbed_.resize(f.states());
     }
 
     /// Starts the family of one lane; what the other lanes do goes on.
@@ -165,6 +170,8 @@ private:
     void accept(mask moved, C const& to, std::size_t order, std::size_t flow_order, square const& w,
                 mask jumps);
     void sizes(C const& h, std::size_t order, std::size_t from, square& result) const;
+    /// Uncertain inputs: the lanes of a proved step for which their share is bounded as well.
+    [[nodiscard]] mask perturb(mask moved, C const& to);
     void reject(mask lanes, failure_reason reason, C const& shorten);
     void fail(std::size_t lane, enclosure_failure why) {
         why.time = time(lane);
@@ -179,6 +186,9 @@ private:
     expansion<column_entry> derivative_;
     expansion<tube_entry> tube_;
     series<polynomial> observe_;
+    std::optional<perturbed_step<tube_entry>> perturbed_; ///< where inputs are uncertain
+    /// About how much of the reach they cause; a preference, no proof rests on it.
+    std::vector<C> disturbed_;
     std::vector<polynomial> parameters_;
     std::vector<column_entry> column_parameters_;
     std::vector<tube_entry> tube_parameters_;

@@ -7,6 +7,7 @@
 #include <sivid/enclosure/implicit_runge_kutta.hpp>
 #include <sivid/enclosure/options.hpp>
 #include <sivid/enclosure/parametric_set.hpp>
+#include <sivid/enclosure/perturbed_step.hpp>
 #include <sivid/enclosure/runge_kutta.hpp>
 #include <sivid/model/taylor_arithmetic.hpp>
 #include <sivid/number/guard.hpp>
@@ -63,6 +64,8 @@ public:
             implicit_value_.emplace(f, *options.method);
             implicit_next_.emplace(f, *options.method);
         }
+        if (f.uncertain()) perturbed_.emplace(f);
+        disturbed_.resize(f.states());
     }
 
     /// @given  the unknowns have at most N variables (checked)
@@ -137,6 +140,8 @@ private:
     std::optional<runge_kutta<tube_entry>> explicit_next_;
     std::optional<implicit_runge_kutta<polynomial>> implicit_value_;
     std::optional<implicit_runge_kutta<tube_entry>> implicit_next_;
+    std::optional<perturbed_step<tube_entry>> perturbed_; ///< where inputs are uncertain
+    std::vector<double> disturbed_; ///< about how much of the reach they cause; a preference
     std::vector<polynomial> value_; ///< phi(h; P)
     std::vector<tube_entry> next_;  ///< phi_{p+1}
     std::vector<tube_entry> tube_box_, swept_;

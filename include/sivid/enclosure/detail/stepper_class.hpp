@@ -8,6 +8,7 @@
 #include <sivid/enclosure/failure.hpp>
 #include <sivid/enclosure/implicit_runge_kutta.hpp>
 #include <sivid/enclosure/options.hpp>
+#include <sivid/enclosure/perturbed_step.hpp>
 #include <sivid/enclosure/runge_kutta.hpp>
 #include <sivid/enclosure/tube_step.hpp>
 #include <sivid/enclosure/variation_bound.hpp>
@@ -28,6 +29,8 @@ namespace sivid {
 ///   \f$ \sum_{k<q} [0,h]^k x^{[k]}(X) + [0,h]^q x^{[q]}(B) \subset B \f$ (existence on [0, h]);
 ///   centre: \f$ \sum_{k<K} s^k x^{[k]}(m) + s^K x^{[K]}(B) \f$, or a Runge-Kutta formula;
 ///   derivative: \f$ \sum_{k<q} s^k V^{[k]}(X) + s^q (J_q(B) W) \f$, W an enclosure of V on [0, h].
+/// Inputs with error bounds: all this is done for the recorded ones, and the images are widened by
+/// what the others may add (see `perturbed_step`).
 /// @guarantee  what `prove` returns is proved; a refusal says why.
 /// @ref  Nedialkov, Jackson and Corliss 1999 (high-order enclosure); Lohner 1987; Zgliczynski 2002
 ///       (C1-Lohner). The factor W in the Lagrange term of V is not to be dropped: V is not 1 at
@@ -43,6 +46,7 @@ public:
           centre_(f, highest(options)),
           start_(f, highest(options)),
           tube_(f, highest(options)) {
+        if (f.uncertain()) perturbed_.emplace(f);
         if (!options.method) return;
         if (options.method->is_explicit()) {
             method_.emplace(f, *options.method);
@@ -58,6 +62,7 @@ public:
         centre_.set_parameters(centre);
         start_.set_parameters(e.parameters);
         tube_.set_parameters(e.parameters);
+        if (perturbed_) perturbed_->set_parameters(e.parameters);
         if (method_) method_->set_parameters(centre);
         if (implicit_) implicit_->set_parameters(centre);
         if (long_) long_->set_parameters(e.parameters, e.parameter_centre);
@@ -128,6 +133,10 @@ private:
     [[nodiscard]] doubleton<I> map_long(tube_step<I> const& step, double to);
     [[nodiscard]] doubleton<I> restarted(double to, basic_box<I> const& x) const;
     [[nodiscard]] doubleton<I> map(tube_step<I> const& step, double to);
+    /// Uncertain inputs: bounds their share of a step that is proved without it.
+    [[nodiscard]] bool perturb(tube_step<I>& step);
+    /// A box at a time of a proved step, widened by that share.
+    [[nodiscard]] basic_box<I> perturbed(tube_step<I> const& step, double to, basic_box<I> x) const;
     [[nodiscard]] basic_box<I> centre_image(tube_step<I> const& step, I const& s);
     /// What the Runge-Kutta method says of a step of length s from the centre of the set.
     [[nodiscard]] std::optional<runge_kutta_formula<I>>
@@ -140,6 +149,7 @@ private:
     flow const* flow_;
     enclosure_options options_;
     expansion<I> centre_, start_, tube_;
+    std::optional<perturbed_step<I>> perturbed_; ///< where inputs are uncertain
     std::optional<runge_kutta<I>> method_; ///< at most one of the two
     std::optional<implicit_runge_kutta<I>> implicit_;
     std::optional<runge_kutta_formula<I>> formula_; ///< of the step that was proved last

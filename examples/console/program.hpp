@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// What a command line program of sivid's is made of: exit codes, options in decimals, one message
+// for whatever goes wrong.
+#ifndef EXAMPLES_CONSOLE_PROGRAM_HPP
+#define EXAMPLES_CONSOLE_PROGRAM_HPP
+
+#include <sivid/io/exact_decimal.hpp>
+#include <sivid/io/input_error.hpp>
+#include <sivid/io/text_file.hpp>
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+namespace console {
+
+/// Exit codes of sivid's programs.
+enum exit_code {
+    done = 0,
+    consistent = 0,
+    bad_input = 2,
+    undecided = 3,
+    inconsistent = 4,
+    refuted = 5, ///< of a check: the result is not what its data prove
+    internal_error = 70
+};
+
+/// The command as it was given, for the report's footer.
+inline std::string command_line(std::string program, int argc, char** argv) {
+    for (int i = 1; i < argc; ++i) program += std::string{" "} + argv[i];
+    return program;
+}
+
+/// Runs a program and turns what it throws into one message and an exit code: bad input and
+/// requests that cannot be met (std::invalid_argument) into 2, all else into 70.
+template <class Program>
+int guarded(std::string const& name, Program const& program) {
+    auto const refuse = [&name](std::exception const& e) {
+        std::cerr << name << ": " << e.what() << "\n";
+        return static_cast<int>(bad_input);
+    };
+    try {
+        return program();
+    } catch (sivid::input_error const& e) {
+        return refuse(e);
+    } catch (sivid::output_error const& e) {
+        return refuse(e);
+    } catch (std::invalid_argument const& e) {
+        return refuse(e);
+    } catch (std::exception const& e) {
+        std::cerr << name << ": internal error: " << e.what() << "\n";
+        return internal_error;
+    }
+}
+
+/// The value of an option that has to be a decimal number above 0.
+/// @throws std::invalid_argument
+inline sivid::exact_decimal positive_decimal(std::string const& text, std::string const& what) {
+    auto const value = sivid::exact_decimal::parse(text);
+    if (!value || !sivid::enclose(*value) || !value->is_positive())
+        throw std::invalid_argument(what + ": " + sivid::in_quotes(text) +
+                                    " is not a decimal number above 0");
+    return *value;
+}
+
+/// Creates the folder for results.
+/// @throws sivid::output_error
+inline void prepare_folder(std::filesystem::path const& folder) {
+    std::error_code fault;
+    std::filesystem::create_directories(folder, fault);
+    if (fault || !std::filesystem::is_directory(folder))
+        throw sivid::output_error("the folder " + folder.string() + " cannot be created" +
+                                  (fault ? ": " + fault.message() : std::string{}));
+}
+
+/// A number in a sentence, in the form that printf knows.
+inline std::string text_of(char const* format, double value) {
+    char buffer[64];
+    std::snprintf(buffer, sizeof buffer, format, value);
+    return buffer;
+}
+/// A length given in m, in mm.
+inline std::string in_millimetres(sivid::exact_decimal const& metres) {
+    return metres.times(1000).text() + " mm";
+}
+
+} // namespace console
+
+#endif
