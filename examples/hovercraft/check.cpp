@@ -35,7 +35,7 @@ constexpr auto fast_words = exact_words;
 using outcome = sivid::check_finding::outcome;
 
 void print(sivid::check_finding const& f) {
-    std::cout << "  " << std::left << std::setw(16) << f.what << " " << std::setw(14)
+    std::cout << "  " << std::left << std::setw(17) << f.what << " " << std::setw(14)
               << to_string(f.found) << " " << f.detail;
     if (f.seconds > 0.01)
         std::cout << (f.detail.empty() ? "" : ", ") << sivid::report::duration_text(f.seconds);

@@ -284,6 +284,9 @@ int run(identify_command const& c) {
                                "excluded. Same machine, same problem, one after the other.";
     }
     sivid::write_atomically(c.out / "boxes.csv", sivid::boxes_csv(problem, found));
+    std::error_code none;
+    std::filesystem::remove(c.out / "products.csv", none); // of an earlier result
+    if (found.products) sivid::write_atomically(c.out / "products.csv", sivid::products_csv(found));
     sivid::write_atomically(c.out / "outputs.csv",
                             sivid::outputs_csv(problem, found, motion ? &*motion : nullptr));
     sivid::write_atomically(c.out / "report.html", report::identification_page(view).str());

@@ -56,6 +56,7 @@
 #include <sivid/model/expression.hpp>
 #include <sivid/model/graph.hpp>
 #include <sivid/model/graph_listing.hpp>
+#include <sivid/model/homogeneity.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/model/operation.hpp>
 #include <sivid/model/plain_program.hpp>

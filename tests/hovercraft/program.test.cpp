@@ -190,27 +190,31 @@ TEST_CASE("check verifies what identify wrote, and refutes what was changed sinc
         more.insert(more.begin(), {"check", out.string(), "--sample", "6"});
         return run(more);
     };
-    auto const good = check();
+    auto const good = check({"--budget", "60"});
     CHECK(good.code == 0);
     CHECK_THAT(good.out, ContainsSubstring("h3: verified, boxes by sample"));
-    CHECK(check({"--dataset", h3}).code == 0);
+    CHECK(check({"--dataset", h3, "--budget", "60"}).code == 0);
     CHECK(check({"--budget", "0"}).code == 3); // nothing of the boxes is proved in no time
 
     auto const text_of = [](fs::path const& file) {
         std::ifstream in{file, std::ios::binary};
         return std::string{std::istreambuf_iterator<char>{in}, {}};
     };
-    auto const json = text_of(out / "result.json"), csv = text_of(out / "boxes.csv");
+    auto const json = text_of(out / "result.json"), csv = text_of(out / "boxes.csv"),
+               products = text_of(out / "products.csv");
+    auto const original = [&](std::string const& file) {
+        return file == "boxes.csv" ? csv : file == "products.csv" ? products : json;
+    };
     auto const tampered = [&](std::string const& file, std::string const& from,
                               std::string const& to, std::string const& words) {
-        auto text = file == "boxes.csv" ? csv : json;
+        auto text = original(file);
         auto const at = text.find(from);
         REQUIRE(at != std::string::npos);
         folder.write("out/" + file, text.replace(at, from.size(), to));
         auto const r = check();
         CHECK(r.code == 5);
         CHECK_THAT(r.out, ContainsSubstring(words) && ContainsSubstring("REFUTED"));
-        folder.write("out/" + file, file == "boxes.csv" ? csv : json);
+        folder.write("out/" + file, original(file));
     };
     tampered("result.json", "\"Sg\": 0.0", "\"Sg\": 0.07", "it does not explain S3");
     tampered("result.json", "\"u\": 2", "\"u\": 3", "not allowed");
@@ -222,6 +226,14 @@ TEST_CASE("check verifies what identify wrote, and refutes what was changed sinc
     auto const first = csv.find('\n') + 1;
     tampered("boxes.csv", csv.substr(first, csv.find('\n', first) + 1 - first), "",
              "is not the one stated");
+
+    auto const second = products.find('\n') + 1;
+    tampered("products.csv", products.substr(second, products.find('\n', second) + 1 - second), "",
+             "is not the one stated");
+    CHECK_THAT(good.out, ContainsSubstring("inside products") && !ContainsSubstring("not the"));
+    fs::remove(out / "products.csv");
+    CHECK(check().code == 2);
+    folder.write("out/products.csv", products);
 
     // Another data set: one digit of one measurement.
     auto const other = folder.path() / "other";

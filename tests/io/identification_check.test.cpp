@@ -8,6 +8,8 @@
 #include <sivid/number/mp_functions.hpp>
 #endif
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <map>
 #include <utility>
@@ -39,12 +41,6 @@ std::map<std::string, outcome> check(identification_problem const& problem,
     return result;
 }
 
-std::size_t first(stored_identification const& stored, box_verdict v) {
-    std::size_t k = 0;
-    while (stored.rows[k].verdict != v) ++k;
-    return k;
-}
-
 } // namespace
 
 TEST_CASE("a result is verified by sample, a forced outlier included") {
@@ -57,6 +53,83 @@ TEST_CASE("a result is verified by sample, a forced outlier included") {
         CHECK(found["proved outliers"] == (spoilt ? outcome::verified : outcome::nothing));
         CHECK(found["overall"] == outcome::verified);
     }
+}
+
+TEST_CASE("the paving of products is verified anew, and what is false in it refuted") {
+    auto const problem = io_support::two_rates_problem();
+    auto const good = io_support::stored_result(problem).read();
+    REQUIRE(good.products);
+    auto found = check(problem, good);
+    for (auto const* const what : {"products", "hull", "volumes", "combinations", "product cover",
+                                   "inside products", "excluded products", "overall"}) {
+        CAPTURE(what);
+        CHECK(found[what] == outcome::verified);
+    }
+    auto bad = good;
+    auto& rows = bad.products->rows;
+    auto const k = io_support::first_row(rows, box_verdict::inside);
+    SECTION("an inside product made larger") {
+        rows[k].set[0] = interval(rows[k].set[0].lower(), 0.7);
+        CHECK(check(problem, bad, true, 20)["inside products"] == outcome::refuted);
+    }
+    SECTION("an inside product left out") {
+        rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(k));
+        CHECK(check(problem, bad, true, 20)["excluded products"] == outcome::refuted);
+    }
+    SECTION("products that the equations do not obey") {
+        bad.products->sides[0] = "a/b";
+        CHECK(check(problem, bad)["products"] != outcome::verified);
+    }
+}
+
+TEST_CASE("every figure of a claim that was altered is seen") {
+    auto const problem = io_support::two_rates_problem(true);
+    io_support::stored_result file(problem);
+    auto const good = nlohmann::json::parse(file.json());
+    std::size_t altered = 0;
+    auto const seen = [&](nlohmann::json const& text) {
+        file.set_json(text.dump());
+        try {
+            auto const stored = file.read();
+            require_same_problem(problem, stored, "result.json");
+            identification_check_options none;
+            none.sample = 0;
+            return overall(identification_check<exact, fast>(problem, stored, none)()) ==
+                   outcome::refuted;
+        } catch (input_error const&) {
+            return true;
+        }
+    };
+    CHECK_FALSE(seen(good));
+    auto const flat = good.flatten();
+    for (auto const& [path, value] : flat.items()) {
+        auto const top = path.substr(1, path.find('/', 1) - 1);
+        // How the search went is no claim, and the budget of outliers is given; the data set is
+        // known by its digest.
+        if (top == "dataset" || top == "source" || top == "stop_reason" || top == "boxes" ||
+            top == "integrations" || path.rfind("/outliers/budget", 0) == 0 || top == "seconds" ||
+            top == "assumptions") {
+            continue;
+        }
+        std::vector<nlohmann::json> others;
+        if (value.is_number_integer() && top != "witness") {
+            others = {value.get<int>() + 1};
+        } else if (value.is_number()) {
+            double const x = value;
+            others = {x * (1 + 1e-3) + 1e-9, x * (1 - 1e-3) - 1e-9};
+            if (top == "witness") others = {x * 1.5 + 0.5};
+        } else if (value.is_string()) {
+            others = {value.get<std::string>() + "m"};
+        }
+        for (auto const& other : others) {
+            auto changed = flat;
+            changed[path] = other;
+            CAPTURE(path, value.dump(), other.dump());
+            CHECK(seen(changed.unflatten()));
+            ++altered;
+        }
+    }
+    CHECK(altered > 30);
 }
 
 TEST_CASE("an empty paving is verified: nothing in the prior explains the data") {
@@ -80,7 +153,7 @@ TEST_CASE("what was tampered with is refuted") {
         CHECK(check(problem, bad)["witness"] == outcome::refuted);
     }
     SECTION("an inside box made larger, the sums adapted") {
-        auto& row = bad.rows[first(bad, box_verdict::inside)].set;
+        auto& row = bad.rows[io_support::first_row(bad.rows, box_verdict::inside)].set;
         row[0] = interval(row[0].lower() - 0.05, row[0].upper() + 0.05);
         bad.rows = {{row, box_verdict::inside}};
         bad.inner = bad.outer = relative_volume(row, problem.prior);
@@ -96,7 +169,7 @@ TEST_CASE("what was tampered with is refuted") {
         CHECK(found["inside boxes"] == outcome::refuted);
     }
     SECTION("an inside box removed, the sums adapted") {
-        auto const k = first(bad, box_verdict::inside);
+        auto const k = io_support::first_row(bad.rows, box_verdict::inside);
         auto const gone = relative_volume(bad.rows[k].set, problem.prior);
         bad.rows.erase(bad.rows.begin() + static_cast<std::ptrdiff_t>(k));
         bad.inner = interval_traits<interval>::sub(bad.inner, gone);

@@ -11,6 +11,8 @@
 #include <sivid/io/identification_reader.hpp>
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace io_support {
 
@@ -24,6 +26,13 @@ inline sivid::identification_problem one_rate_problem(bool spoilt = false) {
     return one_rate(two_rates_problem(spoilt));
 }
 
+/// The first row with this verdict.
+inline std::size_t first_row(std::vector<sivid::paved_box> const& rows, sivid::box_verdict v) {
+    std::size_t k = 0;
+    while (rows[k].verdict != v) ++k;
+    return k;
+}
+
 class stored_result {
 public:
     explicit stored_result(sivid::identification_problem const& problem) {
@@ -33,9 +42,12 @@ public:
                                             .source_folder = "../data",
                                             .source_digest = std::string(64, '0')});
         csv_ = sivid::boxes_csv(problem, found);
+        products_ = sivid::products_csv(found);
     }
     [[nodiscard]] std::string const& json() const { return json_; }
     [[nodiscard]] std::string const& csv() const { return csv_; }
+    [[nodiscard]] std::string const& products() const { return products_; }
+    void set_json(std::string text) { json_ = std::move(text); }
     /// Replaces the first occurrence; false when there is none.
     bool replace_json(std::string const& from, std::string const& to) {
         return replace(json_, from, to);
@@ -47,6 +59,7 @@ public:
         temporary_folder const folder;
         folder.write("result.json", json_);
         folder.write("boxes.csv", csv_);
+        if (!products_.empty()) folder.write("products.csv", products_);
         return sivid::read_identification(folder.path());
     }
 
@@ -57,7 +70,7 @@ private:
         text.replace(at, from.size(), to);
         return true;
     }
-    std::string json_, csv_;
+    std::string json_, csv_, products_;
 };
 
 } // namespace io_support

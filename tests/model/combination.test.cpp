@@ -107,6 +107,24 @@ TEST_CASE("parameters that stand alone somewhere are not entangled") {
     CHECK(clipped.entangled.empty());
 }
 
+TEST_CASE("factors that are known alone are divided out of products") {
+    auto const known = structure(3, [](auto const&, auto const& x, auto const& p, auto const&) {
+        return std::vector{p[0] * p[1] * p[2] * x[0] + p[2]};
+    });
+    CHECK(known.entangled == indices{0, 1});
+    CHECK(formulas(known.combinations) == names{"p0*p1"});
+    auto const twice = structure(3, [](auto const&, auto const& x, auto const& p, auto const&) {
+        return std::vector{p[0] * p[1] * x[0] / p[2] + p[0] * p[1] * sqr(p[2]) + sin(p[2] * x[0])};
+    });
+    CHECK(twice.entangled == indices{0, 1});
+    CHECK(formulas(twice.combinations) == names{"p0*p1"});
+    auto const unused = structure(4, [](auto const&, auto const& x, auto const& p, auto const&) {
+        return std::vector{p[1] * p[2] * p[3] * x[0] + p[3]};
+    });
+    CHECK(unused.entangled == indices{0, 1, 2});
+    CHECK(formulas(unused.combinations) == names{"p1*p2"});
+}
+
 TEST_CASE("a claim of entanglement holds: rescaled parameters give the same rates") {
     // Random monomials in sums under random functions; the claimed structure is tested by scaling.
     draws d(171);

@@ -42,32 +42,39 @@ sample products() {
         },
         box{between(0.5, 2), between(0.5, 1.5), between(1, 3), between(-1, 1)});
 }
+/// x' = p2 - p0 p1 p2 x: p2 stands in the product and alone.
+constexpr auto shared_rate = [](auto const&, auto const& x, auto const& p, auto const&) {
+    return std::vector{p[2] - p[0] * p[1] * p[2] * x[0]};
+};
+box const shared_prior{between(0.5, 2), between(0.5, 1.5), between(0.4, 1.2)};
+sample shared_factor() { return make(3, shared_rate, shared_prior); }
 
 } // namespace
 
 TEST_CASE("a reduced problem has the trajectories of the original one") {
     draws d(371);
-    auto const s = products();
-    auto const map = reduction::find(s.problem, s.structure);
-    REQUIRE(map);
-    auto const& small = map->problem();
-    CHECK(small.prior.size() < s.problem.prior.size());
-    CHECK(small.choice.unknown.size() == small.prior.size());
-    CHECK_NOTHROW(small.require_valid());
-    auto const original =
-        std::make_shared<flow const>(s.problem.model, s.problem.choice, std::vector<signal>{});
-    auto const reduced =
-        std::make_shared<flow const>(small.model, small.choice, std::vector<signal>{});
-    for (int round = 0; round < 60; ++round) {
-        auto const p = point_box(d.in(s.problem.prior));
-        auto const r = map->forward(p);
-        REQUIRE_FALSE(is_empty(r));
-        CHECK(subset(r, small.prior));
-        auto const a = integrate<interval>(original, box{interval(1.0)}, p, 0, 2);
-        auto const b = integrate<interval>(reduced, box{interval(1.0)}, r, 0, 2);
-        REQUIRE((a.complete() && b.complete()));
-        CHECK_FALSE(disjoint(a.at(2)[0], b.at(2)[0]));
-        CHECK(width(b.at(2)[0]) < 1e-10);
+    for (auto const& s : {products(), shared_factor()}) {
+        auto const map = reduction::find(s.problem, s.structure);
+        REQUIRE(map);
+        auto const& small = map->problem();
+        CHECK(small.prior.size() < s.problem.prior.size());
+        CHECK(small.choice.unknown.size() == small.prior.size());
+        CHECK_NOTHROW(small.require_valid());
+        auto const original =
+            std::make_shared<flow const>(s.problem.model, s.problem.choice, std::vector<signal>{});
+        auto const reduced =
+            std::make_shared<flow const>(small.model, small.choice, std::vector<signal>{});
+        for (int round = 0; round < 60; ++round) {
+            auto const p = point_box(d.in(s.problem.prior));
+            auto const r = map->forward(p);
+            REQUIRE_FALSE(is_empty(r));
+            CHECK(subset(r, small.prior));
+            auto const a = integrate<interval>(original, box{interval(1.0)}, p, 0, 2);
+            auto const b = integrate<interval>(reduced, box{interval(1.0)}, r, 0, 2);
+            REQUIRE((a.complete() && b.complete()));
+            CHECK_FALSE(disjoint(a.at(2)[0], b.at(2)[0]));
+            CHECK(width(b.at(2)[0]) < 1e-10);
+        }
     }
 }
 
@@ -163,6 +170,25 @@ TEST_CASE("identification through a reduction contains the truth and claims noth
                 CHECK(planted.violated(e, p, planted.starts[e], 1e-10) <= allowed);
             }
         }
+    }
+}
+
+TEST_CASE("a factor that is known alone, too, costs no truth") {
+    draws d(376);
+    for (int round = 0; round < 12; ++round) {
+        auto const planted =
+            support::plant(d, {1, 3, 0, 10}, shared_rate, shared_prior, {1},
+                           {.experiments = 2, .samples = 10, .noise = d.uniform(0.01, 0.1)});
+        identify_options options;
+        options.search.boxes = 200;
+        auto const found = identify(planted.problem, options);
+        CHECK(found.verdict != verdict::inconsistent);
+        CHECK(contains(found.hull, planted.truth));
+        REQUIRE(found.combinations.size() == 1);
+        CHECK(found.combinations[0].what.formula == "p0*p1");
+        auto const exact = mp(planted.truth[0]) * mp(planted.truth[1]);
+        CHECK(support::encloses(found.combinations[0].hull, exact));
+        CHECK(width(found.hull[2]) < 0.7 * width(shared_prior[2]));
     }
 }
 

@@ -309,6 +309,8 @@ int run(command const& c) {
     add_pictures(page, view, o, c);
     add_windows(page, posed, o, c);
     sivid::write_atomically(c.out / "boxes.csv", sivid::boxes_csv(posed.problem, o.found));
+    if (o.found.products)
+        sivid::write_atomically(c.out / "products.csv", sivid::products_csv(o.found));
     sivid::write_atomically(c.out / "outputs.csv", sivid::outputs_csv(posed.problem, o.found,
                                                                       motion ? &*motion : nullptr));
     sivid::write_atomically(c.out / "report.html", page.str());

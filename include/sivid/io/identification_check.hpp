@@ -5,28 +5,19 @@
 #include <sivid/io/fewest_outliers_check.hpp>
 #include <sivid/io/forced_outlier_check.hpp>
 #include <sivid/io/identification_consistency.hpp>
-#include <sivid/paving/certificate.hpp>
+#include <sivid/io/paving_check.hpp>
+#include <sivid/io/product_check.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <optional>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace sivid {
-
-struct identification_check_options {
-    std::size_t sample = 24; ///< so many inside and so many excluded boxes, or parts of them
-    bool all = false;        ///< every box instead
-    std::uint64_t seed = 1;
-    double seconds = 10; ///< for the inside boxes, and as much for the excluded ones
-    certificate_options certificate;
-};
 
 /// Checks a stored identification against its problem, from nothing but the model and the data.
 /// @tparam Exact  interval type of the runs at the witness (mp_interval: 40 digits)
@@ -50,10 +41,28 @@ public:
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
             if (tell) tell(all.back());
         };
+        stored_products rebuilt;
+        bool const by_products = stored_->products.has_value();
+        auto options = options_;
+        if (by_products) options.seconds *= 0.5; // for two pavings
+        if (by_products) {
+            rebuilt = rebuild_products<Exact>(*problem_, stored_->products->sides);
+            add([&] { return check_products(rebuilt, *stored_->products); });
+            if (!rebuilt.malformed.empty()) return all;
+        }
         add([&] { return check_verdict(*stored_); });
-        add([&] { return check_hull(*problem_, *stored_); });
-        add([&] { return check_volumes(*problem_, *stored_); });
-        add([&] { return check_combinations<Exact>(*problem_, *stored_); });
+        add([&] {
+            return by_products ? check_hull_of_products<Exact>(*problem_, *stored_, rebuilt)
+                               : check_hull(*problem_, *stored_);
+        });
+        add([&] {
+            return by_products ? check_volumes_of_products<Fast>(*problem_, *stored_, rebuilt)
+                               : check_volumes(*problem_, *stored_);
+        });
+        add([&] {
+            return by_products ? check_combinations_of_products(*stored_)
+                               : check_combinations<Exact>(*problem_, *stored_);
+        });
         add([&] { return witness(); });
         add([&] {
             return check_forced<Fast>(*problem_, *stored_, hits_, options_.certificate.enclosure,
@@ -66,15 +75,18 @@ public:
                                       options_.all ? 0 : std::max<std::size_t>(options_.sample, 1),
                                       options_.seed + 2);
         });
-        box_cover cover_found;
-        add([&] {
-            std::vector<box> rows;
-            for (auto const& row : stored_->rows) rows.push_back(row.set);
-            cover_found = cover(problem_->prior, rows);
-            return check_cover(*problem_, *stored_, cover_found);
-        });
-        add([&] { return inside(); });
-        add([&] { return outside(cover_found.gaps); });
+        if (by_products) add([&] { return check_rows(*problem_, *stored_); });
+        paving_check<Fast> boxes(*problem_, problem_->choice.unknown, stored_->rows, starts_,
+                                 options);
+        add([&] { return boxes.covering("cover"); });
+        add([&] { return boxes.inside("inside boxes"); });
+        add([&] { return boxes.outside("excluded boxes"); });
+        if (!by_products || !rebuilt.unproved.empty()) return all;
+        paving_check<Fast> products(rebuilt.problem, stored_->products->sides,
+                                    stored_->products->rows, starts_, options);
+        add([&] { return products.covering("product cover"); });
+        add([&] { return products.inside("inside products"); });
+        add([&] { return products.outside("excluded products"); });
         return all;
     }
 
@@ -163,84 +175,6 @@ private:
         }
     }
 
-    [[nodiscard]] check_finding inside() {
-        std::vector<box_claim> claims;
-        std::vector<std::size_t> rows;
-        for (std::size_t k = 0; k < stored_->rows.size(); ++k) {
-            if (stored_->rows[k].verdict == box_verdict::inside) rows.push_back(k);
-        }
-        auto const total = rows.size();
-        std::mt19937_64 random(options_.seed);
-        for (std::size_t k = 0; k < rows.size() && (options_.all || k < options_.sample); ++k) {
-            if (!options_.all) std::swap(rows[k], rows[k + random() % (rows.size() - k)]);
-            claims.push_back(
-                {intersect(stored_->rows[rows[k]].set, problem_->prior), box_claim::kind::inside});
-        }
-        return prove("inside boxes", std::move(claims), total);
-    }
-
-    /// Half of the sample by volume, half box by box (most are thin and close to the feasible
-    /// ones).
-    [[nodiscard]] check_finding outside(std::vector<box> const& gaps) {
-        std::vector<box_claim> claims;
-        std::vector<double> until;
-        double sum = 0;
-        for (auto const& gap : gaps) {
-            until.push_back(sum += relative_volume(gap, problem_->prior).upper());
-            if (options_.all) claims.push_back({gap, box_claim::kind::outside});
-        }
-        std::mt19937_64 random(options_.seed + 1);
-        auto const share = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-        for (std::size_t k = 0; k < options_.sample && !options_.all && !gaps.empty(); ++k) {
-            auto n = static_cast<std::size_t>(random() % gaps.size());
-            if (k % 2 == 0) {
-                auto const at = std::lower_bound(until.begin(), until.end(), share() * sum);
-                n = std::min(static_cast<std::size_t>(at - until.begin()), gaps.size() - 1);
-            }
-            auto part = gaps[n];
-            for (std::size_t j = 0; j < part.size(); ++j) { // a part of a large one
-                double const most = width(problem_->prior[j]) / 16, w = width(part[j]);
-                if (!(w > most)) continue;
-                double const low = part[j].lower() + share() * (w - most);
-                part[j] = intersect(part[j], interval_traits<interval>::bounds(low, low + most));
-            }
-            claims.push_back({std::move(part), box_claim::kind::outside});
-        }
-        return prove("excluded boxes", std::move(claims), gaps.size());
-    }
-
-    [[nodiscard]] check_finding prove(std::string what, std::vector<box_claim> claims,
-                                      std::size_t total) {
-        if (claims.empty()) return {std::move(what), outcome::nothing, ""};
-        auto how = options_.certificate;
-        how.seconds = options_.seconds;
-        if (options_.all) how.runs_per_claim = static_cast<std::size_t>(-1);
-        claim_checker<Fast> checker(*problem_, starts_, how);
-        checker(claims);
-        auto const count = [&](box_claim::status s) {
-            return static_cast<std::size_t>(std::count_if(
-                claims.begin(), claims.end(), [s](box_claim const& c) { return c.found == s; }));
-        };
-        auto const proved = count(box_claim::status::proved);
-        auto const refuted = count(box_claim::status::refuted);
-        check_finding result{std::move(what), outcome::verified, ""};
-        if (proved < claims.size()) result.found = outcome::undecided;
-        if (refuted > 0) result.found = outcome::refuted;
-        result.detail = std::to_string(proved) + " of " + std::to_string(claims.size()) + " proved";
-        if (!options_.all) result.detail += ", a sample of " + std::to_string(total);
-        if (refuted > 0) result.detail += ", " + std::to_string(refuted) + " refuted";
-        result.detail += ", " + std::to_string(checker.runs()) + " runs";
-        for (auto const& c : claims) {
-            if (c.found != box_claim::status::refuted) continue;
-            result.detail += "; the contrary holds at";
-            for (std::size_t j = 0; j < c.counterexample.size(); ++j) {
-                result.detail += " " + problem_->choice.unknown[j] + "=" +
-                                 exact_decimal::shortest(c.counterexample[j]).text();
-            }
-            break;
-        }
-        return result;
-    }
     identification_problem const* problem_;
     stored_identification const* stored_;
     identification_check_options options_;

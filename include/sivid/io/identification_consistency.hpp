@@ -4,6 +4,7 @@
 
 #include <sivid/io/identification_reader.hpp>
 #include <sivid/io/product_formula.hpp>
+#include <sivid/model/unit.hpp>
 #include <sivid/paving/problem.hpp>
 #include <sivid/space/box_cover.hpp>
 
@@ -48,9 +49,14 @@ inline bool nearly(interval const& a, interval const& b) {
 inline double apart(interval const& a, interval const& b) {
     return std::max({0.0, a.lower() - b.upper(), b.lower() - a.upper()});
 }
-/// Of the search over products of parameters, which the boxes alone do not prove.
-inline check_finding says_more(std::string what) {
-    return {std::move(what), check_finding::outcome::nothing, "stated tighter than by the boxes"};
+/// Whether there are other numbers of rows than stated.
+inline std::string miscounted(stored_identification const& stored) {
+    std::map<std::string, std::size_t> counted;
+    for (auto const& row : stored.rows) ++counted[std::string{to_string(row.verdict)}];
+    for (auto const& [kind, n] : stored.stated_rows) {
+        if (counted[kind] != n) return "the number of " + kind + " boxes is not the one stated";
+    }
+    return {};
 }
 inline check_finding agreement(std::string what, std::string const& fault,
                                std::string const& detail) {
@@ -74,6 +80,22 @@ inline void require_same_problem(identification_problem const& problem,
     for (std::size_t j = 0; j < names.size(); ++j) {
         if (stored.parameters[j].name != names[j]) fail("other parameters than the data set's");
     }
+    auto const& constants = problem.model.about.constants;
+    auto const unit_of = [&](product_formula const& formula) {
+        unit product;
+        for (std::size_t j = 0; j < names.size(); ++j) {
+            auto const& own = constants[index_of(constants, names[j], "constant")].unit;
+            product = product.times(unit(own), formula.exponents()[j]);
+        }
+        return product.text();
+    };
+    for (auto const* const list : {&stored.parameters, &stored.combinations}) {
+        for (auto const& q : *list) {
+            auto const formula = product_formula::parse(q.name, names);
+            if (!formula) fail(text_of("no product of the parameters: ", in_quotes(q.name)));
+            if (unit(q.unit).text() != unit_of(*formula)) fail("another unit of " + q.name);
+        }
+    }
     for (auto const& e : problem.experiments) {
         if (stored.budget.count(e.name) == 0) {
             fail(text_of("no outlier budget for the scenario ", in_quotes(e.name)));
@@ -86,7 +108,6 @@ inline void require_same_problem(identification_problem const& problem,
 [[nodiscard]] inline check_finding check_hull(identification_problem const& problem,
                                               stored_identification const& stored) {
     std::string fault;
-    bool tighter = false;
     for (std::size_t j = 0; j < stored.parameters.size(); ++j) {
         auto range = interval_traits<interval>::empty();
         auto const& prior = problem.prior[j];
@@ -99,21 +120,10 @@ inline void require_same_problem(identification_problem const& problem,
             }
         }
         auto const& own = stored.parameters[j].range;
-        if (io_detail::nearly(range, own)) continue;
-        if (stored.witness) {
-            auto const at = stored.witness->parameters.find(stored.parameters[j].name);
-            if (at != stored.witness->parameters.end() && !contains(own, at->second)) {
-                fault = "the witness is outside the hull of " + stored.parameters[j].name;
-                continue;
-            }
-        }
-        if (stored.of_products && subset(own, range) && !is_empty(own)) {
-            tighter = true;
-        } else {
+        if (!io_detail::nearly(range, own)) {
             fault = "the hull of " + stored.parameters[j].name + " is not that of the boxes";
         }
     }
-    if (fault.empty() && tighter) return io_detail::says_more("hull");
     return io_detail::agreement("hull", fault, "that of all boxes, within the prior");
 }
 
@@ -122,32 +132,42 @@ inline void require_same_problem(identification_problem const& problem,
                                                  stored_identification const& stored) {
     using traits = interval_traits<interval>;
     interval inner{0.0}, outer{0.0};
-    std::map<std::string, std::size_t> counted;
     for (auto const& row : stored.rows) {
         auto const v = relative_volume(row.set, problem.prior);
         outer = traits::add(outer, v);
         if (row.verdict == box_verdict::inside) inner = traits::add(inner, v);
-        ++counted[std::string{to_string(row.verdict)}];
     }
     double const allowed = 1e-9 * outer.upper() + 1e-14;
-    std::string fault;
-    if (is_empty(stored.inner) || stored.inner.upper() < inner.lower() - allowed ||
-        stored.inner.lower() > outer.upper() + allowed) {
+    auto fault = io_detail::miscounted(stored);
+    if (is_empty(stored.inner) || io_detail::apart(inner, stored.inner) > allowed) {
         fault = "the inner volume is not that of the inside boxes";
     }
-    if (is_empty(stored.outer) || stored.outer.lower() > outer.upper() + allowed ||
-        stored.outer.upper() < inner.lower() - allowed) {
+    if (is_empty(stored.outer) || io_detail::apart(outer, stored.outer) > allowed) {
         fault = "the outer volume is not that of the boxes";
     }
-    for (auto const& [kind, n] : stored.stated_rows) {
-        if (counted[kind] != n) fault = "the number of " + kind + " boxes is not the one stated";
+    if (width(stored.inner) > width(inner) + allowed ||
+        width(stored.outer) > width(outer) + allowed) {
+        fault = "the volumes are stated less sharply than the boxes give them";
     }
-    bool const tighter = io_detail::apart(inner, stored.inner) > allowed ||
-                         io_detail::apart(outer, stored.outer) > allowed;
-    if (tighter && !stored.of_products) fault = "the volumes are not those of the boxes";
-    if (fault.empty() && tighter) return io_detail::says_more("volumes");
     return io_detail::agreement("volumes", fault,
                                 std::to_string(stored.rows.size()) + " boxes summed");
+}
+
+/// There are as many rows as stated, and all lie in the prior.
+[[nodiscard]] inline check_finding check_rows(identification_problem const& problem,
+                                              stored_identification const& stored) {
+    auto fault = io_detail::miscounted(stored);
+    for (auto const& row : stored.rows) {
+        for (std::size_t j = 0; j < row.set.size(); ++j) {
+            auto const& prior = problem.prior[j];
+            double const slack = 2e-15 * mag(prior);
+            if (row.set[j].lower() < prior.lower() - slack ||
+                row.set[j].upper() > prior.upper() + slack) {
+                fault = "a box leaves the prior of " + stored.parameters[j].name;
+            }
+        }
+    }
+    return io_detail::agreement("boxes", fault, "as many as stated, within the prior");
 }
 
 /// The verdict follows from witness and boxes.
@@ -155,7 +175,7 @@ inline void require_same_problem(identification_problem const& problem,
     bool const inside = std::any_of(stored.rows.begin(), stored.rows.end(), [](auto const& row) {
         return row.verdict == box_verdict::inside;
     });
-    bool const volume = stored.of_products && !is_empty(stored.inner) && stored.inner.lower() > 0;
+    bool const volume = stored.products && !is_empty(stored.inner) && stored.inner.lower() > 0;
     auto const follows = stored.witness || inside || volume ? verdict::consistent
                          : stored.rows.empty()              ? verdict::inconsistent
                                                             : verdict::undecided;
@@ -172,7 +192,6 @@ template <class I>
     using traits = interval_traits<I>;
     if (stored.combinations.empty()) return {"combinations", check_finding::outcome::nothing, ""};
     std::string fault;
-    bool tighter = false;
     for (auto const& c : stored.combinations) {
         auto const formula = product_formula::parse(c.name, problem.choice.unknown);
         if (!formula) {
@@ -192,37 +211,21 @@ template <class I>
         auto const range = low <= high ? interval_traits<interval>::bounds(low, high)
                                        : interval_traits<interval>::empty();
         double const slack = 1e-14 * mag(range);
-        bool const nested = is_empty(range)
-                                ? is_empty(c.range)
-                                : !is_empty(c.range) && c.range.lower() >= range.lower() - slack &&
-                                      c.range.upper() <= range.upper() + slack;
-        if (nested && !is_empty(range)) {
-            tighter = tighter || c.range.lower() > range.lower() + slack ||
-                      c.range.upper() < range.upper() - slack;
-        }
-        if (nested && stored.witness) {
-            basic_box<I> p(problem.prior.size());
-            for (std::size_t j = 0; j < p.size(); ++j) {
-                auto const at = stored.witness->parameters.find(problem.choice.unknown[j]);
-                if (at != stored.witness->parameters.end()) p[j] = traits::point(at->second);
-            }
-            auto const value = formula->over(p);
-            auto const bound = traits::bounds(c.range.lower(), c.range.upper());
-            if (value && traits::disjoint(*value, bound)) {
-                fault = "the witness is outside the range of " + c.name;
-            }
-        }
-        if (!nested) fault = "the range of " + c.name + " is not that over the boxes";
+        bool const same = is_empty(range)
+                              ? is_empty(c.range)
+                              : !is_empty(c.range) &&
+                                    std::abs(c.range.lower() - range.lower()) <= slack &&
+                                    std::abs(c.range.upper() - range.upper()) <= slack;
+        if (!same) fault = "the range of " + c.name + " is not that over the boxes";
     }
-    if (tighter && !stored.of_products) fault = "a combination's range is not that over the boxes";
-    if (fault.empty() && tighter) return io_detail::says_more("combinations");
     return io_detail::agreement("combinations", fault,
                                 std::to_string(stored.combinations.size()) + " evaluated anew");
 }
 
 /// The rows share no volume, and rows and gaps are all of the prior.
-[[nodiscard]] inline check_finding check_cover(identification_problem const& problem,
-                                               stored_identification const& stored,
+[[nodiscard]] inline check_finding check_cover(std::string what,
+                                               identification_problem const& problem,
+                                               std::vector<paved_box> const& rows,
                                                box_cover const& found) {
     using traits = interval_traits<interval>;
     std::string fault;
@@ -230,14 +233,14 @@ template <class I>
         fault = std::to_string(found.overlaps.size()) + " pairs of boxes overlap";
     }
     interval sum{0.0};
-    for (auto const& row : stored.rows) {
+    for (auto const& row : rows) {
         sum = traits::add(sum, relative_volume(intersect(row.set, problem.prior), problem.prior));
     }
     for (auto const& gap : found.gaps) {
         sum = traits::add(sum, relative_volume(gap, problem.prior));
     }
     if (io_detail::apart(sum, interval(1.0)) > 1e-9) fault = "boxes and rest are not the prior";
-    return io_detail::agreement("cover", fault,
+    return io_detail::agreement(std::move(what), fault,
                                 "boxes disjoint; with " + std::to_string(found.gaps.size()) +
                                     " excluded boxes between them all of the prior");
 }

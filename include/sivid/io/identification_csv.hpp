@@ -52,6 +52,23 @@ inline std::pair<std::string, std::string> side_text(interval const& side, bool 
     return {std::move(low), std::move(high)};
 }
 
+/// One row for each box that is not proved outside.
+inline std::string paving_csv(std::vector<std::string> const& names, subpaving const& paving) {
+    std::string text = "verdict";
+    for (auto const& name : names) text += std::string{","} + name + "_lower," + name + "_upper";
+    text += "\n";
+    for (auto const& b : paving.boxes()) {
+        if (b.verdict == box_verdict::outside) continue;
+        text += to_string(b.verdict);
+        for (auto const& side : b.set) {
+            auto const [low, high] = side_text(side, b.verdict == box_verdict::inside);
+            text += std::string{","} + low + "," + high;
+        }
+        text += "\n";
+    }
+    return text;
+}
+
 } // namespace io_detail
 
 /// The text of `boxes.csv`: one row for each inside, undecided or pending box. What no row covers
@@ -61,20 +78,16 @@ inline std::pair<std::string, std::string> side_text(interval const& side, bool 
 /// printed inward, less than two floats are in none)
 [[nodiscard]] inline std::string boxes_csv(identification_problem const& problem,
                                            identification const& found) {
-    std::string text = "verdict";
-    for (auto const& name : problem.choice.unknown)
-        text += std::string{","} + name + "_lower," + name + "_upper";
-    text += "\n";
-    for (auto const& b : found.paving.boxes()) {
-        if (b.verdict == box_verdict::outside) continue;
-        text += to_string(b.verdict);
-        for (auto const& side : b.set) {
-            auto const [low, high] = io_detail::side_text(side, b.verdict == box_verdict::inside);
-            text += std::string{","} + low + "," + high;
-        }
-        text += "\n";
-    }
-    return text;
+    return io_detail::paving_csv(problem.choice.unknown, found.paving);
+}
+
+/// The text of `products.csv`: the paving of products from which `boxes.csv` was drawn, in the same
+/// form; the columns bear the formulas of the products. Empty when the search ran in the parameters
+/// themselves.
+/// @guarantee  as for `boxes_csv`, of the products' ranges over the prior
+[[nodiscard]] inline std::string products_csv(identification const& found) {
+    if (!found.products) return {};
+    return io_detail::paving_csv(found.products->map.side_names(), found.products->paving);
 }
 
 /// The text of `outputs.csv`: each measurement with its bound, and the proven enclosure of the

@@ -71,6 +71,15 @@ struct identification_json_options {
         json.key(to_string(v)).integer(found.paving.count(v));
     json.end_object();
 
+    if (found.products) { // in products.csv
+        json.key("products").begin_object().key("sides").begin_array(layout::one_line);
+        for (auto const& name : found.products->map.side_names()) json.string(name);
+        json.end_array().key("rows").begin_object(layout::one_line);
+        for (auto const v : {box_verdict::inside, box_verdict::undecided, box_verdict::pending})
+            json.key(to_string(v)).integer(found.products->paving.count(v));
+        json.end_object().end_object();
+    }
+
     json.key("witness");
     if (found.witness) {
         json.begin_object().key("parameters").begin_object(layout::one_line);

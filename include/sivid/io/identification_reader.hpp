@@ -25,6 +25,7 @@ struct stored_identification {
     struct bound {
         std::string name;
         interval range;
+        std::string unit{};
     };
     struct witness_point {
         std::map<std::string, double> parameters;
@@ -36,6 +37,13 @@ struct stored_identification {
         std::string channel;
     };
 
+    /// The paving of products from which hull, volumes, combinations and rows were drawn.
+    struct product_boxes {
+        std::vector<std::string> sides;                 ///< formulas
+        std::vector<paved_box> rows;                    ///< of products.csv, read outward
+        std::map<std::string, std::size_t> stated_rows; ///< how many of each kind
+    };
+
     std::string dataset;
     std::string source_folder; ///< the data set, as seen from the folder of the result; may be ""
     std::string source_digest; ///< of `dataset_digest`; "" when the file has none
@@ -43,9 +51,7 @@ struct stored_identification {
     std::vector<bound> parameters;
     std::vector<bound> combinations; ///< by formula
     interval inner, outer;
-    /// Hull, volumes and combinations come from a finer paving of products of the parameters: they
-    /// may say more than the rows do.
-    bool of_products = false;
+    std::optional<product_boxes> products;
     std::optional<witness_point> witness;
     std::map<std::string, std::size_t> budget; ///< of outliers, by scenario
     std::vector<outlier> forced;
@@ -99,13 +105,34 @@ inline void read_result(json_value const& root, stored_identification& result) {
                             {verdict::consistent, verdict::inconsistent, verdict::undecided});
     auto const& parameters = root.at("parameters");
     for (std::size_t j = 0; j < parameters.members().size(); ++j)
-        result.parameters.push_back(
-            {parameters.name_of(j), outward(parameters.members()[j].at("hull"))});
+        result.parameters.push_back({parameters.name_of(j),
+                                     outward(parameters.members()[j].at("hull")),
+                                     parameters.members()[j].at("unit").any_string()});
     for (auto const& c : root.at("combinations").elements())
-        result.combinations.push_back({c.at("formula").string(), outward(c.at("hull"))});
+        result.combinations.push_back(
+            {c.at("formula").string(), outward(c.at("hull")), c.at("unit").any_string()});
     result.inner = outward(root.at("volume").at("inner"));
     result.outer = outward(root.at("volume").at("outer"));
-    if (auto const* of = root.at("volume").find("of")) result.of_products = of->string() != "boxes";
+    auto const* const of = root.at("volume").find("of");
+    auto const* const products = root.find("products");
+    auto const source = of != nullptr ? of->string() : "boxes";
+    if (source != "boxes" && source != "products")
+        of->fail(text_of("unknown word ", in_quotes(source)), "known: boxes, products");
+    if ((source == "products") != (products != nullptr))
+        root.at("volume").fail("volumes of products need the paving of products, and only they",
+                               "identify again");
+    auto const read_counts = [](json_value const& list) {
+        std::map<std::string, std::size_t> counts;
+        for (std::size_t k = 0; k < list.members().size(); ++k)
+            counts[list.name_of(k)] = count(list.members()[k]);
+        return counts;
+    };
+    if (products != nullptr) {
+        result.products.emplace();
+        for (auto const& side : products->at("sides").elements())
+            result.products->sides.push_back(side.string());
+        result.products->stated_rows = read_counts(products->at("rows"));
+    }
     auto const read_numbers = [](json_value const& list) {
         std::map<std::string, double> values;
         for (std::size_t i = 0; i < list.members().size(); ++i)
@@ -137,16 +164,16 @@ inline void read_result(json_value const& root, stored_identification& result) {
     for (auto const& f : outliers.at("forced").elements())
         result.forced.push_back(
             {f.at("scenario").string(), *nearest(f.at("t").number()), f.at("channel").string()});
-    if (auto const* rows = root.find("rows"))
-        for (std::size_t k = 0; k < rows->members().size(); ++k)
-            result.stated_rows[rows->name_of(k)] = count(rows->members()[k]);
+    if (auto const* rows = root.find("rows")) result.stated_rows = read_counts(*rows);
 }
 
-inline void read_rows(csv_table const& table, stored_identification& result) {
+inline std::vector<paved_box> read_rows(csv_table const& table,
+                                        std::vector<std::string> const& names) {
+    std::vector<paved_box> rows;
     std::vector<std::string> expected{"verdict"};
-    for (auto const& p : result.parameters) {
-        expected.push_back(p.name + "_lower");
-        expected.push_back(p.name + "_upper");
+    for (auto const& name : names) {
+        expected.push_back(name + "_lower");
+        expected.push_back(name + "_upper");
     }
     if (table.headings() != expected)
         table.fail(table.heading_line(),
@@ -154,7 +181,7 @@ inline void read_rows(csv_table const& table, stored_identification& result) {
                    "result.json",
                    "take both files from one identification");
     for (auto const& row : table.rows()) {
-        paved_box next{box(result.parameters.size()), box_verdict::pending};
+        paved_box next{box(names.size()), box_verdict::pending};
         bool known = false;
         for (auto const v : {box_verdict::inside, box_verdict::undecided, box_verdict::pending}) {
             if (row.cells[0] != to_string(v)) continue;
@@ -178,13 +205,14 @@ inline void read_rows(csv_table const& table, stored_identification& result) {
                 table.fail(row.line, 1 + 2 * j, "lower is above upper", "correct the row");
             next.set[j] = interval_traits<interval>::bounds(ends[0].lower(), ends[1].upper());
         }
-        result.rows.push_back(std::move(next));
+        rows.push_back(std::move(next));
     }
+    return rows;
 }
 
 } // namespace io_detail
 
-/// Reads result.json and boxes.csv of a folder.
+/// Reads result.json, boxes.csv and, where the search ran in products, products.csv of a folder.
 ///   Bounds and boxes are read outward: a row becomes the smallest box of doubles around its
 ///   decimals, so that neighbours whose common face was rounded inward still meet.
 /// @throws input_error  for what is missing or malformed; that it is true is for others to check
@@ -192,7 +220,13 @@ inline void read_rows(csv_table const& table, stored_identification& result) {
 read_identification(std::filesystem::path const& folder) {
     stored_identification result;
     io_detail::read_result(read_json(folder / "result.json"), result);
-    io_detail::read_rows(csv_table::read(folder / "boxes.csv"), result);
+    std::vector<std::string> names;
+    for (auto const& p : result.parameters) names.push_back(p.name);
+    result.rows = io_detail::read_rows(csv_table::read(folder / "boxes.csv"), names);
+    if (result.products) {
+        result.products->rows =
+            io_detail::read_rows(csv_table::read(folder / "products.csv"), result.products->sides);
+    }
     return result;
 }
 

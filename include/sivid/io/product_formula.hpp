@@ -34,6 +34,16 @@ public:
         return result;
     }
 
+    /// One per name.
+    [[nodiscard]] std::vector<int> const& exponents() const { return exponents_; }
+
+    /// The same without one of the factors.
+    [[nodiscard]] product_formula without(std::size_t j) const {
+        auto rest = *this;
+        rest.exponents_[j] = 0;
+        return rest;
+    }
+
     /// Encloses the range over a box; nothing when it is not defined there.
     template <class I>
     [[nodiscard]] std::optional<I> over(basic_box<I> const& p) const {

@@ -50,7 +50,7 @@ struct dependence_structure {
     /// changing them with all combinations fixed changes no trajectory and no output. Proved from
     /// the structure of the equations, whatever the data.
     std::vector<std::size_t> entangled;
-    /// Independent products that replace the entangled parameters.
+    /// Independent products of the entangled parameters alone, which replace them.
     std::vector<combination> combinations;
 };
 
@@ -210,12 +210,19 @@ find_combinations(std::vector<bound_model const*> const& models) {
         with.push_back(alone);
         if (model_detail::rank_of(with, count) > rank) result.entangled.push_back(j);
     }
-    // A basis of the products that involve entangled parameters.
+    // A basis of the products that involve entangled parameters. Parameters that are known alone
+    // are divided out: what is left replaces the entangled ones whatever those are.
+    for (auto& row : rows) {
+        for (std::size_t j = 0; j < count; ++j) {
+            bool const known = std::find(result.entangled.begin(), result.entangled.end(), j) ==
+                               result.entangled.end();
+            if (known) row[j] = 0;
+        }
+    }
+    std::stable_sort(rows.begin(), rows.end(),
+                     [&](auto const& a, auto const& b) { return length(a) < length(b); });
     std::vector<std::vector<int>> basis;
     for (auto const& row : rows) {
-        bool const involved = std::any_of(result.entangled.begin(), result.entangled.end(),
-                                          [&](std::size_t j) { return row[j] != 0; });
-        if (!involved) continue;
         auto with = basis;
         with.push_back(row);
         if (model_detail::rank_of(with, count) == static_cast<Eigen::Index>(basis.size())) continue;

@@ -5,6 +5,7 @@
 #include <sivid/model/combination.hpp>
 #include <sivid/paving/detail/fewest_outliers.hpp>
 #include <sivid/paving/fit.hpp>
+#include <sivid/paving/reduction.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/space/box.hpp>
@@ -42,6 +43,12 @@ struct forced_outlier {
     std::size_t measurement = 0; ///< index in the order of time
 };
 
+/// The paving of fewer parameters, products among them, in which a search ran.
+struct product_paving {
+    reduction map;
+    subpaving paving; ///< of the prior of `map.problem()`
+};
+
 /// What was found about a problem; everything in it is proved, `guess` excepted.
 struct identification {
     explicit identification(box const& prior) : paving(prior), hull(prior) {}
@@ -51,6 +58,7 @@ struct identification {
     /// Of the prior: inside boxes are proved, what no other box covers is excluded by proof.
     subpaving paving;
     volume_source volumes = volume_source::boxes;
+    std::optional<product_paving> products; ///< what `paving` was drawn from
     box hull; ///< contains every feasible parameter; empty sides when there is none
     std::optional<verified_witness> witness;
     std::vector<combination_hull> combinations;

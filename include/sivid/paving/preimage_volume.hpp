@@ -13,6 +13,11 @@
 
 namespace sivid {
 
+/// Into how many parts the prior of the factors is cut to measure the preimage of so many boxes.
+[[nodiscard]] inline std::size_t volume_cells(std::size_t boxes) {
+    return std::clamp<std::size_t>(400'000 / (boxes + 1), 8, 200);
+}
+
 /// Encloses the volume of all original parameters that a reduction maps into boxes of the reduced
 /// ones, relative to the prior:
 ///   \f$ \int \prod_k |[r_k] / m_k(o) \cap [p_k]| \, do \f$, where the pivot p_k stands with power

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -45,8 +46,9 @@ public:
         // Each product needs a parameter of power one that stands in no other product.
         for (auto const& c : structure.combinations) {
             std::optional<std::size_t> pivot;
-            for (std::size_t j = 0; j < c.exponents.size() && !pivot; ++j) {
+            for (std::size_t j = 0; j < c.exponents.size(); ++j) {
                 if (c.exponents[j] != 0 && !is_entangled(j)) return std::nullopt;
+                if (pivot) continue;
                 auto const users = std::count_if(
                     structure.combinations.begin(), structure.combinations.end(),
                     [j](combination const& other) { return other.exponents[j] != 0; });
@@ -137,6 +139,15 @@ public:
     }
 
     [[nodiscard]] std::vector<side> const& sides() const { return sides_; }
+    /// The formulas of the sides: the name of a parameter, or a product.
+    [[nodiscard]] std::vector<std::string> side_names() const {
+        std::vector<std::string> names;
+        for (std::size_t k = 0; k < sides_.size(); ++k) {
+            names.push_back(sides_[k].product ? sides_[k].product->formula
+                                              : problem_.choice.unknown[k]);
+        }
+        return names;
+    }
 
 private:
     identification_problem problem_;

@@ -8,7 +8,6 @@
 #include <sivid/paving/preimage_volume.hpp>
 #include <sivid/paving/reduction.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -37,7 +36,7 @@ inline void draw(identification& result, reduction const& map, subpaving const& 
         if (b.verdict == box_verdict::inside) inside.push_back(b.set);
     }
     preimage_volume const volume(map, prior);
-    std::size_t const cells = std::clamp<std::size_t>(400'000 / (left.size() + 1), 8, 200);
+    auto const cells = volume_cells(left.size());
     result.paving.set_volumes(volume(inside, cells), volume(left, cells));
     result.volumes = volume_source::preimage;
     result.hull = result.paving.outer_hull();

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IO_PAVING_CHECK_HPP
+#define SIVID_IO_PAVING_CHECK_HPP
+
+#include <sivid/io/identification_consistency.hpp>
+#include <sivid/paving/certificate.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+struct identification_check_options {
+    std::size_t sample = 24; ///< so many inside and so many excluded boxes, or parts of them
+    bool all = false;        ///< every box instead
+    std::uint64_t seed = 1;
+    double seconds = 10; ///< for the inside boxes, and as much for the excluded ones
+    certificate_options certificate;
+};
+
+/// Checks a stored paving against its problem: its boxes cover the prior with what it excludes, and
+/// what it says of boxes is proved anew, for a sample or for all.
+/// @tparam Fast  interval type of the runs over boxes
+template <class Fast>
+class paving_check {
+    using outcome = check_finding::outcome;
+
+public:
+    /// @param names   of the sides, for counterexamples
+    /// @param starts  of a verified witness; may be empty
+    paving_check(identification_problem const& problem, std::vector<std::string> names,
+                 std::vector<paved_box> const& rows, std::vector<box> starts,
+                 identification_check_options const& options)
+        : problem_(&problem),
+          names_(std::move(names)),
+          rows_(&rows),
+          starts_(std::move(starts)),
+          options_(&options) {}
+
+    [[nodiscard]] check_finding covering(std::string what) {
+        std::vector<box> sets;
+        for (auto const& row : *rows_) sets.push_back(row.set);
+        auto found = cover(problem_->prior, sets);
+        auto result = check_cover(std::move(what), *problem_, *rows_, found);
+        gaps_ = std::move(found.gaps);
+        return result;
+    }
+
+    [[nodiscard]] check_finding inside(std::string what) {
+        std::vector<box_claim> claims;
+        std::vector<std::size_t> rows;
+        for (std::size_t k = 0; k < rows_->size(); ++k) {
+            if ((*rows_)[k].verdict == box_verdict::inside) rows.push_back(k);
+        }
+        auto const total = rows.size();
+        std::mt19937_64 random(options_->seed);
+        for (std::size_t k = 0; k < rows.size() && (options_->all || k < options_->sample); ++k) {
+            if (!options_->all) std::swap(rows[k], rows[k + random() % (rows.size() - k)]);
+            claims.push_back(
+                {intersect((*rows_)[rows[k]].set, problem_->prior), box_claim::kind::inside});
+        }
+        return prove(std::move(what), std::move(claims), total);
+    }
+
+    /// Half of the sample by volume, half box by box (most are thin and close to the feasible
+    /// ones).
+    /// @given  `covering` was called
+    [[nodiscard]] check_finding outside(std::string what) {
+        std::vector<box_claim> claims;
+        std::vector<double> until;
+        double sum = 0;
+        for (auto const& gap : gaps_) {
+            until.push_back(sum += relative_volume(gap, problem_->prior).upper());
+            if (options_->all) claims.push_back({gap, box_claim::kind::outside});
+        }
+        std::mt19937_64 random(options_->seed + 1);
+        auto const share = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+        for (std::size_t k = 0; k < options_->sample && !options_->all && !gaps_.empty(); ++k) {
+            auto n = static_cast<std::size_t>(random() % gaps_.size());
+            if (k % 2 == 0) {
+                auto const at = std::lower_bound(until.begin(), until.end(), share() * sum);
+                n = std::min(static_cast<std::size_t>(at - until.begin()), gaps_.size() - 1);
+            }
+            auto part = gaps_[n];
+            for (std::size_t j = 0; j < part.size(); ++j) { // a part of a large one
+                double const most = width(problem_->prior[j]) / 16, w = width(part[j]);
+                if (!(w > most)) continue;
+                double const low = part[j].lower() + share() * (w - most);
+                part[j] = intersect(part[j], interval_traits<interval>::bounds(low, low + most));
+            }
+            claims.push_back({std::move(part), box_claim::kind::outside});
+        }
+        return prove(std::move(what), std::move(claims), gaps_.size());
+    }
+
+private:
+    [[nodiscard]] check_finding prove(std::string what, std::vector<box_claim> claims,
+                                      std::size_t total) {
+        if (claims.empty()) return {std::move(what), outcome::nothing, ""};
+        auto how = options_->certificate;
+        how.seconds = options_->seconds;
+        if (options_->all) how.runs_per_claim = static_cast<std::size_t>(-1);
+        claim_checker<Fast> checker(*problem_, starts_, how);
+        checker(claims);
+        auto const count = [&](box_claim::status s) {
+            return static_cast<std::size_t>(std::count_if(
+                claims.begin(), claims.end(), [s](box_claim const& c) { return c.found == s; }));
+        };
+        auto const proved = count(box_claim::status::proved);
+        auto const refuted = count(box_claim::status::refuted);
+        check_finding result{std::move(what), outcome::verified, ""};
+        if (proved < claims.size()) result.found = outcome::undecided;
+        if (refuted > 0) result.found = outcome::refuted;
+        result.detail = std::to_string(proved) + " of " + std::to_string(claims.size()) + " proved";
+        if (!options_->all) result.detail += ", a sample of " + std::to_string(total);
+        if (refuted > 0) result.detail += ", " + std::to_string(refuted) + " refuted";
+        result.detail += ", " + std::to_string(checker.runs()) + " runs";
+        for (auto const& c : claims) {
+            if (c.found != box_claim::status::refuted) continue;
+            result.detail += "; the contrary holds at";
+            for (std::size_t j = 0; j < c.counterexample.size(); ++j) {
+                result.detail +=
+                    " " + names_[j] + "=" + exact_decimal::shortest(c.counterexample[j]).text();
+            }
+            break;
+        }
+        return result;
+    }
+
+    identification_problem const* problem_;
+    std::vector<std::string> names_;
+    std::vector<paved_box> const* rows_;
+    std::vector<box> starts_;
+    std::vector<box> gaps_; ///< what the rows leave of the prior
+    identification_check_options const* options_;
+};
+
+} // namespace sivid
+
+#endif // SIVID_IO_PAVING_CHECK_HPP
