@@ -25,3 +25,19 @@ TEST_CASE("a paving is verified box by box, a hole in it is not") {
     CHECK(refuted.found == outcome::refuted);
     CHECK_THAT(refuted.detail, ContainsSubstring("the contrary holds at a="));
 }
+
+TEST_CASE("a few floats between inside rows are no claim, a gap that is wider is one") {
+    auto const problem = io_support::one_rate_problem();
+    identification_check_options options;
+    options.all = true;
+    options.seconds = 60;
+    auto const outside = [&](double gap) { // all of it feasible
+        std::vector<paved_box> const rows{{box{interval(0.5, 1.0)}, box_verdict::undecided},
+                                          {box{interval(1.0 + gap, 2.0)}, box_verdict::undecided}};
+        paving_check<interval> check(problem, {"a"}, rows, {}, options);
+        CHECK(check.covering("cover").found == outcome::verified);
+        return check.outside("outside").found;
+    };
+    CHECK(outside(0x1p-52) == outcome::nothing);
+    CHECK(outside(0x1p-30) == outcome::refuted);
+}
