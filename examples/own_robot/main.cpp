@@ -73,7 +73,6 @@ int run(std::filesystem::path const& folder, std::filesystem::path const& out, d
     progress.finish();
     auto const kept = sivid::holdout_from_dataset(data, model.about);
     sivid::judge_by_holdout(run, kept);
-    for (auto const& a : sivid::assumptions_of(data)) run.result.assumptions.push_back(a);
     console::write_diagnosis(run.result, data.id, console::plot_data(run, kept),
                              console::page_options(run, data.id, command), out, [](auto&) {});
     console::print_summary(run.result, data.id, out);
