@@ -13,14 +13,14 @@ int run(describe_command const& c) {
     auto const model = sivid::record_model(c.craft);
     if (c.unknown.empty()) {
         std::cout << (c.dot ? sivid::to_dot(model) : sivid::describe(model));
-        return exit_code::consistent;
+        return console::done;
     }
     // Sampled inputs stay inputs, whatever their values.
     sivid::sampled_signal const samples({0, 1}, {0, 0}, sivid::interpolation::linear);
     auto const bound = sivid::bind(model, {c.unknown, {}},
                                    std::vector<sivid::signal>(model.about.inputs.size(), samples));
     std::cout << (c.dot ? sivid::to_dot(bound) : sivid::describe(bound));
-    return exit_code::consistent;
+    return console::done;
 }
 
 } // namespace hovercraft_example
