@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
 
+#include "console/program.hpp"
+
 #include <sivid/measurement/signal.hpp>
 #include <sivid/model/describe.hpp>
 #include <sivid/model/to_dot.hpp>

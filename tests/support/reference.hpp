@@ -11,6 +11,7 @@
 #include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
 #include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
 #include <boost/numeric/odeint/stepper/generation.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 
 #include <algorithm>
@@ -46,10 +47,18 @@ inline extended sampled(sivid::sampled_signal const& s, extended t, double start
     return values[k] + slope * (t - times[k]);
 }
 
+/// The method for smooth right-hand sides. Its error estimate sees the ends of a step only: it
+/// passes over kinks.
+using fehlberg78 = boost::numeric::odeint::runge_kutta_fehlberg78<extended_state, extended,
+                                                                  extended_state, extended>;
+/// The method for kinks: its error estimate sees all stages.
+using dormand_prince =
+    boost::numeric::odeint::runge_kutta_dopri5<extended_state, extended, extended_state, extended>;
+
 /// States at the `times` (increasing, none before `from`).
 /// @param rate  (t, x, p, u) -> vector
 /// @param knots where the right-hand side is not smooth in time
-template <class Rate>
+template <class Method = fehlberg78, class Rate>
 std::vector<extended_state> reference_states(Rate const& rate, extended_state x,
                                              extended_state const& p, double from,
                                              std::vector<double> const& times,
@@ -62,8 +71,6 @@ std::vector<extended_state> reference_states(Rate const& rate, extended_state x,
         for (auto const& s : inputs) u.push_back(sampled(s, t, start));
         dxdt = rate(t, state, p, u);
     };
-    using method =
-        odeint::runge_kutta_fehlberg78<extended_state, extended, extended_state, extended>;
     std::vector<extended_state> result;
     double t = from;
     for (double const target : times) {
@@ -71,7 +78,7 @@ std::vector<extended_state> reference_states(Rate const& rate, extended_state x,
             double to = target;
             for (auto const& s : inputs) to = std::min(to, s.next_knot(t));
             start = t;
-            odeint::integrate_adaptive(odeint::make_controlled(tolerance, tolerance, method{}), rhs,
+            odeint::integrate_adaptive(odeint::make_controlled(tolerance, tolerance, Method{}), rhs,
                                        x, static_cast<extended>(t), static_cast<extended>(to),
                                        static_cast<extended>((to - t) / 16));
             t = to;
