@@ -103,7 +103,6 @@
 #include <sivid/enclosure/uncertain_input.hpp>
 #include <sivid/enclosure/variation_bound.hpp>
 #include <sivid/paving/arrow_system.hpp>
-#include <sivid/paving/box_batches.hpp>
 #include <sivid/paving/box_explorer.hpp>
 #include <sivid/paving/campaign.hpp>
 #include <sivid/paving/certificate.hpp>
@@ -133,7 +132,6 @@
 #include <sivid/paving/interval_observer.hpp>
 #include <sivid/paving/inversion_options.hpp>
 #include <sivid/paving/invert.hpp>
-#include <sivid/paving/lesson.hpp>
 #include <sivid/paving/linear_contraction.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/mean_value_cut.hpp>
@@ -155,7 +153,6 @@
 #include <sivid/paving/relaxed_intersection.hpp>
 #include <sivid/paving/residuals.hpp>
 #include <sivid/paving/response.hpp>
-#include <sivid/paving/run_pool.hpp>
 #include <sivid/paving/search_state.hpp>
 #include <sivid/paving/set_test.hpp>
 #include <sivid/paving/static_block.hpp>

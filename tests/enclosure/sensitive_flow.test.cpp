@@ -3,7 +3,7 @@
 // variational equation in extended precision.
 #include <sivid/enclosure/sensitive_flow.hpp>
 
-#include "hovercraft/model.hpp"
+#include "../../examples/hovercraft/model.hpp"
 #include "support/catch.hpp"
 #include "support/parametric_sets.hpp"
 #include "support/systems.hpp"

@@ -2,7 +2,7 @@
 // What `describe` prints is read back and computed with: the lines are the model.
 #include <sivid/model/describe.hpp>
 
-#include "hovercraft/model.hpp"
+#include "../../examples/hovercraft/model.hpp"
 #include "support/catch.hpp"
 #include "support/described_graph.hpp"
 #include "support/models.hpp"

@@ -3,7 +3,7 @@
 // the recording.
 #include <sivid/model/to_dot.hpp>
 
-#include "hovercraft/model.hpp"
+#include "../../examples/hovercraft/model.hpp"
 #include "support/catch.hpp"
 #include "support/models.hpp"
 

@@ -3,10 +3,10 @@
 #define SIVID_PAVING_DATA_TEST_HPP
 
 #include <sivid/paving/detail/response_judgement.hpp>
+#include <sivid/paving/detail/run_pool.hpp>
 #include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/problem.hpp>
-#include <sivid/paving/run_pool.hpp>
 #include <sivid/paving/set_test.hpp>
 
 #include <algorithm>

@@ -3,10 +3,10 @@
 #define SIVID_PAVING_PAVING_SEARCH_HPP
 
 #include <sivid/number/guard.hpp>
-#include <sivid/paving/box_batches.hpp>
+#include <sivid/paving/detail/box_batches.hpp>
+#include <sivid/paving/detail/lesson.hpp>
 #include <sivid/paving/frontier.hpp>
 #include <sivid/paving/inversion_options.hpp>
-#include <sivid/paving/lesson.hpp>
 #include <sivid/paving/search_state.hpp>
 #include <sivid/paving/set_test.hpp>
 #include <sivid/paving/subpaving.hpp>

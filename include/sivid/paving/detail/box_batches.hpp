@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_PAVING_BOX_BATCHES_HPP
-#define SIVID_PAVING_BOX_BATCHES_HPP
+#ifndef SIVID_PAVING_DETAIL_BOX_BATCHES_HPP
+#define SIVID_PAVING_DETAIL_BOX_BATCHES_HPP
 
 #include <sivid/number/guard.hpp>
 #include <sivid/paving/executor.hpp>
 #include <sivid/paving/frontier.hpp>
-#include <sivid/paving/lesson.hpp>
+#include <sivid/paving/detail/lesson.hpp>
 #include <sivid/paving/set_test.hpp>
 
 #include <algorithm>

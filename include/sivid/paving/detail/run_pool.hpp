@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_PAVING_RUN_POOL_HPP
-#define SIVID_PAVING_RUN_POOL_HPP
+#ifndef SIVID_PAVING_DETAIL_RUN_POOL_HPP
+#define SIVID_PAVING_DETAIL_RUN_POOL_HPP
 
 #include <sivid/paving/experiment_run.hpp>
 

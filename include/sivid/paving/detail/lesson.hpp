@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_PAVING_LESSON_HPP
-#define SIVID_PAVING_LESSON_HPP
+#ifndef SIVID_PAVING_DETAIL_LESSON_HPP
+#define SIVID_PAVING_DETAIL_LESSON_HPP
 
 #include <sivid/paving/search_state.hpp>
 #include <sivid/space/box.hpp>
