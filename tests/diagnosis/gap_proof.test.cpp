@@ -32,15 +32,19 @@ TEST_CASE("a gap is proved, within as much work whatever the clock says") {
     CHECK(found[0].upper() == found[1].upper());
 }
 
-TEST_CASE("no box: nothing is proved from below") {
+TEST_CASE("no box: nothing is proved from below, unless by observers") {
     auto const s = fitted(small_campaign::with_drag(0.3));
     diagnosis_effort effort(100, {}, {});
     gap_options none;
     none.bound.boxes = none.further_boxes = 0;
+    none.observers = 0;
     auto bound = verify_fit(s);
     prove_gap(bound, s, effort, none);
     CHECK(gap_of(bound.range) == gap_verdict::undecided);
     CHECK(bound.range.upper() > 1);
+    none.observers = 0.3;
+    prove_gap(bound, s, effort, none);
+    CHECK(gap_of(bound.range) == gap_verdict::certified);
 }
 
 TEST_CASE("more work is done while it is open whether there is a gap, and no more") {
