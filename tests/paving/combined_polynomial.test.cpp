@@ -26,6 +26,7 @@ response random_response(draws& d, std::size_t outputs, double curvature, double
                std::make_shared<monomial_table const>(monomial_table::of<3, 4>(3)),
                {},
                {},
+               {},
                std::vector<interval>(outputs, interval(0.0)),
                outputs,
                0};
@@ -59,6 +60,7 @@ combined_polynomial of_one(std::vector<double> const& c) {
                std::make_shared<monomial_table const>(monomial_table::of<1, 4>(1)),
                c,
                {0},
+               {},
                {interval(0.0)},
                1,
                0};
@@ -72,6 +74,7 @@ combined_polynomial of_two(std::vector<double> const& c) {
                std::make_shared<monomial_table const>(monomial_table::of<2, 2>(2)),
                std::vector<double>(6, 0.0),
                {0},
+               {},
                {interval(0.0)},
                1,
                0};

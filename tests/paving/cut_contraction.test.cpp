@@ -47,6 +47,7 @@ TEST_CASE("measurements that say little one by one cut together") {
                std::make_shared<monomial_table const>(monomial_table::of<2, 1>(2)),
                {},
                {0, 0},
+               {},
                {between(-0.1, 0.1), between(-0.1, 0.1)},
                2,
                0};

@@ -28,7 +28,7 @@ struct polynomial_experiments {
         for (std::size_t s = 0; s < experiments; ++s) {
             box const start{d.coin() ? between(-1, 1) : interval(1.0)};
             sivid::response r{
-                sivid::normalised_unknowns(start, prior), nullptr, {}, {}, {}, outputs, q};
+                sivid::normalised_unknowns(start, prior), nullptr, {}, {}, {}, {}, outputs, q};
             auto const used = r.unknowns.variables;
             r.table = std::make_shared<sivid::monomial_table const>(
                 sivid::monomial_table::of<3, 3>(used));
