@@ -84,7 +84,8 @@ TEST_CASE("coefficient 0 is the formula; the next ones are its Taylor coefficien
     });
 }
 
-TEST_CASE("up to its order a method agrees with the solution, one order above it does not") {
+TEST_CASE(
+    "up to its order an explicit method agrees with the solution, one order above it does not") {
     draws d(252);
     support::for_each_smooth_system([&](auto const& system) {
         auto const f = system.flow();
