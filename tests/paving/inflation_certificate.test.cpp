@@ -25,6 +25,7 @@ std::shared_ptr<response const> two_parabolas(box const& region, std::vector<dou
                std::make_shared<monomial_table const>(monomial_table::of<1, 2>(1)),
                {},
                {radius, radius},
+               {},
                bounds,
                2,
                0};
@@ -90,7 +91,7 @@ TEST_CASE("opposite curvatures cancel in a certificate") {
 TEST_CASE("unknowns: parameters are shared, starts are not, points have none") {
     box const region{between(0, 2), interval(1.0), between(0, 4)};
     auto const about = [&](box const& start) {
-        response r{normalised_unknowns(start, region), nullptr, {}, {}, {}, 0, 0};
+        response r{normalised_unknowns(start, region), nullptr, {}, {}, {}, {}, 0, 0};
         r.table =
             std::make_shared<monomial_table const>(monomial_table::of<4, 1>(r.unknowns.variables));
         return std::make_shared<response const>(std::move(r));

@@ -27,7 +27,7 @@ struct random_experiments {
                        double radius, std::size_t q) {
         for (std::size_t s = 0; s < experiments; ++s) {
             box const start{d.coin() ? between(-1, 2) : interval(1.0)};
-            response r{normalised_unknowns(start, prior), nullptr, {}, {}, {}, outputs, 0};
+            response r{normalised_unknowns(start, prior), nullptr, {}, {}, {}, {}, outputs, 0};
             auto const used = r.unknowns.variables;
             r.table = std::make_shared<monomial_table const>(monomial_table::of<3, 3>(used));
             for (std::size_t m = 0; m < r.table->size(); ++m) {
@@ -140,6 +140,7 @@ TEST_CASE("groups of measurements prove more than single ones when outliers are 
                {},
                {},
                {},
+               {},
                10,
                0};
     for (std::size_t y = 0; y < 10; ++y) {
@@ -167,6 +168,7 @@ TEST_CASE("a relaxation of odd measurements") {
                std::make_shared<monomial_table const>(monomial_table::of<1, 1>(1)),
                {0, 0, 1, 1},
                {0, 0},
+               {},
                {interval_traits<interval>::entire(), between(2, HUGE_VAL)},
                2,
                0};

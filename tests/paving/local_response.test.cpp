@@ -31,6 +31,7 @@ struct random_response {
                    {},
                    {},
                    {},
+                   {},
                    0,
                    0};
 

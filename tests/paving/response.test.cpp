@@ -55,7 +55,7 @@ TEST_CASE("the builder lays outputs out by monomials") {
     response_builder collected(2);
     collected.add([](std::size_t m) { return m == 0 ? 1.0 : 2.0; }, 0.5, interval(7.0));
     collected.add([](std::size_t m) { return m == 0 ? 3.0 : 4.0; }, 0.25, interval(8.0));
-    response r{normalised_unknowns({}, {interval(0.0, 1.0)}), nullptr, {}, {}, {}, 2, 0};
+    response r{normalised_unknowns({}, {interval(0.0, 1.0)}), nullptr, {}, {}, {}, {}, 2, 0};
     std::move(collected).finish(r);
     REQUIRE(r.outputs() == 2);
     REQUIRE(r.coefficients == std::vector<double>{1, 3, 2, 4});
