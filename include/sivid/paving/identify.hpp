@@ -137,7 +137,6 @@ find_forced(data_test& test, identification_problem const& problem, box const& h
     if (map) {
         paving_detail::draw(result, *map, found.paving, problem.prior, options.search,
                             options.drawn_boxes);
-        result.products.emplace(product_paving{*map, std::move(found.paving)});
     } else {
         result.paving = std::move(found.paving);
         result.hull = left;

@@ -39,6 +39,7 @@ inline void draw(identification& result, reduction const& map, subpaving const& 
     auto const cells = volume_cells(left.size());
     result.paving.set_volumes(volume(inside, cells), volume(left, cells));
     result.volumes = volume_source::preimage;
+    result.products.emplace(product_paving{map, reduced});
     result.hull = result.paving.outer_hull();
     if (!result.paving.has_outer()) return;
     result.hull = intersect(result.hull, map.backward(prior, reduced.outer_hull()));
