@@ -188,7 +188,10 @@ typename parametric_flow<N, D, C>::mask parametric_flow<N, D, C>::advance(C cons
     bool const smooth = !side_by_side::any(trying & rough);
     if (!smooth) trying = trying & rough;
     std::size_t const order = smooth ? order_ : 0;
-    flow_order_ = std::min(flow_order_, std::max<std::size_t>(order_, 1));
+    // What uncertain inputs spread is carried by V alone, so V's truncation counts from the first
+    // step on; elsewhere its order may grow from step to step.
+    std::size_t const least = perturbed_ ? 8 : 1;
+    flow_order_ = std::min(std::max(flow_order_, least), std::max<std::size_t>(order_, 1));
     std::size_t const flow_order = smooth ? flow_order_ : 1;
     if (stale_ || smooth != smooth_) expand(order, flow_order);
 
