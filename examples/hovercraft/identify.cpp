@@ -234,7 +234,7 @@ int run(identify_command const& c) {
         progress.note("resuming after " + std::to_string(s->search.tested) + " boxes and " +
                       report::duration_text(s->seconds + s->search.seconds));
     } else if (c.resume) {
-        progress.note("no checkpoint in " + c.out.string() + ": beginning anew");
+        std::cerr << "warning: no checkpoint in " << c.out.string() << ": beginning anew\n";
     }
     if (c.online)
         progress.note(data.id + ", measurement by measurement");

@@ -2,6 +2,7 @@
 // hovercraft identify | check | diagnose | generate | simulate | rank | describe: the reference
 // example on the command line.
 #include "commands.hpp"
+#include "console/number_range.hpp"
 #include "console/program.hpp"
 
 #include <CLI/CLI.hpp>
@@ -144,17 +145,17 @@ private:
             ->capture_default_str();
         s->add_option("--accuracy", c.accuracy,
                       "leave boxes undecided when no side is wider than this share of the prior")
-            ->check(CLI::Range(1e-15, 1.0))
+            ->check(console::number_between(1e-15, 1.0))
             ->capture_default_str();
         s->add_option("--budget", c.budget, "seconds")
-            ->check(CLI::Range(0.0, 1e9))
+            ->check(console::number_between(0.0, 1e9))
             ->capture_default_str();
         s->add_option("--boxes", c.boxes, "test at most so many boxes");
         s->add_option("--memory", c.memory, "at most so many megabytes of boxes and knowledge")
-            ->check(CLI::Range(0.0, 1e9));
+            ->check(console::number_between(0.0, 1e9));
         s->add_option("--checkpoint", c.checkpoint,
                       "save the search in OUT/checkpoint.txt every so many seconds")
-            ->check(CLI::Range(0.0, 1e9));
+            ->check(console::number_between(0.0, 1e9));
         s->add_flag("--resume", c.resume,
                     "go on from OUT/checkpoint.txt, after a kill or with larger budgets; keeps "
                     "saving, every 10 s unless --checkpoint says otherwise");
@@ -204,7 +205,7 @@ private:
             ->capture_default_str();
         s->add_option("--seed", c.seed, "of the sample")->capture_default_str();
         s->add_option("--budget", c.budget, "seconds for the boxes (10, with --all 3600)")
-            ->check(CLI::Range(0.0, 1e9));
+            ->check(console::number_between(0.0, 1e9));
         s->add_flag("--multiprecision", c.multiprecision,
                     "boxes too in 40 digits: 20 times slower");
         s->footer(
@@ -226,7 +227,7 @@ private:
         s->add_option("dataset", c.dataset, "folder with dataset.json")->required();
         s->add_option("--out", c.out, "folder for report.html and diagnosis.json")->required();
         s->add_option("--budget", c.budget, "seconds")
-            ->check(CLI::Range(0.0, 1e9))
+            ->check(console::number_between(0.0, 1e9))
             ->capture_default_str();
         s->add_flag("--quiet", c.quiet, "no progress");
         add_variants(*s, shared_);
@@ -257,11 +258,11 @@ private:
             ->expected(1, 6);
         s->add_flag("--combined", combined_, "the sum of the relative and the absolute bound");
         s->add_option("--noise", o.noise, "largest noise as a share of the bound, 0 to 1")
-            ->check(CLI::Range(0.0, 1.0))
+            ->check(console::number_between(0.0, 1.0))
             ->capture_default_str();
         s->add_option("--outliers", o.outliers, "samples spoilt on purpose in each scenario");
         s->add_option("--outlier-size", o.outlier_size, "their distance from the truth, in bounds")
-            ->check(CLI::Range(1.0, 1e9))
+            ->check(console::number_between(1.0, 1e9))
             ->capture_default_str();
         s->add_option("--set", shared_.set, "true values, such as Sg=0.05");
         s->add_option("--unknown", unknown_, "what is to be identified: Sv,Sg,L or m=1.2:1.4")
@@ -303,7 +304,7 @@ private:
         s->add_option("--rate", c.rate, "rows of the CSV a second")->capture_default_str();
         s->add_option("--input-rate", c.input_rate,
                       "sample the inputs so often, as `generate` does; else their exact shapes")
-            ->check(CLI::PositiveNumber);
+            ->check(console::number_between(1e-3, 1e5));
         s->add_flag("--validated", c.validated, "the proven tube beside it");
         add_variants(*s, shared_);
         s->callback([this] {

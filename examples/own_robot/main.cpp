@@ -2,6 +2,7 @@
 // own_robot FOLDER --out DIR: a whole program to copy. Model, effects and the lines of `run` that
 // name them are yours; the rest stays. FOLDER is a data set, such as `sivid-import` writes.
 #include "console/diagnosis_output.hpp"
+#include "console/number_range.hpp"
 #include "console/program.hpp"
 
 #include <sivid/io/dataset.hpp>
@@ -86,7 +87,7 @@ int parse_and_run(int argc, char** argv) {
     app.add_option("folder", folder, "folder with dataset.json")->required();
     app.add_option("--out", out, "folder for report.html and diagnosis.json")->required();
     app.add_option("--budget", budget, "seconds")
-        ->check(CLI::Range(0.0, 1e9))
+        ->check(console::number_between(0.0, 1e9))
         ->capture_default_str();
     try {
         app.parse(argc, argv);

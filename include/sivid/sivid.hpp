@@ -163,6 +163,7 @@
 #include <sivid/paving/static_test.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/suspect_samples.hpp>
+#include <sivid/paving/taylor_kernels.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/paving/witness.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>

@@ -131,7 +131,10 @@ TEST_CASE("a search goes on with larger budgets, and ends without a checkpoint")
                                             "3600", "--out", out.string()} +
                    more);
     };
-    auto r = call({"--boxes", "40", "--checkpoint", "100"});
+    auto r = call({"--boxes", "10", "--resume", "--quiet"});
+    CHECK_THAT(r.err, ContainsSubstring("no checkpoint in " + out.string()));
+    fs::remove_all(out);
+    r = call({"--boxes", "40", "--checkpoint", "100"});
     CHECK(r.code == 0);
     CHECK_THAT(r.out, ContainsSubstring("--resume"));
     REQUIRE(fs::exists(out / "checkpoint.txt"));

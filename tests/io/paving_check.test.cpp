@@ -5,6 +5,9 @@
 #include "io/stored_result.hpp"
 #include "support/catch.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 using namespace sivid;
 using outcome = check_finding::outcome;
 
@@ -40,4 +43,38 @@ TEST_CASE("a few floats between inside rows are no claim, a gap that is wider is
     };
     CHECK(outside(0x1p-52) == outcome::nothing);
     CHECK(outside(0x1p-30) == outcome::refuted);
+}
+
+TEST_CASE("boxes proved but for their rims are counted apart, and nothing is said of thinner ones") {
+    auto const problem = io_support::one_rate_problem();
+    // x = 2 exp(-a t / 2) is too high for smaller rates than this.
+    double least = 0;
+    for (auto const& m : problem.experiments[0].measurements) {
+        least = std::max(least, -2 / m.time * std::log(m.bound.upper() / 2));
+    }
+    identification_check_options options;
+    options.all = true;
+    options.seconds = 60;
+    double const rim = options.rim * width(problem.prior[0]);
+    auto const outside = [&](double from, double to) { // is said to be infeasible
+        std::vector<paved_box> rows{{box{interval(to, 2.0)}, box_verdict::undecided}};
+        if (from > 0.5) rows.push_back({box{interval(0.5, from)}, box_verdict::undecided});
+        paving_check<interval> check(problem, {"a"}, rows, {}, options);
+        CHECK(check.covering("cover").found == outcome::verified);
+        return check.outside("outside");
+    };
+    auto const whole = outside(0.5, least - 3 * rim);
+    CHECK(whole.found == outcome::verified);
+    CHECK_THAT(whole.detail, StartsWith("1 of 1 proved, "));
+    CHECK_THAT(whole.detail, !ContainsSubstring("rim"));
+    // It ends at the feasible ones, as contraction leaves it.
+    auto const close = outside(0.5, least);
+    CHECK(close.found == outcome::verified);
+    CHECK_THAT(close.detail, StartsWith("0 of 1 proved, 1 more but for a rim of 1e-06"));
+    auto const thin = outside(least - 0.1 * rim, least);
+    CHECK(thin.found == outcome::nothing);
+    CHECK_THAT(thin.detail, ContainsSubstring("1 thinner than 1e-06 of the prior not examined"));
+    // More than a rim of what is said to be excluded is feasible.
+    auto const altered = outside(0.5, least + 3 * rim);
+    CHECK(altered.found != outcome::verified);
 }

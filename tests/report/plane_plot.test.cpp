@@ -42,7 +42,7 @@ TEST_CASE("plane plot: joining boxes keeps all of them covered") {
         }
         REQUIRE(covered);
     }
-    CHECK(detail::joined({}, 0).empty());
+    CHECK(detail::joined(std::vector<plane_box>{}, 0).empty());
 }
 
 TEST_CASE("plane plot: many boxes stay small, wild ones stay finite") {

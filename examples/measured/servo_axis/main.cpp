@@ -2,6 +2,7 @@
 // servo_axis FOLDER --out DIR: identifies a real servo axis (EMPS) from windows of its record;
 // servo_axis diagnose FOLDER --out DIR: what M v' = F - F_v v leaves out of it.
 #include "command.hpp"
+#include "console/number_range.hpp"
 #include "console/program.hpp"
 
 #include <CLI/CLI.hpp>
@@ -31,17 +32,17 @@ struct common_options {
                        "bound of a start's velocity about the filter's [m/s]")
             ->capture_default_str();
         app.add_option("--window", c.windows.length, "length of a window [s]")
-            ->check(CLI::Range(0.05, 1000.0))
+            ->check(console::number_between(0.05, 1000.0))
             ->capture_default_str();
         app.add_option("--first", c.windows.first, "start of the first window [s]")
-            ->check(CLI::Range(0.0, 1e6))
+            ->check(console::number_between(0.0, 1e6))
             ->capture_default_str();
         app.add_option("--every", c.windows.every,
                        "from the start of a window to the next one's [s]")
-            ->check(CLI::Range(0.05, 1e6))
+            ->check(console::number_between(0.05, 1e6))
             ->capture_default_str();
         app.add_option("--budget", c.budget, "seconds for the whole")
-            ->check(CLI::Range(0.0, 1e9))
+            ->check(console::number_between(0.0, 1e9))
             ->capture_default_str();
         app.add_flag("--quiet", c.quiet, "no progress");
     }
@@ -81,7 +82,7 @@ int parse_and_run(int argc, char** argv) {
     common_options const common(app, c);
     app.add_option("--accuracy", c.accuracy,
                    "leave boxes undecided when no side is wider than this share of the prior")
-        ->check(CLI::Range(1e-6, 1.0))
+        ->check(console::number_between(1e-6, 1.0))
         ->capture_default_str();
     try {
         app.parse(argc, argv);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // tanks FOLDER --out DIR: what a model of two cascaded tanks leaves out of their record.
 #include "command.hpp"
+#include "console/number_range.hpp"
 #include "console/program.hpp"
 
 #include <CLI/CLI.hpp>
@@ -31,7 +32,7 @@ int parse_and_run(int argc, char** argv) {
     app.add_option("--upper-start", upper_start, "largest upper level at the start [V]")
         ->capture_default_str();
     app.add_option("--budget", c.budget, "seconds for the whole")
-        ->check(CLI::Range(0.0, 1e9))
+        ->check(console::number_between(0.0, 1e9))
         ->capture_default_str();
     app.add_flag("--quiet", c.quiet, "no progress");
     try {

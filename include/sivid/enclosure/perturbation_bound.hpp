@@ -12,6 +12,40 @@
 
 namespace sivid {
 
+namespace detail {
+
+/// A time in pieces that are short against a matrix.
+template <class C>
+struct short_pieces {
+    typename lane_traits<C>::mask known; ///< where the matrix and the time are not too large
+    double count = 1;                    ///< a power of two
+};
+/// @param finely  h |M| is at most 1/finely in each of them, |M| the largest sum of a row
+/// @param most    what h |M| may be in all
+template <class C>
+[[nodiscard]] short_pieces<C> pieces_of(std::vector<C> const& m, std::size_t n, C const& h,
+                                        double finely, double most) {
+    using side_by_side = lane_traits<C>;
+    short_pieces<C> result{typename side_by_side::mask(true)};
+    C norm{};
+    for (std::size_t i = 0; i < n; ++i) {
+        C row{};
+        for (std::size_t j = 0; j < n; ++j) row += side_by_side::abs(m[i * n + j]);
+        result.known = result.known & (row * h <= C(most));
+        norm = side_by_side::max(row, norm);
+    }
+    double largest = 0;
+    for (std::size_t l = 0; l < side_by_side::count; ++l) {
+        if (side_by_side::test(result.known, l)) {
+            largest = std::max(largest, side_by_side::get(norm * h, l));
+        }
+    }
+    while (result.count < finely * largest) result.count *= 2;
+    return result;
+}
+
+} // namespace detail
+
 /// Bounds the distance d between a solution of x' = f(t, x) and one of x' = f(t, x) + w(t) with the
 /// same start, where nothing is known of w but \f$ |w_i(s)| \le W_i(s) \f$: it may vary in any
 /// measurable way. Componentwise
@@ -37,28 +71,15 @@ template <class C>
                                                 std::vector<C> const& end, C const& h) {
     using side_by_side = lane_traits<C>;
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    constexpr double most = 4096;
     // Covers the errors of a few thousand operations on each term.
     constexpr double slack = 1e-12;
     constexpr double tiny = 1e-290;
     constexpr std::size_t terms = 16;
     auto const n = begin.size();
-    C norm{};
-    auto known = typename side_by_side::mask(true);
+    auto [known, pieces] = detail::pieces_of(m, n, h, 1, 4096);
     for (std::size_t i = 0; i < n; ++i) {
-        C row{};
-        for (std::size_t j = 0; j < n; ++j) row += side_by_side::abs(m[i * n + j]);
-        known = known & (row * h <= C(most)) & (begin[i] < C(1e300)) & (end[i] < C(1e300));
-        norm = side_by_side::max(row, norm);
+        known = known & (begin[i] < C(1e300)) & (end[i] < C(1e300));
     }
-    double largest = 0;
-    for (std::size_t l = 0; l < side_by_side::count; ++l) {
-        if (side_by_side::test(known, l)) {
-            largest = std::max(largest, side_by_side::get(norm * h, l));
-        }
-    }
-    double pieces = 1;
-    while (pieces < largest) pieces *= 2;
     C const step = h * (1 / pieces);
     auto const inverse = each_lane<C>([&](std::size_t l) { return 1 / side_by_side::get(h, l); });
     std::vector<C> d(n), mass(n), term(n), size(n), next(n), bigger(n);
@@ -124,22 +145,7 @@ template <class C>
     constexpr double unit = std::numeric_limits<double>::epsilon();
     constexpr double up = 1 + 1e-12;
     auto const n = begin.size();
-    C norm{};
-    auto known = typename side_by_side::mask(true);
-    for (std::size_t i = 0; i < n; ++i) {
-        C row{};
-        for (std::size_t j = 0; j < n; ++j) row += side_by_side::abs(a[i * n + j]);
-        known = known & (row * h <= C(16.0));
-        norm = side_by_side::max(row, norm);
-    }
-    double largest = 0;
-    for (std::size_t l = 0; l < side_by_side::count; ++l) {
-        if (side_by_side::test(known, l)) {
-            largest = std::max(largest, side_by_side::get(norm * h, l));
-        }
-    }
-    double pieces = 1;
-    while (pieces < 16 * largest) pieces *= 2;
+    auto const [known, pieces] = detail::pieces_of(a, n, h, 16, 16);
     C const step = h * (1 / pieces);
     auto metzler = a;
     for (std::size_t i = 0; i < n; ++i) {

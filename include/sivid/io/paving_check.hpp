@@ -130,10 +130,13 @@ private:
 
     /// Contraction cuts so close to the feasible set that no run with a tolerance of its own can
     /// follow: what is open is tried without its rim.
-    /// @returns how many are proved then
-    [[nodiscard]] std::size_t prove_without_rim(std::vector<box_claim>& claims,
-                                                claim_checker<Fast>& checker) const {
-        std::size_t proved = 0;
+    struct rim_findings {
+        std::size_t proved = 0; ///< but for their rims; their claims are `proved` now
+        std::size_t thin = 0;   ///< all rim: nothing is said of them, their claims stay open
+    };
+    [[nodiscard]] rim_findings prove_without_rim(std::vector<box_claim>& claims,
+                                                 claim_checker<Fast>& checker) const {
+        rim_findings found;
         std::vector<box_claim> inner;
         std::vector<box_claim*> whose;
         for (auto& c : claims) {
@@ -142,18 +145,17 @@ private:
                 inner.push_back({std::move(*left), box_claim::kind::outside});
                 whose.push_back(&c);
             } else {
-                c.found = box_claim::status::proved;
-                ++proved;
+                ++found.thin;
             }
         }
-        if (inner.empty()) return proved;
+        if (inner.empty()) return found;
         checker(inner);
         for (std::size_t k = 0; k < inner.size(); ++k) {
             whose[k]->found = inner[k].found;
             whose[k]->counterexample = inner[k].counterexample;
-            proved += inner[k].found == box_claim::status::proved ? 1 : 0;
+            found.proved += inner[k].found == box_claim::status::proved ? 1 : 0;
         }
-        return proved;
+        return found;
     }
 
     [[nodiscard]] check_finding prove(std::string what, std::vector<box_claim> claims,
@@ -164,7 +166,7 @@ private:
         if (options_->all) how.runs_per_claim = static_cast<std::size_t>(-1);
         claim_checker<Fast> checker(*problem_, starts_, how);
         checker(claims);
-        auto const rimless = prove_without_rim(claims, checker);
+        auto const rim = prove_without_rim(claims, checker);
         auto const count = [&](box_claim::status s) {
             return static_cast<std::size_t>(std::count_if(
                 claims.begin(), claims.end(), [s](box_claim const& c) { return c.found == s; }));
@@ -172,14 +174,20 @@ private:
         auto const proved = count(box_claim::status::proved);
         auto const refuted = count(box_claim::status::refuted);
         check_finding result{std::move(what), outcome::verified, ""};
-        if (proved < claims.size()) result.found = outcome::undecided;
+        if (proved + rim.thin < claims.size()) result.found = outcome::undecided;
+        if (proved == 0 && rim.thin == claims.size()) result.found = outcome::nothing;
         if (refuted > 0) result.found = outcome::refuted;
-        result.detail = std::to_string(proved) + " of " + std::to_string(claims.size()) + " proved";
+        result.detail = std::to_string(proved - rim.proved) + " of " +
+                        std::to_string(claims.size()) + " proved";
         if (!options_->all) result.detail += ", a sample of " + std::to_string(total);
         if (refuted > 0) result.detail += ", " + std::to_string(refuted) + " refuted";
-        if (rimless > 0) {
-            result.detail += ", " + std::to_string(rimless) + " but for a rim of " +
-                             nearest_text(options_->rim, 3) + " of the prior";
+        auto const size = nearest_text(options_->rim, 3) + " of the prior";
+        if (rim.proved > 0) {
+            result.detail += ", " + std::to_string(rim.proved) + " more but for a rim of " + size;
+        }
+        if (rim.thin > 0) {
+            result.detail +=
+                ", " + std::to_string(rim.thin) + " thinner than " + size + " not examined";
         }
         result.detail += ", " + std::to_string(checker.runs()) + " runs";
         for (auto const& c : claims) {

@@ -4,6 +4,7 @@
 
 #include <sivid/paving/detail/affine_output.hpp>
 #include <sivid/paving/experiment_run.hpp>
+#include <sivid/paving/taylor_kernels.hpp>
 
 #include <algorithm>
 #include <array>
@@ -220,11 +221,7 @@ std::unique_ptr<continued_run> make_taylor_continuation(flow const& f, double be
 #define SIVID_KERNEL(N, D)                                                                         \
     extern template std::unique_ptr<continued_run> make_taylor_continuation<N, D>(                 \
         flow const&, double, enclosure_options const&);
-SIVID_KERNEL(2, 4)
-SIVID_KERNEL(3, 4)
-SIVID_KERNEL(4, 3)
-SIVID_KERNEL(6, 2)
-SIVID_KERNEL(9, 2)
+SIVID_TAYLOR_KERNELS(SIVID_KERNEL)
 #undef SIVID_KERNEL
 #endif
 
@@ -243,11 +240,10 @@ SIVID_KERNEL(9, 2)
     auto how = options.enclosure;
     how.minimum_step = minimum_step_for(e, how.minimum_step);
     if (options.set == carried_set::taylor_model) {
-        if (unknowns <= 2) return make_taylor_continuation<2, 4>(f, e.begin, how);
-        if (unknowns == 3) return make_taylor_continuation<3, 4>(f, e.begin, how);
-        if (unknowns == 4) return make_taylor_continuation<4, 3>(f, e.begin, how);
-        if (unknowns <= 6) return make_taylor_continuation<6, 2>(f, e.begin, how);
-        if (unknowns <= 9) return make_taylor_continuation<9, 2>(f, e.begin, how);
+        auto run = with_taylor_kernel(unknowns, [&]<std::size_t N, std::size_t D>() {
+            return make_taylor_continuation<N, D>(f, e.begin, how);
+        });
+        if (run) return run;
     }
     return std::make_unique<doubleton_continuation>(f, e.begin, how);
 }

@@ -8,6 +8,7 @@
 #include <sivid/paving/detail/affine_output.hpp>
 #include <sivid/paving/problem.hpp>
 #include <sivid/paving/response.hpp>
+#include <sivid/paving/taylor_kernels.hpp>
 
 #include <algorithm>
 #include <array>
@@ -308,18 +309,13 @@ std::unique_ptr<experiment_run> make_taylor_run(flow const& f, experiment const&
 #define SIVID_KERNEL(N, D)                                                                         \
     extern template std::unique_ptr<experiment_run> make_taylor_run<N, D>(                         \
         flow const&, experiment const&, record const&, run_options const&);
-SIVID_KERNEL(2, 4)
-SIVID_KERNEL(3, 4)
-SIVID_KERNEL(4, 3)
-SIVID_KERNEL(6, 2)
-SIVID_KERNEL(9, 2)
+SIVID_TAYLOR_KERNELS(SIVID_KERNEL)
 #undef SIVID_KERNEL
 #endif
 
 } // namespace paving_detail
 
-/// The kernel that fits the number of unknowns: degree 4 up to three, 3 for four, 2 up to nine;
-/// beyond that the sets are of first order.
+/// The kernel that fits the number of unknowns; beyond the largest the sets are of first order.
 [[nodiscard]] inline std::unique_ptr<experiment_run> make_run(flow const& f, experiment const& e,
                                                               record const& samples,
                                                               box const& prior,
@@ -330,11 +326,10 @@ SIVID_KERNEL(9, 2)
     // What uncertain inputs cost, no smaller box gives back.
     if (f.uncertain()) options.hopeless = 1e300;
     if (options.set == carried_set::taylor_model) {
-        if (unknowns <= 2) return make_taylor_run<2, 4>(f, e, samples, options);
-        if (unknowns == 3) return make_taylor_run<3, 4>(f, e, samples, options);
-        if (unknowns == 4) return make_taylor_run<4, 3>(f, e, samples, options);
-        if (unknowns <= 6) return make_taylor_run<6, 2>(f, e, samples, options);
-        if (unknowns <= 9) return make_taylor_run<9, 2>(f, e, samples, options);
+        auto run = with_taylor_kernel(unknowns, [&]<std::size_t N, std::size_t D>() {
+            return make_taylor_run<N, D>(f, e, samples, options);
+        });
+        if (run) return run;
     }
     return std::make_unique<doubleton_run>(f, e, samples, options);
 }

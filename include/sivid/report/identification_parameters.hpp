@@ -79,6 +79,31 @@ inline void add_parameters(page& out, identification_view const& v) {
     }
 }
 
+/// The projections, each with a closer look where one is worth it.
+[[nodiscard]] inline figure paving_figure(std::vector<paving_projection> const& pavings,
+                                          std::string title, std::string caption) {
+    // The zoom stands beside or below its whole view in the same order, so panels go in pairs.
+    figure f{.panels = {},
+             .legend = paving_plot_legend(pavings),
+             .title = std::move(title),
+             .caption = std::move(caption),
+             .layout = panel_layout::pair};
+    for (paving_projection const& p : pavings) {
+        std::string const name = p.y.label + " against " + p.x.label;
+        auto const zoom = zoom_window(p);
+        f.panels.push_back(draw_paving_plot(
+            p, {.width = 440, .height = 310, .title = name + ": whole prior", .mark_zoom = true}));
+        if (zoom) {
+            f.panels.push_back(draw_paving_plot(p, {.width = 440,
+                                                    .height = 310,
+                                                    .title = name + ": closer",
+                                                    .x_window = zoom->x,
+                                                    .y_window = zoom->y}));
+        }
+    }
+    return f;
+}
+
 inline void add_pavings(page& out, identification_view const& v) {
     if (v.pavings.empty()) {
         return;
@@ -93,29 +118,19 @@ inline void add_pavings(page& out, identification_view const& v) {
         out.prose("It is empty: every box of the paving was proved outside.");
         return;
     }
-    // The zoom stands beside or below its whole view in the same order, so panels go in pairs.
-    figure f{.panels = {},
-             .legend = paving_plot_legend(v.pavings),
-             .title = "Projections of the paving.",
-             .caption = std::string{projection_rule} +
-                        " Regions are drawn with a hairline around them so that slivers can be "
-                        "seen: the better "
-                        "region may look larger than it is by that much, the outside never does.",
-             .layout = panel_layout::pair};
-    for (paving_projection const& p : v.pavings) {
-        std::string const name = p.y.label + " against " + p.x.label;
-        auto const zoom = zoom_window(p);
-        f.panels.push_back(draw_paving_plot(
-            p, {.width = 440, .height = 310, .title = name + ": whole prior", .mark_zoom = true}));
-        if (zoom) {
-            f.panels.push_back(draw_paving_plot(p, {.width = 440,
-                                                    .height = 310,
-                                                    .title = name + ": closer",
-                                                    .x_window = zoom->x,
-                                                    .y_window = zoom->y}));
-        }
+    if (!v.product_pavings.empty()) {
+        out.add(paving_figure(
+            v.product_pavings, "In the coordinates that the data fix.",
+            std::string{"The search ran here, where a product of parameters counts as one: all "
+                        "parameters whose products lie in an inside box are proved to explain the "
+                        "data, all others than those of the boxes drawn are excluded. "}
+                .append(projection_rule)));
     }
-    out.add(f);
+    out.add(paving_figure(v.pavings, "Projections of the paving of the parameters.",
+                          std::string{projection_rule} +
+                              " Regions are drawn with a hairline around them so that slivers can "
+                              "be seen: the better region may look larger than it is by that much, "
+                              "the outside never does."));
 }
 
 } // namespace sivid::report::detail

@@ -6,6 +6,7 @@
 #include <sivid/io/identification_json.hpp>
 #include <sivid/report/identification_view.hpp>
 #include <sivid/report/identification_words.hpp>
+#include <sivid/report/paving_projections.hpp>
 #include <sivid/report/scenario_report.hpp>
 #include <sivid/version.hpp>
 
@@ -67,6 +68,7 @@ public:
         add_marked();
         add_meanings();
         add_pavings();
+        add_product_pavings();
         return std::move(view_);
     }
 
@@ -228,61 +230,42 @@ private:
             box_text;
     }
 
-    /// The pairs worth a picture: of all parameters when they are few, else of the four that the
-    /// data narrow most; those that are known only through a combination come first.
+    /// Those of parameters that are known only through a combination come first.
     void add_pavings() {
-        std::vector<std::size_t> order;
+        named_paving p{.paving = &found_.paving};
         for (std::size_t j = 0; j < names().size(); ++j) {
-            if (lower(problem_.prior[j]) < upper(problem_.prior[j])) {
-                order.push_back(j);
-            }
-        }
-        auto const share = [&](std::size_t j) {
-            return approximate_width(view_.parameters[j].hull) /
-                   approximate_width(view_.parameters[j].prior);
-        };
-        if (order.size() > 4) {
-            std::stable_sort(order.begin(), order.end(),
-                             [&](auto a, auto b) { return share(a) < share(b); });
-            order.resize(4);
-        }
-        std::vector<std::pair<std::size_t, std::size_t>> pairs;
-        for (std::size_t a = 0; a < order.size(); ++a) {
-            for (std::size_t b = a + 1; b < order.size(); ++b) {
-                pairs.emplace_back(order[a], order[b]);
-            }
-        }
-        auto const tied = [&](std::pair<std::size_t, std::size_t> const& p) {
-            auto const& e = found_.entangled;
-            return std::count(e.begin(), e.end(), p.first) +
-                       std::count(e.begin(), e.end(), p.second) ==
-                   2;
-        };
-        std::stable_partition(pairs.begin(), pairs.end(), tied);
-        pairs.resize(std::min(pairs.size(), options_.most_pavings));
-        for (auto const& [a, b] : pairs) {
-            view_.pavings.push_back(projection(a, b));
-        }
-    }
-
-    [[nodiscard]] paving_projection projection(std::size_t a, std::size_t b) const {
-        auto const side = [&](std::size_t j) {
-            return axis{names()[j], unit_of(j), shown(problem_.prior[j])};
-        };
-        paving_projection p{.x = side(a), .y = side(b)};
-        for (paved_box const& piece : found_.paving.boxes()) {
-            if (piece.verdict == box_verdict::outside) {
-                continue;
-            }
-            p.boxes.push_back({shown(piece.set[a]), shown(piece.set[b]),
-                               piece.verdict == box_verdict::inside      ? region::inside
-                               : piece.verdict == box_verdict::undecided ? region::undecided
-                                                                         : region::pending});
+            p.sides.push_back({names()[j], unit_of(j), shown(problem_.prior[j])});
+            p.hull.push_back(view_.parameters[j].hull);
         }
         if (found_.witness) {
-            p.witness = point{found_.witness->parameters[a], found_.witness->parameters[b]};
+            p.witness = found_.witness->parameters;
         }
-        return p;
+        view_.pavings = projections(p, found_.entangled, options_.most_pavings);
+    }
+
+    void add_product_pavings() {
+        if (!found_.products) {
+            return;
+        }
+        auto const& map = found_.products->map;
+        named_paving p{.paving = &found_.products->paving};
+        auto const hull = map.forward(found_.hull);
+        std::vector<std::size_t> products;
+        for (std::size_t k = 0; k < map.sides().size(); ++k) {
+            auto const& side = map.sides()[k];
+            p.sides.push_back({side.product ? formula_text(side.product->formula)
+                                            : names()[side.parameter],
+                               side.product ? side.product->unit : unit_of(side.parameter),
+                               shown(map.problem().prior[k])});
+            p.hull.push_back(shown(hull[k]));
+            if (side.product) {
+                products.push_back(k);
+            }
+        }
+        if (found_.witness) {
+            p.witness = mid(map.forward(point_box(found_.witness->parameters)));
+        }
+        view_.product_pavings = projections(p, products, options_.most_pavings);
     }
 
     identification_problem const& problem_;

@@ -106,6 +106,8 @@ struct identification_view {
     std::string tube_meaning{};      ///< what the drawn enclosures enclose
     std::string reference_meaning{}; ///< what the reference line is
     std::vector<paving_projection> pavings{};
+    /// Of the paving in products of the parameters, when the search ran there.
+    std::vector<paving_projection> product_pavings{};
     std::vector<comparison_row> comparison{};
     std::string comparison_note{};
     std::string version{};

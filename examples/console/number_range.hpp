@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#ifndef EXAMPLES_CONSOLE_NUMBER_RANGE_HPP
+#define EXAMPLES_CONSOLE_NUMBER_RANGE_HPP
+
+#include <CLI/CLI.hpp>
+
+#include <sstream>
+#include <string>
+
+namespace console {
+
+/// Checks that an option is a number from `least` to `most`; unlike CLI11's own range it refuses
+/// nan.
+inline CLI::Validator number_between(double least, double most) {
+    std::ostringstream range;
+    range << least << " to " << most;
+    return {[least, most, words = range.str()](std::string const& text) {
+                double value = 0;
+                bool const fits = CLI::detail::lexical_cast(text, value) && least <= value &&
+                                  value <= most;
+                return fits ? std::string{} : text + " is not a number from " + words;
+            },
+            range.str(), "number_between"};
+}
+
+} // namespace console
+
+#endif
