@@ -39,7 +39,7 @@ function(sivid_add_library name)
     set(sivid_components ${sivid_components} ${name} PARENT_SCOPE)
 endfunction()
 
-sivid_add_library(sivid FOLDERS ${sivid_core_folders} FILES sivid.hpp version.hpp
+sivid_add_library(sivid FOLDERS ${sivid_core_folders} FILES sivid.hpp compiled.hpp version.hpp
                   LINK Boost::headers Eigen3::Eigen)
 
 find_package(nlohmann_json 3.9 QUIET)

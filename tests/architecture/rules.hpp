@@ -167,7 +167,7 @@ inline std::vector<finding> check(fs::path const& tree) {
                 report("missing", "includes <" + other + ">, which does not exist");
             auto const slash = other.find('/', 6);
             if (slash == std::string::npos) {
-                if (!at_root && other != "sivid/version.hpp")
+                if (!at_root && other != "sivid/version.hpp" && other != "sivid/compiled.hpp")
                     report("upward", "includes <" + other + ">");
             } else if (!at_root && rank_of(other.substr(6, slash - 6)) > rank) {
                 report("upward", "includes <" + other + ">");

@@ -2,6 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_DIAGNOSE_HPP
 #define SIVID_DIAGNOSIS_DIAGNOSE_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/diagnosis/candidate_order.hpp>
 #include <sivid/diagnosis/candidate_verdicts.hpp>
 #include <sivid/diagnosis/describe_candidate.hpp>
@@ -187,11 +188,16 @@ private:
 /// Says whether a model explains a campaign; if not, by how much it misses, and which effects of a
 /// catalogue explain what is missing.
 /// @guarantee  see `diagnosis`
-[[nodiscard]] inline diagnosis_run diagnose(identification_problem problem,
-                                            std::vector<effect> catalogue,
-                                            diagnosis_options options = {}) {
+[[nodiscard]] SIVID_ENTRY diagnosis_run diagnose(identification_problem problem,
+                                                 std::vector<effect> catalogue,
+                                                 diagnosis_options options = {});
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_DIAGNOSE)
+SIVID_ENTRY diagnosis_run diagnose(identification_problem problem, std::vector<effect> catalogue,
+                                   diagnosis_options options) {
     return diagnostician(std::move(problem), std::move(catalogue), std::move(options))();
 }
+#endif
 
 } // namespace sivid
 

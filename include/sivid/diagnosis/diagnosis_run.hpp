@@ -2,6 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_DIAGNOSIS_RUN_HPP
 #define SIVID_DIAGNOSIS_DIAGNOSIS_RUN_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/diagnosis/broken_relation.hpp>
 #include <sivid/diagnosis/candidate.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
@@ -59,8 +60,12 @@ struct diagnosis_run {
 /// Judges the model and the answer of a diagnosis by hold-out data and adds the figures: the only
 /// place where such data are read, after everything is chosen.
 /// @param seconds, boxes  what the bounds of both may spend, see `step_effort`
-inline void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds = 6,
-                             data_test_options const& test = {}, std::size_t boxes = 24) {
+SIVID_ENTRY void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds = 6,
+                                  data_test_options const& test = {}, std::size_t boxes = 24);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_JUDGE_BY_HOLDOUT)
+SIVID_ENTRY void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds,
+                                  data_test_options const& test, std::size_t boxes) {
     if (data.empty() || run.candidates.empty()) return;
     auto const judge = [&](screened const& candidate, verified_inflation const& bound) {
         auto const judged = data.judged_by(candidate, run.base, run.catalogue);
@@ -90,6 +95,7 @@ inline void judge_by_holdout(diagnosis_run& run, holdout const& data, double sec
     run.result.shrink_holdout = shrink(figures.inflation_before, figures.inflation_after);
     run.result.causes.front().holdout = std::move(figures);
 }
+#endif
 
 } // namespace sivid
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_IO_DATASET_HPP
 #define SIVID_IO_DATASET_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/io/dataset_tables.hpp>
 #include <sivid/io/dataset_value.hpp>
 #include <sivid/io/json_document.hpp>
@@ -210,14 +211,18 @@ private:
 /// anywhere
 /// @throws input_error  for the first defect found, with file, place and remedy
 /// @cost  linear in the size of the files
-[[nodiscard]] inline dataset read_dataset(std::filesystem::path const& folder,
-                                          model_names const& model) {
+[[nodiscard]] SIVID_ENTRY dataset read_dataset(std::filesystem::path const& folder,
+                                               model_names const& model);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_READ_DATASET)
+SIVID_ENTRY dataset read_dataset(std::filesystem::path const& folder, model_names const& model) {
     std::error_code fault;
     if (!std::filesystem::is_directory(folder, fault))
         throw input_error{
             {.file = folder.string()}, "no such folder", "give the folder that holds dataset.json"};
     return dataset_reader{folder, model}.read();
 }
+#endif
 
 } // namespace sivid
 

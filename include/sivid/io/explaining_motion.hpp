@@ -2,6 +2,7 @@
 #ifndef SIVID_IO_EXPLAINING_MOTION_HPP
 #define SIVID_IO_EXPLAINING_MOTION_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/enclosure/tube.hpp>
 #include <sivid/paving/identify.hpp>
 
@@ -63,7 +64,8 @@ inline explaining_motion enclose_motion(identification_problem const& problem, m
     explaining_motion motion{source, std::move(parameters), std::move(starts), {}, {}};
     for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
         auto const& s = problem.experiments[e];
-        auto const f = std::make_shared<flow const>(problem.model, problem.choice, nominal(s.inputs));
+        auto const f =
+            std::make_shared<flow const>(problem.model, problem.choice, nominal(s.inputs));
         double const end = last_measurement(s);
         enclosure_options options;
         if (pieces > 0) options.maximum_step = (end - s.begin) / static_cast<double>(pieces);
@@ -107,9 +109,14 @@ inline box middle_half(box x) {
 /// @param pieces  least number of steps of each tube, so that pictures are smooth
 /// @returns nothing when there is no point to show
 /// @cost  a handful of integrations of each experiment
-[[nodiscard]] inline std::optional<explaining_motion>
+[[nodiscard]] SIVID_ENTRY std::optional<explaining_motion>
 find_explaining_motion(identification_problem const& problem, identification const& found,
-                       std::size_t pieces = 240) {
+                       std::size_t pieces = 240);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_FIND_EXPLAINING_MOTION)
+SIVID_ENTRY std::optional<explaining_motion>
+find_explaining_motion(identification_problem const& problem, identification const& found,
+                       std::size_t pieces) {
     std::vector<box> starts;
     for (auto const& s : problem.experiments) starts.push_back(s.initial);
     auto const points = [](std::vector<std::vector<double>> const& all) {
@@ -151,6 +158,7 @@ find_explaining_motion(identification_problem const& problem, identification con
     }
     return std::nullopt;
 }
+#endif
 
 } // namespace sivid
 

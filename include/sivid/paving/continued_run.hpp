@@ -217,7 +217,7 @@ std::unique_ptr<continued_run> make_taylor_continuation(flow const& f, double be
     return std::make_unique<taylor_continuation<N, D>>(f, begin, options);
 }
 
-#ifdef SIVID_COMPILED_KERNELS
+#ifdef SIVID_COMPILED
 #define SIVID_KERNEL(N, D)                                                                         \
     extern template std::unique_ptr<continued_run> make_taylor_continuation<N, D>(                 \
         flow const&, double, enclosure_options const&);

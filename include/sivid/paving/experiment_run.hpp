@@ -276,7 +276,7 @@ private:
 };
 
 /// Not inline, so that it can be compiled once and apart from what uses it
-/// (SIVID_COMPILED_KERNELS).
+/// (SIVID_COMPILED).
 template <std::size_t N, std::size_t D>
 std::unique_ptr<experiment_run> make_taylor_run(flow const& f, experiment const& e,
                                                 record const& samples, run_options const& options) {
@@ -304,7 +304,7 @@ std::unique_ptr<experiment_run> make_taylor_run(flow const& f, experiment const&
     return std::min(asked, std::max(shortest / 500, 1e-6));
 }
 
-#ifdef SIVID_COMPILED_KERNELS
+#ifdef SIVID_COMPILED
 // The library sivid::kernels holds these: the dear part of every program that identifies.
 #define SIVID_KERNEL(N, D)                                                                         \
     extern template std::unique_ptr<experiment_run> make_taylor_run<N, D>(                         \

@@ -2,6 +2,7 @@
 #ifndef SIVID_PAVING_HOLDOUT_INFLATION_HPP
 #define SIVID_PAVING_HOLDOUT_INFLATION_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/paving/box_explorer.hpp>
 #include <sivid/paving/inflation.hpp>
 #include <sivid/paving/inflation_relaxation.hpp>
@@ -236,10 +237,16 @@ private:
 /// @param fitted  what was proved about `fit`
 /// @param holdout a problem with the same model and parameters
 /// @guarantee  both ranges contain what they say whenever the search ends
-[[nodiscard]] inline holdout_bound holdout_inflation(identification_problem const& fit,
-                                                     inflation_bound const& fitted,
-                                                     identification_problem const& holdout,
-                                                     inflation_options const& options = {}) {
+[[nodiscard]] SIVID_ENTRY holdout_bound holdout_inflation(identification_problem const& fit,
+                                                          inflation_bound const& fitted,
+                                                          identification_problem const& holdout,
+                                                          inflation_options const& options = {});
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_HOLDOUT_INFLATION)
+SIVID_ENTRY holdout_bound holdout_inflation(identification_problem const& fit,
+                                            inflation_bound const& fitted,
+                                            identification_problem const& holdout,
+                                            inflation_options const& options) {
     require_sound_environment();
     fit.require_valid();
     holdout.require_valid();
@@ -283,6 +290,7 @@ private:
     result.seconds = elapsed();
     return result;
 }
+#endif
 
 } // namespace sivid
 

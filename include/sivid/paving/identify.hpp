@@ -2,6 +2,7 @@
 #ifndef SIVID_PAVING_IDENTIFY_HPP
 #define SIVID_PAVING_IDENTIFY_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/paving/data_test.hpp>
 #include <sivid/paving/dependence.hpp>
 #include <sivid/paving/detail/drawing.hpp>
@@ -73,8 +74,12 @@ find_forced(data_test& test, identification_problem const& problem, box const& h
 ///             `hull`, `paving`, `combinations` contain every feasible parameter; inside boxes are
 ///             feasible throughout. All under the listed assumptions.
 /// @cost  dominated by the integrations: boxes times experiments
-[[nodiscard]] inline identification identify(identification_problem const& problem,
-                                             identify_options options = {}) {
+[[nodiscard]] SIVID_ENTRY identification identify(identification_problem const& problem,
+                                                  identify_options options = {});
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_IDENTIFY)
+SIVID_ENTRY identification identify(identification_problem const& problem,
+                                    identify_options options) {
     problem.require_valid();
     auto const begin = std::chrono::steady_clock::now();
     auto working = problem;
@@ -93,8 +98,8 @@ find_forced(data_test& test, identification_problem const& problem, box const& h
     result.assumptions.push_back(input_assumption(problem.experiments));
     std::vector<box> starts;
     if (options.algorithm == algorithm::contracting) {
-        auto guess = options.resume ? options.resume->guess.value_or(approximate_fit{})
-                                    : fitter(working)();
+        auto guess =
+            options.resume ? options.resume->guess.value_or(approximate_fit{}) : fitter(working)();
         if (!guess.parameters.empty()) {
             result.witness = verify_witness(test, working, guess.parameters, guess.starts);
             for (std::size_t s = 0; s < guess.starts.size(); ++s) {
@@ -166,6 +171,7 @@ find_forced(data_test& test, identification_problem const& problem, box const& h
     if (options.resume) result.seconds += options.resume->seconds + options.resume->search.seconds;
     return result;
 }
+#endif
 
 } // namespace sivid
 

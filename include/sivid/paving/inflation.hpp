@@ -2,6 +2,7 @@
 #ifndef SIVID_PAVING_INFLATION_HPP
 #define SIVID_PAVING_INFLATION_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/inflation_search.hpp>
 #include <sivid/paving/minimax_fit.hpp>
@@ -246,13 +247,19 @@ private:
 /// @param guess  where the upper bound may start; without it the search proposes points itself
 /// @guarantee  `value` contains the inflation whenever the search ends
 /// @cost  dominated by integrations over boxes; some tens for a few parameters that the data fix
-[[nodiscard]] inline inflation_bound bound_inflation(identification_problem const& problem,
-                                                     approximate_fit const* guess = nullptr,
-                                                     inflation_options const& options = {}) {
+[[nodiscard]] SIVID_ENTRY inflation_bound bound_inflation(identification_problem const& problem,
+                                                          approximate_fit const* guess = nullptr,
+                                                          inflation_options const& options = {});
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_BOUND_INFLATION)
+SIVID_ENTRY inflation_bound bound_inflation(identification_problem const& problem,
+                                            approximate_fit const* guess,
+                                            inflation_options const& options) {
     require_sound_environment();
     problem.require_valid();
     return paving_detail::inflation_work(problem, options)(guess);
 }
+#endif
 
 } // namespace sivid
 

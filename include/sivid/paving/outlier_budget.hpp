@@ -2,6 +2,7 @@
 #ifndef SIVID_PAVING_OUTLIER_BUDGET_HPP
 #define SIVID_PAVING_OUTLIER_BUDGET_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/paving/dependence.hpp>
 #include <sivid/paving/fit.hpp>
 #include <sivid/paving/outlier_count.hpp>
@@ -155,9 +156,12 @@ inline proved_count least_violations(identification_problem const& problem, few_
 /// the
 ///             smallest ones
 /// @cost  a fit for each outlier removed, and a set inversion with q-relaxed tests
-[[nodiscard]] inline smallest_budget
-smallest_outlier_budget(identification_problem const& problem,
-                        outlier_search_options const& options = {}) {
+[[nodiscard]] SIVID_ENTRY smallest_budget smallest_outlier_budget(
+    identification_problem const& problem, outlier_search_options const& options = {});
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_SMALLEST_OUTLIER_BUDGET)
+SIVID_ENTRY smallest_budget smallest_outlier_budget(identification_problem const& problem,
+                                                    outlier_search_options const& options) {
     problem.require_valid();
     auto const begin = std::chrono::steady_clock::now();
     auto const elapsed = [&] {
@@ -198,6 +202,7 @@ smallest_outlier_budget(identification_problem const& problem,
     result.seconds = elapsed();
     return result;
 }
+#endif
 
 } // namespace sivid
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_DIAGNOSIS_PAGE_HPP
 #define SIVID_REPORT_DIAGNOSIS_PAGE_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/diagnosis_figures.hpp>
 #include <sivid/report/diagnosis_tables.hpp>
 #include <sivid/report/diagnosis_view.hpp>
@@ -151,7 +152,10 @@ inline void add_basis(page& out, diagnosis_view const& v) {
 } // namespace detail
 
 /// The whole page of a diagnosis. Sections without content are left out.
-[[nodiscard]] inline page diagnosis_page(diagnosis_view const& v) {
+[[nodiscard]] SIVID_ENTRY page diagnosis_page(diagnosis_view const& v);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_DIAGNOSIS_PAGE)
+SIVID_ENTRY page diagnosis_page(diagnosis_view const& v) {
     page out{{.kind = "Diagnosis of the gap between model and robot",
               .title = v.dataset,
               .lead = v.model.empty()
@@ -183,6 +187,7 @@ inline void add_basis(page& out, diagnosis_view const& v) {
     out.footer({v.version, v.date});
     return out;
 }
+#endif
 
 } // namespace sivid::report
 

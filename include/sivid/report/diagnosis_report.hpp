@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_DIAGNOSIS_REPORT_HPP
 #define SIVID_REPORT_DIAGNOSIS_REPORT_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/model/effect.hpp>
 #include <sivid/report/diagnosis_page.hpp>
@@ -152,9 +153,13 @@ inline void describe(std::vector<effect> const& catalogue, diagnosis_report_opti
 
 /// What the page of a diagnosis shows.
 /// @cost  O(size of the plot data)
-[[nodiscard]] inline diagnosis_view view_of(diagnosis const& d,
-                                            diagnosis_plot_data const& plots = {},
-                                            diagnosis_report_options const& options = {}) {
+[[nodiscard]] SIVID_ENTRY diagnosis_view view_of(diagnosis const& d,
+                                                 diagnosis_plot_data const& plots = {},
+                                                 diagnosis_report_options const& options = {});
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_VIEW_OF_DIAGNOSIS)
+SIVID_ENTRY diagnosis_view view_of(diagnosis const& d, diagnosis_plot_data const& plots,
+                                   diagnosis_report_options const& options) {
     diagnosis_view v{.dataset = options.dataset,
                      .model = options.model,
                      .meanings = options.meanings,
@@ -233,6 +238,7 @@ inline void describe(std::vector<effect> const& catalogue, diagnosis_report_opti
     for (auto const& m : plots.missing_rates) v.missing_rates.push_back(detail::drawn(m));
     return v;
 }
+#endif
 
 } // namespace sivid::report
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_IDENTIFICATION_PAGE_HPP
 #define SIVID_REPORT_IDENTIFICATION_PAGE_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/identification_parameters.hpp>
 #include <sivid/report/identification_view.hpp>
 #include <sivid/report/identification_words.hpp>
@@ -195,7 +196,10 @@ inline void add_witness(page& out, identification_view const& v) {
 } // namespace detail
 
 /// The whole page of an identification. Sections without content are left out.
-[[nodiscard]] inline page identification_page(identification_view const& v) {
+[[nodiscard]] SIVID_ENTRY page identification_page(identification_view const& v);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_IDENTIFICATION_PAGE)
+SIVID_ENTRY page identification_page(identification_view const& v) {
     page out{{.kind = "Validated identification",
               .title = v.dataset,
               .lead = v.model.empty() ? ""
@@ -226,6 +230,7 @@ inline void add_witness(page& out, identification_view const& v) {
     out.footer({v.version, v.date, v.machine, v.command});
     return out;
 }
+#endif
 
 } // namespace sivid::report
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_IDENTIFICATION_REPORT_HPP
 #define SIVID_REPORT_IDENTIFICATION_REPORT_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/io/explaining_motion.hpp>
 #include <sivid/io/identification_json.hpp>
 #include <sivid/report/identification_view.hpp>
@@ -116,8 +117,8 @@ private:
         view_.assumptions.insert(view_.assumptions.end(), options_.further_assumptions.begin(),
                                  options_.further_assumptions.end());
         if (found_.fewest) {
-            view_.proved.push_back(fewest_outliers_sentence(found_.fewest->total.least,
-                                                            found_.fewest->total.most));
+            view_.proved.push_back(
+                fewest_outliers_sentence(found_.fewest->total.least, found_.fewest->total.most));
         }
         view_.statistics = {found_.seconds, found_.boxes, found_.integrations,
                             std::string{to_string(found_.reason)}};
@@ -253,10 +254,10 @@ private:
         std::vector<std::size_t> products;
         for (std::size_t k = 0; k < map.sides().size(); ++k) {
             auto const& side = map.sides()[k];
-            p.sides.push_back({side.product ? formula_text(side.product->formula)
-                                            : names()[side.parameter],
-                               side.product ? side.product->unit : unit_of(side.parameter),
-                               shown(map.problem().prior[k])});
+            p.sides.push_back(
+                {side.product ? formula_text(side.product->formula) : names()[side.parameter],
+                 side.product ? side.product->unit : unit_of(side.parameter),
+                 shown(map.problem().prior[k])});
             p.hull.push_back(shown(hull[k]));
             if (side.product) {
                 products.push_back(k);
@@ -280,12 +281,19 @@ private:
 /// What the page of an identification shows; `identification_page` makes the page.
 /// @param motion  the tubes to draw, or null
 /// @guarantee  every range that the page calls proved is the identification's own, or a tube's
-[[nodiscard]] inline identification_view view_of(identification_problem const& problem,
-                                                 identification const& found,
-                                                 explaining_motion const* motion,
-                                                 identification_report_options const& options) {
+[[nodiscard]] SIVID_ENTRY identification_view view_of(identification_problem const& problem,
+                                                      identification const& found,
+                                                      explaining_motion const* motion,
+                                                      identification_report_options const& options);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_VIEW_OF_IDENTIFICATION)
+SIVID_ENTRY identification_view view_of(identification_problem const& problem,
+                                        identification const& found,
+                                        explaining_motion const* motion,
+                                        identification_report_options const& options) {
     return detail::report_filler(problem, found, motion, options).view();
 }
+#endif
 
 /// A row for the table that compares ways to solve one problem.
 [[nodiscard]] inline comparison_row comparison_of(std::string name, identification const& found,
