@@ -16,6 +16,7 @@ using support::between;
 using support::draws;
 using support::extended;
 using support::extended_state;
+using support::part_of;
 
 namespace {
 
@@ -25,16 +26,6 @@ bool encloses_at(taylor_model<N, D> const& m, std::vector<double> const& q, exte
                  extended slack) {
     extended const off = std::fabs(x - support::value<extended>(m, q));
     return off <= static_cast<extended>(m.r) + slack * (1 + std::fabs(x));
-}
-
-box part_of(draws& d, box const& whole, double share) {
-    box part(whole.size());
-    for (std::size_t i = 0; i < whole.size(); ++i) {
-        double const w = share * width(whole[i]);
-        double const lo = d.uniform(whole[i].lower(), whole[i].upper() - w);
-        part[i] = intersect(whole[i], between(lo, std::max(lo, lo + w)));
-    }
-    return part;
 }
 
 /// Steps to random times up to the horizon; every member's sensitivities at every one of them.

@@ -19,6 +19,7 @@ using namespace sivid;
 using support::between;
 using support::draws;
 using support::extended;
+using support::part_of;
 
 namespace {
 
@@ -34,17 +35,6 @@ double widest(interval_matrix<interval> const& a) {
         for (std::size_t c = 0; c < a.cols(); ++c) w = std::max(w, width(a(i, c)));
     }
     return w;
-}
-
-/// A part of the box around a random centre.
-box part_of(draws& d, box const& whole, double share) {
-    box part(whole.size());
-    for (std::size_t i = 0; i < whole.size(); ++i) {
-        double const w = share * width(whole[i]);
-        double const lo = d.uniform(whole[i].lower(), whole[i].upper() - w);
-        part[i] = intersect(whole[i], between(lo, std::max(lo, lo + w)));
-    }
-    return part;
 }
 
 /// Random members, at random times and over random spans.

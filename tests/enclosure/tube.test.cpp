@@ -13,6 +13,7 @@ using namespace sivid;
 using support::between;
 using support::draws;
 using support::extended;
+using support::part_of;
 
 namespace {
 
@@ -22,17 +23,6 @@ enclosure_options coarse(std::size_t order, std::size_t variational, double tole
     o.variational_order = variational;
     o.tolerance = tolerance;
     return o;
-}
-
-/// A part of the box around a random centre, `share` as wide.
-box part_of(draws& d, box const& whole, double share) {
-    box part(whole.size());
-    for (std::size_t i = 0; i < whole.size(); ++i) {
-        double const w = share * width(whole[i]);
-        double const lo = d.uniform(whole[i].lower(), whole[i].upper() - w);
-        part[i] = intersect(whole[i], between(lo, std::max(lo, lo + w)));
-    }
-    return part;
 }
 
 /// All systems with given options: complete where asked for, sampled over whatever was proved.

@@ -81,13 +81,9 @@ ps exact_series(support::formula const& f, member const& m) {
 /// How many coefficients were compared.
 int compare(draws& d, support::formula const& f, double radius) {
     graph g;
-    node_id root = 0;
-    try {
-        root = support::recorded(f, g);
-    } catch (std::domain_error const&) {
-        return 0;
-    }
-    tape const program(g, {root});
+    auto const root = support::recorded_if_defined(f, g);
+    if (!root) return 0;
+    tape const program(g, {*root});
     auto const where = random_given(d, radius);
     auto const s = expanded(program, where);
     if (s.undefined() || s.kinked()) return 0;
@@ -260,13 +256,9 @@ TEST_CASE("series of doubles follow the enclosures") {
     for (int round = 0; round < 300; ++round) {
         auto const f = support::random_formula(d, 5, true);
         graph g;
-        node_id root = 0;
-        try {
-            root = support::recorded(f, g);
-        } catch (std::domain_error const&) {
-            continue;
-        }
-        tape const program(g, {root});
+        auto const root = support::recorded_if_defined(f, g);
+        if (!root) continue;
+        tape const program(g, {*root});
         auto const where = random_given(d, 0);
         auto const proved = expanded(program, where);
         if (proved.undefined() || !program.output_varies(0)) continue;

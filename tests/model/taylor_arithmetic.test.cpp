@@ -53,13 +53,9 @@ struct inputs {
 int check_formula(draws& d, double spread) {
     auto const f = support::random_formula(d, 1 + d.below(8), true);
     graph g;
-    node_id root = 0;
-    try {
-        root = support::recorded(f, g);
-    } catch (std::domain_error const&) {
-        return 0;
-    }
-    tape const program(g, {root});
+    auto const root = support::recorded_if_defined(f, g);
+    if (!root) return 0;
+    tape const program(g, {*root});
     inputs const in(d, spread);
     series<model> s(program, order);
     s.set_parameters(in.p);

@@ -2,6 +2,7 @@
 // Set inversion on sets whose areas are known.
 #include <sivid/paving/invert.hpp>
 
+#include "support/boxes.hpp"
 #include "support/catch.hpp"
 #include "support/models.hpp"
 #include "support/power_series.hpp"
@@ -14,7 +15,9 @@
 using namespace sivid;
 using support::between;
 using support::draws;
+using support::interiors_meet;
 using support::mp;
+using support::volume;
 
 namespace {
 
@@ -47,20 +50,6 @@ struct ring {
         return low <= r && r <= high;
     }
 };
-
-mp volume(box const& x) {
-    mp v = 1;
-    for (auto const& s : x) v *= mp(s.upper()) - mp(s.lower());
-    return v;
-}
-bool interiors_meet(box const& a, box const& b) {
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        if (!(std::max(a[i].lower(), b[i].lower()) < std::min(a[i].upper(), b[i].upper()))) {
-            return false;
-        }
-    }
-    return true;
-}
 
 /// The boxes cover the prior, overlap in faces only, and their verdicts hold for random points.
 void check_paving(subpaving const& paving, ring const& set, draws& d, bool exact_volume) {

@@ -143,31 +143,8 @@ template <class Rate>
 std::vector<extended_state>
 kinked_states(Rate const& rate, extended_state x, extended_state const& p, double from,
               std::vector<double> const& times, std::vector<sivid::sampled_signal> const& inputs) {
-    namespace odeint = boost::numeric::odeint;
-    using method = odeint::runge_kutta_dopri5<extended_state, extended, extended_state, extended>;
-    constexpr double longest = 1.0 / 64;
-    constexpr extended tolerance = 1e-14L;
-    double start = from;
-    auto const rhs = [&](extended_state const& state, extended_state& dxdt, extended t) {
-        extended_state u;
-        for (auto const& s : inputs) u.push_back(sampled(s, t, start));
-        dxdt = rate(t, state, p, u);
-    };
-    std::vector<extended_state> result;
-    double t = from;
-    for (double const target : times) {
-        while (t < target) {
-            double to = std::fmin(target, t + longest);
-            for (auto const& s : inputs) to = std::fmin(to, s.next_knot(t));
-            start = t;
-            odeint::integrate_adaptive(odeint::make_controlled(tolerance, tolerance, method{}), rhs,
-                                       x, static_cast<extended>(t), static_cast<extended>(to),
-                                       static_cast<extended>((to - t) / 2));
-            t = to;
-        }
-        result.push_back(x);
-    }
-    return result;
+    return reference_states<dormand_prince>(rate, std::move(x), p, from, times, inputs, 1e-14L,
+                                            1.0 / 64);
 }
 
 /// A model of the family, ready to be planted.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/space/box.hpp>
 
+#include "support/boxes.hpp"
 #include "support/catch.hpp"
 #include "support/models.hpp"
 #include "support/power_series.hpp"
@@ -12,7 +13,9 @@
 using namespace sivid;
 using support::between;
 using support::draws;
+using support::interiors_meet;
 using support::mp;
+using support::volume;
 
 namespace {
 
@@ -30,22 +33,6 @@ box random_box(draws& d, std::size_t n, double size) {
         sides.push_back(between(std::min(a, b), std::max(a, b)));
     }
     return box(std::move(sides));
-}
-
-/// Exact volume: products of exact differences.
-mp volume(box const& x) {
-    mp v = 1;
-    for (auto const& s : x) v *= mp(s.upper()) - mp(s.lower());
-    return v;
-}
-
-bool interiors_meet(box const& a, box const& b) {
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        if (!(std::max(a[i].lower(), b[i].lower()) < std::min(a[i].upper(), b[i].upper()))) {
-            return false;
-        }
-    }
-    return true;
 }
 
 } // namespace

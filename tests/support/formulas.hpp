@@ -12,6 +12,7 @@
 #include <sivid/model/tape.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -215,6 +216,14 @@ inline sivid::node_id recorded(formula const& f, sivid::graph& g) {
     return value<expression>(
                f, [&g](sivid::operation op, std::size_t i) { return expression(g, g.leaf(op, i)); })
         .in(g);
+}
+/// Nothing where a literal's operation is not defined.
+inline std::optional<sivid::node_id> recorded_if_defined(formula const& f, sivid::graph& g) {
+    try {
+        return recorded(f, g);
+    } catch (std::domain_error const&) {
+        return std::nullopt;
+    }
 }
 
 /// What a tape says of its outputs over a box.

@@ -59,6 +59,18 @@ private:
     std::mt19937_64 random_;
 };
 
+/// A part of a box at a random place in it, each side `share` as wide.
+inline sivid::box part_of(draws& d, sivid::box const& whole, double share) {
+    sivid::box part(whole.size());
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        double const w = share * width(whole[i]);
+        double const lo = d.uniform(whole[i].lower(), whole[i].upper() - w);
+        part[i] = intersect(
+            whole[i], sivid::interval_traits<sivid::interval>::bounds(lo, std::fmax(lo, lo + w)));
+    }
+    return part;
+}
+
 } // namespace support
 
 #endif

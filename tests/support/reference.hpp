@@ -56,14 +56,14 @@ using dormand_prince =
     boost::numeric::odeint::runge_kutta_dopri5<extended_state, extended, extended_state, extended>;
 
 /// States at the `times` (increasing, none before `from`).
-/// @param rate  (t, x, p, u) -> vector
-/// @param knots where the right-hand side is not smooth in time
+/// @param rate     (t, x, p, u) -> vector
+/// @param longest  step, for kinks in x that the error estimate must not pass over
 template <class Method = fehlberg78, class Rate>
 std::vector<extended_state> reference_states(Rate const& rate, extended_state x,
                                              extended_state const& p, double from,
                                              std::vector<double> const& times,
                                              std::vector<sivid::sampled_signal> const& inputs = {},
-                                             extended tolerance = 1e-17L) {
+                                             extended tolerance = 1e-17L, double longest = 1e300) {
     namespace odeint = boost::numeric::odeint;
     double start = from;
     auto const rhs = [&](extended_state const& state, extended_state& dxdt, extended t) {
@@ -75,7 +75,7 @@ std::vector<extended_state> reference_states(Rate const& rate, extended_state x,
     double t = from;
     for (double const target : times) {
         while (t < target) {
-            double to = target;
+            double to = std::min(target, t + longest);
             for (auto const& s : inputs) to = std::min(to, s.next_knot(t));
             start = t;
             odeint::integrate_adaptive(odeint::make_controlled(tolerance, tolerance, Method{}), rhs,
