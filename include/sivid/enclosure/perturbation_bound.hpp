@@ -78,7 +78,8 @@ template <class C>
     auto const n = begin.size();
     auto [known, pieces] = detail::pieces_of(m, n, h, 1, 4096);
     for (std::size_t i = 0; i < n; ++i) {
-        known = known & (begin[i] < C(1e300)) & (end[i] < C(1e300));
+        C const from = begin[i], to = end[i];
+        known = known & (from < C(1e300)) & (to < C(1e300));
     }
     C const step = h * (1 / pieces);
     auto const inverse = each_lane<C>([&](std::size_t l) { return 1 / side_by_side::get(h, l); });
