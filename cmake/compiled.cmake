@@ -10,8 +10,10 @@ function(sivid_compiled_source name text)
     set(sivid_compiled_sources ${sivid_compiled_sources} "${source}" PARENT_SCOPE)
 endfunction()
 
-foreach(kernel "2,4" "3,4" "4,3" "6,2" "9,2")   # as in sivid/paving/taylor_kernels.hpp
-    string(REPLACE "," "_" name "${kernel}")
+file(STRINGS "${sivid_include_dir}/sivid/paving/taylor_kernels.hpp" kernels REGEX "define SIVID_TAYLOR_KERNELS")
+string(REGEX MATCHALL "[0-9]+, [0-9]+" kernels "${kernels}")
+foreach(kernel IN LISTS kernels)
+    string(REPLACE ", " "_" name "${kernel}")
     sivid_compiled_source(kernel_${name} "\
 #include <sivid/paving/continued_run.hpp>
 namespace sivid::paving_detail {
@@ -29,7 +31,7 @@ set(entries_diagnosis diagnose diagnosis_run)
 set(entries_io dataset explaining_motion)
 set(entries_report identification_report identification_page diagnosis_report diagnosis_page)
 foreach(floor IN ITEMS paving diagnosis io report)
-    if(floor MATCHES "io|report" AND NOT TARGET sivid::${floor})
+    if(floor MATCHES "^(io|report)$" AND NOT TARGET sivid::${floor})
         continue()
     endif()
     set(macros "")
