@@ -50,6 +50,20 @@ TEST_CASE("the truth explains, no part of it is excluded, and something else is"
     CHECK(excluded > 0);
 }
 
+TEST_CASE("the witness that is shown is the one that the inflation is proved at") {
+    for (double const slope : {0.1, 0.2, 0.3, 0.4}) {
+        auto const run = judged(small_campaign::with_slope(slope));
+        auto const& shown = run.result.causes.front().witness;
+        auto const& proved = run.answer_bound.witness;
+        REQUIRE((shown && proved));
+        REQUIRE(shown->parameters.size() == proved->parameters.size());
+        for (std::size_t j = 0; j < proved->parameters.size(); ++j) {
+            CHECK(shown->parameters[j].value == proved->parameters[j]);
+        }
+        CHECK(run.result.causes.front().inflation.upper() == run.answer_bound.range.upper());
+    }
+}
+
 TEST_CASE("without boxes nothing is excluded; a stop leaves the rest undecided") {
     diagnosis_options none;
     none.exclusion.boxes = none.exclusions.boxes = 0;

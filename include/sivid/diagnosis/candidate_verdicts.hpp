@@ -62,6 +62,11 @@ private:
             tighten(bound, s, effort_->search(s.problem, options_->answer));
         }
         c.inflation = bound.range;
+        if (bound.range.upper() <= 1) c.verdict = cause_verdict::explains;
+        // The one that hold-out data are judged at, too.
+        if (bound.witness) {
+            c.witness = named(s.problem, bound.witness->parameters, bound.witness->starts);
+        }
         run_->result.shrink_fit = shrink(run_->result.inflation, bound.range);
         bound_parameters(s, c);
     }
