@@ -76,7 +76,7 @@ struct identifiability {
 struct identifiability_options {
     enclosure_options enclosure{};
     bool starts = true; ///< starts that are not known exactly count among the unknowns
-    std::vector<box> at_starts{}; ///< one per experiment; empty: the middles of their boxes
+    std::vector<box> at_starts{}; ///< one per experiment; empty: the middles of what is not known
 };
 
 namespace paving_detail {
@@ -218,9 +218,14 @@ identifiability_of(identification_problem const& problem, box const& at,
     result.starts = options.at_starts;
     if (result.starts.empty()) {
         for (auto const& e : problem.experiments) {
-            result.starts.push_back(point_box(mid(e.initial)));
+            auto& start = result.starts.emplace_back(e.initial);
+            for (std::size_t i = 0; i < start.size(); ++i) {
+                if (!is_known(start[i])) start[i] = interval(mid(start[i]));
+            }
         }
     }
+    if (result.starts.size() != problem.experiments.size())
+        throw std::invalid_argument("identifiability_of: one box of starts per experiment");
     auto const there = runs(at, result.starts);
     result.outputs = there.values.rows();
     result.missing = there.missing;

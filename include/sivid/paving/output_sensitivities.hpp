@@ -28,18 +28,23 @@ struct unknown_quantity {
     [[nodiscard]] bool relative() const { return !interval_traits<interval>::contains(prior, 0); }
 };
 
+/// A point, or the enclosure of a decimal: nothing that data could determine.
+[[nodiscard]] inline bool is_known(interval const& side) {
+    return width(side) <= 1e-12 * mag(side);
+}
+
 /// The parameters and, with `starts`, the starts that are not known exactly.
 [[nodiscard]] inline std::vector<unknown_quantity>
 unknowns_of(identification_problem const& problem, bool starts) {
     std::vector<unknown_quantity> result;
     for (std::size_t j = 0; j < problem.prior.size(); ++j) {
-        if (is_point(problem.prior[j])) continue;
+        if (is_known(problem.prior[j])) continue;
         result.push_back({problem.choice.unknown[j], j, std::nullopt, problem.prior[j]});
     }
     for (std::size_t e = 0; starts && e < problem.experiments.size(); ++e) {
         auto const& from = problem.experiments[e];
         for (std::size_t i = 0; i < from.initial.size(); ++i) {
-            if (is_point(from.initial[i])) continue;
+            if (is_known(from.initial[i])) continue;
             auto const& state = problem.model.about.states[i].name;
             result.push_back({state + "(" + from.name + ")", i, e, from.initial[i]});
         }

@@ -38,9 +38,8 @@ public:
                          box const& at, std::vector<box> const& starts,
                          output_sensitivities const& there)
         : unknowns_(runs.unknowns()) {
-        bool thin = width(at) == 0;
-        for (auto const& b : starts) thin = thin && width(b) == 0;
-        if (thin) {
+        auto const thin = [](box const& b) { return std::all_of(b.begin(), b.end(), is_known); };
+        if (thin(at) && std::all_of(starts.begin(), starts.end(), thin)) {
             add_point(there, mid(at), starts);
         } else {
             add_point(runs, mid(at), starts);
@@ -51,7 +50,7 @@ public:
             std::size_t k = 0;
             auto const place = [&](interval const& side) {
                 double const s = std::fmod(share + 0.6180339887 * static_cast<double>(k++), 1.0);
-                return is_point(side) ? side : interval(side.lower() + s * width(side));
+                return is_known(side) ? side : interval(side.lower() + s * width(side));
             };
             std::vector<double> p;
             for (auto const& side : problem.prior) p.push_back(mid(place(side)));
