@@ -8,8 +8,8 @@
 
 namespace hovercraft_example {
 
-/// Prints what data like these can tell about the unknowns: at the witness, or in the middle of what
-/// was not excluded.
+/// Prints what data like these can tell about the unknowns: at the witness, or in the middle of
+/// what was not excluded.
 void print_identifiability(sivid::identification_problem const& problem,
                            sivid::identification const& found, std::ostream& out);
 

@@ -28,15 +28,16 @@ recorded_map const halves(2, [](auto const& q) { return std::vector{q[0] + q[1],
 } // namespace
 
 TEST_CASE("a model in other constants has the trajectories of the original one") {
-    auto const fresh = substituted(original(), {"p0", "p1"}, {named("s"), named("d")}, halves, true);
+    auto const fresh =
+        substituted(original(), {"p0", "p1"}, {named("s"), named("d")}, halves, true);
     REQUIRE(fresh.about.constants.size() == 3);
     CHECK(fresh.about.constants[0].name == "p2");
     CHECK(fresh.about.constants[2].name == "d");
     REQUIRE(fresh.about.channels.size() == 3);
     CHECK(fresh.about.channels[1].name == "p0");
     auto const before = support::flow_of(original());
-    auto const after = std::make_shared<flow const>(
-        fresh, parameter_choice{{"s", "d", "p2"}, {}}, std::vector<signal>{});
+    auto const after = std::make_shared<flow const>(fresh, parameter_choice{{"s", "d", "p2"}, {}},
+                                                    std::vector<signal>{});
     draws d(661);
     for (int round = 0; round < 40; ++round) {
         double const s = d.uniform(1, 2), half = d.uniform(-0.5, 0.5), c = d.uniform(0, 1);

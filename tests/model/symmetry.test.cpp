@@ -86,7 +86,8 @@ TEST_CASE("states may move along when their starts do") {
     CHECK_FALSE(is_symmetry(quadratic, scaling({0, 1}, {-1})));
     CHECK(is_symmetry(quadratic, scaling({1, 1}, {-1})));
     auto const offset = bound(
-        {1, 1}, [](auto const&, auto const&, auto const& p, auto const&) { return std::vector{p[0]}; },
+        {1, 1},
+        [](auto const&, auto const&, auto const& p, auto const&) { return std::vector{p[0]}; },
         [](auto const&, auto const& x, auto const& p, auto const&) {
             return std::vector{x[0] + p[0]};
         });
@@ -113,8 +114,8 @@ TEST_CASE("a jump that moves is no symmetry, a kink may be one") {
 }
 
 TEST_CASE("equal bounds do not make uncertain constants equal") {
-    auto const model = support::model_of(
-        {1, 4}, [](auto const&, auto const& x, auto const& p, auto const&) {
+    auto const model =
+        support::model_of({1, 4}, [](auto const&, auto const& x, auto const& p, auto const&) {
             return std::vector{p[2] * p[0] * x[0] + p[3] * p[1] * x[0]};
         });
     auto const with_constants = [&](interval const& a, interval const& b) {

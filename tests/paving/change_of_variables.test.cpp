@@ -25,19 +25,32 @@ box const decay_prior{between(0.5, 2), between(0.25, 0.75)};
 change_of_variables coordinates(std::size_t which) {
     switch (which) {
     case 0:
-        return change({{"gain", "1/s"}, {"rate", "1/s"}}, 2,
-                      [](auto const& p) { return std::vector{p[0] * p[1], p[0] * 1}; },
-                      [](auto const& q) { return std::vector{q[1] * 1, q[0] / q[1]}; });
+        return change(
+            {{"gain", "1/s"}, {"rate", "1/s"}}, 2,
+            [](auto const& p) {
+                return std::vector{p[0] * p[1], p[0] * 1};
+            },
+            [](auto const& q) {
+                return std::vector{q[1] * 1, q[0] / q[1]};
+            });
     case 1:
-        return change({{"sum", "1"}, {"difference", "1"}}, 2,
-                      [](auto const& p) { return std::vector{p[0] + p[1], p[0] - p[1]}; },
-                      [](auto const& q) {
-                          return std::vector{0.5 * (q[0] + q[1]), 0.5 * (q[0] - q[1])};
-                      });
+        return change(
+            {{"sum", "1"}, {"difference", "1"}}, 2,
+            [](auto const& p) {
+                return std::vector{p[0] + p[1], p[0] - p[1]};
+            },
+            [](auto const& q) {
+                return std::vector{0.5 * (q[0] + q[1]), 0.5 * (q[0] - q[1])};
+            });
     default:
-        return change({{"p0", "1"}, {"inverse", "1"}}, 2,
-                      [](auto const& p) { return std::vector{p[0] * 1, 1 / p[1]}; },
-                      [](auto const& q) { return std::vector{q[0] * 1, 1 / q[1]}; });
+        return change(
+            {{"p0", "1"}, {"inverse", "1"}}, 2,
+            [](auto const& p) {
+                return std::vector{p[0] * 1, 1 / p[1]};
+            },
+            [](auto const& q) {
+                return std::vector{q[0] * 1, 1 / q[1]};
+            });
     }
 }
 identification found_in(changed_problem const& posed, std::size_t boxes) {
@@ -53,9 +66,9 @@ TEST_CASE("a planted truth is never lost in other coordinates, and inside boxes 
     draws d(671);
     int inside = 0;
     for (std::size_t round = 0; round < 9; ++round) {
-        auto const planted = support::plant(
-            d, {1, 2, 0, 10}, decay_rate, decay_prior, {1},
-            {.outliers = round % 2, .noise = round % 3 == 0 ? 0.2 : 0.02});
+        auto const planted =
+            support::plant(d, {1, 2, 0, 10}, decay_rate, decay_prior, {1},
+                           {.outliers = round % 2, .noise = round % 3 == 0 ? 0.2 : 0.02});
         changed_problem const posed(planted.problem, coordinates(round % 3));
         auto const found = found_in(posed, 200);
         auto const truth = coordinates(round % 3).forward.over(point_box(planted.truth));
@@ -92,8 +105,8 @@ TEST_CASE("a planted truth is never lost in other coordinates, and inside boxes 
 
 TEST_CASE("hulls of the parameters are about those of the original problem") {
     draws d(672);
-    auto const planted = support::plant(d, {1, 2, 0, 10}, decay_rate, decay_prior, {1},
-                                        {.noise = 0.02});
+    auto const planted =
+        support::plant(d, {1, 2, 0, 10}, decay_rate, decay_prior, {1}, {.noise = 0.02});
     auto const plain = identify(planted.problem);
     changed_problem const posed(planted.problem, coordinates(0));
     auto const seen = posed.parameter_hull(found_in(posed, 2000));
@@ -104,7 +117,8 @@ TEST_CASE("hulls of the parameters are about those of the original problem") {
     }
 }
 
-TEST_CASE("what no parameter of the prior explains is inconsistent, whatever the box of coordinates") {
+TEST_CASE(
+    "what no parameter of the prior explains is inconsistent, whatever the box of coordinates") {
     draws d(673);
     auto planted = support::plant(d, {1, 2, 0, 10}, decay_rate, decay_prior, {1}, {.noise = 0.01});
     // The truth's coordinates lie in the box around the image, its parameters not in the prior.
@@ -122,8 +136,7 @@ TEST_CASE("what no parameter of the prior explains is inconsistent, whatever the
 
 TEST_CASE("maps that do not fit are refused") {
     draws d(674);
-    auto const problem =
-        support::plant(d, {1, 2, 0, 10}, decay_rate, decay_prior, {1}, {}).problem;
+    auto const problem = support::plant(d, {1, 2, 0, 10}, decay_rate, decay_prior, {1}, {}).problem;
     auto const good = coordinates(1);
     auto const same = [](auto const& p) { return std::vector{p[0] * 1, p[1] * 1}; };
     auto const refused = [&](auto const& forward, auto const& backward, std::size_t parameters) {
@@ -131,8 +144,14 @@ TEST_CASE("maps that do not fit are refused") {
                                                         forward, backward)),
                         std::invalid_argument);
     };
-    refused(same, [](auto const& q) { return std::vector{q[0] * 1, q[1] * 2}; }, 2);
-    refused(same, [](auto const& q) { return std::vector{q[0] * 1}; }, 2);
+    refused(
+        same,
+        [](auto const& q) {
+            return std::vector{q[0] * 1, q[1] * 2};
+        },
+        2);
+    refused(
+        same, [](auto const& q) { return std::vector{q[0] * 1}; }, 2);
     refused([](auto const& p) { return std::vector{p[0] * 1, p[1] + p[2]}; }, same, 3);
     refused([](auto const& p) { return std::vector{p[0] / (p[1] - 0.5), p[1] * 1}; }, same, 2);
     CHECK_NOTHROW(changed_problem(problem, good));

@@ -52,7 +52,8 @@ std::vector<std::string> texts(std::vector<fixed_formula> const& list) {
     return result;
 }
 bool all_proved(identifiability const& found) {
-    return std::all_of(found.free.begin(), found.free.end(), [](auto const& m) { return m.proved; });
+    return std::all_of(found.free.begin(), found.free.end(),
+                       [](auto const& m) { return m.proved; });
 }
 void check_ranks(identifiability const& found, std::size_t rank) {
     CHECK(found.least_rank == rank);
@@ -186,6 +187,21 @@ TEST_CASE("the hovercraft's manoeuvre S3 tells L*Sg") {
     CHECK(found.outputs == 180);
 }
 
+TEST_CASE("nine parameters and unknown starts of the hovercraft: the proved ranks meet") {
+    draws d(643);
+    support::hover_options options;
+    options.priors = {
+        {"Sv", between(0.2, 0.25)},   {"Sg", between(0.02, 0.06)}, {"L", between(0.25, 0.35)},
+        {"m", between(1.1, 1.5)},     {"Iz", between(0.04, 0.08)}, {"D22", between(0.1, 0.3)},
+        {"D33", between(0.05, 0.15)}, {"Ff", between(0.3, 0.7)},   {"Su", between(0.1, 0.15)}};
+    options.uncertain_starts = true;
+    auto const found = in_the_middle(support::hovercraft_campaign(d, {}, options));
+    CHECK(found.unknowns.size() == 24);
+    CHECK(found.outputs == 1560);
+    check_ranks(found, 22);
+    CHECK(texts(found.fixed) == std::vector<std::string>{"D33/(L*Sg)", "Iz/(L*Sg)"});
+}
+
 TEST_CASE("no proved rank exceeds what the planted structure allows") {
     draws d(642);
     int equal = 0, rounds = 0;
@@ -257,8 +273,7 @@ TEST_CASE("directions are noticed as simulations say") {
         return std::vector{x[1], -(p[0] * sin(x[0])) - p[1] * x[1] + p[2] * p[2]};
     };
     box const prior{between(1, 3), between(0.1, 0.6), between(-0.3, 0.5)};
-    auto const problem =
-        posed({2, 3}, rate, states_seen, prior, box{interval(1.0), interval(0.0)});
+    auto const problem = posed({2, 3}, rate, states_seen, prior, box{interval(1.0), interval(0.0)});
     auto const found = identifiability_of(problem, point_box({1.7, 0.3, 0.2}));
     REQUIRE(found.directions.size() == 3);
     double last = HUGE_VAL;
@@ -298,7 +313,7 @@ TEST_CASE("what does not fit is refused") {
         },
         states_seen, two_sides, from_one);
     CHECK_THROWS_AS(identifiability_of(problem, box{interval(1.0)}), std::invalid_argument);
-    CHECK_THROWS_AS(identifiability_of(
-                        problem, box{interval(1.0), interval_traits<interval>::empty()}),
-                    std::invalid_argument);
+    CHECK_THROWS_AS(
+        identifiability_of(problem, box{interval(1.0), interval_traits<interval>::empty()}),
+        std::invalid_argument);
 }

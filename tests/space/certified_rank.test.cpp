@@ -19,8 +19,8 @@ interval_matrix<interval> widened_matrix(Eigen::MatrixXd const& m, double radius
     interval_matrix<interval> a(rows, static_cast<std::size_t>(m.cols()));
     for (std::size_t i = 0; i < rows; ++i) {
         for (std::size_t j = 0; j < a.cols(); ++j) {
-            a(i, j) = support::around(
-                m(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)), radius);
+            a(i, j) = support::around(m(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)),
+                                      radius);
         }
     }
     return a;
@@ -42,8 +42,8 @@ TEST_CASE("a proved rank never exceeds that of a member, and reaches it for thin
     for (int round = 0; round < 600; ++round) {
         auto const columns = static_cast<Eigen::Index>(1 + d.below(6));
         auto const rows = static_cast<Eigen::Index>(1 + d.below(12));
-        auto const rank = static_cast<Eigen::Index>(d.below(static_cast<std::size_t>(
-            std::min(rows, columns) + 1)));
+        auto const rank = static_cast<Eigen::Index>(
+            d.below(static_cast<std::size_t>(std::min(rows, columns) + 1)));
         // A product of integers has rank `rank` at most, exactly.
         Eigen::MatrixXd m = integers(d, rows, rank) * integers(d, rank, columns);
         std::vector<double> weights;

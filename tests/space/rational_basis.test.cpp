@@ -39,7 +39,8 @@ TEST_CASE("a space spanned by small integers is found from any basis of it") {
         Eigen::MatrixXd planted = Eigen::MatrixXd::Zero(n, k);
         for (Eigen::Index c = 0; c < k; ++c) {
             planted(c, c) = 1;
-            for (Eigen::Index i = k; i < n; ++i) planted(i, c) = static_cast<double>(d.below(3)) - 1;
+            for (Eigen::Index i = k; i < n; ++i)
+                planted(i, c) = static_cast<double>(d.below(3)) - 1;
         }
         Eigen::MatrixXd mixed = planted * d.matrix(k, k);
         if (std::abs((planted.transpose() * mixed).determinant()) < 1e-3) continue;

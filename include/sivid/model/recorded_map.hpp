@@ -48,8 +48,7 @@ public:
             } else if (is_leaf(n.op)) {
                 value[k] = x[static_cast<std::size_t>(n.index)];
             } else {
-                value[k] =
-                    apply<arithmetic>(n.op, value[n.a], value[n.b], n.index, undefined);
+                value[k] = apply<arithmetic>(n.op, value[n.a], value[n.b], n.index, undefined);
             }
         }
         if (undefined) return std::nullopt;

@@ -55,8 +55,7 @@ struct small_fraction {
         std::int64_t a = 0, b = 0, both = 0, below = 0;
         if (__builtin_mul_overflow(x.above, y.below, &a) ||
             __builtin_mul_overflow(y.above, x.below, &b) || __builtin_add_overflow(a, b, &both) ||
-            __builtin_mul_overflow(x.below, y.below, &below) || !limited(both) ||
-            !limited(below)) {
+            __builtin_mul_overflow(x.below, y.below, &below) || !limited(both) || !limited(below)) {
             return std::nullopt;
         }
         return of(both, below);
@@ -235,7 +234,8 @@ inline bool jumps_along(bound_model const& model, model_motion const& motion) {
 /// (0 on the right for a translation) and the same with 0 for every output; these identities are
 /// multiplied out and compared term by term, with functions other than + - * / and powers as
 /// variables of their own.
-/// @guarantee  true is a theorem about the equations: the sensitivities along v vanish, whatever the
+/// @guarantee  true is a theorem about the equations: the sensitivities along v vanish, whatever
+/// the
 ///             inputs of the sampled kind; false says nothing
 /// @cost  sums of up to 200 terms a node
 /// @ref   Yates, Evans and Chappell, Structural identifiability analysis via symmetries of

@@ -31,9 +31,9 @@ struct change_of_variables {
 /// `change({{"LSg", "m^3"}, {"L", "m"}}, forward, backward)` with two functors on a vector of any
 /// scalar, which return vectors.
 template <class Forward, class Backward>
-[[nodiscard]] change_of_variables
-change(std::vector<change_of_variables::coordinate> coordinates, std::size_t parameters,
-       Forward const& forward, Backward const& backward) {
+[[nodiscard]] change_of_variables change(std::vector<change_of_variables::coordinate> coordinates,
+                                         std::size_t parameters, Forward const& forward,
+                                         Backward const& backward) {
     auto const n = coordinates.size();
     return {std::move(coordinates), recorded_map(parameters, forward), recorded_map(n, backward)};
 }
@@ -41,14 +41,16 @@ change(std::vector<change_of_variables::coordinate> coordinates, std::size_t par
 /// An identification problem posed in other coordinates.
 ///   Its prior is a box around the image of the parameters' prior. That the parameters lie in their
 ///   own prior is one more experiment, without outliers: its channels show the parameters, and its
-///   "measurements" are the sides of the prior. So q is feasible exactly when the parameters that it
-///   stands for are in their prior and explain the data; verdicts, hulls, pavings and witnesses of
-///   the posed problem are those of the original one, seen in q.
-/// @given  backward(forward(p)) = p for every p in the prior: tried at some points, and refuted there
+///   "measurements" are the sides of the prior. So q is feasible exactly when the parameters that
+///   it stands for are in their prior and explain the data; verdicts, hulls, pavings and witnesses
+///   of the posed problem are those of the original one, seen in q.
+/// @given  backward(forward(p)) = p for every p in the prior: tried at some points, and refuted
+/// there
 ///         by enclosures when it is wrong, but the user's promise
 class changed_problem {
 public:
-    /// @throws std::invalid_argument  when sizes do not fit, a map is not defined on all of the prior,
+    /// @throws std::invalid_argument  when sizes do not fit, a map is not defined on all of the
+    /// prior,
     ///         or the maps are no inverses of each other
     changed_problem(identification_problem const& original, change_of_variables change)
         : original_(original), change_(std::move(change)), posed_(original) {
@@ -62,9 +64,8 @@ public:
                                         "the prior and the coordinates");
         }
         auto const image = change_.forward.over(prior);
-        if (!image || !std::all_of(image->begin(), image->end(), [](interval const& side) {
-                return std::isfinite(mag(side));
-            })) {
+        if (!image || !std::all_of(image->begin(), image->end(),
+                                   [](interval const& side) { return std::isfinite(mag(side)); })) {
             throw std::invalid_argument("change of variables: the coordinates are not defined, or "
                                         "not bounded, on the prior");
         }
@@ -85,8 +86,8 @@ public:
     /// A box that contains every feasible parameter of the original problem: the hull of what the
     /// boxes of a result stand for.
     [[nodiscard]] box parameter_hull(identification const& found) const {
-        box result(std::vector<interval>(original_.prior.size(),
-                                         interval_traits<interval>::empty()));
+        box result(
+            std::vector<interval>(original_.prior.size(), interval_traits<interval>::empty()));
         for (auto const& b : found.paving.boxes()) {
             auto const left = intersect(b.set, found.hull);
             if (b.verdict == box_verdict::outside || is_empty(left)) continue;
@@ -110,14 +111,15 @@ private:
                 auto const& side = original_.prior[j];
                 double const share =
                     std::fmod(0.5 + 0.6180339887 * k * static_cast<double>(j + 1), 1.0);
-                p[j] = interval(std::clamp(side.lower() + share * width(side), side.lower(),
-                                           side.upper()));
+                p[j] = interval(
+                    std::clamp(side.lower() + share * width(side), side.lower(), side.upper()));
             }
             auto const q = change_.forward.over(p);
             auto const back = q ? change_.backward.over(*q) : std::nullopt;
             if (!back || is_empty(intersect(*back, p))) {
-                throw std::invalid_argument("change of variables: the map back from the coordinates "
-                                            "is not the inverse of the map to them");
+                throw std::invalid_argument(
+                    "change of variables: the map back from the coordinates "
+                    "is not the inverse of the map to them");
             }
         }
     }
@@ -132,8 +134,8 @@ private:
             fresh.push_back({c.name, c.unit, literal{interval(middle), middle}});
             posed_.choice.unknown.push_back(c.name);
         }
-        posed_.model = substituted(original_.model, original_.choice.unknown, fresh,
-                                   change_.backward, true);
+        posed_.model =
+            substituted(original_.model, original_.choice.unknown, fresh, change_.backward, true);
         posed_.prior = image;
         experiment within;
         auto const& like = original_.experiments.front();

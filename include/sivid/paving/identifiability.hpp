@@ -68,14 +68,14 @@ struct identifiability {
     std::vector<fixed_formula> fixed;        ///< what the moving unknowns of `free` act through
     std::vector<fixed_formula> nearly_fixed; ///< the same with `nearly_free`, never proved
 
-    /// Proved: no two values of the unknowns within `parameters` and `starts`, all else being equal,
-    /// have the same outputs.
+    /// Proved: no two values of the unknowns within `parameters` and `starts`, all else being
+    /// equal, have the same outputs.
     [[nodiscard]] bool tells_all_apart() const { return least_rank == unknowns.size(); }
 };
 
 struct identifiability_options {
     enclosure_options enclosure{};
-    bool starts = true; ///< starts that are not known exactly count among the unknowns
+    bool starts = true;           ///< starts that are not known exactly count among the unknowns
     std::vector<box> at_starts{}; ///< one per experiment; empty: the middles of what is not known
 };
 
@@ -93,8 +93,8 @@ inline bool is_proved(identification_problem const& problem, sensitivity_runs co
             if (q.experiment == e) motion.states[q.index] = weights[c];
         }
         auto const& model = runs.equations(e).model();
-        bool const states_move = std::any_of(motion.states.begin(), motion.states.end(),
-                                             [](int w) { return w != 0; });
+        bool const states_move =
+            std::any_of(motion.states.begin(), motion.states.end(), [](int w) { return w != 0; });
         bool const scaled = kind == motion_kind::scaling && !states_move &&
                             is_scale_invariant(model, motion.parameters);
         if (!scaled && !is_symmetry(model, motion)) return false;
@@ -116,8 +116,7 @@ inline std::size_t proved_freedom(identifiability const& found) {
             auto const value =
                 q.experiment ? found.starts[*q.experiment][q.index] : found.parameters[q.index];
             auto const w = traits::point(static_cast<double>(proved[k]->weights[c]));
-            velocities(c, k) =
-                proved[k]->kind == motion_kind::scaling ? traits::mul(w, value) : w;
+            velocities(c, k) = proved[k]->kind == motion_kind::scaling ? traits::mul(w, value) : w;
         }
     }
     return certified_rank(velocities);
@@ -193,16 +192,17 @@ inline void add_formulas(identifiability& found) {
 /// Which unknowns, or combinations of them, the measured outputs of a problem can tell, at a point
 /// or over a small box of parameters. Only the times, channels and bounds of the measurements are
 /// used, not the measured values; outliers are not considered.
-///   Ranks: sensitivities enclosed along proved trajectories (`sensitivity_runs`), a regular part of
-///   them proved (`certified_rank`). Directions: the singular value decomposition of their middles,
-///   scaled by the bounds and by the prior. Formulas: vectors of small integers in the common null
-///   space of the sensitivities at three points, in logarithms (products and ratios) and plain
-///   coordinates (sums and differences); then looked for in the equations (`is_symmetry`).
+///   Ranks: sensitivities enclosed along proved trajectories (`sensitivity_runs`), a regular part
+///   of them proved (`certified_rank`). Directions: the singular value decomposition of their
+///   middles, scaled by the bounds and by the prior. Formulas: vectors of small integers in the
+///   common null space of the sensitivities at three points, in logarithms (products and ratios)
+///   and plain coordinates (sums and differences); then looked for in the equations
+///   (`is_symmetry`).
 /// @param at  one side per parameter of the problem, within the prior or not
 /// @given     no delays; inputs count as recorded, whatever their error bounds
 /// @guarantee  `least_rank` for all parameters and starts in the boxes; `most_rank` likewise; with
-///             `tells_all_apart` the outputs are injective there (mean value theorem: averages of the
-///             sensitivities lie in the enclosure); `proved` motions change no output anywhere
+///             `tells_all_apart` the outputs are injective there (mean value theorem: averages of
+///             the sensitivities lie in the enclosure); `proved` motions change no output anywhere
 /// @cost  one integration with sensitivities for each experiment at `at`, its middle and two points
 /// @ref   Walter and Pronzato, Identification of Parametric Models from Experimental Data (1997)
 [[nodiscard]] inline identifiability
@@ -231,8 +231,7 @@ identifiability_of(identification_problem const& problem, box const& at,
     result.missing = there.missing;
     result.least_rank = certified_rank(there.values, there.weights);
 
-    paving_detail::sensitivity_spectrum const spectrum(problem, runs, at, result.starts,
-                                                       there);
+    paving_detail::sensitivity_spectrum const spectrum(problem, runs, at, result.starts, there);
     result.approximate_rank = spectrum.rank();
     for (auto const& d : spectrum.directions()) {
         result.directions.push_back({d.components, d.noticed});

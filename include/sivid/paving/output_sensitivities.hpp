@@ -19,7 +19,7 @@ namespace sivid {
 
 /// Something that the data are to determine: a parameter, or the start of a state in an experiment.
 struct unknown_quantity {
-    std::string name; ///< of the parameter, or "<state>(<experiment>)"
+    std::string name;                      ///< of the parameter, or "<state>(<experiment>)"
     std::size_t index = 0;                 ///< of the parameter or state
     std::optional<std::size_t> experiment; ///< of a start
     interval prior;
@@ -84,8 +84,8 @@ public:
                      enclosure_options const& options)
         : problem_(&problem), unknowns_(std::move(unknowns)), options_(options) {
         for (auto const& e : problem.experiments) {
-            flows_.push_back(std::make_shared<flow const>(problem.model, problem.choice,
-                                                          nominal(e.inputs)));
+            flows_.push_back(
+                std::make_shared<flow const>(problem.model, problem.choice, nominal(e.inputs)));
             samples_.push_back(bounded(sorted(e.measurements)));
         }
     }

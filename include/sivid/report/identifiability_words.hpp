@@ -75,8 +75,8 @@ inline std::string joined_formulas(std::vector<fixed_formula> const& list) {
     };
     std::vector<std::string> lines;
     auto const n = found.unknowns.size();
-    std::string ranks = count(found.outputs, "measured output") + " and " + count(n, "unknown") +
-                        ": rank ";
+    std::string ranks =
+        count(found.outputs, "measured output") + " and " + count(n, "unknown") + ": rank ";
     if (found.least_rank == found.most_rank) {
         ranks += std::to_string(found.least_rank) + ", proved";
     } else {
@@ -87,8 +87,8 @@ inline std::string joined_formulas(std::vector<fixed_formula> const& list) {
     if (found.missing > 0) ranks += "; " + count(found.missing, "output") + " not reached";
     lines.push_back(std::move(ranks));
     for (auto const& m : found.free) {
-        auto const moving = std::count_if(m.weights.begin(), m.weights.end(),
-                                          [](int w) { return w != 0; });
+        auto const moving =
+            std::count_if(m.weights.begin(), m.weights.end(), [](int w) { return w != 0; });
         lines.push_back("free: " + detail::motion_text(m, found.unknowns) +
                         (moving == 1 ? ": it does not act on the outputs" : "") +
                         (m.proved ? " (by the equations)" : " (numerically, not proved)"));

@@ -55,13 +55,14 @@ inline double distance_from_identity(interval_matrix<interval> const& b, std::si
 } // namespace space_detail
 
 /// A number r such that every matrix within A has rank at least r.
-///   With an approximate singular value decomposition \f$ M \approx U \Sigma V^T \f$ of the centres,
-///   \f$ B = \Sigma_r^{-1} U_r^T A V_r \f$ is near the identity; where \f$ \| 1 - B \|_\infty < 1
-///   \f$ every member of B is regular, and \f$ rank(A) \ge rank(C A W) \f$ whatever C and W are.
-///   The largest such r is taken. Rows that are unbounded or empty are left out.
+///   With an approximate singular value decomposition \f$ M \approx U \Sigma V^T \f$ of the
+///   centres, \f$ B = \Sigma_r^{-1} U_r^T A V_r \f$ is near the identity; where \f$ \| 1 - B
+///   \|_\infty < 1 \f$ every member of B is regular, and \f$ rank(A) \ge rank(C A W) \f$ whatever C
+///   and W are. The largest such r is taken. Rows that are unbounded or empty are left out.
 /// @param weights  one positive number per row, by which rows are scaled for the decomposition; a
 ///                 preference. Empty: all equal
-/// @guarantee  holds for every member; when r is the number of columns, one matrix is a left inverse
+/// @guarantee  holds for every member; when r is the number of columns, one matrix is a left
+/// inverse
 ///             of all members up to a regular factor, so that averages of members are injective too
 /// @cost  about 3 rows columns^2 products and one decomposition
 /// @ref   Rump, Verification methods, Acta Numerica 2010 (regularity by approximate inverses)
@@ -97,8 +98,7 @@ inline double distance_from_identity(interval_matrix<interval> const& b, std::si
     interval_matrix<interval> b(most, most);
     for (Eigen::Index i = 0; i < count; ++i) {
         for (std::size_t k = 0; k < kept.rows(); ++k) {
-            double const c =
-                svd.matrixU()(static_cast<Eigen::Index>(k), i) * weights[k] / sigma(i);
+            double const c = svd.matrixU()(static_cast<Eigen::Index>(k), i) * weights[k] / sigma(i);
             if (!std::isfinite(c)) return 0;
             for (std::size_t j = 0; j < most; ++j) {
                 auto& sum = b(static_cast<std::size_t>(i), j);

@@ -41,10 +41,11 @@ approximate_integers(Eigen::VectorXd const& v, double tolerance, int largest = 6
     return std::nullopt;
 }
 
-/// Vectors of small integers that span (part of) a space: its basis, brought to reduced echelon form
-/// and rounded row by row.
+/// Vectors of small integers that span (part of) a space: its basis, brought to reduced echelon
+/// form and rounded row by row.
 /// @param basis  one column per vector, independent
-/// @returns one vector for each row of the echelon form that is near one; the first entries that are
+/// @returns one vector for each row of the echelon form that is near one; the first entries that
+/// are
 ///          not 0 are positive
 [[nodiscard]] inline std::vector<std::vector<int>>
 approximate_integer_basis(Eigen::MatrixXd const& basis, double tolerance, int largest = 6) {

@@ -273,8 +273,7 @@ private:
     /// The motion in widths of the prior until it has crossed the first of them.
     [[nodiscard]] Eigen::VectorXd crossing(motion const& m) const {
         Eigen::VectorXd v = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(m.weights.size()));
-        auto const how =
-            m.kind == motion_kind::scaling ? coordinate::logarithm : coordinate::plain;
+        auto const how = m.kind == motion_kind::scaling ? coordinate::logarithm : coordinate::plain;
         for (std::size_t c = 0; c < m.weights.size(); ++c) {
             if (m.weights[c] != 0)
                 v(static_cast<Eigen::Index>(c)) = m.weights[c] / prior_width(c, how);
