@@ -31,6 +31,7 @@ struct identify_command {
     std::size_t threads = 1;          ///< 0: as many as the machine has
     bool compare = false;
     bool online = false; ///< the measurements one after the other, as they would arrive
+    bool identifiability = false; ///< what the data can tell about the parameters at all
     bool quiet = false;
     std::string command_line; ///< for the report's footer
 };

@@ -2,6 +2,7 @@
 #include "commands.hpp"
 #include "console/console.hpp"
 #include "console/program.hpp"
+#include "identifiability.hpp"
 #include "online.hpp"
 
 #include <sivid/io/checkpoint.hpp>
@@ -303,6 +304,7 @@ int run(identify_command const& c) {
                   << report::duration_text(baseline->seconds) << ", " << baseline->boxes
                   << " boxes\n";
     }
+    if (c.identifiability) print_identifiability(problem, found, std::cout);
     checkpoint.finish(found.reason);
     return exit_code_of(found.verdict);
 }

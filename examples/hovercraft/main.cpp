@@ -170,6 +170,8 @@ private:
                     "spend 40 % of the budget on the report's Algorithm 1 and show both");
         s->add_flag("--online", c.online,
                     "feed the measurements in the order of time, and print what each update took");
+        s->add_flag("--identifiability", c.identifiability,
+                    "say, too, what such data can tell about the parameters at all");
         s->add_flag("--quiet", c.quiet, "no progress");
         add_variants(*s, shared_);
         s->callback([this] {

@@ -41,8 +41,11 @@ std::size_t rows(fs::path const& file) {
 TEST_CASE("identify writes a report, a result and two tables, and says 0 when consistent") {
     temporary_folder const folder;
     auto const out = folder.path() / "deep" / "out";
-    auto const r = run({"identify", h3, "--out", out.string(), "--boxes", "60"});
+    auto const r =
+        run({"identify", h3, "--out", out.string(), "--boxes", "60", "--identifiability"});
     CHECK(r.code == 0);
+    CHECK_THAT(r.out, ContainsSubstring("rank 2, proved") &&
+                          ContainsSubstring("these act through Sg*L alone"));
     auto const result = json_of(out / "result.json");
     CHECK(result["format"] == "sivid-identification-1");
     CHECK(result["dataset"] == "h3");

@@ -147,24 +147,32 @@ inline Eigen::Index rank_of(std::vector<std::vector<int>> const& rows, std::size
     return Eigen::FullPivLU<Eigen::MatrixXd>(m).rank();
 }
 
+/// A product of powers, for instance "L*Sg/(Iz^2*m)".
+inline std::string product_text(std::vector<std::string> const& names,
+                                std::vector<int> const& exponents) {
+    std::string above, below;
+    for (std::size_t j = 0; j < exponents.size(); ++j) {
+        if (exponents[j] == 0) continue;
+        int const size = std::abs(exponents[j]);
+        auto& side = exponents[j] > 0 ? above : below;
+        if (!side.empty()) side += "*";
+        side += names[j] + (size > 1 ? "^" + std::to_string(size) : "");
+    }
+    if (above.empty()) above = "1";
+    if (below.empty()) return above;
+    return above + "/" + (below.find('*') == std::string::npos ? below : "(" + below + ")");
+}
+
 inline combination named_combination(std::vector<int> exponents, bound_model const& model) {
     combination c;
     unit u;
-    std::string below;
+    std::vector<std::string> names;
     for (std::size_t j = 0; j < exponents.size(); ++j) {
-        if (exponents[j] == 0) continue;
         auto const& constant = model.about.constants[model.parameters[j]];
         u = u.times(unit(constant.unit), exponents[j]);
-        int const size = std::abs(exponents[j]);
-        auto const factor = constant.name + (size > 1 ? "^" + std::to_string(size) : "");
-        auto& side = exponents[j] > 0 ? c.formula : below;
-        if (!side.empty()) side += "*";
-        side += factor;
+        names.push_back(constant.name);
     }
-    if (c.formula.empty()) c.formula = "1";
-    if (!below.empty()) {
-        c.formula += "/" + (below.find('*') == std::string::npos ? below : "(" + below + ")");
-    }
+    c.formula = product_text(names, exponents);
     c.unit = u.text();
     c.exponents = std::move(exponents);
     return c;
