@@ -37,10 +37,12 @@
 #include <sivid/number/univariate_taylor.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/space/box_cover.hpp>
+#include <sivid/space/certified_rank.hpp>
 #include <sivid/space/common_frame.hpp>
 #include <sivid/space/eigen_support.hpp>
 #include <sivid/space/matrix.hpp>
 #include <sivid/space/orthogonal_frame.hpp>
+#include <sivid/space/rational_basis.hpp>
 #include <sivid/space/vec.hpp>
 #include <sivid/measurement/error_bound.hpp>
 #include <sivid/measurement/quantisation.hpp>
@@ -60,8 +62,11 @@
 #include <sivid/model/model.hpp>
 #include <sivid/model/operation.hpp>
 #include <sivid/model/plain_program.hpp>
+#include <sivid/model/recorded_map.hpp>
 #include <sivid/model/rewrite.hpp>
 #include <sivid/model/series.hpp>
+#include <sivid/model/substitution.hpp>
+#include <sivid/model/symmetry.hpp>
 #include <sivid/model/tape.hpp>
 #include <sivid/model/taylor_arithmetic.hpp>
 #include <sivid/model/to_dot.hpp>
@@ -106,6 +111,7 @@
 #include <sivid/paving/box_explorer.hpp>
 #include <sivid/paving/campaign.hpp>
 #include <sivid/paving/certificate.hpp>
+#include <sivid/paving/change_of_variables.hpp>
 #include <sivid/paving/combined_polynomial.hpp>
 #include <sivid/paving/constraint_blocks.hpp>
 #include <sivid/paving/continued_run.hpp>
@@ -122,6 +128,7 @@
 #include <sivid/paving/frontier.hpp>
 #include <sivid/paving/growing_response.hpp>
 #include <sivid/paving/holdout_inflation.hpp>
+#include <sivid/paving/identifiability.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/identification_state.hpp>
 #include <sivid/paving/identify.hpp>
@@ -143,6 +150,7 @@
 #include <sivid/paving/online_identification.hpp>
 #include <sivid/paving/outlier_budget.hpp>
 #include <sivid/paving/outlier_count.hpp>
+#include <sivid/paving/output_sensitivities.hpp>
 #include <sivid/paving/paving_search.hpp>
 #include <sivid/paving/plain_campaign.hpp>
 #include <sivid/paving/plain_run.hpp>
