@@ -55,6 +55,7 @@ public:
         if (!c.validated) return;
         sivid::enclosure_options options;
         options.maximum_step = s.duration / 300;
+        options.minimum_step = 1e-5 * s.duration; // a tube that needs shorter ones gets no further
         tube_ = std::make_unique<sivid::tube<sivid::interval>>(
             sivid::integrate<sivid::interval>(flow_, start, sivid::box{}, 0, s.duration, options));
         if (!tube_->complete())

@@ -21,7 +21,8 @@ namespace sivid {
 /// @tparam Other  another set to try, or void
 /// @given  boxes that `Run` and `Other` take (checked there: std::invalid_argument)
 /// @cost  some ten runs, and two for each halving of each side with a width where only parts help,
-///        each of at most 200 steps more than the failed one
+///        each of at most 200 steps more than the failed one, or than twice what that took for
+///        nine tenths of its way
 template <class Run, class Other = void>
 [[nodiscard]] std::optional<advised_failure>
 explain_failure(flow const& f, enclosure_options const& options, box const& initial,

@@ -114,12 +114,17 @@ private:
     [[nodiscard]] std::optional<enclosure_failure> run_whole() {
         Run run(flow_, options_);
         run.begin(begin_, initial_, parameters_);
-        while (run.time() < end_ && run.step(end_)) {
-        }
+        std::vector<double> times;
+        while (run.time() < end_ && run.step(end_)) times.push_back(run.time());
         if (!(run.time() < end_)) return std::nullopt;
         reached_ = run.time();
         slopes_ = slopes(run, run.failure()->component);
-        cap_ = std::min(options_.maximum_steps, run.steps() + 200);
+        // Ever shorter steps at the end are not what a remedy should need.
+        auto const late = std::find_if(times.begin(), times.end(), [this](double t) {
+            return t - begin_ >= 0.9 * (reached_ - begin_);
+        });
+        auto const before = static_cast<std::size_t>(late - times.begin());
+        cap_ = std::min(options_.maximum_steps, std::min(times.size(), 2 * before) + 200);
         return run.failure();
     }
     [[nodiscard]] bool further(double t) const {
