@@ -242,8 +242,11 @@ private:
                 double const rate =
                     std::abs(o.middles[k][i] - o.middles[k - 1][i]) / (o.times[k] - o.times[k - 1]);
                 size = std::max(size, std::abs(o.middles[k - 1][i]));
-                (o.times[k - 1] <= half ? early : late) =
-                    rate > early || o.times[k - 1] > half ? rate : early;
+                if (o.times[k - 1] <= half) {
+                    early = std::max(early, rate);
+                } else {
+                    late = rate; // the last one stays
+                }
             }
             double const least = 1e-6 * size / (o.times.back() - o.times.front());
             double const growth = late / std::max({early, least, 1e-300});
