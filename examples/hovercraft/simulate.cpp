@@ -3,6 +3,7 @@
 #include "console/console.hpp"
 #include "console/program.hpp"
 
+#include <sivid/enclosure/failure_advice.hpp>
 #include <sivid/enclosure/simulate.hpp>
 #include <sivid/enclosure/tube.hpp>
 #include <sivid/io/text_file.hpp>
@@ -14,6 +15,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <optional>
 
 namespace hovercraft_example {
 
@@ -53,8 +55,12 @@ public:
         if (!c.validated) return;
         sivid::enclosure_options options;
         options.maximum_step = s.duration / 300;
+        options.minimum_step = 1e-5 * s.duration; // a tube that needs shorter ones gets no further
         tube_ = std::make_unique<sivid::tube<sivid::interval>>(
             sivid::integrate<sivid::interval>(flow_, start, sivid::box{}, 0, s.duration, options));
+        if (!tube_->complete())
+            why_ = sivid::explain_failure<sivid::trajectory<sivid::interval>>(
+                *flow_, options, start, sivid::box{}, 0, s.duration);
     }
 
     [[nodiscard]] std::string trajectory_csv() const {
@@ -75,8 +81,7 @@ public:
     [[nodiscard]] bool validated() const { return tube_ != nullptr; }
     [[nodiscard]] bool complete() const { return !tube_ || tube_->complete(); }
     [[nodiscard]] std::string failure() const {
-        auto const& why = *tube_->failure();
-        return why.message(about_.states[why.component].name);
+        return why_->message(about_.states[why_->failure.component].name);
     }
 
     [[nodiscard]] std::string tube_csv() const {
@@ -183,6 +188,7 @@ private:
     std::shared_ptr<sivid::flow const> flow_;
     sivid::approximate_trajectory line_;
     std::unique_ptr<sivid::tube<sivid::interval>> tube_;
+    std::optional<sivid::advised_failure> why_; ///< where the tube ends early
 };
 
 } // namespace

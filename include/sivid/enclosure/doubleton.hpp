@@ -2,6 +2,7 @@
 #ifndef SIVID_ENCLOSURE_DOUBLETON_HPP
 #define SIVID_ENCLOSURE_DOUBLETON_HPP
 
+#include <sivid/enclosure/failure.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/space/matrix.hpp>
 #include <sivid/space/orthogonal_frame.hpp>
@@ -23,6 +24,7 @@ struct ensemble {
     basic_box<I> parameters;
     std::vector<double> parameter_centre;
     basic_box<I> deviation; ///< \f$ r_0 \f$: states first, then parameters
+    bool wide = false;      ///< a side is wider than the rounding of a decimal
 
     ensemble(basic_box<I> const& initial, basic_box<I> p)
         : parameters(std::move(p)),
@@ -33,6 +35,12 @@ struct ensemble {
         auto const q = subtract(parameters, parameter_centre);
         for (std::size_t i = 0; i < n; ++i) deviation[i] = x[i];
         for (std::size_t j = 0; j < q.size(); ++j) deviation[n + j] = q[j];
+        auto const look = [this](I const& side) {
+            using traits = interval_traits<I>;
+            wide = wide || traits::rad(side) > 1e-13 * traits::mag(side);
+        };
+        for (I const& side : initial) look(side);
+        for (I const& side : parameters) look(side);
     }
 };
 
@@ -137,6 +145,18 @@ private:
         remainder = add(remainder, product(inverse, shift));
     }
 };
+
+/// Completes a failure by what its state spans over the ensemble, what the set has lost besides,
+/// and what is likely to help.
+template <class I>
+void complete(enclosure_failure& why, doubleton<I> const& set, ensemble<I> const& e) {
+    using traits = interval_traits<I>;
+    why.time = set.time;
+    why.until = std::max(why.until, set.time);
+    why.spread = traits::rad(product(set.shape, e.deviation)[why.component]);
+    why.lost = traits::rad(product(set.axes, set.remainder)[why.component]);
+    why.help = advise(why.reason, e.wide, why.spread, why.lost);
+}
 
 } // namespace sivid
 

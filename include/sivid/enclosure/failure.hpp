@@ -2,9 +2,17 @@
 #ifndef SIVID_ENCLOSURE_FAILURE_HPP
 #define SIVID_ENCLOSURE_FAILURE_HPP
 
+#include <sivid/enclosure/options.hpp>
+#include <sivid/model/operation.hpp>
+
+#include <array>
+#include <charconv>
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sivid {
 
@@ -16,11 +24,23 @@ enum class failure_reason {
     step_limit,   ///< the allowed number of steps is used up
     not_finite,   ///< the enclosure became unbounded
     /// the stages of an implicit method could not be proved, however short the step
-    unsolved_stages
+    unsolved_stages,
+    /// a single trajectory grows beyond all bounds, as far as it could be followed; said by
+    /// `explain_failure` only
+    blow_up
 };
 
 /// What is most likely to help.
-enum class advice { smaller_box, higher_order, more_steps, check_model, shorter_steps };
+enum class advice {
+    smaller_box,
+    higher_order,
+    more_steps,
+    shorter_steps,
+    other_method, ///< an explicit one
+    other_set,    ///< one that keeps more of the dependence on the unknowns
+    parts_only,   ///< parts of the box go further, others do not
+    nothing       ///< most often since a single trajectory ends there itself
+};
 
 [[nodiscard]] constexpr std::string_view to_string(failure_reason r) {
     switch (r) {
@@ -36,6 +56,8 @@ enum class advice { smaller_box, higher_order, more_steps, check_model, shorter_
         return "the enclosure became unbounded";
     case failure_reason::unsolved_stages:
         return "the stages of the implicit method have no proven solution";
+    case failure_reason::blow_up:
+        return "a trajectory seems to grow without bound";
     }
     return "";
 }
@@ -44,29 +66,168 @@ enum class advice { smaller_box, higher_order, more_steps, check_model, shorter_
     case advice::smaller_box:
         return "split the box of parameters and initial states";
     case advice::higher_order:
-        return "use a higher order or a larger tolerance";
+        return "use a higher order or a smaller tolerance";
     case advice::more_steps:
         return "allow more steps";
-    case advice::check_model:
-        return "check the model's domain there";
     case advice::shorter_steps:
         return "allow shorter steps or use an explicit method";
+    case advice::other_method:
+        return "use an explicit method";
+    case advice::other_set:
+        return "use Taylor models, or a higher degree of them";
+    case advice::parts_only:
+        return "split the box: parts of it go further, others do not";
+    case advice::nothing:
+        return "nothing is known to help";
     }
     return "";
 }
+
+/// What is most likely to help, from what the state that stopped a set spans as a function of the
+/// unknowns, and what it has lost besides to truncation, rounding and wrapping. A point cannot be
+/// split; what is lost, another set may keep; what truly varies can only be split.
+/// `explain_failure` tries it.
+/// @param wide  parameters or initial states have a width
+[[nodiscard]] constexpr advice advise(failure_reason r, bool wide, double spread, double lost) {
+    switch (r) {
+    case failure_reason::step_limit:
+        return advice::more_steps;
+    case failure_reason::unsolved_stages:
+        return advice::shorter_steps;
+    case failure_reason::blow_up:
+        return advice::nothing;
+    case failure_reason::undefined:
+        return wide ? advice::smaller_box : advice::nothing;
+    case failure_reason::minimum_step:
+    case failure_reason::too_wide:
+    case failure_reason::not_finite:
+        break;
+    }
+    if (!wide) return advice::higher_order;
+    return lost <= spread ? advice::smaller_box : advice::other_set; // NaN counts as lost
+}
+
+/// A double in a message: six significant digits.
+[[nodiscard]] inline std::string short_text(double x) {
+    std::array<char, 32> text{};
+    auto const end =
+        std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::general, 6).ptr;
+    return {text.data(), end};
+}
+
+/// The same, never above x: what was proved up to x was proved up to that.
+[[nodiscard]] inline std::string short_text_down(double x) {
+    std::array<char, 32> text{};
+    for (int digits = 6;; ++digits) {
+        auto const end = std::to_chars(text.data(), text.data() + text.size(), x,
+                                       std::chars_format::general, digits)
+                             .ptr;
+        double value = 0;
+        std::from_chars(text.data(), end, value);
+        if (!(value > x) || digits >= 17) return {text.data(), end};
+    }
+}
+
+/// A function of a model that is not defined on all of its argument.
+struct domain_edge {
+    std::size_t state = 0;   ///< in whose rate it stands
+    bool derivative = false; ///< the rate is defined, a derivative of it is not
+    operation function = operation::div;
+    double lower = 0, upper = 0; ///< the argument; of a quotient: the denominator
+
+    [[nodiscard]] std::string text() const {
+        std::string const of =
+            function == operation::div ? "division by" : std::string(name(function)) + " of";
+        return of + " a value in [" + short_text(lower) + ", " + short_text(upper) + "]" +
+               (derivative ? ", in a derivative" : "");
+    }
+};
 
 /// A failure to enclose, as a value: what is proved up to `time` stays proved.
 struct enclosure_failure {
     failure_reason reason = failure_reason::minimum_step;
     double time = 0;           ///< the enclosure reaches this time [s]
-    std::size_t component = 0; ///< the state that stopped it
+    std::size_t component = 0; ///< the state that stopped it, or in whose rate the reason lies
     advice help = advice::smaller_box;
+    /// Where the last step that was tried was to end [s]; not after `time` if none was.
+    double until = -std::numeric_limits<double>::infinity();
+    /// Half-widths of the state at `time`: as a function of the unknowns, and what was lost
+    /// besides.
+    double spread = 0;
+    double lost = 0;
+    std::optional<domain_edge> edge = std::nullopt; ///< what is not defined, if that is the reason
+
+    /// Notes an edge, and its state.
+    void note(std::optional<domain_edge> const& found) {
+        edge = found;
+        if (edge) component = edge->state;
+    }
 
     /// One sentence for a user.
     [[nodiscard]] std::string message(std::string_view state) const {
-        return "enclosure stopped at t = " + std::to_string(time) + " s (state " +
-               std::string(state) + "): " + std::string(to_string(reason)) + "; " +
-               std::string(to_string(help));
+        return "enclosure stopped at t = " + short_text_down(time) + " s (state " +
+               std::string(state) +
+               (until > time ? ", last step tried of " + short_text(until - time) + " s" : "") +
+               "): " + std::string(to_string(reason)) + (edge ? " (" + edge->text() + ")" : "") +
+               "; " + std::string(to_string(help));
+    }
+};
+
+/// How far a remedy was seen to carry the enclosure.
+struct remedy_trial {
+    advice remedy = advice::smaller_box;
+    double share = 1; ///< width of the parts that were tried, of the box's
+    enclosure_options options;
+    double reached = 0; ///< [s]; of parts by the one that is hardest, as far as halving finds it
+    bool further = false;
+};
+
+/// A failure, and what the trials showed.
+struct advised_failure {
+    enclosure_failure failure; ///< its help is that of the trial that reached furthest
+    double end = 0;            ///< the time that was asked for
+    /// Reached by single trajectories with the strongest options: from the middle of the box, and
+    /// from the two corners that move `failure.component` most; of a point the first alone.
+    std::vector<double> members;
+    std::vector<remedy_trial> trials;
+
+    /// One sentence as by the failure itself, and what each trial reached.
+    [[nodiscard]] std::string message(std::string_view state) const {
+        std::string text = failure.message(state);
+        std::string tried;
+        auto const to = [this](double t) {
+            return t >= end ? std::string("the end") : "t = " + short_text_down(t) + " s";
+        };
+        auto const add = [&tried](std::string const& what) {
+            tried += (tried.empty() ? "" : "; ") + what;
+        };
+        for (std::size_t k = 0; k < members.size(); ++k) {
+            add((k == 0 ? "a single trajectory from the middle gets to " : "from a corner to ") +
+                to(members[k]));
+        }
+        for (auto const& t : trials) add(what(t) + " to " + to(t.reached));
+        return tried.empty() ? text : text + ". Tried: " + tried;
+    }
+
+private:
+    [[nodiscard]] static std::string what(remedy_trial const& t) {
+        auto const& o = t.options;
+        switch (t.remedy) {
+        case advice::higher_order:
+            return (o.method ? o.method->name : "order " + std::to_string(o.order)) +
+                   " with tolerance " + short_text(o.tolerance) + " and steps down to " +
+                   short_text(o.minimum_step) + " s";
+        case advice::shorter_steps:
+            return "steps down to " + short_text(o.minimum_step) + " s";
+        case advice::more_steps:
+            return std::to_string(o.maximum_steps) + " steps";
+        case advice::other_method:
+            return o.method->name;
+        case advice::other_set:
+            return "the other set";
+        default:
+            return "parts 1/" + short_text(1 / t.share) + " as wide";
+        }
     }
 };
 

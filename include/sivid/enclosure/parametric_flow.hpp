@@ -94,18 +94,27 @@ void parametric_flow<N, D, C>::expand(std::size_t order, std::size_t flow_order)
     stale_ = false;
 }
 
-/// Step length from the last coefficients; a preference, no proof rests on it.
+/// The step length at which a coefficient reaches what is allowed, and its state.
 template <std::size_t N, std::size_t D, class C>
-double parametric_flow<N, D, C>::propose(std::size_t lane, double rest) const {
-    double h = std::min(options_.maximum_step, rest);
+std::pair<double, std::size_t> parametric_flow<N, D, C>::estimate(std::size_t lane) const {
+    std::pair<double, std::size_t> least{infinity, 0};
     for (std::size_t k = std::max<std::size_t>(order_, 2) - 1; k <= order_; ++k) {
         for (std::size_t i = 0; i < set_.centre.size(); ++i) {
             double const c = side_by_side::get(centre_.state(i, k).norm(), lane);
             if (!(c > 0) || !std::isfinite(c)) continue;
-            h = std::min(h, lanes_[lane].learned * std::pow(side_by_side::get(allowed(i), lane) / c,
-                                                            1.0 / static_cast<double>(k)));
+            double const h =
+                std::pow(side_by_side::get(allowed(i), lane) / c, 1.0 / static_cast<double>(k));
+            if (h < least.first) least = {h, i};
         }
     }
+    return least;
+}
+
+/// Step length from the last coefficients; a preference, no proof rests on it.
+template <std::size_t N, std::size_t D, class C>
+double parametric_flow<N, D, C>::propose(std::size_t lane, double rest) const {
+    double const h =
+        std::min({options_.maximum_step, rest, lanes_[lane].learned * estimate(lane).first});
     // A little longer rather than once more: the length aims at a tenth of what is allowed.
     double const longer = h * std::pow(4.0, 1.0 / static_cast<double>(order_ + 1));
     if (rest <= std::min(longer, options_.maximum_step)) return rest;
@@ -148,7 +157,6 @@ typename parametric_flow<N, D, C>::mask parametric_flow<N, D, C>::useful(mask la
             why.reason = std::isfinite(side_by_side::get(lost + spread, l))
                              ? failure_reason::too_wide
                              : failure_reason::not_finite;
-            why.help = advice::smaller_box;
             fail(l, why);
             lanes = lanes & !side_by_side::only(l);
         }
@@ -161,8 +169,37 @@ void parametric_flow<N, D, C>::reject(mask lanes, failure_reason reason, C const
     for (std::size_t l = 0; l < width; ++l) {
         if (!side_by_side::test(lanes, l)) continue;
         lanes_[l].why.reason = reason;
-        lanes_[l].why.help = advice::smaller_box;
         lanes_[l].next *= side_by_side::get(shorten, l);
+    }
+}
+
+template <std::size_t N, std::size_t D, class C>
+template <class Entry>
+std::optional<domain_edge> parametric_flow<N, D, C>::edge(std::size_t lane, Entry const& times,
+                                                          std::vector<Entry> const& x,
+                                                          std::vector<Entry> const& p) const {
+    return find_domain_edge(
+        *flow_, set_.time, times, x, p,
+        [lane](mask const& m) { return side_by_side::test(m, lane); },
+        [lane](Entry const& a) {
+            auto const b = rough_bounds(a);
+            return std::pair{side_by_side::get(b.lower, lane), side_by_side::get(b.upper, lane)};
+        });
+}
+
+template <std::size_t N, std::size_t D, class C>
+void parametric_flow<N, D, C>::note_steepest(mask lanes, square const& m) {
+    auto const n = flow_->states();
+    for (std::size_t l = 0; l < width; ++l) {
+        if (!side_by_side::test(lanes, l)) continue;
+        double most = -1;
+        for (std::size_t i = 0; i < n; ++i) {
+            double row = 0;
+            for (std::size_t c = 0; c < n; ++c) row += side_by_side::get(m[i * n + c], l);
+            if (row <= most) continue;
+            most = std::isfinite(row) ? row : infinity;
+            lanes_[l].why.component = i;
+        }
     }
 }
 
@@ -174,7 +211,6 @@ typename parametric_flow<N, D, C>::mask parametric_flow<N, D, C>::advance(C cons
         if (lanes_[l].attempts == 0 && lanes_[l].steps >= options_.maximum_steps) {
             enclosure_failure why;
             why.reason = failure_reason::step_limit;
-            why.help = advice::more_steps;
             fail(l, why);
         }
     }
@@ -202,7 +238,7 @@ typename parametric_flow<N, D, C>::mask parametric_flow<N, D, C>::advance(C cons
         if (!side_by_side::test(undefined, l)) continue;
         enclosure_failure why;
         why.reason = failure_reason::undefined;
-        why.help = advice::smaller_box;
+        why.note(edge(l, column_entry::constant(set_.time), around_, column_parameters_));
         fail(l, why);
     }
     trying = trying & !undefined;
@@ -218,15 +254,23 @@ typename parametric_flow<N, D, C>::mask parametric_flow<N, D, C>::advance(C cons
             lane.free = lane.next < 0.5 * rest;
             lane.why = enclosure_failure{};
             lane.why.reason = failure_reason::minimum_step;
-            lane.why.help = advice::smaller_box;
         }
         double const target = lane.next >= rest ? end : from + lane.next;
         if (++lane.attempts > 60 || !(target > from) ||
             (lane.next < options_.minimum_step && target < end)) {
+            if (lane.why.reason == failure_reason::undefined) {
+                C const half = (C(lane.why.until) - set_.time) * 0.5;
+                lane.why.note(
+                    edge(l, tube_entry::constant(set_.time) + tube_entry::variable(N, half, half),
+                         tube_box_, tube_parameters_));
+            }
+            if (lane.attempts == 1)
+                lane.why.component = estimate(l).second; // too short to be tried
             fail(l, lane.why);
             trying = trying & !side_by_side::only(l);
             continue;
         }
+        lane.why.until = target;
         side_by_side::put(to, l, target);
     }
     if (!side_by_side::any(trying)) return mask{};

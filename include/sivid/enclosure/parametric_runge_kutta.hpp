@@ -48,14 +48,7 @@ void parametric_runge_kutta<N, D>::begin(double time, box const& initial, box co
 
 template <std::size_t N, std::size_t D>
 double parametric_runge_kutta<N, D>::propose(double rest) const {
-    double h = std::min(options_.maximum_step, rest);
-    for (std::size_t k = std::max<std::size_t>(order_, 2) - 1; k <= order_; ++k) {
-        for (std::size_t i = 0; i < set_.centre.size(); ++i) {
-            double const c = centre_.state(i, k).norm();
-            if (!(c > 0) || !std::isfinite(c)) continue;
-            h = std::min(h, learned_ * std::pow(allowed(i) / c, 1.0 / static_cast<double>(k)));
-        }
-    }
+    double const h = std::min({options_.maximum_step, rest, learned_ * estimate().first});
     if (h >= rest) return rest;
     return h > 0.5 * rest ? std::max(0.5 * rest, std::min(h, options_.minimum_step)) : h;
 }
@@ -112,7 +105,6 @@ bool parametric_runge_kutta<N, D>::useful(enclosure_failure& why) const {
         why.component = i;
         why.reason =
             std::isfinite(lost + spread) ? failure_reason::too_wide : failure_reason::not_finite;
-        why.help = advice::smaller_box;
         return false;
     }
     return true;
@@ -127,7 +119,6 @@ bool parametric_runge_kutta<N, D>::step(double limit) {
     enclosure_failure why;
     if (steps_ >= options_.maximum_steps) {
         why.reason = failure_reason::step_limit;
-        why.help = advice::more_steps;
         return fail(why);
     }
     if (!useful(why)) return fail(why);
@@ -142,7 +133,7 @@ bool parametric_runge_kutta<N, D>::step(double limit) {
     derivative_.expand_with_variations(from, column_entry::constant(from), around, flow_order_ - 1);
     if (centre_.undefined() || derivative_.undefined()) {
         why.reason = failure_reason::undefined;
-        why.help = advice::smaller_box;
+        why.note(edge(column_entry::constant(from), around));
         return fail(why);
     }
     double h = propose(rest);
@@ -150,6 +141,7 @@ bool parametric_runge_kutta<N, D>::step(double limit) {
     for (int attempt = 0; attempt < 40; ++attempt) {
         double const to = h >= rest ? limit : from + h;
         if (!(to > from) || (h < options_.minimum_step && to < limit)) break;
+        why.until = to;
         double shorten = 0.5;
         if (try_step(to, shorten, why)) {
             ++steps_;
@@ -161,6 +153,11 @@ bool parametric_runge_kutta<N, D>::step(double limit) {
             return true;
         }
         h *= shorten;
+    }
+    if (!(why.until > from)) why.component = estimate().second; // too short to be tried
+    if (why.reason == failure_reason::undefined) {
+        double const half = 0.5 * (why.until - from);
+        why.note(edge(tube_entry::constant(from) + tube_entry::variable(N, half, half), tube_box_));
     }
     return fail(why);
 }
@@ -209,7 +206,6 @@ bool parametric_runge_kutta<N, D>::try_step(double to, double& shorten, enclosur
     std::size_t const K = order_;
     std::size_t const L = flow_order_;
     why.reason = failure_reason::minimum_step;
-    why.help = advice::smaller_box;
     if (centre_.kinked() || derivative_.kinked()) return false;
     auto const s = tube_entry::variable(N, 0.5 * h, 0.5 * h);
     auto const times = tube_entry::constant(from) + s;
@@ -258,6 +254,7 @@ bool parametric_runge_kutta<N, D>::try_step(double to, double& shorten, enclosur
             return false;
         }
         tube_.expand_with_variations(from, times, tube_box_, L);
+        if (tube_.undefined()) why.reason = failure_reason::undefined;
         if (tube_.undefined() || tube_.kinked()) return false;
         Eigen::MatrixXd last = Eigen::MatrixXd::Zero(states, states);
         for (std::size_t i = 0; i < n; ++i) {
@@ -268,15 +265,22 @@ bool parametric_runge_kutta<N, D>::try_step(double to, double& shorten, enclosur
             }
         }
         Eigen::MatrixXd w;
-        if (!bound_flow(h, last, w)) return false;
+        if (!bound_flow(h, last, w)) {
+            why.component = steepest(h, last);
+            return false;
+        }
         auto const one = Eigen::MatrixXd::Identity(states, states);
         Eigen::VectorXd const spread = (carried + last * ((one + w) * reach)) * up;
         bool proved = true;
+        double worst = 0;
         for (std::size_t i = 0; i < n; ++i) {
             double const image = (truncation[i] + spread[static_cast<Eigen::Index>(i)]) * up;
             if (image < room[i]) continue;
             proved = false;
-            why.component = i;
+            if (!(image / room[i] <= worst)) {
+                worst = image / room[i];
+                why.component = i;
+            }
             room[i] = 1.3 * image;
         }
         if (!std::all_of(room.begin(), room.end(), [](double x) { return std::isfinite(x); })) {
@@ -286,7 +290,7 @@ bool parametric_runge_kutta<N, D>::try_step(double to, double& shorten, enclosur
         if (!apply_method(length)) {
             if (implicit_value_) {
                 why.reason = failure_reason::unsolved_stages;
-                why.help = advice::shorter_steps;
+                why.component = steepest(h, last);
             }
             return false;
         }

@@ -2,6 +2,7 @@
 #ifndef SIVID_ENCLOSURE_PARAMETRIC_SET_HPP
 #define SIVID_ENCLOSURE_PARAMETRIC_SET_HPP
 
+#include <sivid/enclosure/failure.hpp>
 #include <sivid/number/taylor_model_functions.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/space/common_frame.hpp>
@@ -163,6 +164,19 @@ private:
         return result;
     }
 };
+
+/// Completes a failure by what its state spans as a function of the unknowns, what the set has lost
+/// besides, and what is likely to help.
+template <std::size_t N, std::size_t D, class C>
+void complete(enclosure_failure& why, parametric_set<N, D, C> const& set, std::size_t lane,
+              normalised_unknowns const& unknowns) {
+    using side_by_side = lane_traits<C>;
+    why.time = side_by_side::get(set.time, lane);
+    why.until = std::max(why.until, why.time);
+    why.spread = side_by_side::get(set.centre[why.component].spread(), lane);
+    why.lost = side_by_side::get(set.reach[why.component], lane);
+    why.help = advise(why.reason, unknowns.variables > 0, why.spread, why.lost);
+}
 
 /// One of the families that lie side by side.
 template <std::size_t N, std::size_t D, class C>

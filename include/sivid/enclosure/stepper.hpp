@@ -6,21 +6,28 @@
 
 namespace sivid {
 
-/// Step length from the growth of the centre's coefficients; a preference, no proof rests on it.
+/// The step length at which a coefficient of the centre reaches what is allowed, and its state.
 template <class I>
-double stepper<I>::propose(double limit, double from, basic_box<I> const& x) const {
-    double const rest = limit - from;
-    double h = std::min(options_.maximum_step, rest);
+std::pair<double, std::size_t> stepper<I>::estimate(basic_box<I> const& x) const {
+    std::pair<double, std::size_t> least{HUGE_VAL, 0};
     std::size_t const top = options_.method ? options_.method->order + 1 : options_.order;
     for (std::size_t k = top > 1 ? top - 1 : 1; k <= top; ++k) {
         for (std::size_t i = 0; i < x.size(); ++i) {
             double const c = traits::mag(centre_.state(i, k));
             if (!(c > 0) || !std::isfinite(c)) continue;
             // The remainder's half-width is a fraction of the coefficient times h^k.
-            double const estimate = std::pow(allowed(x, i) / c, 1.0 / static_cast<double>(k));
-            h = std::min(h, learned_ * estimate);
+            double const h = std::pow(allowed(x, i) / c, 1.0 / static_cast<double>(k));
+            if (h < least.first) least = {h, i};
         }
     }
+    return least;
+}
+
+/// Step length from the growth of the centre's coefficients; a preference, no proof rests on it.
+template <class I>
+double stepper<I>::propose(double limit, double from, basic_box<I> const& x) const {
+    double const rest = limit - from;
+    double const h = std::min({options_.maximum_step, rest, learned_ * estimate(x).first});
     if (h >= rest) return rest;
     return h > 0.5 * rest ? 0.5 * rest : h; // no tiny last step
 }
@@ -56,20 +63,21 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
     centre_.expand(from, begin, point_box<I>(set.centre),
                    options_.method ? options_.method->order + 1 : options_.order);
     if (centre_.undefined()) {
-        why.reason = failure_reason::undefined;
-        why.help = advice::check_model;
-        return std::nullopt;
+        return refuse(why, failure_reason::undefined, set, from, point_box<I>(set.centre));
     }
     double h = propose(limit, from, x);
     double const proposed = h;
     bool smooth = true;
     bool undefined = false;
     bool unsolved = false;
+    basic_box<I> tried = x; // where a function was not defined
+    double until = from;
     std::size_t start_order = 0;
     for (int attempt = 0; attempt < 60; ++attempt) {
         double const to = h >= limit - from ? limit : from + h;
         if (!(to > from)) break;
         if (h < options_.minimum_step && to < limit) break;
+        until = to;
         tube_step<I> step;
         step.from = from;
         step.to = to;
@@ -85,11 +93,7 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
             start_order = step.variational_order;
             start_.expand_with_variations(from, begin, x, start_order);
         }
-        if (start_.undefined()) {
-            why.reason = failure_reason::undefined;
-            why.help = advice::smaller_box;
-            return std::nullopt;
-        }
+        if (start_.undefined()) return refuse(why, failure_reason::undefined, set, from, x);
         I const length = span(from, to);
         I const range = traits::bounds(0.0, traits::upper(length));
         I const times = traits::bounds(from, to);
@@ -105,7 +109,10 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
         for (int round = 0; round < 4 && !proved; ++round) {
             tube_.expand(from, times, b, step.order);
             undefined = tube_.undefined();
-            if (undefined) break;
+            if (undefined) {
+                tried = b;
+                break;
+            }
             if (smooth && step.order > 1 && tube_.kinked()) {
                 became_rough = true;
                 break;
@@ -114,15 +121,21 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
             tube_lagrange_ = coefficients(tube_, q);
             auto const image = sum(start_, range, q, tube_lagrange_);
             proved = true;
+            double worst = 0;
             for (std::size_t i = 0; i < n; ++i) {
                 if (!(traits::mag(image[i]) < std::numeric_limits<double>::max())) {
                     proved = false;
+                    why.component = i;
                     round = 4;
                     break;
                 }
                 if (!traits::subset(image[i], b[i])) {
                     proved = false;
-                    why.component = i;
+                    double const excess = traits::width(image[i]) / traits::width(b[i]);
+                    if (excess > worst) {
+                        worst = excess;
+                        why.component = i;
+                    }
                     double const room = 0.3 * traits::width(image[i]);
                     b[i] = traits::hull(b[i], traits::add(image[i], traits::bounds(-room, room)));
                 }
@@ -166,6 +179,7 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
             formula_ = apply_method(from, set.centre, length);
             unsolved = !formula_;
             if (unsolved) {
+                why.component = steepest_rate();
                 h *= reject_factor;
                 continue;
             }
@@ -175,12 +189,14 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
         undefined = tube_.undefined();
         if (undefined || (smooth && q > 1 && tube_.kinked())) {
             smooth = undefined;
+            if (undefined) tried = b;
             if (undefined) h *= reject_factor;
             start_order = 0;
             continue;
         }
         auto variation = bound_variation(*flow_, tube_, traits::upper(length));
         if (!variation) {
+            why.component = steepest_rate();
             h *= reject_factor;
             continue;
         }
@@ -199,11 +215,39 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
         }
         return step;
     }
-    why.reason = undefined  ? failure_reason::undefined
-                 : unsolved ? failure_reason::unsolved_stages
-                            : failure_reason::minimum_step;
-    why.help = unsolved ? advice::shorter_steps : advice::smaller_box;
+    if (!(until > from)) why.component = estimate(x).second; // too short to be tried
+    return refuse(why,
+                  undefined  ? failure_reason::undefined
+                  : unsolved ? failure_reason::unsolved_stages
+                             : failure_reason::minimum_step,
+                  set, until, tried);
+}
+
+/// Says why, in which state, and what is likely to help.
+template <class I>
+std::nullopt_t stepper<I>::refuse(enclosure_failure& why, failure_reason reason,
+                                  doubleton<I> const& set, double until,
+                                  basic_box<I> const& tried) const {
+    why.reason = reason;
+    why.until = until;
+    if (reason == failure_reason::undefined) {
+        why.note(find_domain_edge<I>(*flow_, set.time, traits::bounds(set.time, until), tried,
+                                     ensemble_->parameters));
+    }
+    complete(why, set, *ensemble_);
     return std::nullopt;
+}
+
+/// The state whose rate has the steepest slopes on the set.
+template <class I>
+std::size_t stepper<I>::steepest_rate() const {
+    std::vector<double> slope(flow_->states(), 0.0);
+    for (auto const& e : flow_->entries()) {
+        if (e.column >= slope.size()) continue;
+        double const size = traits::mag(start_.jacobian(e));
+        slope[e.row] += size >= 0 ? size : HUGE_VAL; // NaN: nothing is known
+    }
+    return static_cast<std::size_t>(std::max_element(slope.begin(), slope.end()) - slope.begin());
 }
 
 template <class I>

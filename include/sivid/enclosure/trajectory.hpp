@@ -53,17 +53,10 @@ public:
         if (!(limit > set_.time)) throw std::invalid_argument("trajectory: a step must go forward");
         enclosure_failure why;
         if (steps_ >= options_.maximum_steps) {
-            why.time = set_.time;
             why.reason = failure_reason::step_limit;
-            why.help = advice::more_steps;
-            failure_ = why;
-            return false;
+            return fail(why);
         }
-        if (!useful(set_.hull, why)) {
-            why.time = set_.time;
-            failure_ = why;
-            return false;
-        }
+        if (!useful(set_.hull, why)) return fail(why);
         auto next = stepper_.prove(set_, std::min(limit, flow_->next_knot(set_.time)), why);
         if (!next) {
             failure_ = why;
@@ -89,13 +82,17 @@ public:
     [[nodiscard]] flow const& equations() const { return *flow_; }
 
 private:
+    [[nodiscard]] bool fail(enclosure_failure& why) {
+        complete(why, set_, *ensemble_);
+        failure_ = why;
+        return false;
+    }
     [[nodiscard]] bool useful(basic_box<I> const& x, enclosure_failure& why) const {
         for (std::size_t i = 0; i < x.size(); ++i) {
             double const limit = options_.widest * flow_->model().about.states[i].limit;
             if (traits::width(x[i]) <= limit) continue;
             why.component = i;
             why.reason = failure_reason::too_wide;
-            why.help = advice::smaller_box;
             return false;
         }
         return true;

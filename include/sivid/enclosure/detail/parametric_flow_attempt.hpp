@@ -191,6 +191,9 @@ parametric_flow<N, D, C>::attempt(mask trying, C const& to, std::size_t order,
             mask const bounded = bound_flow(base, last, trying & !jumps, w);
             mask const unbounded = trying & !jumps & !bounded;
             if (side_by_side::any(unbounded)) {
+                square growth = base;
+                for (std::size_t k = 0; k < n * n; ++k) growth[k] += last[k];
+                note_steepest(unbounded, growth);
                 reject(unbounded, failure_reason::minimum_step, half);
                 trying = trying & !unbounded;
             }
@@ -205,13 +208,17 @@ parametric_flow<N, D, C>::attempt(mask trying, C const& to, std::size_t order,
             }
         }
         proved = trying;
+        std::array<double, width> worst{};
         for (std::size_t i = 0; i < n; ++i) {
             C const image = (truncation_[i] + spread[i]) * up;
             auto const inside = image < room_[i];
             proved = proved & inside;
             if (side_by_side::all(inside | !trying)) continue;
             for (std::size_t l = 0; l < width; ++l) {
-                if (!side_by_side::test(inside, l)) lanes_[l].why.component = i;
+                double const excess = side_by_side::get(image, l) / side_by_side::get(room_[i], l);
+                if (side_by_side::test(inside, l) || excess <= worst[l]) continue;
+                worst[l] = std::isfinite(excess) ? excess : infinity;
+                lanes_[l].why.component = i;
             }
         }
         mask const open = trying & !proved;

@@ -2,6 +2,7 @@
 #ifndef SIVID_ENCLOSURE_DETAIL_PARAMETRIC_FLOW_CLASS_HPP
 #define SIVID_ENCLOSURE_DETAIL_PARAMETRIC_FLOW_CLASS_HPP
 
+#include <sivid/enclosure/domain_edge.hpp>
 #include <sivid/enclosure/expansion.hpp>
 #include <sivid/enclosure/failure.hpp>
 #include <sivid/enclosure/options.hpp>
@@ -31,8 +32,8 @@ namespace sivid {
 ///   centre  \f$ x(s; P) \in \sum_{k \le K} s^k x_k + s^{K+1} x_{K+1}(b) \f$
 ///   flow    \f$ V(s) \in \sum_{k<L} s^k V_k + s^L J_L(b) (1 + [-W, W]) \f$
 /// and the tube is proved when both images lie strictly inside it. Inputs with error bounds: the
-/// step is that of the recorded inputs, and what the others may add (see `perturbed_step`) goes into
-/// the generators.
+/// step is that of the recorded inputs, and what the others may add (see `perturbed_step`) goes
+/// into the generators.
 ///
 /// With lanes, W families advance together, each at its own time and with its own step. No lane's
 /// proof rests on another; shared are orders, the choice of generators to keep, and which of
@@ -129,9 +130,9 @@ public:
         for (std::size_t i = 0; i < result.size(); ++i) result[i] = range(lane_of(swept_[i], lane));
         return result;
     }
-    /// The tubes of the last proved steps themselves: for each q and \f$ \tau \in [-1, 1] \f$, the last
-    /// variable, the states at \f$ t + h (1 + \tau) / 2 \f$, where h is the step's length times 1 + 4
-    /// units.
+    /// The tubes of the last proved steps themselves: for each q and \f$ \tau \in [-1, 1] \f$, the
+    /// last variable, the states at \f$ t + h (1 + \tau) / 2 \f$, where h is the step's length
+    /// times 1 + 4 units.
     [[nodiscard]] std::vector<tube_entry> const& swept_models() const { return swept_; }
 
 private:
@@ -161,6 +162,7 @@ private:
                (p.spread() + set_.reach[i]) * options_.relative_tolerance;
     }
     void expand(std::size_t order, std::size_t flow_order);
+    [[nodiscard]] std::pair<double, std::size_t> estimate(std::size_t lane) const;
     [[nodiscard]] double propose(std::size_t lane, double rest) const;
     void adapt_order(mask moved, C const& h, bool clamped);
     /// Bounds |V - 1| on the step; returns the lanes where it is short enough for that.
@@ -178,10 +180,17 @@ private:
     [[nodiscard]] mask perturb(mask moved, C const& to);
     void reject(mask lanes, failure_reason reason, C const& shorten);
     void fail(std::size_t lane, enclosure_failure why) {
-        why.time = time(lane);
+        complete(why, set_, lane, *lanes_[lane].unknowns);
         lanes_[lane].failure = why;
         running_ = running_ & !side_by_side::only(lane);
     }
+    /// What is not defined for some states of a lane.
+    template <class Entry>
+    [[nodiscard]] std::optional<domain_edge> edge(std::size_t lane, Entry const& times,
+                                                  std::vector<Entry> const& x,
+                                                  std::vector<Entry> const& p) const;
+    /// Notes for the lanes the state whose row of a matrix is largest.
+    void note_steepest(mask lanes, square const& m);
 
     flow const* flow_;
     enclosure_options options_;

@@ -2,6 +2,7 @@
 #ifndef SIVID_ENCLOSURE_DETAIL_PARAMETRIC_RUNGE_KUTTA_CLASS_HPP
 #define SIVID_ENCLOSURE_DETAIL_PARAMETRIC_RUNGE_KUTTA_CLASS_HPP
 
+#include <sivid/enclosure/domain_edge.hpp>
 #include <sivid/enclosure/expansion.hpp>
 #include <sivid/enclosure/failure.hpp>
 #include <sivid/enclosure/implicit_runge_kutta.hpp>
@@ -110,7 +111,26 @@ private:
         }
         return models;
     }
+    /// The step length at which a coefficient reaches what is allowed, and its state.
+    [[nodiscard]] std::pair<double, std::size_t> estimate() const {
+        std::pair<double, std::size_t> least{HUGE_VAL, 0};
+        for (std::size_t k = std::max<std::size_t>(order_, 2) - 1; k <= order_; ++k) {
+            for (std::size_t i = 0; i < set_.centre.size(); ++i) {
+                double const c = centre_.state(i, k).norm();
+                if (!(c > 0) || !std::isfinite(c)) continue;
+                double const h = std::pow(allowed(i) / c, 1.0 / static_cast<double>(k));
+                if (h < least.first) least = {h, i};
+            }
+        }
+        return least;
+    }
     [[nodiscard]] double propose(double rest) const;
+    /// The state whose row of the derivative of the step grows most.
+    [[nodiscard]] std::size_t steepest(double h, Eigen::MatrixXd const& last) const {
+        Eigen::Index row = 0;
+        (sizes(h, 1) + last).rowwise().sum().template maxCoeff<Eigen::PropagateNaN>(&row);
+        return static_cast<std::size_t>(row);
+    }
     /// \f$ \sum_{from \le k < L} h^k \|V_k\| \f$, componentwise, rounded up.
     [[nodiscard]] Eigen::MatrixXd sizes(double h, std::size_t from) const;
     /// Bounds |V - 1| on the step; false when h is too long for that.
@@ -122,9 +142,20 @@ private:
     void accept(double to, interval const& h, Eigen::MatrixXd const& w);
     [[nodiscard]] bool useful(enclosure_failure& why) const;
     [[nodiscard]] bool fail(enclosure_failure why) {
-        why.time = set_.time;
+        complete(why, set_, 0, *unknowns_);
         failure_ = why;
         return false;
+    }
+    /// What is not defined for some states.
+    template <std::size_t M, std::size_t E>
+    [[nodiscard]] std::optional<domain_edge> edge(taylor_model<M, E> const& times,
+                                                  std::vector<taylor_model<M, E>> const& x) const {
+        return find_domain_edge(
+            *flow_, set_.time, times, x, parameter_models<M, E>(), [](bool flag) { return flag; },
+            [](taylor_model<M, E> const& a) {
+                auto const b = rough_bounds(a);
+                return std::pair{b.lower, b.upper};
+            });
     }
 
     flow const* flow_;

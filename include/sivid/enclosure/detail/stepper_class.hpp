@@ -3,6 +3,7 @@
 #define SIVID_ENCLOSURE_DETAIL_STEPPER_CLASS_HPP
 
 #include <sivid/enclosure/dissipative_step.hpp>
+#include <sivid/enclosure/domain_edge.hpp>
 #include <sivid/enclosure/doubleton.hpp>
 #include <sivid/enclosure/expansion.hpp>
 #include <sivid/enclosure/failure.hpp>
@@ -139,6 +140,11 @@ private:
         return traits::rad(c) * std::pow(h, static_cast<double>(k));
     }
 
+    [[nodiscard]] std::nullopt_t refuse(enclosure_failure& why, failure_reason reason,
+                                        doubleton<I> const& set, double until,
+                                        basic_box<I> const& tried) const;
+    [[nodiscard]] std::size_t steepest_rate() const;
+    [[nodiscard]] std::pair<double, std::size_t> estimate(basic_box<I> const& x) const;
     [[nodiscard]] double propose(double limit, double from, basic_box<I> const& x) const;
     [[nodiscard]] std::size_t choose_order(double h, basic_box<I> const& x) const;
     void load(tube_step<I> const& step);
@@ -168,7 +174,7 @@ private:
     enclosure_options options_;
     expansion<I> centre_, start_, tube_;
     std::optional<perturbed_step<I>> perturbed_; ///< where inputs are uncertain
-    std::optional<runge_kutta<I>> method_; ///< at most one of the two
+    std::optional<runge_kutta<I>> method_;       ///< at most one of the two
     std::optional<implicit_runge_kutta<I>> implicit_;
     std::optional<runge_kutta_formula<I>> formula_; ///< of the step that was proved last
     std::optional<dissipative_step<I>> long_;

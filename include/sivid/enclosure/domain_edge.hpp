@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_ENCLOSURE_DOMAIN_EDGE_HPP
+#define SIVID_ENCLOSURE_DOMAIN_EDGE_HPP
+
+#include <sivid/enclosure/expansion.hpp>
+#include <sivid/enclosure/failure.hpp>
+#include <sivid/enclosure/flow.hpp>
+#include <sivid/model/arithmetic.hpp>
+#include <sivid/model/rewrite.hpp>
+#include <sivid/space/box.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// The first function, in the order of the states and of evaluation, that is not defined on a set
+/// of states: in a rate, or else in a derivative of one.
+/// @tparam T      intervals or Taylor models: sees what a series in T sees
+/// @param start   selects the pieces of sampled inputs
+/// @param times   the times that belong to the states
+/// @param is_set  whether the flag of one value, or lane, is set
+/// @param bounds  (value) -> its lower and upper bound
+/// @cost  O(size of the graph); for messages
+template <class T, class Start, class States, class Parameters, class IsSet, class Bounds>
+[[nodiscard]] std::optional<domain_edge>
+find_domain_edge(flow const& f, Start const& start, T const& times, States const& x,
+                 Parameters const& parameters, IsSet const& is_set, Bounds const& bounds) {
+    using A = arithmetic_of<T>;
+    auto const& model = f.model();
+    auto const& g = model.g;
+    input_pieces<T> const inputs(f, start, times);
+    std::vector<T> value(g.size(), A::point(0.0));
+    std::vector<bool> leaves(g.size(), false); // its domain
+    for (std::size_t k = 0; k < g.size(); ++k) {
+        auto const& n = g[static_cast<node_id>(k)];
+        auto const index = static_cast<std::size_t>(n.index);
+        typename A::mask undefined{};
+        switch (n.op) {
+        case operation::literal:
+            value[k] = A::enclose(g.value(n));
+            break;
+        case operation::time:
+            value[k] = times;
+            break;
+        case operation::state:
+            value[k] = x[index];
+            break;
+        case operation::constant:
+            value[k] = parameters[index];
+            break;
+        case operation::input:
+            value[k] = inputs(index, 0);
+            break;
+        default:
+            value[k] = apply<A>(n.op, value[n.a], value[n.b], n.index, undefined);
+            leaves[k] = is_set(undefined);
+        }
+    }
+    for (bool const derivative : {false, true}) {
+        for (std::size_t i = 0; i < f.states(); ++i) {
+            std::vector<node_id> of{model.rate[i]};
+            if (derivative) {
+                for (auto const* d : {&model.rate_dx[i], &model.rate_dp[i]})
+                    of.insert(of.end(), d->begin(), d->end());
+            }
+            auto const needed = reachable(g, of);
+            for (std::size_t k = 0; k < g.size(); ++k) {
+                if (!needed[k] || !leaves[k]) continue;
+                auto const& n = g[static_cast<node_id>(k)];
+                auto const [lower, upper] = bounds(value[n.op == operation::div ? n.b : n.a]);
+                return domain_edge{i, derivative, n.op, lower, upper};
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+/// The same on a box.
+template <class I>
+[[nodiscard]] std::optional<domain_edge> find_domain_edge(flow const& f, double start,
+                                                          I const& times, basic_box<I> const& x,
+                                                          basic_box<I> const& parameters) {
+    using traits = interval_traits<I>;
+    return find_domain_edge(
+        f, start, times, x, parameters, [](bool flag) { return flag; },
+        [](I const& a) {
+            return std::pair{traits::lower(a), traits::upper(a)};
+        });
+}
+
+} // namespace sivid
+
+#endif
