@@ -73,9 +73,11 @@
 #include <sivid/model/unit.hpp>
 #include <sivid/enclosure/derivative_set.hpp>
 #include <sivid/enclosure/dissipative_step.hpp>
+#include <sivid/enclosure/domain_edge.hpp>
 #include <sivid/enclosure/doubleton.hpp>
 #include <sivid/enclosure/expansion.hpp>
 #include <sivid/enclosure/failure.hpp>
+#include <sivid/enclosure/failure_advice.hpp>
 #include <sivid/enclosure/flow.hpp>
 #include <sivid/enclosure/forward_sensitivity.hpp>
 #include <sivid/enclosure/implicit_runge_kutta.hpp>
