@@ -164,7 +164,7 @@ TEST_CASE("a text with a right digest and wrong contents is refused, not believe
     auto const text = some_checkpoint(problem, options);
     auto const body = text.substr(text.find('\n', text.find("sha256")) + 1);
     auto const sealed = [](std::string const& contents) {
-        return "sivid-checkpoint-1\nsha256 " + sha256(contents) + "\n" + contents;
+        return "sivid-checkpoint-2\nsha256 " + sha256(contents) + "\n" + contents;
     };
     CHECK(sealed(body) == text);
     support::draws d(5202);
@@ -215,9 +215,9 @@ TEST_CASE("checkpoints of other problems, options and versions are refused, with
     auto body = text.substr(text.find('\n', text.find("sha256")) + 1);
     body.replace(0, body.find('\n'), "version 0.0.9");
     CHECK_THROWS_WITH(
-        parse_checkpoint("sivid-checkpoint-1\nsha256 " + sha256(body) + "\n" + body, "f", digest),
+        parse_checkpoint("sivid-checkpoint-2\nsha256 " + sha256(body) + "\n" + body, "f", digest),
         ContainsSubstring("'0.0.9'") && ContainsSubstring("begin anew"));
-    CHECK_THROWS_WITH(parse_checkpoint("sivid-checkpoint-2\n", "f", digest),
+    CHECK_THROWS_WITH(parse_checkpoint("sivid-checkpoint-3\n", "f", digest),
                       ContainsSubstring("no checkpoint"));
     CHECK_THROWS_WITH(read_checkpoint(folder.path() / "none.txt", digest),
                       ContainsSubstring("none.txt") && ContainsSubstring("no such file"));

@@ -172,6 +172,25 @@ TEST_CASE("coefficients that are not finite leave nothing known") {
     }
 }
 
+TEST_CASE("what an unknown start spreads does not hide a remainder") {
+    draws d(6);
+    for (double const start : {0.0, 1.0, 100.0}) {
+        random_response r(d, 1, 0);
+        std::fill(r.known.coefficients.begin(), r.known.coefficients.end(), 0.0);
+        auto const& exponents = r.known.table->exponents;
+        for (std::size_t m = 0; m < exponents.size(); ++m) {
+            if (exponents[m] == std::vector<std::uint8_t>{1, 0, 0}) r.known.coefficients[m] = 0.1;
+            if (exponents[m] == std::vector<std::uint8_t>{0, 0, 1}) r.known.coefficients[m] = start;
+        }
+        r.known.radius = {0.3};
+        r.known.bounds = {between(-0.2, 0.2)};
+        auto part = r.prior;
+        auto const says = assess(r.known, part);
+        REQUIRE_FALSE(says.refuted);
+        REQUIRE(std::abs(says.sharpness - 0.75) < 1e-9);
+    }
+}
+
 TEST_CASE(
     "assess neither refutes nor removes a feasible parameter, with outliers and unknown starts") {
     draws d(4);

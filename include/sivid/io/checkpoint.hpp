@@ -18,7 +18,7 @@ namespace sivid {
 
 namespace io_detail {
 
-inline constexpr std::string_view checkpoint_format = "sivid-checkpoint-1";
+inline constexpr std::string_view checkpoint_format = "sivid-checkpoint-2";
 
 /// One letter a verdict, in the order of box_verdict.
 inline constexpr std::string_view verdict_letters = "ioup";
@@ -66,7 +66,7 @@ inline void put(checkpoint_lines& line, search_state const& s) {
     line("whole", s.whole);
     line("last_hull", s.last_hull);
     line("counters", s.pushed, s.tested, s.cost, s.batches, s.accuracy_reached ? 1 : 0,
-         s.measured_at, s.next_look);
+         s.measured_at, s.rested ? 1 : 0, s.next_look);
     line("numbers", s.waiting_volume, s.seconds);
     line("paved", s.paved.size());
     for (auto const& b : s.paved) {

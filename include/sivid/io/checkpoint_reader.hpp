@@ -154,6 +154,7 @@ inline search_state take_search(checkpoint_parser& in) {
     s.batches = in.count();
     s.accuracy_reached = in.count() != 0;
     s.measured_at = in.count();
+    s.rested = in.count() != 0;
     s.next_look = in.count();
     in.close();
     in.open("numbers");

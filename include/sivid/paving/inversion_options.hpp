@@ -29,8 +29,8 @@ struct inversion_options {
     double accuracy = 1e-3;
     /// `accuracy` is a fraction of the hull of all that is not proved outside, instead.
     bool accuracy_of_hull = false;
-    /// Stop when, since half as many boxes were tested, no side of that hull has shrunk by more
-    /// than this fraction (0: never).
+    /// Stop when no side of that hull has shrunk by more than this fraction while the boxes tested
+    /// doubled, twice in a row (0: never).
     double hull_gain = 0;
     /// Stop when the inner volume reaches this fraction of the outer one (1: never).
     double sufficient_ratio = 0.5;

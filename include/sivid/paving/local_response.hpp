@@ -213,11 +213,6 @@ struct response_verdict {
             result.sharpness = 1;
             continue;
         }
-        // A radius that is small against the measurement leaves only a thin undecided rim.
-        double const radius = known.shrinking_radius(y);
-        if (radius > 0.05 * rad(bound)) {
-            result.sharpness = std::max(result.sharpness, radius / spread);
-        }
         double const scale = 1 / std::max(rad(bound), 1e-300);
         linear_constraint row;
         row.gradient.resize(n);
@@ -228,6 +223,11 @@ struct response_verdict {
             if (is_parameter[v]) moved += std::abs(row.gradient[v]);
         }
         spoilt += moved > rad(bound) ? 1 : 0;
+        // A radius that is small against the measurement leaves only a thin undecided rim.
+        double const radius = known.shrinking_radius(y);
+        if (radius > 0.05 * rad(bound)) {
+            result.sharpness = std::max(result.sharpness, radius / (moved + local.rest[y]));
+        }
         row.target = traits::sub(bound, traits::add(traits::point(local.value[y]),
                                                     traits::bounds(-local.rest[y], local.rest[y])));
         open.push_back(std::move(row));

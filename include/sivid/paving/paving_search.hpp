@@ -139,6 +139,7 @@ public:
         s.whole = whole_;
         s.measured_at = measured_at_;
         s.last_hull = last_hull_;
+        s.rested = rested_;
         s.next_look = next_look_;
         s.seconds = seconds();
         return s;
@@ -166,6 +167,7 @@ private:
             whole_ = s.whole;
             measured_at_ = s.measured_at;
             last_hull_ = s.last_hull;
+            rested_ = s.rested;
             next_look_ = s.next_look;
             earlier_ = s.seconds;
             written_at_ = earlier_;
@@ -195,7 +197,9 @@ private:
         }
     }
 
-    /// Whether the hull of what is left shrinks no more; looked at when the tests have doubled.
+    /// Whether the hull of what is left shrinks no more, at two looks one after the other, each of
+    /// them when the tests have doubled. One is not enough: a slanting sheet must be cut at all its
+    /// ends before a side of it is shorter.
     [[nodiscard]] bool hull_rests() {
         if (!(options_.hull_gain > 0) || tested_ < next_look_) return false;
         auto const now = waiting_.hull(paving_.outer_hull());
@@ -203,7 +207,8 @@ private:
         for (std::size_t i = 0; i < now.size(); ++i) {
             rests = rests && width(now[i]) >= (1 - options_.hull_gain) * width(last_hull_[i]);
         }
-        if (rests) return true; // and would again, if asked after an interruption
+        if (rests && rested_) return true; // and would again, if asked after an interruption
+        rested_ = rests;
         next_look_ = 2 * tested_;
         last_hull_ = now;
         return false;
@@ -338,7 +343,8 @@ private:
     std::size_t cost_ = 0;
     box whole_; ///< what the accuracy is a fraction of
     std::size_t measured_at_ = 0;
-    box last_hull_; ///< at the last look
+    box last_hull_; ///< at the last look, and whether it rested then
+    bool rested_ = false;
     std::size_t next_look_ = 8;
     clock::time_point begin_ = clock::now();
     double earlier_ = 0;    ///< seconds of the runs before

@@ -44,7 +44,8 @@ struct search_state {
     bool accuracy_reached = false; ///< some box was left because it is small
     box whole;                     ///< what the accuracy is a fraction of, and when it was measured
     std::size_t measured_at = 0;
-    box last_hull; ///< at the last look, and when the next one is due
+    box last_hull; ///< at the last look, whether it rested then, and when the next one is due
+    bool rested = false;
     std::size_t next_look = 0;
     double seconds = 0;
 
