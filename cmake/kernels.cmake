@@ -3,7 +3,7 @@
 # instead of in each of them. A user may do the same; without it everything comes from the headers.
 
 set(sivid_kernel_sources "")
-foreach(kernel "2,4" "3,4" "4,3" "6,2" "9,2")
+foreach(kernel "2,4" "3,4" "4,3" "6,2" "9,2" "12,2")
     string(REPLACE "," "_" name "${kernel}")
     set(source "${PROJECT_BINARY_DIR}/kernels/kernel_${name}.cpp")
     file(CONFIGURE OUTPUT "${source}" CONTENT [[

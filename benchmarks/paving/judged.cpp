@@ -159,10 +159,11 @@ int main(int count, char** arguments) {
         };
         run("three scenarios of the report", report_scenarios(three), halvings);
         run("all scenarios", three, halvings);
-        run("all scenarios, nine parameters", nine, 0);
+        run("all scenarios, nine parameters", nine, halvings);
         run("three scenarios, uncertain starts", uncertain_starts(report_scenarios(three)),
             halvings);
         run("all scenarios, uncertain starts", uncertain_starts(three), halvings);
+        run("all scenarios, nine parameters, uncertain starts", uncertain_starts(nine), halvings);
     } catch (std::exception const& fault) {
         std::fprintf(stderr, "%s\n", fault.what());
         return 1;
