@@ -56,10 +56,10 @@ public:
                                                        std::size_t spare) {
         take(forms);
         for (std::size_t left_out = 0;; ++left_out) {
-            auto const blocking = solve();
-            if (!blocking) return rule_;
-            if (left_out == spare || *blocking >= forms.functions()) return std::nullopt;
-            margin_[static_cast<Eigen::Index>(*blocking)] = detail::infinity;
+            auto const in_the_way = solve(left_out < spare);
+            if (!in_the_way) return rule_;
+            if (*in_the_way >= forms.functions()) return std::nullopt;
+            margin_[static_cast<Eigen::Index>(*in_the_way)] = infinity;
         }
     }
 
@@ -69,6 +69,7 @@ private:
     /// Starts stay so far from the ends of their boxes that rounding does not matter.
     static constexpr double furthest = 1 - 1e-9;
     static constexpr int rounds = 12;
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
 
     /// The functions, and after them one for each start: itself.
     void take(misfit_forms const& forms) {
@@ -87,42 +88,47 @@ private:
         margin_.head(n) = Eigen::Map<vector const>(forms.margin.data(), n);
     }
 
-    /// @returns the function that stands in the way; nothing when the rule does what it should
-    [[nodiscard]] std::optional<std::size_t> solve() {
+    /// @param may_leave_out  look for a function that stands in the way
+    /// @returns nothing when the rule does what it should; else that function, or the number of all
+    ///   when there is none
+    [[nodiscard]] std::optional<std::size_t> solve(bool may_leave_out) {
+        auto const none = static_cast<std::size_t>(offset_.size());
         // The middle of the box alone.
         std::vector<minimax_block> blocks(1);
         rows_.assign(1, {});
         for (Eigen::Index y = 0; y < offset_.size(); ++y) {
-            if (margin_[y] < detail::infinity) add_row(blocks[0], y, nullptr);
+            if (margin_[y] < infinity) add_row(blocks[0], y, nullptr);
         }
         finish(blocks[0], s_);
-        auto solved = minimax_solver(static_cast<std::size_t>(s_), blocks)();
-        if (!(solved.value <= 0)) return most_weighted(solved);
+        auto unknowns = static_cast<std::size_t>(s_);
+        auto solved = minimax_solver(unknowns, blocks)();
+        if (!(solved.value <= 0)) return may_leave_out ? blocking(solved, unknowns, blocks) : none;
         vector const start = Eigen::Map<vector const>(solved.point.data(), s_);
         // What the parameters change, the starts make good as far as they can.
         matrix slope = guess();
         if (explains(start, slope)) return std::nullopt;
         blocks.clear();
         rows_.clear();
-        std::optional<std::size_t> blocking;
+        unknowns = static_cast<std::size_t>(s_ * (1 + p_));
         auto at = start;
         for (int round = 0; round < rounds; ++round) {
-            if (!add_violated(blocks, at, slope, round == 0 ? -detail::infinity : solved.value)) {
+            if (!add_violated(blocks, at, slope, round == 0 ? -infinity : solved.value)) {
                 break;
             }
-            solved = minimax_solver(static_cast<std::size_t>(s_ * (1 + p_)), blocks)();
-            blocking = most_weighted(solved);
-            if (!(solved.value <= 0)) return blocking;
+            solved = minimax_solver(unknowns, blocks)();
+            if (!(solved.value <= 0)) {
+                return may_leave_out ? blocking(solved, unknowns, blocks) : none;
+            }
             at = Eigen::Map<vector const>(solved.point.data(), s_);
             slope = Eigen::Map<matrix const>(solved.point.data() + s_, s_, p_);
             if (explains(at, slope)) return std::nullopt;
         }
-        return blocking ? blocking : offset_.size();
+        return none;
     }
 
     /// Slopes that minimise the squares of what is left of a, and of themselves.
     [[nodiscard]] matrix guess() const {
-        vector const weight = (margin_.array() < detail::infinity).cast<double>();
+        vector const weight = (margin_.array() < infinity).cast<double>();
         matrix const weighted = weight.asDiagonal() * b_;
         matrix const normal = b_.transpose() * weighted;
         return normal.ldlt().solve(-(weighted.transpose() * a_));
@@ -182,16 +188,27 @@ private:
         }
     }
 
-    /// The function with the largest multiplier, of starts only when there is no other.
-    [[nodiscard]] std::size_t most_weighted(approximate_minimax const& solved) const {
+    /// Of the functions that determine the minimum the one without which it is least; the number of
+    /// all when only the boxes of the starts do.
+    [[nodiscard]] std::size_t blocking(approximate_minimax const& solved, std::size_t unknowns,
+                                       std::vector<minimax_block> const& blocks) const {
         auto const own = static_cast<std::size_t>(offset_.size() - s_);
         auto best = static_cast<std::size_t>(offset_.size());
-        double most = 0;
+        double least = infinity;
         for (auto const& w : solved.weights) {
             auto const y = rows_[w.block][w.function];
-            if (y >= own || !(std::abs(w.value) > most)) continue;
-            most = std::abs(w.value);
-            best = y;
+            if (y >= own) continue;
+            auto without = blocks;
+            for (std::size_t b = 0; b < without.size(); ++b) {
+                for (std::size_t k = 0; k < rows_[b].size(); ++k) {
+                    if (rows_[b][k] == y) without[b].margin[k] = infinity;
+                }
+            }
+            double const value = minimax_solver(unknowns, without)().value;
+            if (value < least) {
+                least = value;
+                best = y;
+            }
         }
         return best;
     }
