@@ -27,9 +27,10 @@ struct response_judgement {
 };
 
 /// Decides and contracts a part by responses alone; nothing is integrated.
-/// @param all     by experiment, for all starts
-/// @param chosen  the same for starts from which existence is proved; may be those of `all`
-/// @param cut     contract by linear programs over all measurements, too
+/// @param all       by experiment, for all starts
+/// @param chosen    the same for starts from which existence is proved; may be those of `all`
+/// @param contract  contract the part, and look for starts that depend on the parameters
+/// @param cut       contract by linear programs over all measurements, too
 /// @guarantee  outside: no parameter of the part is feasible for any starts; inside: all are, for
 ///             the chosen starts or for others that depend on the parameter; `rest` keeps every
 ///             feasible parameter
@@ -63,7 +64,7 @@ struct response_judgement {
         for (std::size_t j = 0; j < rest.size(); ++j) result.smear[j] += says.smear[j];
     }
     bool const inside = std::all_of(open.begin(), open.end(), [&](std::size_t e) {
-        return explaining_starts(*all[e], rest)().has_value();
+        return contract && explaining_starts(*all[e], rest)().has_value();
     });
     result.verdict = inside ? box_verdict::inside : box_verdict::undecided;
     if (!inside && contract && cut && !cut_contraction()(all, rest)) {
