@@ -177,7 +177,9 @@ public:
                 // Not worth a run where neither the box nor, later, parts of it might hold.
                 bool const sharp = answers[n]->outputs() == answers[n]->measurements &&
                                    says.sharpness <= options_.sharp_enough;
-                if (choice_matters && !says.explained && (says.may_hold || sharp)) {
+                // Else starts that follow the parameters do as well, without a run.
+                bool const spoilt = flows_[e]->uncertain() || !options_.contract || says.blur > 0.25;
+                if (choice_matters && !says.explained && (says.may_hold || sharp) && spoilt) {
                     promising.push_back(found[k]->region);
                     whose.push_back(k);
                 }
