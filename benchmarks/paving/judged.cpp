@@ -3,8 +3,8 @@
 //     sivid_benchmark_judged [--seconds S] [--halvings N] [--only NAME] CAMPAIGN NINE
 // CAMPAIGN: a data set with the scenarios S1, S2, S3 of the report and further ones, of three
 // unknown parameters and no effect; NINE: one whose prior has nine, used with CAMPAIGN's data.
-// Hulls stand beside those of points that explain the data by simulation, found by fits with one side
-// held (N = 0: none); NAME is a part of a campaign's name.
+// Hulls stand beside those of points that explain the data by simulation, found by fits with one
+// side held (N = 0: none); NAME is a part of a campaign's name.
 #include "model.hpp"
 
 #include <sivid/io/dataset.hpp>
@@ -140,9 +140,10 @@ int main(int count, char** arguments) {
             }
         }
         if (folders.size() != 2) {
-            std::fprintf(stderr,
-                         "sivid_benchmark_judged [--seconds S] [--halvings N] [--only NAME] CAMPAIGN "
-                         "NINE\n");
+            std::fprintf(
+                stderr,
+                "sivid_benchmark_judged [--seconds S] [--halvings N] [--only NAME] CAMPAIGN "
+                "NINE\n");
             return 2;
         }
         auto const model = sivid::record_model(hovercraft{});

@@ -77,9 +77,9 @@ void sweep(std::uint64_t seed, int problems) {
                     auto const x0 = d.in(planted.problem.experiments[e].initial);
                     all_explained =
                         all_explained &&
-                        (inside_box
-                             ? support::some_start_explains(planted, e, p, {planted.starts[e]}, 1e-10)
-                             : planted.violated(e, p, x0, -1e-10) <= how.outliers);
+                        (inside_box ? support::some_start_explains(planted, e, p,
+                                                                   {planted.starts[e]}, 1e-10)
+                                    : planted.violated(e, p, x0, -1e-10) <= how.outliers);
                 }
                 CHECK(all_explained == (a.verdict == box_verdict::inside));
             }

@@ -124,8 +124,8 @@ TEST_CASE("for every parameter of a proved part the rule's start explains the me
             fixed.slope.assign(4, 0.0);
             fixed_would_do = true;
             for (int corner = 0; corner < 4; ++corner) {
-                auto const at = x.follow(fixed, part, {corner % 2 ? 1.0 : -1.0,
-                                                       corner / 2 ? 1.0 : -1.0});
+                auto const at =
+                    x.follow(fixed, part, {corner % 2 ? 1.0 : -1.0, corner / 2 ? 1.0 : -1.0});
                 std::size_t held = 0;
                 for (std::size_t y = 0; y < outputs; ++y) held += x.holds(y, at) ? 1 : 0;
                 fixed_would_do = fixed_would_do && held + x.known.allowed >= outputs;
@@ -173,9 +173,14 @@ TEST_CASE("nothing is claimed where some parameter would need a start beyond its
 TEST_CASE("nothing is claimed without starts, with outputs that were not reached or not bounded") {
     box const prior{between(-1, 1)}, initial{between(-1, 1)};
     auto const table = std::make_shared<monomial_table const>(monomial_table::of<2, 2>(2));
-    response r{normalised_unknowns(initial, prior), table, {0, 1, 1, 0, 0, 0}, {0.0},
+    response r{normalised_unknowns(initial, prior),
+               table,
+               {0, 1, 1, 0, 0, 0},
+               {0.0},
                {},
-               {between(-0.1, 0.1)}, 1, 0};
+               {between(-0.1, 0.1)},
+               1,
+               0};
     box const part{between(-0.5, 0.5)};
     CHECK(explaining_starts(r, part)());
     r.measurements = 2;
@@ -188,7 +193,12 @@ TEST_CASE("nothing is claimed without starts, with outputs that were not reached
     CHECK_FALSE(explaining_starts(r, part)());
     response const still{normalised_unknowns(box{interval(0)}, prior),
                          std::make_shared<monomial_table const>(monomial_table::of<1, 2>(1)),
-                         {0, 1, 0}, {0.0}, {}, {between(-0.1, 0.1)}, 1, 0};
+                         {0, 1, 0},
+                         {0.0},
+                         {},
+                         {between(-0.1, 0.1)},
+                         1,
+                         0};
     CHECK_FALSE(explaining_starts(still, part)());
     CHECK_FALSE(explaining_starts(still, box{between(-0.01, 0.01)})()); // `assess` says so
 }

@@ -47,8 +47,8 @@ void check_rules() {
         ++proved;
         for (double const a : {at - reach, at, at + reach, at + 0.3 * reach}) {
             double const share = (a - mid(region[0])) / rad(region[0]);
-            double const x0 = mid(starts[0]) +
-                              rad(starts[0]) * (rule->middle[0] + rule->slope[0] * share);
+            double const x0 =
+                mid(starts[0]) + rad(starts[0]) * (rule->middle[0] + rule->slope[0] * share);
             CHECK(contains(e.initial[0], x0));
             CHECK(explains(run.samples(), a, x0, spoilt));
         }

@@ -172,9 +172,8 @@ tally sweep(std::uint64_t first, std::uint64_t count, bool wide_starts) {
     for (auto seed = first; seed < first + count; ++seed) check_seed(seed, t, wide_starts);
     UNSCOPED_INFO("of " << t.problems << " problems " << t.consistent << " consistent, "
                         << t.witnesses << " witnesses, " << t.excluded << " with parts excluded; "
-                        << t.inside_points << " points of inside boxes, "
-                        << t.other_starts << " of them from starts of their own, "
-                        << t.feasible_points
+                        << t.inside_points << " points of inside boxes, " << t.other_starts
+                        << " of them from starts of their own, " << t.feasible_points
                         << " feasible points, " << t.forced << " forced outliers, "
                         << t.combinations << " combinations");
     CHECK(3 * t.consistent > t.problems);

@@ -124,7 +124,8 @@ TEST_CASE("rules that exist are found, and do what they should") {
         for (std::size_t y = 0; y < n; ++y) {
             double left = 0;
             double at = 0;
-            for (std::size_t i = 0; i < f.starts; ++i) at += f.by_start[i * n + y] * planted.middle[i];
+            for (std::size_t i = 0; i < f.starts; ++i)
+                at += f.by_start[i * n + y] * planted.middle[i];
             f.offset[y] = d.uniform(-0.5, 0.5) - at;
             left += std::abs(f.offset[y] + at);
             for (std::size_t j = 0; j < f.parameters; ++j) {

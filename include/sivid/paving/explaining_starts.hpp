@@ -90,7 +90,8 @@ private:
             auto const all = traits::add(traits::point(rule.middle[i]),
                                          traits::bounds(-reach.upper(), reach.upper()));
             constexpr double unit = std::numeric_limits<double>::epsilon();
-            double const off = (1 - mag(all)) * side.radius; // from the nearer end, but for rounding
+            double const off =
+                (1 - mag(all)) * side.radius; // from the nearer end, but for rounding
             if (!(off >= 8 * unit * (std::abs(side.centre) + side.radius))) return false;
             ++i;
         }
@@ -152,8 +153,8 @@ private:
     }
 
     response const* known_;
-    std::vector<double> middle_, reach_;                     ///< of the response's variables
-    std::vector<std::size_t> parameters_;                    ///< variables
+    std::vector<double> middle_, reach_;  ///< of the response's variables
+    std::vector<std::size_t> parameters_; ///< variables
     std::vector<normalised_unknowns::side const*> starts_;
 };
 

@@ -44,7 +44,7 @@ public:
         /// where there is none or none is needed.
         std::vector<plain_outputs<I>> guided;
         std::vector<box> guide; ///< those starts
-        bool refuted = false; ///< the whole region is
+        bool refuted = false;   ///< the whole region is
     };
 
     [[nodiscard]] std::size_t runs() const { return count_; }

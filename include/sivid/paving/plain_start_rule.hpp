@@ -47,9 +47,7 @@ public:
     }
 
     /// A decimal's enclosure: not a start to choose.
-    [[nodiscard]] static bool is_decimal(interval const& x) {
-        return rad(x) <= 1e-13 * mag(x);
-    }
+    [[nodiscard]] static bool is_decimal(interval const& x) { return rad(x) <= 1e-13 * mag(x); }
 
     /// A rule that should explain all but q measurements, if there seems to be one.
     /// @param by_rests  counts what is not affine; else only its middle
@@ -105,18 +103,16 @@ public:
         auto result = initial;
         for (std::size_t i = 0; i < free_.size(); ++i) {
             auto const& own = free_[i];
-            double const middle =
-                mid((*starts_)[own.column]) + own.reach * rule.middle[i];
+            double const middle = mid((*starts_)[own.column]) + own.reach * rule.middle[i];
             // Wider, so that rules for other linearisations lie within, too.
-            double const reach = 1.5 * own.reach * reach_of(rule, i) +
-                                 0x1p-10 * rad(initial[own.column]);
+            double const reach =
+                1.5 * own.reach * reach_of(rule, i) + 0x1p-10 * rad(initial[own.column]);
             auto& side = result[own.column];
             double const off = 0x1p-40 * rad(side);
             side = interval_traits<interval>::intersect(
                 interval_traits<interval>::bounds(middle - reach, middle + reach),
-                interval_traits<interval>::bounds(
-                    std::nextafter(side.lower() + off, HUGE_VAL),
-                    std::nextafter(side.upper() - off, -HUGE_VAL)));
+                interval_traits<interval>::bounds(std::nextafter(side.lower() + off, HUGE_VAL),
+                                                  std::nextafter(side.upper() - off, -HUGE_VAL)));
         }
         return result;
     }
@@ -160,12 +156,12 @@ private:
         I y = o.rest;
         auto const slope = [&o](std::size_t c) { return traits::point(o.gradient[c]); };
         for (auto const& u : fixed_) {
-            if (o.gradient[u.column] != 0) y = traits::add(y, traits::mul(slope(u.column), u.range));
+            if (o.gradient[u.column] != 0)
+                y = traits::add(y, traits::mul(slope(u.column), u.range));
         }
         std::vector<I> by_start;
         for (std::size_t i = 0; i < free_.size(); ++i) {
-            by_start.push_back(
-                traits::mul(slope(free_[i].column), traits::point(free_[i].reach)));
+            by_start.push_back(traits::mul(slope(free_[i].column), traits::point(free_[i].reach)));
             y = traits::add(y, traits::mul(by_start[i], traits::point(rule.middle[i])));
         }
         for (std::size_t j = 0; j < parameters_.size(); ++j) {

@@ -45,7 +45,8 @@ struct misfit_forms {
 ///   written down that some earlier solution violates. Measurements that stand in the way most are
 ///   left out, one by one, up to `spare`.
 /// @guarantee  none: doubles. That the rule does what it should is for others to prove.
-/// @cost  a few linear programs in starts * (parameters + 1) unknowns; one in the starts alone where
+/// @cost  a few linear programs in starts * (parameters + 1) unknowns; one in the starts alone
+/// where
 ///   not even the middle of the box can be explained
 /// @ref   A. Ben-Tal, A. Goryashko, E. Guslitzer, A. Nemirovski, Mathematical Programming A 99
 ///   (2004): affine decision rules
