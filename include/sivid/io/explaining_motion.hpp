@@ -63,8 +63,7 @@ inline explaining_motion enclose_motion(identification_problem const& problem, m
     explaining_motion motion{source, std::move(parameters), std::move(starts), {}, {}};
     for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
         auto const& s = problem.experiments[e];
-        auto const f =
-            std::make_shared<flow const>(problem.model, problem.choice, nominal(s.inputs));
+        auto const f = std::make_shared<flow const>(problem.model, problem.choice, nominal(s.inputs));
         double const end = last_measurement(s);
         enclosure_options options;
         if (pieces > 0) options.maximum_step = (end - s.begin) / static_cast<double>(pieces);

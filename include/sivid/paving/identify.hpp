@@ -93,8 +93,8 @@ find_forced(data_test& test, identification_problem const& problem, box const& h
     result.assumptions.push_back(input_assumption(problem.experiments));
     std::vector<box> starts;
     if (options.algorithm == algorithm::contracting) {
-        auto guess =
-            options.resume ? options.resume->guess.value_or(approximate_fit{}) : fitter(working)();
+        auto guess = options.resume ? options.resume->guess.value_or(approximate_fit{})
+                                    : fitter(working)();
         if (!guess.parameters.empty()) {
             result.witness = verify_witness(test, working, guess.parameters, guess.starts);
             for (std::size_t s = 0; s < guess.starts.size(); ++s) {

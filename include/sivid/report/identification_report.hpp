@@ -116,8 +116,8 @@ private:
         view_.assumptions.insert(view_.assumptions.end(), options_.further_assumptions.begin(),
                                  options_.further_assumptions.end());
         if (found_.fewest) {
-            view_.proved.push_back(
-                fewest_outliers_sentence(found_.fewest->total.least, found_.fewest->total.most));
+            view_.proved.push_back(fewest_outliers_sentence(found_.fewest->total.least,
+                                                            found_.fewest->total.most));
         }
         view_.statistics = {found_.seconds, found_.boxes, found_.integrations,
                             std::string{to_string(found_.reason)}};
@@ -253,10 +253,10 @@ private:
         std::vector<std::size_t> products;
         for (std::size_t k = 0; k < map.sides().size(); ++k) {
             auto const& side = map.sides()[k];
-            p.sides.push_back(
-                {side.product ? formula_text(side.product->formula) : names()[side.parameter],
-                 side.product ? side.product->unit : unit_of(side.parameter),
-                 shown(map.problem().prior[k])});
+            p.sides.push_back({side.product ? formula_text(side.product->formula)
+                                            : names()[side.parameter],
+                               side.product ? side.product->unit : unit_of(side.parameter),
+                               shown(map.problem().prior[k])});
             p.hull.push_back(shown(hull[k]));
             if (side.product) {
                 products.push_back(k);
