@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: MIT
 // The campaigns by which identification is judged, each from a cold start of `identify`:
-//     sivid_benchmark_judged [--seconds S] [--samples N] CAMPAIGN NINE
+//     sivid_benchmark_judged [--seconds S] [--halvings N] [--only NAME] CAMPAIGN NINE
 // CAMPAIGN: a data set with the scenarios S1, S2, S3 of the report and further ones, of three
 // unknown parameters and no effect; NINE: one whose prior has nine, used with CAMPAIGN's data.
-// Hulls stand beside those of points that explain the data by simulation, found by hit and run.
+// Hulls stand beside those of points that explain the data by simulation, found by fits with one
+// side held (N = 0: none); NAME is a part of a campaign's name.
 #include "model.hpp"
 
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
 #include <sivid/paving/identify.hpp>
+#include <sivid/paving/minimax_fit.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <exception>
 #include <optional>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -31,58 +30,46 @@ double processor_seconds() {
     return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
 }
 
-/// The smallest box around points that explain the data by simulation (not proved): from a point of
-/// the set along random lines, to points beyond half the distance where explanations end.
-box sampled_hull(sivid::identification_problem const& problem, sivid::approximate_fit const& first,
-                 box const& around, std::size_t steps) {
-    sivid::fitter fit(problem);
-    std::mt19937_64 random(1);
-    auto const uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-    auto const explains = [&](std::vector<double> const& p) {
-        return contains(around, p) && fit.at(p, first.starts).inflation <= 1;
-    };
-    auto at = first.parameters;
-    auto found = sivid::point_box(at);
-    for (std::size_t step = 0; step < steps; ++step) {
-        // Every other line runs along a side, where the extremes of boxes lie.
-        std::vector<double> way(at.size(), 0.0);
-        for (std::size_t j = 0; j < at.size(); ++j) {
-            bool const moves = step % 2 == 0 || j == (step / 2) % at.size();
-            if (moves) way[j] = (2 * uniform() - 1) * width(around[j]);
-        }
-        std::array<double, 2> ends{0, 0};
-        for (int side = 0; side < 2; ++side) {
-            double inside = 0, outside = side == 0 ? 2 : -2;
-            for (int k = 0; k < 12; ++k) {
-                double const middle = (inside + outside) / 2;
-                auto p = at;
-                for (std::size_t j = 0; j < p.size(); ++j) p[j] += middle * way[j];
-                if (explains(p)) {
-                    inside = middle;
-                    found = hull(found, sivid::point_box(p));
+/// The smallest box around points that explain the data by simulation (not proved): each side is
+/// held farther and farther out, by bisection, while a fit of all else explains the data.
+box reached_hull(sivid::identification_problem const& problem, sivid::approximate_fit const& first,
+                 box const& around, std::size_t halvings) {
+    auto found = sivid::point_box(first.parameters);
+    for (std::size_t j = 0; j < around.size(); ++j) {
+        for (double const end : {around[j].lower(), around[j].upper()}) {
+            auto best = first;
+            double out = end;
+            for (std::size_t k = 0; k < halvings; ++k) {
+                double const at = k == 0 ? end : (best.parameters[j] + out) / 2;
+                auto held = problem;
+                held.prior[j] = interval(at);
+                auto p = best.parameters;
+                p[j] = at;
+                auto fit = sivid::minimax_fitter(held)(p, best.starts);
+                if (fit.inflation <= 1) {
+                    fit.parameters[j] = at;
+                    found = hull(found, sivid::point_box(fit.parameters));
+                    best = std::move(fit);
                 } else {
-                    outside = middle;
+                    out = at;
                 }
             }
-            ends[static_cast<std::size_t>(side)] = inside;
         }
-        double const go = ends[1] + uniform() * (ends[0] - ends[1]);
-        for (std::size_t j = 0; j < at.size(); ++j) at[j] += go * way[j];
     }
     return found;
 }
 
-void print_side(std::string const& name, interval const& range, interval const* sampled) {
+void print_side(std::string const& name, interval const& range, interval const* reached) {
     std::printf("    %-12s [%.7g, %.7g]", name.c_str(), range.lower(), range.upper());
-    if (sampled != nullptr) {
-        std::printf("  sampled [%.7g, %.7g], %.1f %% wider", sampled->lower(), sampled->upper(),
-                    100 * (width(range) / width(*sampled) - 1));
+    if (reached != nullptr) {
+        std::printf("  reached [%.7g, %.7g], %.1f %% wider", reached->lower(), reached->upper(),
+                    100 * (width(range) / width(*reached) - 1));
     }
     std::printf("\n");
 }
 
 void judge(char const* what, sivid::identification_problem const& problem,
-           sivid::identify_options const& options, std::size_t samples) {
+           sivid::identify_options const& options, std::size_t halvings) {
     for (bool const hulls : {true, false}) {
         auto how = options;
         how.only_hulls = hulls;
@@ -98,15 +85,15 @@ void judge(char const* what, sivid::identification_problem const& problem,
         if (found.verdict == sivid::verdict::inconsistent) continue;
         auto const* const products = found.products ? &*found.products : nullptr;
         auto const left = products ? products->paving.outer_hull() : found.hull;
-        std::optional<box> sampled;
-        if (samples > 0 && hulls) {
+        std::optional<box> reached;
+        if (halvings > 0 && hulls) {
             auto const& posed = products ? products->map.problem() : problem;
             auto const first = sivid::fitter(posed)();
-            if (first.inflation <= 1) sampled = sampled_hull(posed, first, left, samples);
+            if (first.inflation <= 1) reached = reached_hull(posed, first, left, halvings);
         }
         auto const names = products ? products->map.side_names() : problem.choice.unknown;
         for (std::size_t k = 0; k < names.size(); ++k) {
-            print_side(names[k], left[k], sampled ? &(*sampled)[k] : nullptr);
+            print_side(names[k], left[k], reached ? &(*reached)[k] : nullptr);
         }
     }
 }
@@ -135,7 +122,8 @@ int main(int count, char** arguments) {
     sivid::identify_options options;
     options.search.seconds = 5;
     options.search.accuracy = 0.003;
-    std::size_t samples = 120;
+    std::size_t halvings = 10;
+    std::string only; // a part of a campaign's name
     std::vector<std::string> folders;
     std::vector<std::string> const words(arguments + 1, arguments + count);
     try {
@@ -143,15 +131,19 @@ int main(int count, char** arguments) {
             auto const value = [&] { return std::strtod(words.at(++i).c_str(), nullptr); };
             if (words[i] == "--seconds") {
                 options.search.seconds = value();
-            } else if (words[i] == "--samples") {
-                samples = static_cast<std::size_t>(value());
+            } else if (words[i] == "--halvings") {
+                halvings = static_cast<std::size_t>(value());
+            } else if (words[i] == "--only") {
+                only = words.at(++i);
             } else {
                 folders.push_back(words[i]);
             }
         }
         if (folders.size() != 2) {
-            std::fprintf(stderr,
-                         "sivid_benchmark_judged [--seconds S] [--samples N] CAMPAIGN NINE\n");
+            std::fprintf(
+                stderr,
+                "sivid_benchmark_judged [--seconds S] [--halvings N] [--only NAME] CAMPAIGN "
+                "NINE\n");
             return 2;
         }
         auto const model = sivid::record_model(hovercraft{});
@@ -162,12 +154,17 @@ int main(int count, char** arguments) {
         auto const three = read(folders[0]);
         auto nine = read(folders[1]);
         nine.experiments = three.experiments;
-        judge("three scenarios of the report", report_scenarios(three), options, samples);
-        judge("all scenarios", three, options, samples);
-        judge("all scenarios, nine parameters", nine, options, 0);
-        judge("three scenarios, uncertain starts", uncertain_starts(report_scenarios(three)),
-              options, 0);
-        judge("all scenarios, uncertain starts", uncertain_starts(three), options, 0);
+        auto const run = [&](std::string const& what, auto const& problem, std::size_t halve) {
+            if (what.find(only) == what.npos) return;
+            judge(what.c_str(), problem, options, halve);
+        };
+        run("three scenarios of the report", report_scenarios(three), halvings);
+        run("all scenarios", three, halvings);
+        run("all scenarios, nine parameters", nine, halvings);
+        run("three scenarios, uncertain starts", uncertain_starts(report_scenarios(three)),
+            halvings);
+        run("all scenarios, uncertain starts", uncertain_starts(three), halvings);
+        run("all scenarios, nine parameters, uncertain starts", uncertain_starts(nine), halvings);
     } catch (std::exception const& fault) {
         std::fprintf(stderr, "%s\n", fault.what());
         return 1;

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -53,6 +54,30 @@ TEST_CASE("a result is verified by sample, a forced outlier included") {
         CHECK(found["proved outliers"] == (spoilt ? outcome::verified : outcome::nothing));
         CHECK(found["overall"] == outcome::verified);
     }
+}
+
+TEST_CASE("inside boxes from starts that follow the parameters are verified, false ones refuted") {
+    auto problem = io_support::one_rate_problem();
+    problem.experiments[0].initial[0] = interval(1.9, 2.1);
+    auto const good = io_support::stored_result(problem).read();
+    auto found = check(problem, good, true, 20);
+    CHECK(found["inside boxes"] == outcome::verified);
+    CHECK(found["excluded boxes"] == outcome::verified);
+    CHECK(found["overall"] == outcome::verified);
+    // Rates that 2 explains as a start no longer, but 2.03 does.
+    double most = 9;
+    for (auto const& m : problem.experiments[0].measurements) {
+        most = std::min(most, -std::log(m.bound.lower() / 2) / m.time);
+    }
+    auto other = good;
+    auto& row = other.rows[io_support::first_row(other.rows, box_verdict::inside)].set[0];
+    row = interval(2 * most + 0.002, 2 * most + 0.012);
+    CHECK(check(problem, other, true, 20)["inside boxes"] == outcome::verified);
+    problem.experiments[0].initial[0] = interval(2.0);
+    CHECK(check(problem, other, true, 20)["inside boxes"] == outcome::refuted);
+    problem.experiments[0].initial[0] = interval(1.9, 2.1);
+    row = hull(row, interval(1.5));
+    CHECK(check(problem, other, true, 20)["inside boxes"] == outcome::refuted);
 }
 
 TEST_CASE("the paving of products is verified anew, and what is false in it refuted") {

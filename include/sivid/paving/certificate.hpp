@@ -153,7 +153,9 @@ private:
             wide = wide || width(region[j]) > options_.widest_region * width(prior_[j]);
         }
         if (wide && split(pieces, region, nullptr)) return;
-        auto const known = campaign_.learn(region);
+        bool const seek = std::any_of(pieces.begin(), pieces.end(),
+                                      [this](piece const& p) { return is_inside(p); });
+        auto const known = campaign_.learn(region, seek);
         group rest;
         for (auto& p : pieces) {
             auto const says = campaign_.judge(known, p.set);

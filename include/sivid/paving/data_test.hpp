@@ -40,8 +40,8 @@ struct data_test_options {
 /// Tests boxes of parameters against all experiments of a problem.
 ///   outside: in some experiment more than `outliers` measurements certainly fail, whatever the
 ///   start and, within their error bounds, the inputs; inside: in every experiment at least n -
-///   `outliers` certainly hold, for the starts given to `set_starts` and for the recorded inputs
-///   (any start in the box and any possible input prove existence).
+///   `outliers` certainly hold, for the recorded inputs and for some start in the box: the one
+///   given to `set_starts`, or one that follows the parameters (`explaining_starts`).
 /// The outlier rule is the consistent reading of the report's Algorithm 2.
 class data_test {
 public:
@@ -177,7 +177,10 @@ public:
                 // Not worth a run where neither the box nor, later, parts of it might hold.
                 bool const sharp = answers[n]->outputs() == answers[n]->measurements &&
                                    says.sharpness <= options_.sharp_enough;
-                if (choice_matters && !says.explained && (says.may_hold || sharp)) {
+                // Else starts that follow the parameters do as well, without a run.
+                bool const spoilt =
+                    flows_[e]->uncertain() || !options_.contract || says.blur > 0.25;
+                if (choice_matters && !says.explained && (says.may_hold || sharp) && spoilt) {
                     promising.push_back(found[k]->region);
                     whose.push_back(k);
                 }

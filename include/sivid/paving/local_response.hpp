@@ -172,6 +172,8 @@ struct response_verdict {
     /// Largest share of an undecided output's width that does not shrink with the part, among those
     /// where it matters against the measurement.
     double sharpness = 0;
+    /// Largest radius of an undecided output against the half-width of its measurement.
+    double blur = 0;
     std::vector<double> smear; ///< per parameter
 };
 
@@ -214,6 +216,7 @@ struct response_verdict {
             continue;
         }
         double const scale = 1 / std::max(rad(bound), 1e-300);
+        result.blur = std::max(result.blur, known.radius[y] * scale);
         linear_constraint row;
         row.gradient.resize(n);
         double moved = 0;

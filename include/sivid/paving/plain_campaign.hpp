@@ -3,6 +3,7 @@
 #define SIVID_PAVING_PLAIN_CAMPAIGN_HPP
 
 #include <sivid/paving/plain_run.hpp>
+#include <sivid/paving/plain_start_rule.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -39,26 +40,49 @@ public:
     struct knowledge {
         /// For all starts and inputs, for the chosen starts and the recorded inputs.
         std::vector<plain_outputs<I>> all, chosen;
-        bool refuted = false; ///< the whole region is
+        /// For starts near a rule that seems to explain the region, and the recorded inputs; empty
+        /// where there is none or none is needed.
+        std::vector<plain_outputs<I>> guided;
+        std::vector<box> guide; ///< those starts
+        bool refuted = false;   ///< the whole region is
     };
 
     [[nodiscard]] std::size_t runs() const { return count_; }
 
     /// Runs experiments over the region until one refutes it.
-    /// @cost  one validated run per experiment, two where starts are chosen
-    [[nodiscard]] knowledge learn(box const& region) {
+    /// @param seek  look for starts that explain the region
+    /// @cost  one validated run per experiment, two where starts are chosen, three where they are
+    ///   sought
+    [[nodiscard]] knowledge learn(box const& region, bool seek = true) {
         knowledge known;
         for (std::size_t e = 0; e < runs_.size() && !known.refuted; ++e) {
             auto const& own = problem_->experiments[e];
             ++count_;
             known.all.push_back((*runs_[e])(own.initial, region));
             known.chosen.emplace_back();
-            known.refuted = decide(known.all[e], runs_[e]->samples(), region, own.outliers) ==
-                            run_finding::refuted;
-            if (known.refuted || !has_chosen(e)) continue;
+            known.guided.emplace_back();
+            known.guide.emplace_back();
+            auto const says = decide(known.all[e], runs_[e]->samples(), region, own.outliers);
+            known.refuted = says == run_finding::refuted;
+            if (known.refuted) continue;
+            bool explained = says == run_finding::explained;
+            auto& exactly = *(recorded_[e] ? recorded_[e] : runs_[e]);
+            if (has_chosen(e)) {
+                ++count_;
+                auto const& starts = e < starts_.size() ? starts_[e] : own.initial;
+                known.chosen[e] = exactly(starts, region);
+                explained = explained || decide(known.chosen[e], runs_[e]->samples(), region,
+                                                own.outliers) == run_finding::explained;
+            }
+            if (!seek || explained) continue;
+            plain_start_rule<I> const guess(known.all[e], runs_[e]->samples(), own.initial, region);
+            auto const rule = guess.search(own.outliers, false);
+            if (!rule) continue;
+            auto starts = guess.around(*rule, own.initial);
+            if (is_empty(starts)) continue;
             ++count_;
-            auto const& starts = e < starts_.size() ? starts_[e] : own.initial;
-            known.chosen[e] = (*(recorded_[e] ? recorded_[e] : runs_[e]))(starts, region);
+            known.guided[e] = exactly(starts, region);
+            known.guide[e] = std::move(starts);
         }
         return known;
     }
@@ -76,7 +100,8 @@ public:
             if (says == run_finding::refuted) return says;
             bool const holds = says == run_finding::explained ||
                                (has_chosen(e) && decide(known.chosen[e], samples, part, q) ==
-                                                     run_finding::explained);
+                                                     run_finding::explained) ||
+                               is_guided(known, e, part);
             explained = explained && holds;
         }
         return explained ? run_finding::explained : run_finding::open;
@@ -98,6 +123,15 @@ public:
     }
 
 private:
+    /// Whether starts near those that seemed to explain the region do explain the part.
+    [[nodiscard]] bool is_guided(knowledge const& known, std::size_t e, box const& part) const {
+        if (known.guide[e].size() == 0) return false;
+        auto const q = problem_->experiments[e].outliers;
+        plain_start_rule<I> const starts(known.guided[e], runs_[e]->samples(), known.guide[e],
+                                         part);
+        auto const rule = starts.search(q, true);
+        return rule && starts.proves(*rule, q);
+    }
     [[nodiscard]] bool has_chosen(std::size_t e) const {
         return recorded_[e] ||
                (e < starts_.size() && !subset(problem_->experiments[e].initial, starts_[e]));

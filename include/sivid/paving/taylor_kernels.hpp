@@ -7,10 +7,10 @@
 namespace sivid {
 
 /// The kernels of Taylor models: number of variables and degree, fewest variables first.
-#define SIVID_TAYLOR_KERNELS(X) X(2, 4) X(3, 4) X(4, 3) X(6, 2) X(9, 2)
+#define SIVID_TAYLOR_KERNELS(X) X(2, 4) X(3, 4) X(4, 3) X(6, 2) X(9, 2) X(12, 2)
 
 /// Calls `use.template operator()<N, D>()` for the kernel that fits so many unknowns: degree 4 up
-/// to three, 3 for four, 2 up to nine.
+/// to three, 3 for four, 2 up to twelve.
 /// @returns what that returns; with more unknowns than any kernel has, a default value
 template <class Use>
 [[nodiscard]] auto with_taylor_kernel(std::size_t unknowns, Use const& use) {

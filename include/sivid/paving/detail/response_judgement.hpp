@@ -3,6 +3,7 @@
 #define SIVID_PAVING_DETAIL_RESPONSE_JUDGEMENT_HPP
 
 #include <sivid/paving/cut_contraction.hpp>
+#include <sivid/paving/explaining_starts.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/space/box.hpp>
@@ -26,17 +27,19 @@ struct response_judgement {
 };
 
 /// Decides and contracts a part by responses alone; nothing is integrated.
-/// @param all     by experiment, for all starts
-/// @param chosen  the same for starts from which existence is proved; may be those of `all`
-/// @param cut     contract by linear programs over all measurements, too
+/// @param all       by experiment, for all starts
+/// @param chosen    the same for starts from which existence is proved; may be those of `all`
+/// @param contract  contract the part, and look for starts that depend on the parameters
+/// @param cut       contract by linear programs over all measurements, too
 /// @guarantee  outside: no parameter of the part is feasible for any starts; inside: all are, for
-///             the chosen starts; `rest` keeps every feasible parameter
+///             the chosen starts or for others that depend on the parameter; `rest` keeps every
+///             feasible parameter
 [[nodiscard]] inline response_judgement judge_by_responses(response_list const& all,
                                                            response_list const& chosen, box part,
                                                            bool contract, bool cut) {
     response_judgement result{.rest = std::move(part)};
     auto& rest = result.rest;
-    bool inside = true;
+    std::vector<std::size_t> open; // experiments that are not explained so far
     result.smear.assign(rest.size(), 0.0);
     for (std::size_t e = 0; e < all.size(); ++e) {
         auto narrowed = rest;
@@ -50,8 +53,8 @@ struct response_judgement {
             auto copy = rest;
             holds = assess(*chosen[e], copy).explained;
         }
-        inside = inside && holds;
         if (!holds) {
+            open.push_back(e);
             result.share = std::max(result.share, says.sharpness);
             if (all[e]->outputs() < all[e]->measurements) {
                 result.share = std::numeric_limits<double>::infinity();
@@ -60,6 +63,9 @@ struct response_judgement {
         if (contract) rest = std::move(narrowed);
         for (std::size_t j = 0; j < rest.size(); ++j) result.smear[j] += says.smear[j];
     }
+    bool const inside = std::all_of(open.begin(), open.end(), [&](std::size_t e) {
+        return contract && explaining_starts(*all[e], rest)().has_value();
+    });
     result.verdict = inside ? box_verdict::inside : box_verdict::undecided;
     if (!inside && contract && cut && !cut_contraction()(all, rest)) {
         result.verdict = box_verdict::outside;
