@@ -16,8 +16,8 @@ inline CLI::Validator number_between(double least, double most) {
     range << least << " to " << most;
     return {[least, most, words = range.str()](std::string const& text) {
                 double value = 0;
-                bool const fits = CLI::detail::lexical_cast(text, value) && least <= value &&
-                                  value <= most;
+                bool const fits =
+                    CLI::detail::lexical_cast(text, value) && least <= value && value <= most;
                 return fits ? std::string{} : text + " is not a number from " + words;
             },
             range.str(), "number_between"};

@@ -24,13 +24,13 @@ struct identify_command {
     double budget = 50;      ///< [s]
     std::optional<std::size_t> boxes;
     std::optional<std::size_t> outliers;
-    bool fewest_outliers = false; ///< the smallest budgets that explain the data
+    bool fewest_outliers = false;     ///< the smallest budgets that explain the data
     std::optional<double> memory;     ///< [MB] for boxes and what is known about them
     std::optional<double> checkpoint; ///< [s] between two checkpoints in `out`
     bool resume = false;              ///< from the checkpoint in `out`
     std::size_t threads = 1;          ///< 0: as many as the machine has
     bool compare = false;
-    bool online = false; ///< the measurements one after the other, as they would arrive
+    bool online = false;          ///< the measurements one after the other, as they would arrive
     bool identifiability = false; ///< what the data can tell about the parameters at all
     bool quiet = false;
     std::string command_line; ///< for the report's footer

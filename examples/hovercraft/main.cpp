@@ -159,8 +159,7 @@ private:
         s->add_flag("--resume", c.resume,
                     "go on from OUT/checkpoint.txt, after a kill or with larger budgets; keeps "
                     "saving, every 10 s unless --checkpoint says otherwise");
-        s->add_option("--threads", c.threads,
-                      "threads (0: all); the result does not depend on it")
+        s->add_option("--threads", c.threads, "threads (0: all); the result does not depend on it")
             ->check(CLI::Range(0, 1024))
             ->capture_default_str();
         s->add_option("--outliers", outliers_,

@@ -36,10 +36,10 @@ inline constexpr std::string_view csv_mapping = R"({
 }
 )";
 inline constexpr std::string_view small_table = "time,pump,level,bound\n"
-                                              "0,1.5,100,1\n"
-                                              "100,1.5,101,2\n"
-                                              "200,2.5,,3\n"
-                                              "300,2.5,103.5,4\n";
+                                                "0,1.5,100,1\n"
+                                                "100,1.5,101,2\n"
+                                                "200,2.5,,3\n"
+                                                "300,2.5,103.5,4\n";
 
 inline constexpr std::string_view serial_mapping = R"({
   "format": "sivid-mapping-1", "id": "small", "model": "tank",

@@ -45,7 +45,8 @@ TEST_CASE("a few floats between inside rows are no claim, a gap that is wider is
     CHECK(outside(0x1p-30) == outcome::refuted);
 }
 
-TEST_CASE("boxes proved but for their rims are counted apart, and nothing is said of thinner ones") {
+TEST_CASE(
+    "boxes proved but for their rims are counted apart, and nothing is said of thinner ones") {
     auto const problem = io_support::one_rate_problem();
     // x = 2 exp(-a t / 2) is too high for smaller rates than this.
     double least = 0;

@@ -112,9 +112,8 @@ private:
             std::size_t spent = 0;
             bool const wide = has_wide_starts(s.problem);
             if (wide) search.seconds *= 0.5; // each for observers and sets of trajectories
-            double const fewer =
-                wide ? inflation_refuted_by_observers(s.problem, 2, search.seconds)
-                     : refuted_by_few(s, options_->gap.hardest, search, spent);
+            double const fewer = wide ? inflation_refuted_by_observers(s.problem, 2, search.seconds)
+                                      : refuted_by_few(s, options_->gap.hardest, search, spent);
             auto proved = interval_traits<interval>::bounds(fewer, detail::infinity);
             if (!(fewer > 1)) {
                 auto const found = bound_inflation(s.problem, &s.fit, search);

@@ -63,7 +63,7 @@ public:
     }
 
 private:
-    Eigen::MatrixXd axes_;       ///< B
+    Eigen::MatrixXd axes_;      ///< B
     interval_matrix<I> inside_; ///< r
 };
 
@@ -115,8 +115,7 @@ public:
         next.rest_.map(jx, image);
         for (std::size_t i = 0; i < n; ++i) {
             for (std::size_t c = 0; c < columns; ++c) {
-                auto const framed =
-                    traits::add(traits::point(next.centre(i, c)), next.rest_(i, c));
+                auto const framed = traits::add(traits::point(next.centre(i, c)), next.rest_(i, c));
                 next.hull_(i, c) = traits::intersect(direct(i, c), framed);
             }
         }

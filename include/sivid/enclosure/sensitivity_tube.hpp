@@ -15,8 +15,8 @@
 namespace sivid {
 
 /// A tube together with the derivatives of all its trajectories by initial state and parameters:
-/// the solution of the variational equation \f$ S' = f_x S + [0, f_p],\ S = [1, 0] \f$ at the begin,
-/// enclosed for every member at every time. Columns: initial states, then parameters.
+/// the solution of the variational equation \f$ S' = f_x S + [0, f_p],\ S = [1, 0] \f$ at the
+/// begin, enclosed for every member at every time. Columns: initial states, then parameters.
 ///   Across kinks the enclosed derivative is Clarke's generalised one. Where the right-hand side
 ///   may jump there is none: from there on every entry is unbounded.
 template <class I>
@@ -60,8 +60,8 @@ public:
             interval_matrix<I> v(result.rows(), result.cols());
             for (std::size_t i = 0; i < v.rows(); ++i) {
                 for (std::size_t c = 0; c < v.cols(); ++c) {
-                    double const e = step.variation(static_cast<Eigen::Index>(i),
-                                                    static_cast<Eigen::Index>(c));
+                    double const e =
+                        step.variation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c));
                     v(i, c) = traits::add(traits::point(i == c ? 1.0 : 0.0), traits::bounds(-e, e));
                 }
             }
@@ -71,7 +71,8 @@ public:
     }
 
     /// \f$ \partial y(t) / \partial (x_0, p) \f$ of the channels, for all members; a held input has
-    /// its new value at a knot. Rows of channels that are not defined there, or jump, are unbounded.
+    /// its new value at a knot. Rows of channels that are not defined there, or jump, are
+    /// unbounded.
     [[nodiscard]] interval_matrix<I> observe_at(double t) const {
         auto const& f = states_.equations();
         auto const n = f.states();
@@ -139,8 +140,7 @@ integrate_with_sensitivities(std::shared_ptr<flow const> f, basic_box<I> const& 
                              basic_box<I> const& parameters, double from, double to,
                              enclosure_options const& options = {}) {
     if (!(from <= to)) {
-        throw std::invalid_argument(
-            "integrate_with_sensitivities: the end lies before the begin");
+        throw std::invalid_argument("integrate_with_sensitivities: the end lies before the begin");
     }
     if (f->uncertain()) {
         throw std::invalid_argument("integrate_with_sensitivities: inputs with error bounds are "

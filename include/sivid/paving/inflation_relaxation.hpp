@@ -177,7 +177,8 @@ private:
             auto const& table = *r.table;
             auto const& local = locals_[w.block];
             double const size = std::abs(w.value);
-            result.blur[w.block] += size * r.shrinking_radius(w.function) * scales_[w.block][w.function];
+            result.blur[w.block] +=
+                size * r.shrinking_radius(w.function) * scales_[w.block][w.function];
             result.slack += size * blocks_[w.block].margin[w.function];
             for (std::size_t m = 0; m < table.size(); ++m) {
                 double c = size * scales_[w.block][w.function] *

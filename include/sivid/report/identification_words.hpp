@@ -91,8 +91,7 @@ namespace sivid::report {
 }
 
 /// How many outliers the data need; both numbers are proved.
-[[nodiscard]] inline std::string fewest_outliers_sentence(std::uint64_t least,
-                                                          std::uint64_t most) {
+[[nodiscard]] inline std::string fewest_outliers_sentence(std::uint64_t least, std::uint64_t most) {
     if (most == 0) return "No outlier is needed to explain the data.";
     auto const number = [](std::uint64_t n) {
         return count_text(n) + (n == 1 ? " measurement" : " measurements");
@@ -102,8 +101,7 @@ namespace sivid::report {
                ", and some violates no more: so many outliers are needed, and suffice.";
     }
     return (least == 0 ? std::string{"It is open whether outliers are needed"}
-                       : "Every parameter vector of the prior violates at least " +
-                             number(least)) +
+                       : "Every parameter vector of the prior violates at least " + number(least)) +
            "; " + number(most) + " as outliers suffice.";
 }
 

@@ -3,9 +3,9 @@
 #define SIVID_PAVING_DETAIL_BOX_BATCHES_HPP
 
 #include <sivid/number/guard.hpp>
+#include <sivid/paving/detail/lesson.hpp>
 #include <sivid/paving/executor.hpp>
 #include <sivid/paving/frontier.hpp>
-#include <sivid/paving/detail/lesson.hpp>
 #include <sivid/paving/set_test.hpp>
 
 #include <algorithm>

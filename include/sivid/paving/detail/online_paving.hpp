@@ -2,8 +2,8 @@
 #ifndef SIVID_PAVING_DETAIL_ONLINE_PAVING_HPP
 #define SIVID_PAVING_DETAIL_ONLINE_PAVING_HPP
 
-#include <sivid/paving/frontier.hpp>
 #include <sivid/paving/detail/online_test.hpp>
+#include <sivid/paving/frontier.hpp>
 #include <sivid/paving/subpaving.hpp>
 
 #include <algorithm>

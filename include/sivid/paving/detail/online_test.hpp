@@ -5,8 +5,8 @@
 #include <sivid/paving/continued_run.hpp>
 #include <sivid/paving/data_test.hpp>
 #include <sivid/paving/detail/online_region.hpp>
-#include <sivid/paving/problem.hpp>
 #include <sivid/paving/detail/response_judgement.hpp>
+#include <sivid/paving/problem.hpp>
 
 #include <algorithm>
 #include <cstddef>

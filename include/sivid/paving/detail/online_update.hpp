@@ -4,8 +4,8 @@
 
 #include <sivid/measurement/record.hpp>
 #include <sivid/paving/data_test.hpp>
-#include <sivid/paving/identification.hpp>
 #include <sivid/paving/detail/online_paving.hpp>
+#include <sivid/paving/identification.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/space/box.hpp>
 

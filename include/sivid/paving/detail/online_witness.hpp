@@ -26,7 +26,8 @@ public:
     online_witness(identification_problem const& problem, data_test_options const& options)
         : problem_(&problem), options_(options.witness) {
         for (auto const& e : problem.experiments) {
-            flows_.push_back(std::make_unique<flow>(problem.model, problem.choice, nominal(e.inputs)));
+            flows_.push_back(
+                std::make_unique<flow>(problem.model, problem.choice, nominal(e.inputs)));
         }
     }
 
