@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/sivid.hpp>
+#include <sivid/number/decimal_output.hpp>
+#include <sivid/paving/identify.hpp>
 
 #include <iostream>
 

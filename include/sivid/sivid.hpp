@@ -147,6 +147,7 @@
 #include <sivid/number/traits_by_bounds.hpp>
 #include <sivid/number/trigonometric.hpp>
 #include <sivid/number/univariate_taylor.hpp>
+#include <sivid/paving/approximate_fit.hpp>
 #include <sivid/paving/arrow_system.hpp>
 #include <sivid/paving/box_explorer.hpp>
 #include <sivid/paving/campaign.hpp>
@@ -159,6 +160,7 @@
 #include <sivid/paving/cut_contraction.hpp>
 #include <sivid/paving/cut_program.hpp>
 #include <sivid/paving/data_test.hpp>
+#include <sivid/paving/data_test_options.hpp>
 #include <sivid/paving/dependence.hpp>
 #include <sivid/paving/descent.hpp>
 #include <sivid/paving/executor.hpp>
@@ -173,6 +175,7 @@
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/identification_state.hpp>
 #include <sivid/paving/identify.hpp>
+#include <sivid/paving/identify_options.hpp>
 #include <sivid/paving/inflation.hpp>
 #include <sivid/paving/inflation_certificate.hpp>
 #include <sivid/paving/inflation_relaxation.hpp>
@@ -203,6 +206,7 @@
 #include <sivid/paving/relaxed_intersection.hpp>
 #include <sivid/paving/residuals.hpp>
 #include <sivid/paving/response.hpp>
+#include <sivid/paving/run_options.hpp>
 #include <sivid/paving/search_state.hpp>
 #include <sivid/paving/set_test.hpp>
 #include <sivid/paving/start_rule.hpp>

@@ -7,6 +7,7 @@
 
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/enclosure/simulate.hpp>
+#include <sivid/model/bound_model.hpp>
 
 #include <cmath>
 #include <fstream>
@@ -197,7 +198,7 @@ TEST_CASE("neutral effects change nothing") {
     auto plain = with(record_model(hovercraft{}), some);
     plain.input_delays.clear();
     plain.channel_delays.clear();
-    std::vector<signal> const inputs{
+    std::vector<sivid::signal> const inputs{
         sampled_signal({0.0}, {80.0}, interpolation::hold),
         sampled_signal({0.0, 2.0}, {-0.4, 0.4}, interpolation::linear)};
     flow const base(record_model(hovercraft{}), {}, inputs), affected(plain, {}, inputs);

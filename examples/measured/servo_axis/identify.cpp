@@ -5,6 +5,10 @@
 #include "windows.hpp"
 
 #include <sivid/enclosure/simulate.hpp>
+#include <sivid/paving/data_test.hpp>
+#include <sivid/paving/fit.hpp>
+#include <sivid/paving/invert.hpp>
+#include <sivid/paving/witness.hpp>
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,8 @@
 #include <sivid/io/identification_consistency.hpp>
 #include <sivid/io/product_volume.hpp>
 #include <sivid/io/stored_products.hpp>
-#include <sivid/paving/identify.hpp>
+#include <sivid/paving/dependence.hpp>
+#include <sivid/paving/preimage_volume.hpp>
 
 #include <algorithm>
 #include <cmath>

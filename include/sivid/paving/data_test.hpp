@@ -2,6 +2,7 @@
 #ifndef SIVID_PAVING_DATA_TEST_HPP
 #define SIVID_PAVING_DATA_TEST_HPP
 
+#include <sivid/paving/data_test_options.hpp>
 #include <sivid/paving/detail/response_judgement.hpp>
 #include <sivid/paving/detail/run_pool.hpp>
 #include <sivid/paving/experiment_run.hpp>
@@ -17,25 +18,6 @@
 #include <vector>
 
 namespace sivid {
-
-/// How boxes of parameters are tested against the data.
-struct data_test_options {
-    run_options run;
-    /// How a guessed point is verified: first-order sets with fine steps, which kinks do not stop.
-    run_options witness{.enclosure = {.order = 14,
-                                      .tolerance = 1e-11,
-                                      .relative_tolerance = 1e-5,
-                                      .minimum_step = 1e-6},
-                        .set = carried_set::doubleton};
-    /// Contract boxes by the dependence of the outputs on the parameters, and decide parts of a box
-    /// by what was computed for the whole. Without it the test is the report's: enclosure against
-    /// measurement, one integration a box.
-    bool contract = true;
-    bool cut = true; ///< contract by linear programs over all measurements, too
-    /// A part of a box is integrated anew when more than this share of an undecided output's width
-    /// is neither affine in the parameters nor shrinks with the part.
-    double sharp_enough = 0.5;
-};
 
 /// Tests boxes of parameters against all experiments of a problem.
 ///   outside: in some experiment more than `outliers` measurements certainly fail, whatever the

@@ -2,6 +2,7 @@
 #ifndef SIVID_PAVING_FIT_HPP
 #define SIVID_PAVING_FIT_HPP
 
+#include <sivid/paving/approximate_fit.hpp>
 #include <sivid/paving/campaign.hpp>
 #include <sivid/paving/descent.hpp>
 #include <sivid/paving/minimax.hpp>
@@ -17,21 +18,6 @@
 #include <vector>
 
 namespace sivid {
-
-/// A guess of parameters and initial states that explain the data. Nothing here is proved: a guess
-/// becomes a witness only by a validated run.
-struct approximate_fit {
-    std::vector<double> parameters;
-    std::vector<std::vector<double>> starts; ///< one initial state per experiment
-    /// Per experiment and measurement (in order of time): (output - measured) / half-width of the
-    /// bound.
-    std::vector<std::vector<double>> residuals;
-    /// Largest over the experiments of the (q+1)-th largest |residual|: at most 1 when all is
-    /// explained.
-    double inflation = std::numeric_limits<double>::infinity();
-    /// Least sum of squared residuals on the way, without the q largest of each experiment.
-    double squares = std::numeric_limits<double>::infinity();
-};
 
 /// What a descent came to, simulated once more with care; only infinite figures where it came to
 /// nothing.

@@ -3,8 +3,8 @@
 #define SIVID_PAVING_IDENTIFICATION_HPP
 
 #include <sivid/model/combination.hpp>
+#include <sivid/paving/approximate_fit.hpp>
 #include <sivid/paving/detail/fewest_outliers.hpp>
-#include <sivid/paving/fit.hpp>
 #include <sivid/paving/reduction.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/verdict.hpp>

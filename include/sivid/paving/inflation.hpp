@@ -3,6 +3,7 @@
 #define SIVID_PAVING_INFLATION_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/paving/dependence.hpp>
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/inflation_search.hpp>
 #include <sivid/paving/minimax_fit.hpp>

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_DATA_TEST_OPTIONS_HPP
+#define SIVID_PAVING_DATA_TEST_OPTIONS_HPP
+
+#include <sivid/paving/run_options.hpp>
+
+namespace sivid {
+
+/// How boxes of parameters are tested against the data.
+struct data_test_options {
+    run_options run;
+    /// How a guessed point is verified: first-order sets with fine steps, which kinks do not stop.
+    run_options witness{.enclosure = {.order = 14,
+                                      .tolerance = 1e-11,
+                                      .relative_tolerance = 1e-5,
+                                      .minimum_step = 1e-6},
+                        .set = carried_set::doubleton};
+    /// Contract boxes by the dependence of the outputs on the parameters, and decide parts of a box
+    /// by what was computed for the whole. Without it the test is the report's: enclosure against
+    /// measurement, one integration a box.
+    bool contract = true;
+    bool cut = true; ///< contract by linear programs over all measurements, too
+    /// A part of a box is integrated anew when more than this share of an undecided output's width
+    /// is neither affine in the parameters nor shrinks with the part.
+    double sharp_enough = 0.5;
+};
+
+} // namespace sivid
+
+#endif

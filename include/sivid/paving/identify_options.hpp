@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_IDENTIFY_OPTIONS_HPP
+#define SIVID_PAVING_IDENTIFY_OPTIONS_HPP
+
+#include <sivid/paving/data_test_options.hpp>
+#include <sivid/paving/identification_state.hpp>
+#include <sivid/paving/inversion_options.hpp>
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+namespace sivid {
+
+/// How the prior is searched.
+enum class algorithm {
+    contracting, ///< contraction by linear programs, smear bisection, largest box first, witness
+    report_1,    ///< Algorithm 1 of the report: bisection alone, no outlier allowed
+    report_2     ///< Algorithm 2 of the report with the consistent outlier rule
+};
+
+struct identify_options {
+    sivid::algorithm algorithm = sivid::algorithm::contracting;
+    inversion_options search;
+    data_test_options test;
+    /// Stop when the hulls no longer shrink; the paving stays coarse.
+    bool only_hulls = false;
+    /// Boxes tested to draw the paving of the prior, when the search ran in products of parameters.
+    std::size_t drawn_boxes = 1500;
+    /// Called with the state every `search.checkpoint_seconds` of the search and when a budget ends
+    /// it (in place of `search.checkpoint`).
+    std::function<void(identification_state const&)> checkpoint = nullptr;
+    /// Goes on from here (in place of `search.resume`): for the same problem and options but for
+    /// budgets and threads. The result is the one of an uninterrupted run, bit for bit, on the same
+    /// program and kind of processor; proved it is on any.
+    std::shared_ptr<identification_state const> resume = nullptr;
+};
+
+} // namespace sivid
+
+#endif
