@@ -31,6 +31,7 @@ using namespace sivid;
 using support::draws;
 using support::extended;
 using support::extended_state;
+using support::part_of;
 
 namespace {
 
@@ -104,16 +105,6 @@ tableau random_method(draws& d) {
         butcher6(),          gauss2(),        gauss4(),        gauss6(),       radau_iia3(),
         radau_iia5(),        lobatto_iiic2(), lobatto_iiic4(), lobatto_iiic6()};
     return *(all.begin() + static_cast<std::ptrdiff_t>(d.below(all.size())));
-}
-
-box part_of(draws& d, box const& whole, double share) {
-    box part(whole.size());
-    for (std::size_t i = 0; i < whole.size(); ++i) {
-        double const w = share * width(whole[i]);
-        double const lo = d.uniform(whole[i].lower(), whole[i].upper() - w);
-        part[i] = intersect(whole[i], support::between(lo, std::max(lo, lo + w)));
-    }
-    return part;
 }
 
 /// The reference from `from` to the times.

@@ -196,16 +196,6 @@ void check_containment(draws& d, problem const& p, response const& answer, int s
     }
 }
 
-box part_of(draws& d, box const& whole, double share) {
-    box part = whole;
-    for (std::size_t j = 0; j < part.size(); ++j) {
-        double const w = width(whole[j]);
-        double const lo = whole[j].lower() + d.uniform(0, 1 - share) * w;
-        part[j] = between(lo, std::fmin(lo + share * w, whole[j].upper()));
-    }
-    return part;
-}
-
 void check_kernels(std::uint64_t seed, int samples) {
     draws d(seed);
     for (auto const& p : ten_models()) {
