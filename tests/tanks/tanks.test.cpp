@@ -85,7 +85,7 @@ TEST_CASE("the real tanks: where, which, and what stays", "[tanks][real]") {
     }
     temporary_folder const folder;
     auto const out = folder.path() / "out";
-    REQUIRE(run_program(TANKS_PROGRAM, {real_record().string(), "--quiet", "--budget", "120",
+    REQUIRE(run_program(TANKS_PROGRAM, {real_record().string(), "--quiet", "--budget", "240",
                                         "--out", out.string()})
                 .code == 0);
     auto const d = nlohmann::json::parse(text_of(out / "diagnosis.json"));
