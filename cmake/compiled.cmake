@@ -25,6 +25,14 @@ template std::unique_ptr<continued_run> make_taylor_continuation<${kernel}>(
 ")
 endforeach()
 
+sivid_compiled_source(enclosure "\
+#include <sivid/enclosure/tube.hpp>
+namespace sivid {
+template tube<interval> integrate(
+    std::shared_ptr<flow const>, box const&, box const&, double, double, enclosure_options const&);
+}
+")
+
 # Headers with functions that are compiled once; those of one floor share most of their code.
 set(entries_number decimal_text)
 set(entries_paving identify inflation holdout_inflation outlier_budget)
