@@ -25,12 +25,21 @@ template std::unique_ptr<continued_run> make_taylor_continuation<${kernel}>(
 ")
 endforeach()
 
+sivid_compiled_source(enclosure "\
+#include <sivid/enclosure/tube.hpp>
+namespace sivid {
+template tube<interval> integrate(
+    std::shared_ptr<flow const>, box const&, box const&, double, double, enclosure_options const&);
+}
+")
+
 # Headers with functions that are compiled once; those of one floor share most of their code.
+set(entries_number decimal_text)
 set(entries_paving identify inflation holdout_inflation outlier_budget)
 set(entries_diagnosis diagnose diagnosis_run)
 set(entries_io dataset explaining_motion)
 set(entries_report identification_report identification_page diagnosis_report diagnosis_page)
-foreach(floor IN ITEMS paving diagnosis io report)
+foreach(floor IN ITEMS number paving diagnosis io report)
     if(floor MATCHES "^(io|report)$" AND NOT TARGET sivid::${floor})
         continue()
     endif()

@@ -57,6 +57,7 @@
 #include <sivid/model/effect.hpp>
 #include <sivid/model/effects.hpp>
 #include <sivid/model/expression.hpp>
+#include <sivid/model/find_combinations.hpp>
 #include <sivid/model/graph.hpp>
 #include <sivid/model/graph_listing.hpp>
 #include <sivid/model/homogeneity.hpp>

@@ -4,6 +4,9 @@
 #include "diagnosis/small_catalogue.hpp"
 #include "support/catch.hpp"
 
+#include <sivid/diagnosis/screening.hpp>
+#include <sivid/diagnosis/verification.hpp>
+
 using namespace sivid;
 
 namespace {

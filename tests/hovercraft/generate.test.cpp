@@ -5,6 +5,7 @@
 #include "io/support.hpp"
 #include "support/catch.hpp"
 
+#include <sivid/enclosure/tube.hpp>
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset_writer.hpp>
 

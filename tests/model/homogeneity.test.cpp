@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/model/homogeneity.hpp>
 
-#include <sivid/model/combination.hpp>
+#include <sivid/model/find_combinations.hpp>
 
 #include "support/catch.hpp"
 #include "support/models.hpp"

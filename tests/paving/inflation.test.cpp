@@ -4,6 +4,8 @@
 #include "support/catch.hpp"
 #include "support/inflations.hpp"
 
+#include <sivid/paving/residuals.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

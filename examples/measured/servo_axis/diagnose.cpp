@@ -6,6 +6,8 @@
 #include "console/sensitivity.hpp"
 #include "windows.hpp"
 
+#include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/paving/fit.hpp>
 #include <sivid/report/table.hpp>
 
 #include <algorithm>

@@ -5,6 +5,9 @@
 #include "console/sensitivity.hpp"
 #include "effects.hpp"
 
+#include <sivid/diagnosis/verification.hpp>
+#include <sivid/paving/fit.hpp>
+#include <sivid/paving/inflation.hpp>
 #include <sivid/paving/observer_refutation.hpp>
 #include <sivid/report/table.hpp>
 

@@ -3,187 +3,13 @@
 #define SIVID_DIAGNOSIS_DIAGNOSE_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/diagnosis/candidate_order.hpp>
-#include <sivid/diagnosis/candidate_verdicts.hpp>
-#include <sivid/diagnosis/describe_candidate.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
-#include <sivid/diagnosis/gap_proof.hpp>
-#include <sivid/diagnosis/opening_words.hpp>
-#include <sivid/diagnosis/part_inflation.hpp>
-#include <sivid/diagnosis/place_report.hpp>
+#include <sivid/model/effect.hpp>
+#include <sivid/paving/problem.hpp>
 
-#include <algorithm>
-#include <cstddef>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace sivid {
-
-/// Diagnoses one campaign step by step.
-class diagnostician {
-public:
-    diagnostician(identification_problem base, std::vector<effect> catalogue,
-                  diagnosis_options options)
-        : options_(std::move(options)),
-          effort_(options_.seconds, options_.test, options_.progress) {
-        run_.base = std::move(base);
-        run_.catalogue = std::move(catalogue);
-        run_.base.require_valid();
-        options_.screening.progress = [this](std::string const& what) {
-            return effort_.go_on("trying " + what);
-        };
-        options_.screening.seconds = std::min(options_.screening.seconds, 0.7 * options_.seconds);
-    }
-
-    [[nodiscard]] diagnosis_run operator()() {
-        auto& d = run_.result;
-        d.assumptions.push_back(input_assumption(run_.base.experiments));
-        screening tried(run_.base, run_.catalogue, options_.screening);
-        tried.try_one({});
-        run_.candidates = tried.candidates();
-        if (!run_.candidates.empty()) look_first();
-        if (d.gap != gap_verdict::none && !effort_.stopped()) {
-            tried.run();
-            run_.candidates = tried.candidates();
-            explain(tried.measurements());
-            measure_parts();
-        }
-        d.interrupted = effort_.stopped();
-        d.seconds = effort_.seconds();
-        return std::move(run_);
-    }
-
-private:
-    /// Whether there is a gap, and where: what is quickly known first.
-    void look_first() {
-        auto const base = run_.candidates.front();
-        auto& bound = run_.base_bound;
-        bound = verify_fit(base, options_.test);
-        know_gap();
-        bool const explained = run_.result.gap == gap_verdict::none;
-        if (!explained) {
-            find_relations();
-            announce();
-            find_places();
-            announce();
-        }
-        bool const provable = !diagnosis_detail::has_delays(base.problem.model);
-        if (provable && effort_.go_on("bounding the gap"))
-            prove_gap(bound, base, effort_, options_.gap);
-        know_gap();
-        announce();
-    }
-    void know_gap() {
-        auto& d = run_.result;
-        d.inflation = run_.base_bound.range;
-        d.gap = gap_of(d.inflation);
-        if (d.gap != gap_verdict::none) return;
-        // A better fit was found: nothing is missing anywhere, and assumptions that led to a proof
-        // do not hold.
-        d.where.clear();
-        d.relations.clear();
-        run_.findings.clear();
-        run_.places = {};
-    }
-    void find_relations() {
-        if (!effort_.go_on("proving which equations cannot hold")) return;
-        run_.findings = find_broken_relations(run_.base);
-        for (auto const& f : run_.findings) run_.result.relations.push_back(reported(f));
-    }
-    void find_places() {
-        if (!effort_.go_on("looking where the model departs from the data")) return;
-        run_.places = estimate_places(run_.base, {}, &run_.candidates.front().fit);
-        run_.result.where = reported(run_.places, run_.findings);
-    }
-    void announce() {
-        if (!options_.first_sentence) return;
-        auto text = opening_words(run_.result, run_.base, run_.candidates.front().fit);
-        if (text == said_) return;
-        said_ = std::move(text);
-        options_.first_sentence(said_);
-    }
-
-    /// Which effects, and what of that can be proved.
-    void explain(std::size_t measurements) {
-        auto& d = run_.result;
-        std::vector<candidate> figures;
-        for (auto const& c : run_.candidates) figures.push_back(c.figures);
-        candidate_order const order(figures, measurements, options_.choice);
-        run_.answer = order.answer();
-        if (!order.explained()) {
-            d.answer = answer_kind::unexplained;
-        } else {
-            d.effects = names_of(figures[order.answer()], run_.catalogue);
-            d.answer = d.effects.empty() ? answer_kind::none : answer_kind::effects;
-        }
-        for (auto const o : order.others()) {
-            d.indistinguishable.push_back(names_of(figures[o], run_.catalogue));
-        }
-        for (auto const& c : run_.candidates) {
-            if (!c.silent || c.figures.effects.size() != 1) continue;
-            d.unobservable.push_back(run_.catalogue[c.figures.effects.front()].name);
-        }
-        for (auto const i : order.order()) {
-            d.causes.push_back(
-                cause_of(run_.candidates[i], run_.catalogue, run_.base.prior.size(), measurements));
-        }
-        candidate_verdicts(run_, order, effort_, options_)();
-        describe_remainder();
-        propose(order);
-    }
-
-    /// The inflation of each scenario and each channel alone.
-    void measure_parts() {
-        if (diagnosis_detail::has_delays(run_.base.model)) return;
-        auto const each = effort_.search(run_.base, options_.part);
-        double const end = effort_.left() - effort_.seconds_of({0, options_.parts_share});
-        auto const next = [&](std::string const& name) {
-            return effort_.left() >= end && effort_.go_on("measuring the gap of " + name);
-        };
-        run_.result.scenario_inflation = inflation_of_experiments(run_.base, each, next);
-        run_.result.channel_inflation = inflation_of_channels(run_.base, each, next);
-    }
-
-    /// How much is left with the closest candidate, and where: the lead to what no effect has.
-    void describe_remainder() {
-        auto& d = run_.result;
-        if (d.answer != answer_kind::unexplained || d.causes.empty()) return;
-        auto const& nearest = run_.candidates[run_.answer];
-        unexplained_remainder rest{
-            names_of(nearest.figures, run_.catalogue), run_.answer_bound.range, {}};
-        if (run_.answer == 0) {
-            rest.inflation = d.inflation;
-            rest.where = d.where;
-        } else if (effort_.go_on("looking for what is left")) {
-            run_.remaining_places = estimate_places(nearest.problem);
-            for (auto const& p : run_.remaining_places.places) rest.where.push_back(reported(p));
-        }
-        d.remainder = std::move(rest);
-    }
-
-    void propose(candidate_order const& order) {
-        auto& d = run_.result;
-        if (order.others().empty() ||
-            !effort_.go_on("looking for a manoeuvre that tells rivals apart"))
-            return;
-        std::vector<screened const*> rivals{&run_.candidates[run_.answer]};
-        for (auto const o : order.others()) rivals.push_back(&run_.candidates[o]);
-        std::vector<double> errors(run_.base.model.about.channels.size(), 0.0);
-        double period = 0.1;
-        for (auto const& e : run_.base.experiments) {
-            for (auto const& m : e.measurements) errors[m.channel] = rad(m.bound);
-            if (!e.measurements.empty()) period = e.measurements.front().time - e.begin;
-        }
-        d.next = propose_experiment(std::move(rivals), options_.menu, std::move(errors),
-                                    period > 0 ? period : 0.1);
-    }
-
-    diagnosis_options options_;
-    diagnosis_effort effort_;
-    diagnosis_run run_;
-    std::string said_;
-};
 
 /// Says whether a model explains a campaign; if not, by how much it misses, and which effects of a
 /// catalogue explain what is missing.
@@ -192,13 +18,10 @@ private:
                                                  std::vector<effect> catalogue,
                                                  diagnosis_options options = {});
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_DIAGNOSE)
-SIVID_ENTRY diagnosis_run diagnose(identification_problem problem, std::vector<effect> catalogue,
-                                   diagnosis_options options) {
-    return diagnostician(std::move(problem), std::move(catalogue), std::move(options))();
-}
-#endif
-
 } // namespace sivid
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_DIAGNOSE)
+#include <sivid/diagnosis/detail/diagnostician.hpp>
+#endif
 
 #endif

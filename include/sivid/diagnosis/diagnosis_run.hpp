@@ -3,22 +3,25 @@
 #define SIVID_DIAGNOSIS_DIAGNOSIS_RUN_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/diagnosis/broken_relation.hpp>
 #include <sivid/diagnosis/candidate.hpp>
+#include <sivid/diagnosis/detail/gap_options.hpp>
+#include <sivid/diagnosis/detail/holdout_results.hpp>
+#include <sivid/diagnosis/detail/manoeuvre_settings.hpp>
+#include <sivid/diagnosis/detail/place_results.hpp>
+#include <sivid/diagnosis/detail/screened.hpp>
+#include <sivid/diagnosis/detail/verified_inflation.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/diagnosis_effort.hpp>
-#include <sivid/diagnosis/gap_proof.hpp>
-#include <sivid/diagnosis/holdout_judgement.hpp>
-#include <sivid/diagnosis/manoeuvre.hpp>
-#include <sivid/diagnosis/place_estimate.hpp>
-#include <sivid/diagnosis/screening.hpp>
-#include <sivid/diagnosis/verification.hpp>
+#include <sivid/diagnosis/holdout.hpp>
+#include <sivid/diagnosis/relation_finding.hpp>
+#include <sivid/model/effect.hpp>
+#include <sivid/paving/data_test_options.hpp>
+#include <sivid/paving/problem.hpp>
 
 #include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace sivid {
@@ -63,40 +66,10 @@ struct diagnosis_run {
 SIVID_ENTRY void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds = 6,
                                   data_test_options const& test = {}, std::size_t boxes = 24);
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_JUDGE_BY_HOLDOUT)
-SIVID_ENTRY void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds,
-                                  data_test_options const& test, std::size_t boxes) {
-    if (data.empty() || run.candidates.empty()) return;
-    auto const judge = [&](screened const& candidate, verified_inflation const& bound) {
-        auto const judged = data.judged_by(candidate, run.base, run.catalogue);
-        inflation_options search;
-        search.seconds = seconds / 2;
-        search.work = boxes / 2 * (run.base.experiments.size() + judged.experiments.size() + 1);
-        search.test = test;
-        return judge_by_holdout(candidate, bound, judged, search);
-    };
-    auto const before = judge(run.candidates.front(), run.base_bound);
-    run.holdout_before = before;
-    if (run.result.causes.empty()) return;
-    auto const after = judge(run.candidates[run.answer], run.answer_bound);
-    run.holdout_after = after;
-    holdout_figures figures;
-    figures.inflation_before = before.at_witness;
-    figures.inflation_after = after.at_witness;
-    figures.over_fits_before = before.over_fits;
-    figures.over_fits_after = after.over_fits;
-    for (auto const& c : run.base.model.about.channels) figures.channels.push_back(c.name);
-    figures.rmse_before = before.rmse;
-    figures.rmse_after = after.rmse;
-    figures.covered_before = before.covered;
-    figures.covered_after = after.covered;
-    figures.width_before = before.width;
-    figures.width_after = after.width;
-    run.result.shrink_holdout = shrink(figures.inflation_before, figures.inflation_after);
-    run.result.causes.front().holdout = std::move(figures);
-}
-#endif
-
 } // namespace sivid
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_JUDGE_BY_HOLDOUT)
+#include <sivid/diagnosis/detail/run_judgement.hpp>
+#endif
 
 #endif

@@ -2,39 +2,16 @@
 #ifndef SIVID_DIAGNOSIS_ESTIMATED_PLACE_HPP
 #define SIVID_DIAGNOSIS_ESTIMATED_PLACE_HPP
 
-#include <sivid/diagnosis/place.hpp>
+#include <sivid/diagnosis/detail/place_results.hpp>
 
 #include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <string>
 #include <vector>
 
 namespace sivid {
-
-/// A missing rate d(t) of one equation in one scenario, with its uncertainty.
-struct estimated_rate {
-    std::string scenario;
-    std::vector<double> times, values, deviations;
-};
-
-/// A place where model and data part, estimated and not proved.
-struct estimated_place {
-    place_kind kind = place_kind::equation;
-    std::vector<std::size_t> members; ///< states, channels or the input
-    std::string name;
-    double loss = 0;         ///< what the score loses without it
-    std::string scenario;    ///< where it is seen best
-    double from = 0, to = 0; ///< [s]
-    double missing = 0;      ///< mean missing rate there, or the sensor's fault
-    double deviation = 0;    ///< its standard deviation; 0 when not known
-    std::string unit;
-    std::string law;    ///< "" when none stands out
-    std::string regime; ///< "" when everywhere
-    std::vector<estimated_rate> rates;
-};
 
 /// The stretch, of any length, over which the mean of a missing rate stands out most from its
 /// uncertainty.

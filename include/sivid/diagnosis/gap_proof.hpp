@@ -2,6 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_GAP_PROOF_HPP
 #define SIVID_DIAGNOSIS_GAP_PROOF_HPP
 
+#include <sivid/diagnosis/detail/gap_options.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/diagnosis_effort.hpp>
 #include <sivid/diagnosis/hardest_experiments.hpp>
@@ -14,19 +15,6 @@
 #include <utility>
 
 namespace sivid {
-
-/// How the inflation of a candidate is bounded.
-struct gap_options {
-    step_effort bound{50, 0.3};      ///< for both bounds ...
-    std::size_t further_boxes = 120; ///< ... see `inflation_options::further_work`
-    step_effort no_gap{4, 0.02};     ///< where there is none: for the lower bound
-    double relative_width = 0.03;    ///< of the bounds that are wanted
-    /// Share of the time for interval observers; twice as much where starts are wide.
-    double observers = 0.07;
-    /// Where more than twice as many experiments are at hand, so many of the hardest are tried
-    /// first for a refutation.
-    std::size_t hardest = 4;
-};
 
 [[nodiscard]] inline gap_verdict gap_of(inflation_range const& inflation) {
     return inflation.upper() <= 1  ? gap_verdict::none

@@ -2,7 +2,8 @@
 #ifndef SIVID_DIAGNOSIS_HOLDOUT_HPP
 #define SIVID_DIAGNOSIS_HOLDOUT_HPP
 
-#include <sivid/diagnosis/screening.hpp>
+#include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/diagnosis/detail/screened.hpp>
 
 #include <utility>
 #include <vector>

@@ -2,10 +2,12 @@
 #ifndef SIVID_DIAGNOSIS_HOLDOUT_JUDGEMENT_HPP
 #define SIVID_DIAGNOSIS_HOLDOUT_JUDGEMENT_HPP
 
+#include <sivid/diagnosis/detail/holdout_results.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/holdout.hpp>
 #include <sivid/diagnosis/resolve_delays.hpp>
 #include <sivid/diagnosis/verification.hpp>
+#include <sivid/paving/box_explorer.hpp>
 #include <sivid/paving/data_test.hpp>
 #include <sivid/paving/fit.hpp>
 #include <sivid/paving/holdout_inflation.hpp>
@@ -18,17 +20,6 @@
 #include <vector>
 
 namespace sivid {
-
-/// How a fitted candidate does on data that chose nothing.
-struct holdout_judgement {
-    inflation_range at_witness = unknown_inflation(); ///< of the fit's witness
-    /// Over all parameters whose fit inflation is at most the proved upper bound.
-    std::optional<inflation_range> over_fits;
-    std::vector<double> rmse; ///< per channel; NaN: not measured
-    double covered = std::numeric_limits<double>::quiet_NaN();
-    double width = std::numeric_limits<double>::quiet_NaN();
-    approximate_fit run; ///< residuals of the motion at the witness
-};
 
 namespace diagnosis_detail {
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_PLACE_ESTIMATE_HPP
 #define SIVID_DIAGNOSIS_PLACE_ESTIMATE_HPP
 
+#include <sivid/diagnosis/detail/place_results.hpp>
 #include <sivid/diagnosis/estimated_place.hpp>
 #include <sivid/diagnosis/law_search.hpp>
 #include <sivid/diagnosis/missing_rate_scales.hpp>
@@ -19,22 +20,6 @@
 #include <vector>
 
 namespace sivid {
-
-/// One set of places that was allowed to be wrong.
-struct tried_places {
-    std::vector<std::string> names; ///< sensors as "sensor r"
-    double inflation = 0, score = 0, cost = 0;
-};
-
-/// Where a model departs from its data.
-struct place_estimate {
-    approximate_fit base;                ///< without anything missing
-    std::vector<estimated_place> places; ///< most important first; empty when nothing is missing
-    double inflation = 0;                ///< that is left with these places
-    std::vector<tried_places> tried;
-    std::vector<std::vector<std::string>> alternatives; ///< sets that do as well
-    double seconds = 0;
-};
 
 struct place_options {
     place_search_options search;

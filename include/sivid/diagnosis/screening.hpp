@@ -4,6 +4,7 @@
 
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/candidate.hpp>
+#include <sivid/diagnosis/detail/screened.hpp>
 #include <sivid/paving/fit.hpp>
 #include <sivid/paving/minimax_fit.hpp>
 
@@ -17,27 +18,6 @@
 #include <vector>
 
 namespace sivid {
-
-/// A candidate with its problem and fit.
-struct screened {
-    candidate figures;
-    identification_problem problem;
-    approximate_fit fit;
-    bool silent = false; ///< no value of the effect's parameters moves a measured output
-};
-
-struct screening_options {
-    double seconds = 60;
-    /// Pairs are tried with so many of the best single effects when none explains alone, ...
-    std::size_t partners = 6;
-    /// ... and the best single one with all others when it does.
-    bool always_pairs = true;
-    /// Candidates of up to so many effects are tried: where no pair explains, effects join the
-    /// likeliest candidate one by one.
-    std::size_t most_effects = 2;
-    /// Called before each fit with what is tried; false ends the screening.
-    std::function<bool(std::string const&)> progress{};
-};
 
 /// Fits a catalogue of effects, alone, in pairs and perhaps further, to one campaign. Nothing here
 /// is proved.

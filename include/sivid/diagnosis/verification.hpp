@@ -3,10 +3,14 @@
 #define SIVID_DIAGNOSIS_VERIFICATION_HPP
 
 #include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/diagnosis/detail/verified_inflation.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/resolve_delays.hpp>
+#include <sivid/paving/box_explorer.hpp>
+#include <sivid/paving/data_test.hpp>
 #include <sivid/paving/fit.hpp>
 #include <sivid/paving/inflation.hpp>
+#include <sivid/paving/witness.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -16,14 +20,6 @@
 #include <vector>
 
 namespace sivid {
-
-/// What was proved about one problem, perhaps one whose model has delays.
-struct verified_inflation {
-    inflation_range range = unknown_inflation();
-    std::optional<verified_witness> witness; ///< attains range.upper()
-    std::vector<std::string> assumptions;
-    box hull; ///< contains every parameter of inflation <= range.upper(); empty if not known
-};
 
 namespace diagnosis_detail {
 

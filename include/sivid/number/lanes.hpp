@@ -11,7 +11,11 @@
 #include <cstdint>
 #include <limits>
 
+#if SIVID_PACK_AVX2
 #include <immintrin.h>
+#else
+#include <emmintrin.h>
+#endif
 
 namespace sivid {
 inline namespace SIVID_PACK_TARGET {

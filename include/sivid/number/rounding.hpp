@@ -16,7 +16,11 @@
 #include <cstdint>
 #include <limits>
 
+#if defined(__AVX512F__) || defined(__FMA__)
 #include <immintrin.h>
+#else
+#include <emmintrin.h> // a tenth of the former, and all that these kernels use
+#endif
 
 // Kernels that differ with compiler flags live in a namespace that names the flags, so that
 // translation units with different flags can be linked.

@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_DEPENDENCE_HPP
 #define SIVID_PAVING_DEPENDENCE_HPP
 
-#include <sivid/model/combination.hpp>
+#include <sivid/model/find_combinations.hpp>
 #include <sivid/paving/problem.hpp>
 
 #include <vector>

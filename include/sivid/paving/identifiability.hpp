@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_IDENTIFIABILITY_HPP
 #define SIVID_PAVING_IDENTIFIABILITY_HPP
 
-#include <sivid/model/combination.hpp>
+#include <sivid/model/find_combinations.hpp>
 #include <sivid/model/homogeneity.hpp>
 #include <sivid/model/symmetry.hpp>
 #include <sivid/paving/detail/sensitivity_spectrum.hpp>

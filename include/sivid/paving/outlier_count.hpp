@@ -5,6 +5,7 @@
 #include <sivid/paving/cut_contraction.hpp>
 #include <sivid/paving/data_test.hpp>
 #include <sivid/paving/detail/fewest_outliers.hpp>
+#include <sivid/paving/detail/outlier_search_options.hpp>
 #include <sivid/paving/frontier.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/problem.hpp>
@@ -13,22 +14,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 namespace sivid {
-
-struct outlier_search_options {
-    data_test_options test;
-    double seconds = 10;
-    std::size_t boxes = 20'000;
-    /// No side is split below this share of the prior.
-    double accuracy = 1e-6;
-    std::function<bool()> keep_going; ///< false ends the search with what is proved until then
-};
 
 /// Bounds from below how many measurements every parameter of the prior violates, all experiments
 /// together, by branch and bound.

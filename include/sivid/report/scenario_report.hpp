@@ -4,6 +4,7 @@
 
 #include <sivid/enclosure/simulate.hpp>
 #include <sivid/io/explaining_motion.hpp>
+#include <sivid/report/detail/plane_channels.hpp>
 #include <sivid/report/identification_view.hpp>
 
 #include <algorithm>
@@ -16,16 +17,7 @@
 
 namespace sivid::report {
 
-/// Which channels are a position in the plane; `heading` may be empty.
-struct plane_channels {
-    std::string x = "x";
-    std::string y = "y";
-    std::string heading{};
-};
-
 namespace detail {
-
-inline range shown(interval const& x) { return {lower(x), upper(x)}; }
 
 /// What the page shows of one experiment: its measurements, the tube, the motion in the plane.
 class scenario_filler {

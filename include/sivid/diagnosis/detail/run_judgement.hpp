@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_DETAIL_RUN_JUDGEMENT_HPP
+#define SIVID_DIAGNOSIS_DETAIL_RUN_JUDGEMENT_HPP
+
+#include <sivid/compiled.hpp>
+#include <sivid/diagnosis/holdout.hpp>
+#include <sivid/diagnosis/holdout_judgement.hpp>
+
+#include <cstddef>
+#include <utility>
+
+namespace sivid {
+
+SIVID_ENTRY void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds,
+                                  data_test_options const& test, std::size_t boxes) {
+    if (data.empty() || run.candidates.empty()) return;
+    auto const judge = [&](screened const& candidate, verified_inflation const& bound) {
+        auto const judged = data.judged_by(candidate, run.base, run.catalogue);
+        inflation_options search;
+        search.seconds = seconds / 2;
+        search.work = boxes / 2 * (run.base.experiments.size() + judged.experiments.size() + 1);
+        search.test = test;
+        return judge_by_holdout(candidate, bound, judged, search);
+    };
+    auto const before = judge(run.candidates.front(), run.base_bound);
+    run.holdout_before = before;
+    if (run.result.causes.empty()) return;
+    auto const after = judge(run.candidates[run.answer], run.answer_bound);
+    run.holdout_after = after;
+    holdout_figures figures;
+    figures.inflation_before = before.at_witness;
+    figures.inflation_after = after.at_witness;
+    figures.over_fits_before = before.over_fits;
+    figures.over_fits_after = after.over_fits;
+    for (auto const& c : run.base.model.about.channels) figures.channels.push_back(c.name);
+    figures.rmse_before = before.rmse;
+    figures.rmse_after = after.rmse;
+    figures.covered_before = before.covered;
+    figures.covered_after = after.covered;
+    figures.width_before = before.width;
+    figures.width_after = after.width;
+    run.result.shrink_holdout = shrink(figures.inflation_before, figures.inflation_after);
+    run.result.causes.front().holdout = std::move(figures);
+}
+
+} // namespace sivid
+
+#endif

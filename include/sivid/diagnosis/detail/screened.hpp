@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_DETAIL_SCREENED_HPP
+#define SIVID_DIAGNOSIS_DETAIL_SCREENED_HPP
+
+#include <sivid/diagnosis/candidate.hpp>
+#include <sivid/paving/approximate_fit.hpp>
+#include <sivid/paving/problem.hpp>
+
+#include <cstddef>
+#include <functional>
+#include <string>
+
+namespace sivid {
+
+/// A candidate with its problem and fit.
+struct screened {
+    candidate figures;
+    identification_problem problem;
+    approximate_fit fit;
+    bool silent = false; ///< no value of the effect's parameters moves a measured output
+};
+
+struct screening_options {
+    double seconds = 60;
+    /// Pairs are tried with so many of the best single effects when none explains alone, ...
+    std::size_t partners = 6;
+    /// ... and the best single one with all others when it does.
+    bool always_pairs = true;
+    /// Candidates of up to so many effects are tried: where no pair explains, effects join the
+    /// likeliest candidate one by one.
+    std::size_t most_effects = 2;
+    /// Called before each fit with what is tried; false ends the screening.
+    std::function<bool(std::string const&)> progress{};
+};
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_DETAIL_OUTLIER_SEARCH_OPTIONS_HPP
+#define SIVID_PAVING_DETAIL_OUTLIER_SEARCH_OPTIONS_HPP
+
+#include <sivid/paving/data_test_options.hpp>
+
+#include <cstddef>
+#include <functional>
+
+namespace sivid {
+
+struct outlier_search_options {
+    data_test_options test;
+    double seconds = 10;
+    std::size_t boxes = 20'000;
+    /// No side is split below this share of the prior.
+    double accuracy = 1e-6;
+    std::function<bool()> keep_going; ///< false ends the search with what is proved until then
+};
+
+} // namespace sivid
+
+#endif
