@@ -20,7 +20,8 @@ TEST_CASE("the smallest set of places is chosen and its members are ranked") {
     fit.set_scales(std::vector<missing_rate_scale>(8, {4, 3}));
     std::vector<std::vector<double>> starts;
     for (auto const& e : problem.experiments) starts.push_back(mid(e.initial));
-    place_search search(fit, fit.plain(mid(problem.prior), starts));
+    auto const base = fit.plain(mid(problem.prior), starts);
+    place_search search(fit, base);
     search.run();
     CHECK(search.best().set == std::vector<std::size_t>{0, 2});
     CHECK(search.best().inflation <= 1);
@@ -29,4 +30,14 @@ TEST_CASE("the smallest set of places is chosen and its members are ranked") {
     CHECK(search.ranking()[1].second > 100);
     CHECK(search.tried().size() > 14);
     CHECK(search.alternatives().empty());
+
+    int asked = 0;
+    place_search_options stopped;
+    stopped.go_on = [&asked] { return ++asked <= 3; };
+    place_search few(fit, base, stopped);
+    few.run();
+    CHECK(asked == 4);
+    CHECK(few.tried().size() > 1);
+    CHECK(few.tried().size() <= 4);
+    CHECK(few.best().score <= few.tried().front().score);
 }

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -16,6 +18,9 @@ struct place_search_options {
     std::size_t most_sets = 80; ///< no new set is begun after so many
     double equal_score = 12;    ///< sets whose scores differ by less are equal alternatives
     double much_better = 30;    ///< by what a superset's score must be better to start from it
+    /// Asked before every fit but the first; false ends the search with what was tried. May be
+    /// empty.
+    std::function<bool()> go_on{};
 };
 
 /// Which smallest set of places, allowed to be wrong, explains the data.
@@ -90,6 +95,10 @@ public:
 
 private:
     [[nodiscard]] bool late() const { return tried_.size() >= options_.most_sets; }
+    [[nodiscard]] bool stopped() {
+        if (!stopped_ && !tried_.empty() && options_.go_on) stopped_ = !options_.go_on();
+        return stopped_;
+    }
     [[nodiscard]] place_fit* find(std::vector<std::size_t> const& set) {
         auto const at = index_.find(set);
         return at == index_.end() ? nullptr : &tried_[at->second];
@@ -97,7 +106,7 @@ private:
     /// Starts from the best subset with one place less.
     void try_set(std::vector<std::size_t> set) {
         std::sort(set.begin(), set.end());
-        if (find(set) != nullptr || (late() && set.size() > 1)) return;
+        if (find(set) != nullptr || (late() && set.size() > 1) || stopped()) return;
         place_state const* from = &base_;
         double score = std::numeric_limits<double>::infinity();
         for (std::size_t k = 0; k < set.size(); ++k) {
@@ -111,7 +120,7 @@ private:
         auto result = (*fit_)(set, *from);
         // A start that did not lead anywhere: the base once more.
         if (result.inflation > 1 && from != &base_ && result.score > 0.9 * score &&
-            set.size() > 1) {
+            set.size() > 1 && !stopped()) {
             auto again = (*fit_)(set, base_);
             if (again.score < result.score) result = std::move(again);
         }
@@ -160,7 +169,7 @@ private:
                     above = &other;
                 }
             }
-            if (above == nullptr || late()) continue;
+            if (above == nullptr || late() || stopped()) continue;
             auto again = (*fit_)(own.set, above->state);
             if (again.score < own.score || again.inflation < own.inflation) own = std::move(again);
         }
@@ -207,6 +216,7 @@ private:
     std::map<std::vector<std::size_t>, std::size_t> index_;
     std::size_t best_ = 0;
     bool inputs_ = true;
+    bool stopped_ = false;
     std::vector<std::pair<std::size_t, double>> ranking_;
     std::vector<std::vector<std::size_t>> alternatives_;
 };

@@ -97,9 +97,18 @@ private:
         for (auto const& f : run_.findings) run_.result.relations.push_back(reported(f));
     }
     void find_places() {
-        if (!effort_.go_on("looking where the model departs from the data")) return;
-        run_.places = estimate_places(run_.base, {}, &run_.candidates.front().fit);
+        auto options = place_effort("looking where the model departs from the data");
+        if (!options.search.go_on()) return;
+        run_.places = estimate_places(run_.base, std::move(options), &run_.candidates.front().fit);
         run_.result.where = reported(run_.places, run_.findings);
+    }
+    [[nodiscard]] place_options place_effort(std::string what) {
+        place_options result;
+        double const end = effort_.left() - effort_.seconds_of({0, options_.places_share});
+        result.search.go_on = [this, end, what = std::move(what)] {
+            return effort_.left() >= end && effort_.go_on(what);
+        };
+        return result;
     }
     void announce() {
         if (!options_.first_sentence) return;
@@ -157,11 +166,14 @@ private:
         auto const& nearest = run_.candidates[run_.answer];
         unexplained_remainder rest{
             names_of(nearest.figures, run_.catalogue), run_.answer_bound.range, {}};
+        auto options = place_effort("looking for what is left");
         if (run_.answer == 0) {
             rest.inflation = d.inflation;
             rest.where = d.where;
-        } else if (effort_.go_on("looking for what is left")) {
-            run_.remaining_places = estimate_places(nearest.problem);
+        } else if (options.search.go_on()) {
+            options.search.most_sets = options_.remaining_sets;
+            run_.remaining_places =
+                estimate_places(nearest.problem, std::move(options), &nearest.fit);
             for (auto const& p : run_.remaining_places.places) rest.where.push_back(reported(p));
         }
         d.remainder = std::move(rest);
