@@ -2,10 +2,13 @@
 # sivid::compiled: what most of the compile time goes into, compiled once instead of in every source that uses it: the
 # integrators behind identification and the functions marked SIVID_ENTRY. Programs that link to it find them declared
 # only; they have to be compiled with the same flags. Without it everything comes from the headers.
+#
+# Included by sivid's own tree and, where it is installed, by find_package(sivid COMPONENTS compiled): either way it is
+# built in the tree of whoever links to it, with the flags of that tree. `sivid_include_dir` says where the headers are.
 
 set(sivid_compiled_sources "")
 function(sivid_compiled_source name text)
-    set(source "${PROJECT_BINARY_DIR}/compiled/${name}.cpp")
+    set(source "${CMAKE_CURRENT_BINARY_DIR}/sivid_compiled/${name}.cpp")
     file(CONFIGURE OUTPUT "${source}" CONTENT "// SPDX-License-Identifier: MIT\n${text}" @ONLY)
     set(sivid_compiled_sources ${sivid_compiled_sources} "${source}" PARENT_SCOPE)
 endfunction()
@@ -59,6 +62,6 @@ add_library(sivid::compiled ALIAS sivid_compiled)
 target_compile_definitions(sivid_compiled PUBLIC SIVID_COMPILED)
 foreach(component IN ITEMS sivid io report)
     if(TARGET sivid::${component})
-        target_link_libraries(sivid_compiled PRIVATE sivid_${component})
+        target_link_libraries(sivid_compiled PRIVATE sivid::${component})
     endif()
 endforeach()

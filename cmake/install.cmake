@@ -32,4 +32,5 @@ write_basic_package_version_file(
     COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
 install(FILES "${PROJECT_BINARY_DIR}/sividConfig.cmake" "${PROJECT_BINARY_DIR}/sividConfigVersion.cmake"
         DESTINATION "${sivid_package_dir}")
+install(FILES "${CMAKE_CURRENT_LIST_DIR}/compiled.cmake" DESTINATION "${sivid_package_dir}" RENAME sivid_compiled.cmake)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/sivid")

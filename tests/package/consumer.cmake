@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Builds and runs a program that uses sivid, in an empty folder WORK, in one of four WAYs.
+# Builds and runs a program that uses sivid, in an empty folder WORK, in one of these WAYs: copy,
+# add_subdirectory, find_package, components, compiled_add_subdirectory, compiled_find_package.
 cmake_minimum_required(VERSION 3.22)
 
 function(run)
@@ -13,6 +14,15 @@ endfunction()
 
 set(project "${SOURCE}/examples/consumer")
 set(options "-DCMAKE_CXX_COMPILER=${COMPILER}" -DCMAKE_BUILD_TYPE=Debug)
+set(with_compiled OFF)
+if(WAY MATCHES "^compiled_(.*)")
+    # Its sources take minutes: the program links to what this tree has built of them.
+    set(WAY "${CMAKE_MATCH_1}")
+    set(with_compiled ON)
+    set(project "${SOURCE}/tests/package/compiled")
+    list(APPEND options "-DCOMPILED=${COMPILED}" "-DPROGRAM=${SOURCE}/examples/first_steps/main.cpp"
+         "-DCMAKE_CXX_FLAGS=${FLAGS}")
+endif()
 file(REMOVE_RECURSE "${WORK}")
 file(MAKE_DIRECTORY "${WORK}/program")
 
@@ -44,6 +54,9 @@ file(COPY "${project}/" DESTINATION "${WORK}/program")
 run("${CMAKE_COMMAND}" -S "${WORK}/program" -B "${WORK}/build" ${options})
 run("${CMAKE_COMMAND}" --build "${WORK}/build")
 run("${WORK}/build/consumer")
+if(with_compiled AND NOT run_text MATCHES "^consistent: r in")
+    message(FATAL_ERROR "the first program says something else: ${run_text}")
+endif()
 
 if(WAY STREQUAL "add_subdirectory")
     # As a guest, the library builds and registers nothing of its own.

@@ -41,6 +41,14 @@ inline range shown_share(interval const& volume) {
                : range{std::max(0.0, r.lo - more), std::min(1.0, r.hi + more)};
 }
 
+inline std::string joined(std::vector<std::string> const& all) {
+    std::string text;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        text += (i == 0 ? "" : i + 1 == all.size() ? " and " : ", ") + all[i];
+    }
+    return text;
+}
+
 } // namespace detail
 
 /// What the page of an identification shows; `identification_page` makes the page.

@@ -22,14 +22,6 @@ namespace sivid::report {
 
 namespace detail {
 
-inline std::string joined(std::vector<std::string> const& all) {
-    std::string text;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        text += (i == 0 ? "" : i + 1 == all.size() ? " and " : ", ") + all[i];
-    }
-    return text;
-}
-
 /// Fills the view of one identification step by step.
 class report_filler {
 public:
