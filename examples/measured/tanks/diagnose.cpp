@@ -190,7 +190,7 @@ int run(diagnose_command const& c) {
     options.gap.observers = {4000, 0.15};
     options.answer = {10, 0.1};
     options.exclusion = {8000, 0.1};
-    options.exclusions = {20000, 0.2};
+    options.exclusions = {16000, 0.2};
     options.screening.seconds = 0.5 * c.budget;
     options.screening.most_effects = 3;
     console::watch(options, progress);
