@@ -17,6 +17,10 @@ TEST_CASE("a step gets its share of the time, and boxes that count all experimen
     found.integrations = 40;
     CHECK(diagnosis_effort::boxes_of(p, found) == 21);
     CHECK(effort.seconds_of({1, 2.0}) <= 100);
+    auto const observers = effort.observers({70, 0.25});
+    CHECK(observers.boxes == 70);
+    CHECK(observers.seconds == 25);
+    CHECK(observers.go_on());
 }
 
 TEST_CASE("what is asked whether to go on can stop a diagnosis for good") {

@@ -37,12 +37,12 @@ TEST_CASE("no box: nothing is proved from below, unless by observers") {
     diagnosis_effort effort(100, {}, {});
     gap_options none;
     none.bound.boxes = none.further_boxes = 0;
-    none.observers = 0;
+    none.observers.boxes = 0;
     auto bound = verify_fit(s);
     prove_gap(bound, s, effort, none);
     CHECK(gap_of(bound.range) == gap_verdict::undecided);
     CHECK(bound.range.upper() > 1);
-    none.observers = 0.3;
+    none.observers = {20000, 0.3};
     prove_gap(bound, s, effort, none);
     CHECK(gap_of(bound.range) == gap_verdict::certified);
 }

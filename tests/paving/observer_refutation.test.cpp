@@ -18,9 +18,14 @@ TEST_CASE("a decay: what is proved comes near the inflation and never passes it"
     auto const problem = decay(prior, 0.5, 0.6, 0.02);
     double const truth = decay_inflation(prior, 0.5, 0.6, 0.02);
     REQUIRE(truth > 4);
-    double const proved = sivid::inflation_refuted_by_observers(problem, truth, 5);
-    CHECK(proved > 0.5 * truth);
-    CHECK(proved <= truth);
+    auto const proved = sivid::inflation_refuted_by_observers(problem, truth);
+    CHECK(proved.lower > 0.5 * truth);
+    CHECK(proved.lower <= truth);
+    auto const verdict =
+        sivid::inflation_refuted_by_observers(problem, truth, {.only_verdict = true});
+    CHECK(verdict.lower > 1);
+    CHECK(verdict.lower < proved.lower);
+    CHECK(verdict.boxes < proved.boxes);
     sivid::observer_refutation refuted(problem);
     CHECK(refuted(0.7 * truth, always));
     CHECK_FALSE(refuted(1.0001 * truth, [&] { return refuted.tested() < 3000; }));
@@ -57,10 +62,42 @@ TEST_CASE("a prior without the truth is refuted, though starts are wide") {
     CHECK(refuted.tested() < 200);
 }
 
-TEST_CASE("no time proves nothing") {
+TEST_CASE("no time and no boxes prove nothing") {
     auto const problem = decay(between(0.1, 3), 0.5, 0.6, 0.02);
-    CHECK(sivid::inflation_refuted_by_observers(problem, 10, 0) == 0);
-    CHECK(sivid::inflation_refuted_by_observers(problem, 10, 5, [] { return false; }) == 0);
+    CHECK(sivid::inflation_refuted_by_observers(problem, 10, {.seconds = 0}).lower == 0);
+    CHECK(sivid::inflation_refuted_by_observers(problem, 10, {.boxes = 0}).lower == 0);
+    sivid::observer_effort stopped;
+    stopped.go_on = [] { return false; };
+    CHECK(sivid::inflation_refuted_by_observers(problem, 10, stopped).lower == 0);
+}
+
+TEST_CASE("boxes end a refutation where they end it, whatever the clock says") {
+    auto const prior = between(0.1, 3);
+    auto const problem = decay(prior, 0.5, 0.6, 0.02);
+    double const truth = decay_inflation(prior, 0.5, 0.6, 0.02);
+    double last = 0;
+    for (std::size_t const boxes : {20, 200, 2000}) {
+        auto const once = sivid::inflation_refuted_by_observers(problem, truth, {boxes, 100});
+        auto const again = sivid::inflation_refuted_by_observers(problem, truth, {boxes, 1000});
+        CHECK(once.lower == again.lower);
+        CHECK(once.boxes == again.boxes);
+        CHECK(once.boxes <= boxes + sivid::interval_observer::width);
+        CHECK(once.lower >= last);
+        last = once.lower;
+    }
+}
+
+TEST_CASE("what one level came to is where the next begins, and nothing is lost on the way") {
+    auto const prior = between(0.1, 3);
+    auto const problem = decay(prior, 0.5, 0.6, 0.02);
+    double const truth = decay_inflation(prior, 0.5, 0.6, 0.02);
+    sivid::observer_refutation in_steps(problem), at_once(problem);
+    CHECK(in_steps(1, always));
+    auto const first = in_steps.tested();
+    CHECK(in_steps(0.7 * truth, always));
+    CHECK(at_once(0.7 * truth, always));
+    CHECK(in_steps.tested() - first <= at_once.tested());
+    CHECK_FALSE(in_steps(1.0001 * truth, [&] { return in_steps.tested() < 6000; }));
 }
 
 TEST_CASE("starts are wide against the state's own range") {

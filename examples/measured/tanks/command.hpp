@@ -17,7 +17,7 @@ struct diagnose_command {
     sivid::exact_decimal bound = *sivid::exact_decimal::parse("0.2");      ///< of the level [V]
     sivid::exact_decimal lower_start = *sivid::exact_decimal::parse("1");  ///< [V]
     sivid::exact_decimal upper_start = *sivid::exact_decimal::parse("15"); ///< at most [V]
-    double budget = 60;                                                    ///< [s]
+    double budget = 600;                                                   ///< [s], at most
     bool quiet = false;
     std::string command_line;
 };

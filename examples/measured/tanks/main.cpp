@@ -31,7 +31,7 @@ int parse_and_run(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--upper-start", upper_start, "largest upper level at the start [V]")
         ->capture_default_str();
-    app.add_option("--budget", c.budget, "seconds for the whole")
+    app.add_option("--budget", c.budget, "seconds, where the steps do not end by themselves before")
         ->check(console::number_between(0.0, 1e9))
         ->capture_default_str();
     app.add_flag("--quiet", c.quiet, "no progress");

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -87,15 +88,22 @@ private:
         }
     }
 
-    /// Fewest effects first, within an effort for all of them.
+    /// Fewest effects first, within an effort for all of them; where observers split every
+    /// parameter, fewest parameters first, and what is farthest from explaining.
     void exclude() {
         auto& causes = run_->result.causes;
         double const end = effort_->left() - effort_->seconds_of(options_->exclusions);
         std::size_t left = options_->exclusions.boxes;
         std::vector<std::size_t> open(causes.size());
         for (std::size_t k = 0; k < open.size(); ++k) open[k] = k;
+        bool const observed = has_wide_starts(run_->base);
         std::stable_sort(open.begin(), open.end(), [&](std::size_t a, std::size_t b) {
-            return causes[a].effects.size() < causes[b].effects.size();
+            auto const size = [&](std::size_t k) {
+                auto const& s = candidate_of(k);
+                return std::tuple{causes[k].effects.size(), observed ? s.problem.prior.size() : 0,
+                                  observed ? -s.fit.inflation : 0.0};
+            };
+            return size(a) < size(b);
         });
         for (auto const k : open) {
             auto const& s = candidate_of(k);
@@ -110,12 +118,19 @@ private:
             auto search = effort_->search(s.problem, each);
             search.only_verdict = true;
             std::size_t spent = 0;
+            double fewer = 0;
             bool const wide = has_wide_starts(s.problem);
-            if (wide) search.seconds *= 0.5; // each for observers and sets of trajectories
-            double const fewer = wide ? inflation_refuted_by_observers(s.problem, 2, search.seconds)
-                                      : refuted_by_few(s, options_->gap.hardest, search, spent);
+            if (wide) {
+                auto most = effort_->observers(each);
+                most.only_verdict = true;
+                auto const found = inflation_refuted_by_observers(s.problem, s.fit.inflation, most);
+                fewer = found.lower;
+                spent = found.boxes;
+            } else {
+                fewer = refuted_by_few(s, options_->gap.hardest, search, spent);
+            }
             auto proved = interval_traits<interval>::bounds(fewer, detail::infinity);
-            if (!(fewer > 1)) {
+            if (!(fewer > 1) && !wide) {
                 auto const found = bound_inflation(s.problem, &s.fit, search);
                 spent += diagnosis_effort::boxes_of(s.problem, found);
                 proved = found.value;

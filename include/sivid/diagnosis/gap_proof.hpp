@@ -67,12 +67,11 @@ inline void tighten(verified_inflation& known, screened const& s, inflation_opti
 /// Raises the lower bound by interval observers: for wide starts and long records, where no box of
 /// the search over sets of trajectories is carried to the end.
 inline void refute_by_observers(verified_inflation& known, screened const& s,
-                                diagnosis_effort& effort, double seconds) {
+                                diagnosis_effort& effort, step_effort const& most) {
     auto const upper = known.range.upper();
-    double const proved = inflation_refuted_by_observers(
-        s.problem, upper, seconds, [&effort] { return effort.go_on("bounding the states"); });
+    auto const proved = inflation_refuted_by_observers(s.problem, upper, effort.observers(most));
     known.range = interval_traits<interval>::bounds(
-        std::max(known.range.lower(), std::min(proved, upper)), upper);
+        std::max(known.range.lower(), std::min(proved.lower, upper)), upper);
 }
 
 /// Bounds the inflation of a model that has no delays.
@@ -82,7 +81,8 @@ inline void prove_gap(verified_inflation& known, screened const& s, diagnosis_ef
     auto const is_open = [&known] { return gap_of(known.range) == gap_verdict::undecided; };
     bool const wide = has_wide_starts(s.problem);
     if (wide && is_open()) {
-        refute_by_observers(known, s, effort, effort.seconds_of({0, 2 * options.observers}));
+        refute_by_observers(known, s, effort,
+                            {2 * options.observers.boxes, 2 * options.observers.share});
         if (!is_open()) return;
     }
     bool const explained = known.range.upper() <= 1;
@@ -103,7 +103,7 @@ inline void prove_gap(verified_inflation& known, screened const& s, diagnosis_ef
     }
     tighten(known, s, search);
     if (!wide && is_open() && effort.go_on("bounding the states")) {
-        refute_by_observers(known, s, effort, effort.seconds_of({0, options.observers}));
+        refute_by_observers(known, s, effort, options.observers);
     }
 }
 

@@ -17,26 +17,35 @@ using next_part = std::function<bool(std::string const&)>;
 
 namespace diagnosis_detail {
 
+inline std::size_t count_measurements(identification_problem const& p) {
+    std::size_t count = 0;
+    for (auto const& e : p.experiments) count += e.measurements.size();
+    return count;
+}
+
 template <class Keep>
-void add_part(identification_problem const& p, std::string const& name, Keep const& keep,
-              inflation_options const& each, std::vector<named_estimate>& to) {
+void add_part(identification_problem const& p, inflation_range const& whole,
+              std::string const& name, Keep const& keep, inflation_options const& each,
+              std::vector<named_estimate>& to) {
     auto const part = restricted_to(p, keep);
     if (part.experiments.empty()) return;
-    auto const proved = bound_inflation(part, nullptr, each);
-    to.push_back({name, "1", proved.value.upper(), proved.value});
+    bool const all = count_measurements(part) == count_measurements(p);
+    auto const proved = all ? whole : bound_inflation(part, nullptr, each).value;
+    to.push_back({name, "1", proved.upper(), proved});
 }
 
 } // namespace diagnosis_detail
 
 /// Certified inflation of every experiment alone; no part is worse than the whole.
+/// @param whole  what is proved about all of them: it holds for a part that has every measurement
 [[nodiscard]] inline std::vector<named_estimate>
-inflation_of_experiments(identification_problem const& p, inflation_options const& each,
-                         next_part const& next) {
+inflation_of_experiments(identification_problem const& p, inflation_range const& whole,
+                         inflation_options const& each, next_part const& next) {
     std::vector<named_estimate> result;
     for (std::size_t s = 0; s < p.experiments.size() && next(p.experiments[s].name); ++s) {
         diagnosis_detail::add_part(
-            p, p.experiments[s].name, [s](std::size_t e, measurement const&) { return e == s; },
-            each, result);
+            p, whole, p.experiments[s].name,
+            [s](std::size_t e, measurement const&) { return e == s; }, each, result);
     }
     return result;
 }
@@ -44,14 +53,14 @@ inflation_of_experiments(identification_problem const& p, inflation_options cons
 /// Certified inflation of every channel alone, over all experiments; channels that were not
 /// measured are left out.
 [[nodiscard]] inline std::vector<named_estimate>
-inflation_of_channels(identification_problem const& p, inflation_options const& each,
-                      next_part const& next) {
+inflation_of_channels(identification_problem const& p, inflation_range const& whole,
+                      inflation_options const& each, next_part const& next) {
     std::vector<named_estimate> result;
     auto const& channels = p.model.about.channels;
     for (std::size_t y = 0; y < channels.size() && next(channels[y].name); ++y) {
         diagnosis_detail::add_part(
-            p, channels[y].name, [y](std::size_t, measurement const& m) { return m.channel == y; },
-            each, result);
+            p, whole, channels[y].name,
+            [y](std::size_t, measurement const& m) { return m.channel == y; }, each, result);
     }
     return result;
 }

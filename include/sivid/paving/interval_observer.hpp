@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <tuple>
 #include <utility>
 #include <variant>
@@ -88,11 +89,15 @@ public:
         mask refuted{};
         /// Per parameter and box: how much of the rates its width moves, on the average over time.
         std::vector<lane_values> influence;
+        /// Of the boxes that are refuted: the measurements that were looked at for it.
+        std::array<std::size_t, width> samples{};
     };
 
     /// @param parameters  at most `width` boxes
     /// @param level       inflation of the measured bounds
-    [[nodiscard]] finding operator()(std::vector<box> const& parameters, double level) {
+    /// @param most        so many measurements at most, the first ones
+    [[nodiscard]] finding operator()(std::vector<box> const& parameters, double level,
+                                     std::size_t most = std::numeric_limits<std::size_t>::max()) {
         begin(parameters);
         finding result;
         result.influence.resize(model_.parameter_count(), lane_values{});
@@ -105,12 +110,13 @@ public:
                     if (((live_ & hopeless) >> l & 1u) == 0) continue;
                     if (++failed[l] <= experiment_->outliers) continue;
                     result.refuted |= mask{1} << l;
+                    result.samples[l] = next + 1;
                     live_ &= ~(mask{1} << l);
                 }
             }
         };
         look(experiment_->begin);
-        for (std::size_t k = 0; k + 1 < ticks_.size() && live_ != 0; ++k) {
+        for (std::size_t k = 0; k + 1 < ticks_.size() && live_ != 0 && next < most; ++k) {
             if (k % 8 == 0) add_influence(ticks_[k], parameters, result);
             cross(ticks_[k], ticks_[k + 1]);
             look(ticks_[k + 1]);

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -27,15 +28,18 @@ public:
     explicit observer_refutation(identification_problem const& problem) : prior_(problem.prior) {
         require_sound_environment();
         problem.require_valid();
+        cover_.push_back(prior_);
         for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
-            observers_.push_back(std::make_unique<interval_observer>(problem, s));
+            observers_.emplace_back().observe = std::make_unique<interval_observer>(problem, s);
         }
     }
 
+    /// Begins with the boxes that the last proof came to.
     /// @returns  true: proved, no parameter has an inflation of at most `level`
     /// @param go_on  false ends the search without a proof
     [[nodiscard]] bool operator()(double level, std::function<bool()> const& go_on) {
-        std::vector<box> open{prior_};
+        std::vector<box> open = cover_;
+        std::vector<box> refuted;
         while (!open.empty()) {
             if (!go_on()) return false;
             std::vector<box> batch;
@@ -51,15 +55,40 @@ public:
                 }
                 batch = std::move(halves);
             }
-            if (!judge(batch, level, open)) return false;
+            if (!judge(batch, level, refuted, open)) return false;
         }
+        cover_ = std::move(refuted);
         return true;
     }
     [[nodiscard]] std::size_t tested() const { return tested_; }
 
 private:
+    /// The observer of one experiment, and how many of its measurements it is worth to look at:
+    /// where boxes used to be refuted early, half of one that was not soon is.
+    struct watcher {
+        std::unique_ptr<interval_observer> observe;
+        std::vector<std::size_t> last; ///< measurements that the last refutations took, a ring
+        std::size_t refuted = 0, asked = 0;
+
+        [[nodiscard]] std::size_t worth() {
+            // Now and then all of them: more may refute what fewer do not.
+            if (last.size() < memory || ++asked % 4 == 0)
+                return std::numeric_limits<std::size_t>::max();
+            auto sorted = last;
+            std::sort(sorted.begin(), sorted.end());
+            auto const most_of_them = sorted[3 * memory / 4];
+            return most_of_them + most_of_them / 4 + 1;
+        }
+        void note(std::size_t samples) {
+            if (last.size() < memory) last.push_back(samples);
+            last[refuted++ % memory] = samples;
+        }
+        static constexpr std::size_t memory = 32;
+    };
+
     /// @returns  false when a box is left that is too small to be split
-    bool judge(std::vector<box> const& batch, double level, std::vector<box>& open) {
+    bool judge(std::vector<box> const& batch, double level, std::vector<box>& gone,
+               std::vector<box>& open) {
         std::vector<bool> refuted(batch.size(), false);
         std::vector<std::vector<double>> influence(batch.size(),
                                                    std::vector<double>(prior_.size(), 0.0));
@@ -73,10 +102,14 @@ private:
                 whose.push_back(b);
             }
             if (rest.empty()) break;
-            auto const found = (*observers_[k])(rest, level);
+            auto& by = observers_[k];
+            auto const found = (*by.observe)(rest, level, by.worth());
             bool any = false;
             for (std::size_t r = 0; r < rest.size(); ++r) {
-                if ((found.refuted >> r & 1u) != 0) refuted[whose[r]] = any = true;
+                if ((found.refuted >> r & 1u) != 0) {
+                    refuted[whose[r]] = any = true;
+                    by.note(found.samples[r]);
+                }
                 for (std::size_t j = 0; j < prior_.size(); ++j) {
                     influence[whose[r]][j] += found.influence[j][r];
                 }
@@ -85,7 +118,11 @@ private:
             if (any && k > 0) std::swap(observers_[k], observers_[k - 1]);
         }
         for (std::size_t b = 0; b < batch.size(); ++b) {
-            if (!refuted[b] && !split(batch[b], influence[b], open)) return false;
+            if (refuted[b]) {
+                gone.push_back(batch[b]);
+            } else if (!split(batch[b], influence[b], open)) {
+                return false;
+            }
         }
         return true;
     }
@@ -110,7 +147,8 @@ private:
     static constexpr double smallest_share = 1e-6; ///< of the prior's side
 
     box prior_;
-    std::vector<std::unique_ptr<interval_observer>> observers_;
+    std::vector<box> cover_; ///< of the prior
+    std::vector<watcher> observers_;
     std::size_t tested_ = 0;
 };
 
@@ -126,29 +164,46 @@ private:
     return false;
 }
 
+/// What a refutation by observers may spend; what is proved until then counts.
+struct observer_effort {
+    std::size_t boxes = 3000; ///< of parameters: unlike the time, the same on every machine
+    double seconds = 10;
+    std::function<bool()> go_on{}; ///< false ends the search; may be empty
+    bool only_verdict = false;     ///< stop as soon as something above 1 is proved
+};
+
+struct observer_bound {
+    double lower = 0; ///< proved: no parameter has a smaller inflation; 0 or above 1
+    std::size_t boxes = 0;
+};
+
 /// A lower bound of the inflation by interval observers, for problems whose starts are too wide, or
 /// whose records are too long, for `bound_inflation`.
 /// @param upper    a number that the inflation does not exceed
-/// @param seconds  at most; what is proved until then counts
-/// @param go_on    false ends the search
-/// @returns  0 when nothing above 1 is proved
-/// @guarantee  no parameter of the prior has a smaller inflation
-[[nodiscard]] inline double
-inflation_refuted_by_observers(identification_problem const& problem, double upper, double seconds,
-                               std::function<bool()> const& go_on = {}) {
+/// @guarantee  no parameter of the prior has an inflation below `lower`
+[[nodiscard]] inline observer_bound
+inflation_refuted_by_observers(identification_problem const& problem, double upper,
+                               observer_effort const& most = {}) {
     using clock = std::chrono::steady_clock;
     auto const begin = clock::now();
-    auto const in_time = [&] {
-        return std::chrono::duration<double>(clock::now() - begin).count() < seconds &&
-               (!go_on || go_on());
-    };
     observer_refutation refuted(problem);
-    double proved = 0;
+    auto const go_on = [&] {
+        return refuted.tested() < most.boxes &&
+               std::chrono::duration<double>(clock::now() - begin).count() < most.seconds &&
+               (!most.go_on || most.go_on());
+    };
+    observer_bound proved;
     double level = std::nextafter(1.0, 2.0);
-    while (level < 0.9 * upper && refuted(level, in_time)) {
-        proved = level;
+    while (level < 0.9 * upper) {
+        auto const before = refuted.tested();
+        if (!refuted(level, go_on)) break;
+        proved.lower = level;
+        if (most.only_verdict) break;
         level = std::isfinite(upper) ? std::sqrt(level * upper) : 2 * level;
+        // A higher level takes more than the last one.
+        if (refuted.tested() + (refuted.tested() - before) > most.boxes) break;
     }
+    proved.boxes = refuted.tested();
     return proved;
 }
 

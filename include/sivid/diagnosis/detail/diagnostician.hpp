@@ -151,12 +151,13 @@ private:
     void measure_parts() {
         if (diagnosis_detail::has_delays(run_.base.model)) return;
         auto const each = effort_.search(run_.base, options_.part);
+        auto const& whole = run_.base_bound.range;
         double const end = effort_.left() - effort_.seconds_of({0, options_.parts_share});
         auto const next = [&](std::string const& name) {
             return effort_.left() >= end && effort_.go_on("measuring the gap of " + name);
         };
-        run_.result.scenario_inflation = inflation_of_experiments(run_.base, each, next);
-        run_.result.channel_inflation = inflation_of_channels(run_.base, each, next);
+        run_.result.scenario_inflation = inflation_of_experiments(run_.base, whole, each, next);
+        run_.result.channel_inflation = inflation_of_channels(run_.base, whole, each, next);
     }
 
     /// How much is left with the closest candidate, and where: the lead to what no effect has.

@@ -14,8 +14,8 @@ struct gap_options {
     std::size_t further_boxes = 120; ///< ... see `inflation_options::further_work`
     step_effort no_gap{4, 0.02};     ///< where there is none: for the lower bound
     double relative_width = 0.03;    ///< of the bounds that are wanted
-    /// Share of the time for interval observers; twice as much where starts are wide.
-    double observers = 0.07;
+    /// For interval observers; twice as much where starts are wide.
+    step_effort observers{3000, 0.07};
     /// Where more than twice as many experiments are at hand, so many of the hardest are tried
     /// first for a refutation.
     std::size_t hardest = 4;
