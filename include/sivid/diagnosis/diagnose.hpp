@@ -141,8 +141,17 @@ private:
         auto const next = [&](std::string const& name) {
             return effort_.left() >= end && effort_.go_on("measuring the gap of " + name);
         };
-        run_.result.scenario_inflation = inflation_of_experiments(run_.base, each, next);
-        run_.result.channel_inflation = inflation_of_channels(run_.base, each, next);
+        auto& d = run_.result;
+        // The only part is the whole, of which most is known.
+        auto const whole = [&d](std::string const& name) {
+            return std::vector<named_estimate>{{name, "1", d.inflation.upper(), d.inflation}};
+        };
+        d.scenario_inflation = run_.base.experiments.size() == 1
+                                   ? whole(run_.base.experiments.front().name)
+                                   : inflation_of_experiments(run_.base, each, next);
+        d.channel_inflation = run_.base.model.about.channels.size() == 1
+                                  ? whole(run_.base.model.about.channels.front().name)
+                                  : inflation_of_channels(run_.base, each, next);
     }
 
     /// How much is left with the closest candidate, and where: the lead to what no effect has.
