@@ -59,6 +59,32 @@ inline std::string percent(sivid::interval const& share) {
     return low == high ? low + " %" : low + " to " + high + " %";
 }
 
+/// All parameters of the answer that were verified to explain the data.
+inline void print_witness(sivid::diagnosis const& d) {
+    if (d.causes.empty() || d.answer == sivid::answer_kind::unexplained) return;
+    auto const& found = d.causes.front().witness;
+    if (!found) return;
+    std::cout << "  verified to explain the data:";
+    for (auto const& p : found->parameters) {
+        std::cout << " " << p.name << " = "
+                  << sivid::report::rounded_text(p.value, sivid::report::rounding::nearest) << " "
+                  << p.unit;
+    }
+    std::cout << "\n";
+}
+
+inline void print_holdout(sivid::diagnosis const& d) {
+    namespace report = sivid::report;
+    if (d.causes.empty() || !d.causes.front().holdout) return;
+    auto const& h = *d.causes.front().holdout;
+    std::cout << "  on data that chose nothing bounds must grow by "
+              << report::outward_text(range_of(h.inflation_before)) << " without it, "
+              << report::outward_text(range_of(h.inflation_after)) << " with it";
+    if (d.shrink_holdout && std::isfinite(d.shrink_holdout->lower()))
+        std::cout << ": the gap shrinks by " << percent(*d.shrink_holdout);
+    std::cout << "\n";
+}
+
 } // namespace detail
 
 /// Misfits, missing rates and trajectories for the page.
@@ -151,9 +177,11 @@ inline void print_summary(sivid::diagnosis const& d, std::string const& id,
         std::cout << "  where: " << p.kind << " " << p.name << (p.proved ? " (proved)" : "")
                   << (p.law.empty() ? "" : ", like ") << p.law << "\n";
     }
+    bool const untried = d.gap != sivid::gap_verdict::none && d.causes.empty();
     std::cout << "  answer: "
-              << (d.answer == sivid::answer_kind::effects ? joined(d.effects)
-                                                          : std::string{to_string(d.answer)});
+              << (untried                                   ? "open, no effect was tried"
+                  : d.answer == sivid::answer_kind::effects ? joined(d.effects)
+                                                            : std::string{to_string(d.answer)});
     if (!d.causes.empty() && d.answer == sivid::answer_kind::effects) {
         std::cout << " (" << to_string(d.causes.front().verdict) << ")";
         for (auto const& p : d.causes.front().parameters) {
@@ -162,6 +190,7 @@ inline void print_summary(sivid::diagnosis const& d, std::string const& id,
         }
     }
     std::cout << "\n";
+    detail::print_witness(d);
     if (d.remainder) {
         std::cout << "  unexplained remainder: "
                   << (d.remainder->effects.empty() ? std::string{"the model as it is"}
@@ -172,10 +201,9 @@ inline void print_summary(sivid::diagnosis const& d, std::string const& id,
     for (auto const& other : d.indistinguishable) {
         std::cout << "  not told apart from it: " << joined(other) << "\n";
     }
-    if (d.shrink_holdout) {
-        std::cout << "  on data that chose nothing the gap shrinks by "
-                  << detail::percent(*d.shrink_holdout) << "\n";
-    }
+    detail::print_holdout(d);
+    if (d.interrupted || untried)
+        std::cout << "  ended early: what is open may be known with more time (--budget)\n";
     std::cout << "  " << report::duration_text(d.seconds)
               << "; written: " << (out / "report.html").string()
               << " and diagnosis.json beside it\n";

@@ -71,6 +71,9 @@ inline sivid::exact_decimal positive_decimal(std::string const& text, std::strin
 /// @throws sivid::output_error
 inline void prepare_folder(std::filesystem::path const& folder) {
     std::error_code fault;
+    if (std::filesystem::exists(folder, fault) && !std::filesystem::is_directory(folder, fault))
+        throw sivid::output_error(folder.string() + " is a file; give a folder for the results");
+    fault.clear();
     std::filesystem::create_directories(folder, fault);
     if (fault || !std::filesystem::is_directory(folder))
         throw sivid::output_error("the folder " + folder.string() + " cannot be created" +

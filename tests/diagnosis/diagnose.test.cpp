@@ -27,6 +27,18 @@ TEST_CASE("a model that explains its data has no gap, and that is proved") {
     CHECK_FALSE(d.shrink_fit);
 }
 
+TEST_CASE("the only scenario has the gap of the whole campaign") {
+    auto problem = small_campaign::problem(small_campaign::with_drag(0.3));
+    problem.experiments.resize(1);
+    auto const d = diagnose(std::move(problem), small_campaign::catalogue(), {}).result;
+    REQUIRE(d.gap == gap_verdict::certified);
+    REQUIRE(d.scenario_inflation.size() == 1);
+    REQUIRE(d.scenario_inflation[0].hull);
+    CHECK(d.scenario_inflation[0].hull->lower() == d.inflation.lower());
+    CHECK(d.scenario_inflation[0].hull->upper() == d.inflation.upper());
+    CHECK(d.channel_inflation.size() == 2);
+}
+
 TEST_CASE("a missing drag is found, proved and sized, and holds on data that chose nothing") {
     auto const real = small_campaign::with_drag(0.3);
     std::string first;

@@ -86,11 +86,19 @@ TEST_CASE("defects are refused at their place") {
     has("\"h\": { \"column\"", "\"h_err\": { \"column\": 1, \"error\": 1 }, \"h\": { \"column\"",
         "cannot be told apart");
     has("\"interpolation\"", "\"duration\": 0, \"interpolation\"", "the duration is not above 0");
+    has(", \"offset\": 0", "", "/scenarios/0/time: the key 'offset' is missing: where t = 0 lies");
+    has("\"ms\"", "\"d\"", "/scenarios/0/time/unit: unknown unit 'd'");
     has("\"initial\": { \"h\": [0, 1] }", "\"initial\": { \"h\": 3 }", "/scenarios/0/initial/h");
     has("} ]\n}", "}, { \"name\": \"A\" } ]\n}", "the key 'role' is missing");
     CHECK_THROWS_AS(read("{"), input_error);
     CHECK_THROWS_AS(read("[]"), input_error);
     CHECK_THROWS_AS(read_import_mapping("/nowhere/mapping.json"), input_error);
+}
+
+TEST_CASE("hours are 3600 seconds") {
+    auto const m = read(replaced(io_support::csv_mapping, "\"ms\"", "\"h\""));
+    CHECK(m.scenarios[0].time.to_seconds.factor_lower == io_support::dec("3600"));
+    CHECK(m.scenarios[0].time.to_seconds.factor_upper == io_support::dec("3600"));
 }
 
 TEST_CASE("what must hold together") {

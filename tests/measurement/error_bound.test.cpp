@@ -195,3 +195,34 @@ TEST_CASE("huge and tiny signals give a finite bound or none") {
         CHECK((found.bound > 0) == found.refusal.empty());
     }
 }
+
+TEST_CASE("one absurd reading does not become the bound") {
+    for (double const absurd : {1e308, 1e20, -127.0}) {
+        made s{800, 0.005, [&](double y) { return 0.01 * std::round(y / 0.01); }};
+        s.y[400] = absurd;
+        auto const found = propose_error_bound(s.t, s.y);
+        CAPTURE(absurd, found.quantum, found.spread, found.largest_residual);
+        CHECK(found.outliers >= 1);
+        CHECK(found.outliers <
+              8); // beside 1e20 the step is not seen, so that a few more are left out
+        CHECK(found.bound < 0.05);
+        CHECK(found.bound >= 0.005); // half a step
+    }
+}
+
+TEST_CASE("kinks that set the bound are said to") {
+    std::mt19937_64 random{7};
+    std::normal_distribution<double> noise{0, 0.01};
+    // Heated and left alone by turns: the slope jumps every 300 samples.
+    std::vector<double> t, y;
+    double level = 0;
+    for (int k = 0; k < 3000; ++k) {
+        t.push_back(k);
+        level += k / 300 % 2 == 0 ? 0.1 : -0.1;
+        y.push_back(level + noise(random));
+    }
+    auto const found = propose_error_bound(t, y);
+    CAPTURE(found.bound, found.spread, found.largest_residual, found.outliers);
+    CHECK(found.bound > 1.5 * 4 * found.spread);
+    CHECK_THAT(found.assumptions.back(), ContainsSubstring("as where an input jumps"));
+}

@@ -47,6 +47,13 @@ TEST_CASE("no step is invented") {
     CHECK(quantisation_step(values) == 0);
 }
 
+TEST_CASE("beside an absurd reading no step is found rather than the distance to it") {
+    for (double const absurd : {1e308, -1e308, 1e20}) {
+        CAPTURE(absurd);
+        CHECK(quantisation_step({0, 0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4, 4.5, absurd}) == 0);
+    }
+}
+
 TEST_CASE("different values are counted up to a limit") {
     CHECK(sivid::distinct_count({}, 3) == 0);
     CHECK(sivid::distinct_count({1, 1, 1}, 3) == 1);

@@ -65,7 +65,8 @@ struct recorded_table {
     if (found == headings.size())
         throw input_error{c.place, text_of(file, " has no column ", in_quotes(c.heading)),
                           text_of("it has: ", known.substr(0, 400),
-                                  "; check the separator, or name the column by its number")};
+                                  "; check \"separator\" and the lines before the heading "
+                                  "(\"skip_lines\"), or name the column by its number")};
     return found;
 }
 

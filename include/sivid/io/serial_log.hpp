@@ -104,7 +104,7 @@ private:
         auto const time = values[time_field_];
         if (!time) return drop(l.number, "the time is missing");
         if (!stamps_.possible(*time))
-            return drop(l.number, "garbled: the counter cannot show this time");
+            return drop(l.number, "garbled: a counter of that many bits cannot show this time");
         stamped_line result{l.number, l.text, *time, {}};
         for (auto const c : columns_) result.cells.push_back(values[c]);
         lines_.push_back(std::move(result));

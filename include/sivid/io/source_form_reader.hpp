@@ -70,17 +70,24 @@ namespace sivid {
     time.column = mapping_entries::column(entry.at("column"));
     auto const& unit = entry.at("unit");
     time.unit = unit.string();
-    for (auto const& [name, factor] :
-         {std::pair{"s", "1"}, {"ms", "1e-3"}, {"us", "1e-6"}, {"ns", "1e-9"}, {"min", "60"}})
+    for (auto const& [name, factor] : {std::pair{"s", "1"},
+                                       {"ms", "1e-3"},
+                                       {"us", "1e-6"},
+                                       {"ns", "1e-9"},
+                                       {"min", "60"},
+                                       {"h", "3600"}})
         if (time.unit == name)
             time.to_seconds.factor_lower = time.to_seconds.factor_upper =
                 *exact_decimal::parse(factor);
     if (time.unit != "s" && time.to_seconds.text().empty())
-        unit.fail(text_of("unknown unit ", in_quotes(time.unit)), "write s, ms, us, ns or min");
+        unit.fail(text_of("unknown unit ", in_quotes(time.unit)), "write s, ms, us, ns, min or h");
     if (auto const* bits = entry.find("counter_bits")) {
         if (!serial) bits->fail("a counter in a table", "counters that wrap need a serial source");
         time.counter_bits = mapping_entries::counter_bits(*bits);
     }
+    if (entry.find("offset") == nullptr)
+        entry.fail("the key 'offset' is missing: where t = 0 lies",
+                   "write \"first\" for the first row, or what is added to the times, in seconds");
     auto const& offset = entry.at("offset");
     if (offset.type() == json_value::kind::string) {
         if (offset.string() != "first")

@@ -6,8 +6,10 @@
 #include <sivid/measurement/quantisation.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -95,6 +97,16 @@ struct error_bound_proposal {
     if (result.outliers > 0)
         result.assumptions.push_back("the samples that were left out are outliers: the bound does "
                                      "not hold for them, allow for their share");
+    double const usual = std::max(sigmas * result.spread, result.quantum);
+    if (!unresolved && margin * result.largest_residual > 1.5 * usual) {
+        std::array<char, 32> text{};
+        std::snprintf(text.data(), text.size(), "%.3g", result.quantum + sigmas * result.spread);
+        result.assumptions.push_back(
+            "the few samples farthest from their neighbours are errors of the instrument: they set "
+            "the bound; step and four standard deviations alone make " +
+            std::string{text.data()} +
+            ", so state a bound if they are kinks of the motion, as where an input jumps");
+    }
     if (unresolved)
         result.assumptions.push_back(
             "more than 5 % of the samples are far from their neighbours: motion that the samples "

@@ -20,6 +20,19 @@ namespace sivid {
     return seen.size();
 }
 
+namespace quantisation_detail {
+
+/// Exceeded by a tenth of the values.
+inline double usual_magnitude(std::vector<double> values) {
+    for (double& v : values) v = std::abs(v);
+    auto const at = values.begin() +
+                    static_cast<std::vector<double>::difference_type>((values.size() - 1) * 9 / 10);
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+} // namespace quantisation_detail
+
 /// The largest step of which all differences of the values are whole multiples, within the rounding
 /// of doubles; 0 when there is none above 1e-9 of the largest magnitude, or no two different
 /// values. The true step of the instrument divides it: short records may show a multiple.
@@ -32,8 +45,14 @@ namespace sivid {
     double const tolerance = 1e-12 * size, smallest = 1e-9 * size;
     // Differences of the sorted values, the smallest first, so that remainders stay accurate.
     std::vector<double> gaps;
-    for (std::size_t i = 1; i < values.size(); ++i)
-        if (values[i] - values[i - 1] > tolerance) gaps.push_back(values[i] - values[i - 1]);
+    double const usual_tolerance = 1e-12 * quantisation_detail::usual_magnitude(values);
+    for (std::size_t i = 1; i < values.size(); ++i) {
+        double const gap = values[i] - values[i - 1];
+        if (gap > tolerance)
+            gaps.push_back(gap);
+        else if (gap > usual_tolerance) // more than rounding: a few absurd readings hide the step
+            return 0;
+    }
     std::sort(gaps.begin(), gaps.end());
     if (gaps.empty() || !std::isfinite(gaps.back())) return 0;
     double step = gaps.front();
