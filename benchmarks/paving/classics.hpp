@@ -75,9 +75,8 @@ struct two_exponentials {
 };
 
 /// Prey and predator, x1' = (1 - p1 x2) x1, x2' = (p2 x1 - 1) x2; the prey is counted.
-/// @ref  the model of Jaulin, Automatica 38 (2002), and of Raissi, Ramdani and Candau, Automatica
-/// 40
-///       (2004)
+/// @ref  the model of Jaulin, Automatica 38 (2002), and of Raissi, Ramdani and Candau,
+///   Automatica 40 (2004)
 struct lotka_volterra {
     static constexpr auto name = "Lotka-Volterra";
     static constexpr auto states = sivid::states({{"x1", "1", 1000}, {"x2", "1", 1000}});

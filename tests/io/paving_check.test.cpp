@@ -29,6 +29,23 @@ TEST_CASE("a paving is verified box by box, a hole in it is not") {
     CHECK_THAT(refuted.detail, ContainsSubstring("the contrary holds at a="));
 }
 
+TEST_CASE("what is not confirmed is counted, and verifies nothing") {
+    auto const problem = io_support::one_rate_problem();
+    auto const stored = io_support::stored_result(problem).read();
+    identification_check_options options;
+    options.all = true;
+    options.seconds = -1;
+    paving_check<interval> check(problem, {"a"}, stored.rows, {}, options);
+    auto const inside = static_cast<std::size_t>(
+        std::count_if(stored.rows.begin(), stored.rows.end(),
+                      [](paved_box const& row) { return row.verdict == box_verdict::inside; }));
+    auto const found = check.inside("inside");
+    CHECK(found.found == outcome::undecided);
+    CHECK_THAT(found.detail, ContainsSubstring(std::to_string(inside) + " not confirmed"));
+    options.seconds = 60;
+    CHECK_THAT(check.inside("inside").detail, !ContainsSubstring("not confirmed"));
+}
+
 TEST_CASE("a few floats between inside rows are no claim, a gap that is wider is one") {
     auto const problem = io_support::one_rate_problem();
     identification_check_options options;

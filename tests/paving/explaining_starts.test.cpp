@@ -2,9 +2,7 @@
 #include <sivid/paving/explaining_starts.hpp>
 
 #include "support/catch.hpp"
-#include "support/models.hpp"
-#include "support/random.hpp"
-#include "support/taylor_models.hpp"
+#include "support/random_response.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -21,47 +19,12 @@ namespace {
 
 /// Polynomials in two parameters (0, 1) and two starts (2, 3), with random coefficients; a third
 /// parameter and a third start are points.
-struct random_experiment {
-    box prior{between(0.5, 2), between(1, 1), between(-3, 0.25)};
-    box initial{between(-1, 1), between(2, 2), between(5, 5.01)};
-    response known{normalised_unknowns(initial, prior),
-                   std::make_shared<monomial_table const>(monomial_table::of<4, 3>(4)),
-                   {},
-                   {},
-                   {},
-                   {},
-                   0,
-                   0};
+struct random_experiment : support::random_response<4, 3> {
+    random_experiment(draws& d, std::size_t outputs, double curvature)
+        : random_response(d, box{between(-1, 1), between(2, 2), between(5, 5.01)},
+                          box{between(0.5, 2), between(1, 1), between(-3, 0.25)}, outputs,
+                          curvature, 0.01) {}
 
-    random_experiment(draws& d, std::size_t outputs, double curvature) {
-        known.measurements = outputs;
-        auto const& table = *known.table;
-        known.coefficients.assign(table.size() * outputs, 0.0);
-        for (std::size_t m = 0; m < table.size(); ++m) {
-            std::size_t total = 0;
-            for (auto const e : table.exponents[m]) total += e;
-            double const size = total <= 1 ? 1 : curvature;
-            for (std::size_t y = 0; y < outputs; ++y) {
-                known.coefficients[m * outputs + y] = d.uniform(-size, size);
-            }
-        }
-        for (std::size_t y = 0; y < outputs; ++y) {
-            known.radius.push_back(d.coin() ? 0 : d.uniform(0, 0.01));
-        }
-    }
-    /// The polynomial of an output, exactly.
-    [[nodiscard]] rational value(std::size_t y, std::vector<rational> const& q) const {
-        rational sum = 0;
-        auto const& table = *known.table;
-        for (std::size_t m = 0; m < table.size(); ++m) {
-            rational term(known.coefficients[m * known.radius.size() + y]);
-            for (std::size_t v = 0; v < q.size(); ++v) {
-                for (std::size_t k = 0; k < table.exponents[m][v]; ++k) term *= q[v];
-            }
-            sum += term;
-        }
-        return sum;
-    }
     /// Where a rule starts for d in [-1,1]^2 over the part: all variables, exactly.
     [[nodiscard]] std::vector<rational> follow(start_rule const& rule, box const& part,
                                                std::vector<double> const& d) const {

@@ -6,6 +6,7 @@
 #include "support/problems.hpp"
 
 #include <sivid/enclosure/tube.hpp>
+#include <sivid/paving/dependence.hpp>
 #include <sivid/paving/identify.hpp>
 
 using namespace sivid;
@@ -48,12 +49,18 @@ constexpr auto shared_rate = [](auto const&, auto const& x, auto const& p, auto 
 };
 box const shared_prior{between(0.5, 2), between(0.5, 1.5), between(0.4, 1.2)};
 sample shared_factor() { return make(3, shared_rate, shared_prior); }
+/// x' = p0 - p2 x: p1 and p3 stand nowhere.
+constexpr auto idle_rate = [](auto const&, auto const& x, auto const& p, auto const&) {
+    return std::vector{p[0] - p[2] * x[0]};
+};
+box const idle_prior{between(0.5, 2), between(-1, 3), between(0.4, 1.2), between(5, 6)};
+sample idle() { return make(4, idle_rate, idle_prior); }
 
 } // namespace
 
 TEST_CASE("a reduced problem has the trajectories of the original one") {
     draws d(371);
-    for (auto const& s : {products(), shared_factor()}) {
+    for (auto const& s : {products(), shared_factor(), idle()}) {
         auto const map = reduction::find(s.problem, s.structure);
         REQUIRE(map);
         auto const& small = map->problem();
@@ -144,6 +151,64 @@ TEST_CASE("nothing is reduced where no product can stand for its factors") {
         },
         box{between(0.5, 1), between(-1, 1)});
     CHECK_FALSE(reduction::find(pole.problem, pole.structure));
+}
+
+TEST_CASE("parameters that act nowhere are spared without any product") {
+    auto const s = idle();
+    auto const map = reduction::find(s.problem, s.structure);
+    REQUIRE(map);
+    CHECK(map->side_names() == std::vector<std::string>{"p0", "p2"});
+    for (std::size_t j = 0; j < 4; ++j) CHECK(map->acts(j) == (j % 2 == 0));
+    auto const none = [](std::size_t constants) {
+        return make(
+            constants,
+            [](auto const&, auto const& x, auto const&, auto const&) { return std::vector{-x[0]}; },
+            box(std::vector<interval>(constants, between(1, 2))));
+    };
+    auto const still = none(3); // one is kept: a search needs a side
+    auto const last = reduction::find(still.problem, still.structure);
+    REQUIRE(last);
+    CHECK(last->side_names() == std::vector<std::string>{"p0"});
+    CHECK_FALSE(reduction::find(none(1).problem, none(1).structure));
+    CHECK(reduction::find(products().problem, products().structure)->acts(0));
+}
+
+TEST_CASE("unknowns that act nowhere cost the search nothing") {
+    draws d(377);
+    for (int round = 0; round < 6; ++round) {
+        auto const planted =
+            support::plant(d, {1, 4, 0, 10}, idle_rate, idle_prior, {1},
+                           {.experiments = 2, .samples = 8, .noise = d.uniform(0.01, 0.1)});
+        auto plain = planted.problem;
+        for (std::size_t const j : {1, 3}) {
+            plain.choice.fixed[planted.problem.choice.unknown[j]] = interval(planted.truth[j]);
+        }
+        plain.choice.unknown = {"p0", "p2"};
+        plain.prior = {idle_prior[0], idle_prior[2]};
+        identify_options options;
+        options.search.boxes = 300;
+        options.search.seconds = 1e9;
+        auto const found = identify(planted.problem, options);
+        auto const alone = identify(plain, options);
+        CHECK(found.verdict == verdict::consistent);
+        CHECK(contains(found.hull, planted.truth));
+        CHECK(found.integrations <= alone.integrations + 4);
+        CHECK(width(found.hull[0]) <= 1.05 * width(alone.hull[0]));
+        CHECK(width(found.hull[2]) <= 1.05 * width(alone.hull[1]));
+        CHECK(found.paving.outer_volume().upper() <= 1.05 * alone.paving.outer_volume().upper());
+        std::size_t inside = 0;
+        for (auto const& b : found.paving.boxes()) {
+            CHECK(subset(idle_prior[1], b.set[1])); // never cut there
+            CHECK(subset(idle_prior[3], b.set[3]));
+            if (b.verdict != box_verdict::inside) continue;
+            ++inside;
+            auto const p = d.in(b.set);
+            for (std::size_t e = 0; e < 2; ++e) {
+                CHECK(planted.violated(e, p, planted.starts[e], 1e-10) == 0);
+            }
+        }
+        CHECK(inside > 0);
+    }
 }
 
 TEST_CASE("identification through a reduction contains the truth and claims nothing false") {

@@ -181,6 +181,9 @@ private:
                         std::to_string(claims.size()) + " proved";
         if (!options_->all) result.detail += ", a sample of " + std::to_string(total);
         if (refuted > 0) result.detail += ", " + std::to_string(refuted) + " refuted";
+        if (auto const open = claims.size() - proved - refuted - rim.thin; open > 0) {
+            result.detail += ", " + std::to_string(open) + " not confirmed";
+        }
         auto const size = nearest_text(options_->rim, 3) + " of the prior";
         if (rim.proved > 0) {
             result.detail += ", " + std::to_string(rim.proved) + " more but for a rim of " + size;

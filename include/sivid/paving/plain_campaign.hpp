@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -51,8 +52,8 @@ public:
 
     /// Runs experiments over the region until one refutes it.
     /// @param seek  look for starts that explain the region
-    /// @cost  one validated run per experiment, two where starts are chosen, three where they are
-    ///   sought
+    /// @cost  one validated run per experiment, two where starts are chosen, up to `shots` and one
+    ///   more where they are sought
     [[nodiscard]] knowledge learn(box const& region, bool seek = true) {
         knowledge known;
         for (std::size_t e = 0; e < runs_.size() && !known.refuted; ++e) {
@@ -74,15 +75,12 @@ public:
                 explained = explained || decide(known.chosen[e], runs_[e]->samples(), region,
                                                 own.outliers) == run_finding::explained;
             }
-            if (!seek || explained) continue;
-            plain_start_rule<I> const guess(known.all[e], runs_[e]->samples(), own.initial, region);
-            auto const rule = guess.search(own.outliers, false);
-            if (!rule) continue;
-            auto starts = guess.around(*rule, own.initial);
-            if (is_empty(starts)) continue;
+            if (!seek || explained || !has_choice(own.initial)) continue;
+            auto starts = shoot(e, exactly, region);
+            if (!starts) continue;
             ++count_;
-            known.guided[e] = exactly(starts, region);
-            known.guide[e] = std::move(starts);
+            known.guided[e] = exactly(*starts, region);
+            known.guide[e] = std::move(*starts);
         }
         return known;
     }
@@ -123,6 +121,63 @@ public:
     }
 
 private:
+    /// Linearisations by which starts are sought, and how far the last may move a start, in
+    /// half-widths of its box.
+    static constexpr int shots = 6;
+    static constexpr double close = 1.0 / 64;
+    /// Reach of the starts in a shot, in half-widths of their boxes.
+    static constexpr double near = 0x1p-20;
+
+    [[nodiscard]] static bool has_choice(box const& initial) {
+        return std::any_of(initial.begin(), initial.end(), [](interval const& side) {
+            return !plain_start_rule<I>::is_decimal(side);
+        });
+    }
+
+    /// Starts around a rule that seems to explain the region, by shooting: all starts of a long
+    /// experiment are too many for sets of first order, so the outputs are linearised about single
+    /// starts, each about the one that is best by the last linearisation. A guess: what is returned
+    /// is for a run to judge.
+    [[nodiscard]] std::optional<box> shoot(std::size_t e, plain_run<I>& exactly,
+                                           box const& region) {
+        auto const& own = problem_->experiments[e];
+        aims_.resize(runs_.size());
+        auto& aim = aims_[e];
+        if (aim.empty()) aim = mid(e < starts_.size() ? starts_[e] : own.initial);
+        std::optional<box> result;
+        for (int shot = 0; shot < shots; ++shot) {
+            auto at = own.initial;
+            for (std::size_t i = 0; i < at.size(); ++i) {
+                if (plain_start_rule<I>::is_decimal(at[i])) continue;
+                double const reach = near * rad(at[i]);
+                at[i] = intersect(at[i], interval(aim[i] - reach, aim[i] + reach));
+            }
+            if (is_empty(at)) break;
+            ++count_;
+            auto const known = exactly(at, region);
+            plain_start_rule<I> const forms(known, exactly.samples(), at, region, own.initial);
+            auto rule = forms.search(own.outliers, false);
+            bool const explains = rule.has_value();
+            for (double bounds = 4; !rule && bounds < 1e4; bounds *= 4) {
+                rule = forms.search(own.outliers, false, bounds); // the best that there is
+            }
+            result.reset();
+            if (!rule) break;
+            auto const next = forms.middle(*rule);
+            double moved = 0;
+            for (std::size_t i = 0; i < at.size(); ++i) {
+                if (plain_start_rule<I>::is_decimal(at[i])) continue;
+                moved = std::max(moved, std::abs(next[i] - aim[i]) / rad(own.initial[i]));
+            }
+            if (explains) result = forms.around(*rule, own.initial);
+            aim = next;
+            if (moved <= close) break;
+        }
+        if (result && is_empty(*result)) result.reset();
+        if (!result) aim.clear();
+        return result;
+    }
+
     /// Whether starts near those that seemed to explain the region do explain the part.
     [[nodiscard]] bool is_guided(knowledge const& known, std::size_t e, box const& part) const {
         if (known.guide[e].size() == 0) return false;
@@ -139,6 +194,7 @@ private:
 
     identification_problem const* problem_;
     std::vector<box> starts_;
+    std::vector<std::vector<double>> aims_; ///< where the last search for starts ended
     std::vector<std::unique_ptr<plain_run<I>>> runs_;
     std::vector<std::unique_ptr<plain_run<I>>> recorded_; ///< where inputs have error bounds
     std::size_t count_ = 0;

@@ -26,14 +26,24 @@ public:
     /// @param part    a subset of the region that it was made over
     plain_start_rule(plain_outputs<I> const& known, record const& samples, box const& starts,
                      box const& part)
+        : plain_start_rule(known, samples, starts, part, starts) {}
+
+    /// @param choice  rules are looked for among these starts; where they are not among those of
+    ///   the run its forms extrapolate, which may guide but proves nothing
+    plain_start_rule(plain_outputs<I> const& known, record const& samples, box const& starts,
+                     box const& part, box const& choice)
         : known_(&known), samples_(&samples), starts_(&starts) {
         auto const& d = known.deviation;
         for (std::size_t c = 0; c < starts.size(); ++c) {
-            if (is_decimal(starts[c])) {
+            if (is_decimal(choice[c])) {
                 fixed_.push_back({c, 0, 0, d[c]});
-            } else {
-                free_.push_back({c, 0, traits::mag(d[c]), d[c]});
+                continue;
             }
+            I const own = traits::sub(traits::bounds(choice[c].lower(), choice[c].upper()),
+                                      centre_of(starts[c]));
+            double const middle = traits::mid(own);
+            double const reach = traits::mag(traits::sub(own, traits::point(middle)));
+            free_.push_back({c, middle, reach, d[c]});
         }
         for (std::size_t j = 0; j < part.size(); ++j) {
             auto const c = starts.size() + j;
@@ -51,7 +61,9 @@ public:
 
     /// A rule that should explain all but q measurements, if there seems to be one.
     /// @param by_rests  counts what is not affine; else only its middle
-    [[nodiscard]] std::optional<start_rule> search(std::size_t q, bool by_rests) const {
+    /// @param bounds    half-widths of measurements by which outputs may be off, 1 to explain them
+    [[nodiscard]] std::optional<start_rule> search(std::size_t q, bool by_rests,
+                                                   double bounds = 1) const {
         if (free_.empty() || known_->outputs.size() + q < samples_->size()) return std::nullopt;
         auto const n = known_->outputs.size();
         misfit_forms f;
@@ -70,12 +82,14 @@ public:
                 offset += g * parameters_[j].middle;
             }
             for (std::size_t i = 0; i < f.starts; ++i) {
-                f.by_start[i * n + k] = o.gradient[free_[i].column] * free_[i].reach / e;
+                double const g = o.gradient[free_[i].column];
+                f.by_start[i * n + k] = g * free_[i].reach / e;
+                offset += g * free_[i].middle;
             }
             double const lost = by_rests ? 0.5 * traits::width(o.rest) / e : 0;
             bool const usable = o.defined && std::isfinite(offset) && std::isfinite(lost);
             f.offset.push_back(usable ? offset / e : 0);
-            f.margin.push_back(usable ? std::max(1 - lost, -1e9) : -1e9);
+            f.margin.push_back(usable ? std::max(bounds - lost, -1e9) : -1e9);
         }
         return start_rule_search()(f, q);
     }
@@ -98,12 +112,22 @@ public:
         return held + q >= samples_->size();
     }
 
+    /// The starts of the rule for the middle of the part; others as in the middle of the run's.
+    [[nodiscard]] std::vector<double> middle(start_rule const& rule) const {
+        auto result = mid(*starts_);
+        for (std::size_t i = 0; i < free_.size(); ++i) {
+            result[free_[i].column] += free_[i].middle + free_[i].reach * rule.middle[i];
+        }
+        return result;
+    }
+
     /// A box of starts around those of the rule, off the bounds of `initial`.
     [[nodiscard]] box around(start_rule const& rule, box const& initial) const {
         auto result = initial;
+        auto const at = middle(rule);
         for (std::size_t i = 0; i < free_.size(); ++i) {
             auto const& own = free_[i];
-            double const middle = mid((*starts_)[own.column]) + own.reach * rule.middle[i];
+            double const middle = at[own.column];
             // Wider, so that rules for other linearisations lie within, too.
             double const reach =
                 1.5 * own.reach * reach_of(rule, i) + 0x1p-10 * rad(initial[own.column]);
@@ -125,6 +149,11 @@ private:
         I range;
     };
 
+    /// Where a run puts the centre of a side of its starts.
+    [[nodiscard]] static I centre_of(interval const& side) {
+        return traits::point(traits::mid(traits::bounds(side.lower(), side.upper())));
+    }
+
     /// Sum of the sizes of a start's slopes, about.
     [[nodiscard]] double reach_of(start_rule const& rule, std::size_t i) const {
         double sum = 0;
@@ -142,9 +171,10 @@ private:
             double const size = std::abs(rule.slope[i * n + j]);
             s = traits::add(s, traits::bounds(-size, size));
         }
-        I const moved = traits::mul(traits::point(free_[i].reach), s);
+        I const moved = traits::add(traits::point(free_[i].middle),
+                                    traits::mul(traits::point(free_[i].reach), s));
         auto const& side = (*starts_)[free_[i].column];
-        I const centre = traits::point(traits::mid(traits::bounds(side.lower(), side.upper())));
+        I const centre = centre_of(side);
         I const below = traits::sub(traits::point(side.lower()), centre);
         I const above = traits::sub(traits::point(side.upper()), centre);
         return traits::upper(below) <= traits::lower(moved) &&
@@ -161,8 +191,10 @@ private:
         }
         std::vector<I> by_start;
         for (std::size_t i = 0; i < free_.size(); ++i) {
-            by_start.push_back(traits::mul(slope(free_[i].column), traits::point(free_[i].reach)));
+            auto const& own = free_[i];
+            by_start.push_back(traits::mul(slope(own.column), traits::point(own.reach)));
             y = traits::add(y, traits::mul(by_start[i], traits::point(rule.middle[i])));
+            y = traits::add(y, traits::mul(slope(own.column), traits::point(own.middle)));
         }
         for (std::size_t j = 0; j < parameters_.size(); ++j) {
             auto const& p = parameters_[j];

@@ -19,7 +19,7 @@ namespace sivid {
 /// A problem with fewer parameters that has the same trajectories.
 ///   Where parameters enter the equations only through products c, the others can be set to 1 and
 ///   one parameter of each product takes the value of c: for the hovercraft S_g = 1 and L = (L
-///   S_g).
+///   S_g). Parameters that stand nowhere are set to 1, too.
 class reduction {
 public:
     /// A side of the reduced prior: a parameter of the original problem, or a product of several.
@@ -31,7 +31,7 @@ public:
     /// @returns nothing when no parameter can be spared in this way
     [[nodiscard]] static std::optional<reduction> find(identification_problem const& problem,
                                                        dependence_structure const& structure) {
-        if (structure.combinations.empty()) return std::nullopt;
+        if (structure.entangled.empty()) return std::nullopt;
         auto const is_entangled = [&](std::size_t j) {
             return std::find(structure.entangled.begin(), structure.entangled.end(), j) !=
                    structure.entangled.end();
@@ -43,6 +43,13 @@ public:
         std::vector<interval> prior;
         std::vector<bool> spared(problem.prior.size(), false);
         for (std::size_t j = 0; j < problem.prior.size(); ++j) spared[j] = is_entangled(j);
+        if (structure.combinations.empty() && structure.entangled.size() == problem.prior.size()) {
+            if (problem.prior.size() == 1) return std::nullopt;
+            spared[0] = false; // a search needs a side
+            result.sides_.push_back({0, std::nullopt});
+            reduced.choice.unknown.push_back(problem.choice.unknown[0]);
+            prior.push_back(problem.prior[0]);
+        }
         // Each product needs a parameter of power one that stands in no other product.
         for (auto const& c : structure.combinations) {
             std::optional<std::size_t> pivot;
@@ -76,6 +83,13 @@ public:
     }
 
     [[nodiscard]] identification_problem const& problem() const { return problem_; }
+
+    /// Whether a parameter of the original problem is a side or stands in one.
+    [[nodiscard]] bool acts(std::size_t j) const {
+        return std::any_of(sides_.begin(), sides_.end(), [j](side const& s) {
+            return s.product ? s.product->exponents[j] != 0 : s.parameter == j;
+        });
+    }
 
     /// A box of the reduced problem that contains the image of a box of the original one.
     [[nodiscard]] box forward(box const& p) const {

@@ -15,6 +15,30 @@ namespace sivid {
 
 namespace paving_detail {
 
+/// The paving of the prior by the test. Sides that do not act are left out while it is drawn: no
+/// box is cut there.
+inline subpaving drawn(preimage_test& test, reduction const& map, box const& prior,
+                       inversion_options const& options) {
+    auto thin = prior;
+    bool any = false;
+    for (std::size_t j = 0; j < prior.size(); ++j) {
+        if (map.acts(j)) continue;
+        thin[j] = interval(mid(prior[j]));
+        any = true;
+    }
+    auto paving = invert(test, thin, options).paving;
+    if (!any) return paving;
+    subpaving result(prior);
+    for (auto const& b : paving.boxes()) {
+        auto set = b.set;
+        for (std::size_t j = 0; j < prior.size(); ++j) {
+            if (!map.acts(j)) set[j] = prior[j];
+        }
+        result.add(std::move(set), b.verdict);
+    }
+    return result;
+}
+
 /// Draws the paving of a reduced prior in the original one, and measures it there.
 /// @param reduced  covers the reduced prior, outside boxes kept
 /// @param boxes    tested to draw it
@@ -28,7 +52,7 @@ inline void draw(identification& result, reduction const& map, subpaving const& 
     drawing.memory = inversion_options{}.memory; // few boxes
     drawing.checkpoint = nullptr;
     drawing.resume = nullptr;
-    result.paving = invert(test, prior, drawing).paving;
+    result.paving = drawn(test, map, prior, drawing);
     std::vector<box> inside, left;
     for (auto const& b : reduced.boxes()) {
         if (b.verdict == box_verdict::outside) continue;
