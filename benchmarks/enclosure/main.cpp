@@ -31,8 +31,8 @@ using sivid::box;
 using sivid::interval;
 using sivid::lanes;
 
-/// The inputs of scenario 3: by their formulas, or (rate > 0) sampled and linear between samples.
-std::vector<sivid::signal> scenario_3(double rate) {
+/// The inputs of scenario 3: by their formulas, or (rate > 0) sampled.
+std::vector<sivid::signal> scenario_3(double rate, sivid::interpolation between) {
     if (rate > 0) {
         std::vector<double> times, speed, rudder;
         for (int k = 0; k <= static_cast<int>(3 * rate); ++k) {
@@ -40,9 +40,8 @@ std::vector<sivid::signal> scenario_3(double rate) {
             speed.push_back(250.0 / 3);
             rudder.push_back(0.2617993877991494 * (1 + std::sin(1.5707963267948966 * k / rate)));
         }
-        auto const linear = sivid::interpolation::linear;
-        return {sivid::sampled_signal(times, speed, linear),
-                sivid::sampled_signal(times, rudder, linear)};
+        return {sivid::sampled_signal(times, speed, between),
+                sivid::sampled_signal(times, rudder, between)};
     }
     interval const pi(3.141592653589793, 3.1415926535897936);
     return {sivid::analytic_signal::from([](auto const&) { return 250 / sivid::expression(3); }),
@@ -52,7 +51,8 @@ std::vector<sivid::signal> scenario_3(double rate) {
             })};
 }
 
-problem hovercraft_problem(std::string name, double w, double rate = 0) {
+problem hovercraft_problem(std::string name, double w, double rate = 0,
+                           sivid::interpolation between = sivid::interpolation::linear) {
     double const truth[3]{0.22, 0.04, 0.30};
     box p(3);
     for (std::size_t j = 0; j < 3; ++j) {
@@ -62,7 +62,7 @@ problem hovercraft_problem(std::string name, double w, double rate = 0) {
     return {std::move(name),
             std::make_shared<sivid::flow const>(sivid::record_model(hovercraft{}),
                                                 sivid::parameter_choice{{"Sv", "Sg", "L"}, {}},
-                                                scenario_3(rate)),
+                                                scenario_3(rate, between)),
             sivid::point_box({2, 0, 0, 0, 0, 0}), p, 3};
 }
 
@@ -170,10 +170,10 @@ int main(int argc, char** argv) {
     };
 
     measure<1, 0, double>(hovercraft_problem("H3-point", 0), {20, 2e-14, 0}, "0.5 ms, 1e-11");
-    measure<3, 2, double>(h3(0.01), {8, 1e-6, 1e-4}, "0.5 ms, 1.005");
+    measure<3, 2, double>(h3(0.01), {10, 1e-6, 1e-4}, "0.5 ms, 1.005");
     measure<3, 3, double>(h3(0.05), {8, 3e-6, 1e-4}, "0.5 ms, 1.02");
     measure<3, 2, eight>(h3(0.05), {6, 1e-5, 1e-4, 3}, "0.2 ms a box");
-    measure<3, 3, double>(h3(0.1), {6, 1e-5, 1e-4}, "0.8 ms, 1.05");
+    measure<3, 3, double>(h3(0.1), {8, 1e-5, 1e-4}, "0.8 ms, 1.05");
     measure<3, 4, double>(h3(0.2), {8, 1e-5, 1e-4}, "2 ms, 1.07");
     measure<3, 3, eight>(h3(0.2), {6, 1e-5, 1e-4, 3}, "2 ms, 1.07");
     measure<3, 4, eight>(h3(0.3), {8, 1e-5, 1e-4, 3}, "10 ms, 1.02");
@@ -260,15 +260,26 @@ int main(int argc, char** argv) {
     benchmark::measure_doubleton(friction, {8, 1e-10, 1e-6, 0, 1e-7}, "not absurdly wide");
 
     std::printf("\n");
+    // Most of the time goes into simulating the samples.
+    auto const asked_samples = [](int rate) -> std::size_t {
+        return rate > 20 && !benchmark::asked.more ? 100 : 1000;
+    };
     for (int const rate : {20, 200, 1000}) {
-        // Most of the time goes into simulating the samples.
-        std::size_t const samples = rate > 20 && !benchmark::asked.more ? 100 : 1000;
+        std::size_t const samples = asked_samples(rate);
         auto const p = hovercraft_problem("H3 w=0.05, " + std::to_string(rate) + " Hz", 0.05, rate);
         measure<3, 3, double>(p, {6, 1e-5, 1e-4, 0, 1e-6, samples}, "no collapse");
         if (rate > 20 && !benchmark::asked.more) continue;
         measure<3, 2, eight>(p, {6, 1e-5, 1e-4, 3, 1e-6, samples}, "no collapse");
     }
-    std::printf("\n");
+    // Inputs that are held between their samples: a jump ends every step.
+    for (int const rate : {200, 1000}) {
+        auto const rated = ", held at " + std::to_string(rate) + " Hz";
+        auto const hold = sivid::interpolation::hold;
+        measure<1, 0, double>(hovercraft_problem("H3-point" + rated, 0, rate, hold),
+                              {20, 2e-14, 0, 0, 1e-6}, "no collapse");
+        measure<3, 3, double>(hovercraft_problem("H3 w=0.05" + rated, 0.05, rate, hold),
+                              {6, 1e-5, 1e-4, 0, 1e-6, asked_samples(rate)}, "no collapse");
+    }
     std::printf("\n");
     measure_stiff("Radau IIA 5", sivid::radau_iia5());
     measure_stiff("Gauss 6", sivid::gauss6());

@@ -476,6 +476,37 @@ TEST_CASE("parametric flow: a function left its domain, as a value") {
     REQUIRE(run.step(0.5));
 }
 
+TEST_CASE("parametric flow: the shortest step is tried before giving up") {
+    auto const f =
+        flow_of(model_of({1, 0, 0, 100}, [](auto const&, auto const& x, auto const&, auto const&) {
+            return vector<std::decay_t<decltype(x)>>({x[0]});
+        }));
+    box const x0{between(0.99, 1.01)};
+    auto options = patient(4, 1e-9);
+    options.minimum_step = 1e-9;
+    parametric_flow<1, 2> free(*f, options);
+    free.begin(0, x0, box());
+    REQUIRE(free.step(10));
+    double const proposed = free.time();
+    // A little longer than the coefficients suggest, and still good enough.
+    options.minimum_step = 1.05 * proposed;
+    parametric_flow<1, 2> run(*f, options);
+    run.begin(0, x0, box());
+    REQUIRE(run.step(10));
+    CHECK(run.time() == options.minimum_step);
+    CHECK(subset(between(0.99 * std::exp(run.time()) * (1 + 1e-14),
+                         1.01 * std::exp(run.time()) * (1 - 1e-14)),
+                 run.set().hull()[0]));
+    // Far too long: it was tried, and that is what the failure says.
+    options.minimum_step = 200 * proposed;
+    parametric_flow<1, 2> fails(*f, options);
+    fails.begin(0, x0, box());
+    CHECK_FALSE(fails.step(10));
+    REQUIRE(fails.failure());
+    CHECK(fails.failure()->reason == failure_reason::minimum_step);
+    CHECK(fails.failure()->until == options.minimum_step);
+}
+
 TEST_CASE("parametric flow: blow-up is never enclosed by a bounded set beyond its time") {
     auto const f = flow_of(
         model_of({1, 0, 0, 1e300}, [](auto const&, auto const& x, auto const&, auto const&) {

@@ -148,6 +148,11 @@ public:
     /// The right-hand side itself may jump within the last `expand` (not its Jacobian).
     [[nodiscard]] typename arithmetic::mask jumped() const { return jumped_; }
     [[nodiscard]] std::size_t max_order() const { return stride_ - 1; }
+    /// The coefficients of everything that the program computes, and the program.
+    [[nodiscard]] series<T> const& coefficients() const { return series_; }
+    [[nodiscard]] tape const& program() const { return *program_; }
+    /// Coefficient 1 of an input, as the last expansion took it.
+    [[nodiscard]] T const& input_slope(std::size_t i) const { return inputs_.slope[i]; }
 
 private:
     T& v(std::size_t i, std::size_t c, std::size_t k) {

@@ -5,6 +5,7 @@
 #include <sivid/enclosure/detail/parametric_flow_accept.hpp>
 #include <sivid/enclosure/detail/parametric_flow_attempt.hpp>
 #include <sivid/enclosure/detail/parametric_flow_class.hpp>
+#include <sivid/enclosure/detail/parametric_flow_tails.hpp>
 
 namespace sivid {
 
@@ -82,16 +83,22 @@ std::vector<typename parametric_flow<N, D, C>::polynomial> parametric_flow<N, D,
 }
 
 template <std::size_t N, std::size_t D, class C>
-void parametric_flow<N, D, C>::expand(std::size_t order, std::size_t flow_order) {
+void parametric_flow<N, D, C>::expand(std::size_t order) {
     centre_.expand(set_.time, polynomial::constant(set_.time), set_.centre,
                    std::max<std::size_t>(order, 1));
+    smooth_ = order > 0;
+    stale_ = false;
+    expanded_ = 0;
+}
+
+template <std::size_t N, std::size_t D, class C>
+void parametric_flow<N, D, C>::expand_flow(std::size_t flow_order) {
     for (std::size_t i = 0; i < set_.centre.size(); ++i) {
         around_[i] = widened(converted<N, column_degree>(set_.centre[i]), set_.reach[i]);
     }
     derivative_.expand_with_variations(set_.time, column_entry::constant(set_.time), around_,
                                        flow_order - 1);
-    smooth_ = order > 0;
-    stale_ = false;
+    expanded_ = flow_order;
 }
 
 /// The step length at which a coefficient reaches what is allowed, and its state.
@@ -129,11 +136,14 @@ void parametric_flow<N, D, C>::adapt_order(mask moved, C const& h, bool clamped)
         return;
     }
     if (order_ <= 2) return;
-    C power = h;
-    for (std::size_t k = 1; k < order_; ++k) power *= h;
-    for (std::size_t i = 0; i < set_.centre.size(); ++i) {
-        auto const large = centre_.state(i, order_).norm() * power > allowed(i) * 0.05;
-        if (side_by_side::any(moved & large)) return;
+    // With one order less, the next length follows from these coefficients.
+    for (std::size_t k = order_ - 2; k < order_; ++k) {
+        C power = h;
+        for (std::size_t j = 1; j < k; ++j) power *= h;
+        for (std::size_t i = 0; i < set_.centre.size(); ++i) {
+            auto const large = centre_.state(i, k).norm() * power > allowed(i) * 0.3;
+            if (side_by_side::any(moved & large)) return;
+        }
     }
     --order_;
 }
@@ -229,7 +239,8 @@ typename parametric_flow<N, D, C>::mask parametric_flow<N, D, C>::advance(C cons
     std::size_t const least = perturbed_ ? 8 : 1;
     flow_order_ = std::min(std::max(flow_order_, least), std::max<std::size_t>(order_, 1));
     std::size_t const flow_order = smooth ? flow_order_ : 1;
-    if (stale_ || smooth != smooth_) expand(order, flow_order);
+    if (stale_ || smooth != smooth_) expand(order);
+    if (expanded_ != flow_order) expand_flow(flow_order);
 
     mask undefined = centre_.undefined();
     undefined |= derivative_.undefined();
@@ -252,10 +263,19 @@ typename parametric_flow<N, D, C>::mask parametric_flow<N, D, C>::advance(C cons
         if (lane.attempts == 0) {
             lane.proposed = lane.next = propose(l, rest);
             lane.free = lane.next < 0.5 * rest;
+            lane.tried = infinity;
+            lane.forced = false;
             lane.why = enclosure_failure{};
             lane.why.reason = failure_reason::minimum_step;
         }
+        // Before a lane gives up, it tries the shortest step itself.
+        if (lane.next < options_.minimum_step && lane.tried > options_.minimum_step) {
+            lane.next = options_.minimum_step;
+            lane.proposed = std::max(lane.proposed, lane.next);
+            lane.forced = true;
+        }
         double const target = lane.next >= rest ? end : from + lane.next;
+        lane.tried = lane.next;
         if (++lane.attempts > 60 || !(target > from) ||
             (lane.next < options_.minimum_step && target < end)) {
             if (lane.why.reason == failure_reason::undefined) {

@@ -18,12 +18,20 @@ void parametric_flow<N, D, C>::accept(mask moved, C const& to, std::size_t order
     std::vector<C> lost(n);
     std::vector<polynomial> next(n);
     for (std::size_t i = 0; i < n; ++i) {
-        auto const last = without_last_variable<N, D>(tube_.state(i, order + 1));
-        next[i] = at_time<polynomial>(
-            [&](std::size_t k) -> polynomial const& {
-                return k <= order ? centre_.state(i, k) : last;
-            },
-            order + 1, length);
+        if (tails_) {
+            next[i] =
+                widened(at_time<polynomial>(
+                            [&](std::size_t k) -> polynomial const& { return centre_.state(i, k); },
+                            order, length),
+                        truncation_[i]);
+        } else {
+            auto const last = without_last_variable<N, D>(tube_.state(i, order + 1));
+            next[i] = at_time<polynomial>(
+                [&](std::size_t k) -> polynomial const& {
+                    return k <= order ? centre_.state(i, k) : last;
+                },
+                order + 1, length);
+        }
         lost[i] = side_by_side::select(moved, next[i].r, C(0.0));
         next[i].r = 0.0;
     }
@@ -36,9 +44,10 @@ void parametric_flow<N, D, C>::accept(mask moved, C const& to, std::size_t order
             C row{};
             for (std::size_t c = 0; c < n; ++c) {
                 if (!flow_->sensitive(i, c)) continue;
-                row += tube_.variation(i, c, flow_order).norm();
+                row += tails_ ? flow_rest_[i * n + c]
+                              : tube_.variation(i, c, flow_order).norm() * flow_power;
             }
-            tail = side_by_side::max(tail, row * flow_power);
+            tail = side_by_side::max(tail, row);
         }
     }
     if (!side_by_side::all(jumps | !moved) && !set_.columns.empty()) {
@@ -46,19 +55,23 @@ void parametric_flow<N, D, C>::accept(mask moved, C const& to, std::size_t order
         for (std::size_t i = 0; i < n; ++i) {
             for (std::size_t c = 0; c < n; ++c) {
                 if (!flow_->sensitive(i, c)) continue;
-                auto last =
-                    without_last_variable<N, column_degree>(tube_.variation(i, c, flow_order));
-                C spread{}; // |J_L(b)| W
-                for (std::size_t l = 0; l < n; ++l) {
-                    if (!flow_->sensitive(i, l)) continue;
-                    spread += tube_.variation(i, l, flow_order).norm() * w[l * n + c];
+                column_entry last;
+                if (!tails_) {
+                    last =
+                        without_last_variable<N, column_degree>(tube_.variation(i, c, flow_order));
+                    C spread{}; // |J_L(b)| W
+                    for (std::size_t l = 0; l < n; ++l) {
+                        if (!flow_->sensitive(i, l)) continue;
+                        spread += tube_.variation(i, l, flow_order).norm() * w[l * n + c];
+                    }
+                    last = widened(last, spread * up);
                 }
-                last = widened(last, spread * up);
-                auto const sum = at_time<column_entry>(
+                auto sum = at_time<column_entry>(
                     [&](std::size_t k) -> column_entry const& {
                         return k < flow_order ? derivative_.variation(i, c, k) : last;
                     },
-                    flow_order, length);
+                    tails_ ? flow_order - 1 : flow_order, length);
+                if (tails_) sum = widened(sum, flow_rest_[i * n + c]);
                 // Lanes that stay, or jump, keep their generators.
                 j[i * n + c] =
                     select(moved & !jumps, sum, column_entry::constant(C(i == c ? 1.0 : 0.0)));

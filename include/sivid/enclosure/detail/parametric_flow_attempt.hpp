@@ -63,6 +63,41 @@ parametric_flow<N, D, C>::bound_flow(square const& base, square const& last, mas
     return found;
 }
 
+/// The lanes whose truncation is allowed; the others try again with a shorter step.
+template <std::size_t N, std::size_t D, class C>
+typename parametric_flow<N, D, C>::mask
+parametric_flow<N, D, C>::short_enough(mask trying, C const& h, std::size_t order,
+                                       std::vector<C> const& truncation) {
+    C ratio{}; // of the truncation to what is allowed
+    for (std::size_t i = 0; i < truncation.size(); ++i) {
+        C const share = truncation[i] / (allowed(i) * (order > 0 ? 10.0 : 1e4));
+        // NaN counts as too large.
+        auto const more = !(share <= ratio);
+        ratio = side_by_side::select(more, share, ratio);
+        if (!side_by_side::any(trying & more)) continue;
+        for (std::size_t l = 0; l < width; ++l) {
+            if (side_by_side::test(more, l)) lanes_[l].why.component = i;
+        }
+    }
+    ratio_ = ratio;
+    mask forced{};
+    for (std::size_t l = 0; l < width; ++l) {
+        if (lanes_[l].forced) forced = forced | side_by_side::only(l);
+    }
+    mask const enough =
+        ((h <= C(4 * options_.minimum_step)) & !forced) | (order > 0 ? mask{} : mask(h <= C(1e-4)));
+    mask const too_long = trying & !(ratio <= C(1.0)) & !enough;
+    if (side_by_side::any(too_long)) {
+        auto const shorten = each_lane<C>([&](std::size_t l) {
+            double const x = side_by_side::get(ratio, l);
+            if (!std::isfinite(x)) return 0.5;
+            return std::clamp(0.9 * std::pow(x, -1.0 / static_cast<double>(order + 1)), 0.3, 0.9);
+        });
+        reject(too_long, failure_reason::minimum_step, shorten);
+    }
+    return trying & !too_long;
+}
+
 /// The tube's middle: the Taylor polynomials over s = h (1 + tau)/2, in q and tau.
 template <std::size_t N, std::size_t D, class C>
 void parametric_flow<N, D, C>::guess_tube(C const& h, std::size_t order) {
@@ -91,7 +126,27 @@ parametric_flow<N, D, C>::attempt(mask trying, C const& to, std::size_t order,
         if (!side_by_side::any(trying)) return mask{};
     }
     C const h = (to - set_.time) * (1 + 4 * polynomial::unit); // not less than the length
-    C power = h;                                               // h^(K+1), h^L, rounded up
+    tails_ = false;
+    if (K > 0 && L > 1 && centre_tail_.covers() && derivative_tail_.covers()) {
+        mask const bounded = bound_tails(h, K, L);
+        if (side_by_side::all(bounded | !trying)) {
+            tails_ = true;
+            trying = carries_well(short_enough(trying, h, K, truncation_), h, L);
+            if (!side_by_side::any(trying)) return mask{};
+            guess_tube(h, K);
+            square all;
+            sizes(h, L, 0, all);
+            for (std::size_t i = 0; i < n; ++i) {
+                C sum = truncation_[i];
+                for (std::size_t c = 0; c < n; ++c) {
+                    sum += (all[i * n + c] + flow_rest_[i * n + c]) * set_.reach[c];
+                }
+                tube_box_[i] = widened(path_[i], sum * up);
+            }
+            return trying;
+        }
+    }
+    C power = h; // h^(K+1), h^L, rounded up
     C flow_power = h;
     for (std::size_t k = 1; k < K + 1; ++k) power *= h;
     for (std::size_t k = 1; k < L; ++k) flow_power *= h;
@@ -118,7 +173,6 @@ parametric_flow<N, D, C>::attempt(mask trying, C const& to, std::size_t order,
             side_by_side::min(allowed(i) * 5.0, side_by_side::max(allowed(i) * 0.1, wide));
         room_[i] = carried[i] * 1.2 + next + more;
     }
-    auto const shortest = h <= C(4 * options_.minimum_step);
     mask proved{};
     for (int round = 0; round < 3; ++round) {
         for (std::size_t i = 0; i < n; ++i) tube_box_[i] = widened(path_[i], room_[i]);
@@ -138,32 +192,13 @@ parametric_flow<N, D, C>::attempt(mask trying, C const& to, std::size_t order,
         // Without series terms x(h) = x(0) + h f(b) holds for every member, jumps or not. With them
         // no sign varies here (it would be a kink), and V carries the members as usual.
         jumps = K == 0 ? trying & tube_.jumped() : mask{};
-        C ratio{}; // of the truncation to what is allowed
+        std::vector<C> share(n);
         for (std::size_t i = 0; i < n; ++i) {
             auto const& lagrange = tube_.state(i, K + 1);
             truncation_[i] = lagrange.norm() * power * up;
-            C const scale = allowed(i) * (K > 0 ? 10.0 : 1e4);
-            C const share = (lagrange.spread() + lagrange.r) * power / scale;
-            // NaN counts as too large.
-            auto const more = !(share <= ratio);
-            ratio = side_by_side::select(more, share, ratio);
-            if (!side_by_side::any(trying & more)) continue;
-            for (std::size_t l = 0; l < width; ++l) {
-                if (side_by_side::test(more, l)) lanes_[l].why.component = i;
-            }
+            share[i] = (lagrange.spread() + lagrange.r) * power;
         }
-        mask const enough = shortest | (K > 0 ? mask{} : mask(h <= C(1e-4)));
-        ratio_ = ratio;
-        mask const too_long = trying & !(ratio <= C(1.0)) & !enough;
-        if (side_by_side::any(too_long)) {
-            auto const shorten = each_lane<C>([&](std::size_t l) {
-                double const x = side_by_side::get(ratio, l);
-                if (!std::isfinite(x)) return 0.5;
-                return std::clamp(0.9 * std::pow(x, -1.0 / static_cast<double>(K + 1)), 0.3, 0.9);
-            });
-            reject(too_long, failure_reason::minimum_step, shorten);
-            trying = trying & !too_long;
-        }
+        trying = short_enough(trying, h, K, share);
         if (!side_by_side::any(trying)) return mask{};
         last.assign(n * n, C(0.0));
         w.assign(n * n, C(0.0));

@@ -8,6 +8,7 @@
 #include <sivid/enclosure/options.hpp>
 #include <sivid/enclosure/parametric_set.hpp>
 #include <sivid/enclosure/perturbed_step.hpp>
+#include <sivid/model/series_tail.hpp>
 #include <sivid/model/taylor_arithmetic.hpp>
 #include <sivid/number/guard.hpp>
 
@@ -31,8 +32,9 @@ namespace sivid {
 /// P(q) \pm E \f$), K and L their orders, and b(q, s) a tube:
 ///   centre  \f$ x(s; P) \in \sum_{k \le K} s^k x_k + s^{K+1} x_{K+1}(b) \f$
 ///   flow    \f$ V(s) \in \sum_{k<L} s^k V_k + s^L J_L(b) (1 + [-W, W]) \f$
-/// and the tube is proved when both images lie strictly inside it. Inputs with error bounds: the
-/// step is that of the recorded inputs, and what the others may add (see `perturbed_step`) goes
+/// and the tube is proved when both images lie strictly inside it. Smooth steps are first tried
+/// without a tube, with what both series leave out from `series_tail`. Inputs with error bounds:
+/// the step is that of the recorded inputs, and what the others may add (see `perturbed_step`) goes
 /// into the generators.
 ///
 /// With lanes, W families advance together, each at its own time and with its own step. No lane's
@@ -43,7 +45,8 @@ namespace sivid {
 /// @tparam N  number of variables, at least that of the unknowns
 /// @tparam D  degree of the polynomials
 /// @tparam C  `double`, or `lanes<W>`
-/// @cost  O(nodes K^2 products of degree D in N variables) a step
+/// @cost  O(nodes K^2 products of degree D in N variables) a step, as many in N + 1 variables where
+///        it needs a tube
 /// @ref   Makino and Berz 2003 (Taylor models for flows); Kühn 1998 (zonotopes); Zgliczynski 2002
 /// (C1)
 template <std::size_t N, std::size_t D, class C = double>
@@ -66,6 +69,8 @@ public:
           centre_(f, options.order + 1, variations::by_state),
           derivative_(f, options.order + 1, variations::by_state),
           tube_(f, options.order + 1, variations::by_state),
+          centre_tail_(centre_.program(), options.order + 1),
+          derivative_tail_(derivative_.program(), options.order + 1),
           observe_(f.observe(), 0),
           parameters_(f.parameters()),
           column_parameters_(f.parameters()),
@@ -151,9 +156,11 @@ private:
         std::size_t attempts = 0; ///< since the last accepted step
         double proposed = 0;      ///< length that the coefficients suggested
         double next = 0;          ///< length to try
+        double tried = 0;         ///< the last one tried since the last accepted step
         double learned = 1;
-        bool free = false;  ///< the end of the interval had no say in it
-        bool rough = false; ///< at a kink: the next attempt is of first order
+        bool free = false;   ///< the end of the interval had no say in it
+        bool rough = false;  ///< at a kink: the next attempt is of first order
+        bool forced = false; ///< the shortest step, although the coefficients suggest less
     };
 
     [[nodiscard]] C allowed(std::size_t i) const {
@@ -161,7 +168,8 @@ private:
         return (side_by_side::abs(p.c[0]) + C(1.0)) * options_.tolerance +
                (p.spread() + set_.reach[i]) * options_.relative_tolerance;
     }
-    void expand(std::size_t order, std::size_t flow_order);
+    void expand(std::size_t order);
+    void expand_flow(std::size_t flow_order);
     [[nodiscard]] std::pair<double, std::size_t> estimate(std::size_t lane) const;
     [[nodiscard]] double propose(std::size_t lane, double rest) const;
     void adapt_order(mask moved, C const& h, bool clamped);
@@ -170,6 +178,20 @@ private:
                                   square& w) const;
     [[nodiscard]] mask useful(mask lanes);
     void guess_tube(C const& h, std::size_t order);
+    /// Bounds what the series of a step over h leave out from the sizes of their coefficients:
+    /// `truncation_`, and |V| beyond the terms below `flow_order` in `flow_rest_`.
+    /// @returns the lanes in which that is proved
+    [[nodiscard]] mask bound_tails(C const& h, std::size_t order, std::size_t flow_order);
+    /// \f$ \rho_x \f$ of the states in the expansion e of order M, and \f$ h \rho_f / (M + 1) \f$.
+    template <class Entry>
+    [[nodiscard]] mask bound_states(expansion<Entry> const& e, series_tail<Entry>& tail, C const& h,
+                                    std::size_t order, bool rest, std::vector<C>& beyond);
+    /// The same for V, whose coefficients below `flow_order` have the norms in `flow_sizes_`.
+    [[nodiscard]] mask bound_flow_tail(C const& h, std::size_t flow_order);
+    /// The lanes of `trying` whose truncation is small enough.
+    [[nodiscard]] mask short_enough(mask trying, C const& h, std::size_t order,
+                                    std::vector<C> const& truncation);
+    [[nodiscard]] mask carries_well(mask trying, C const& h, std::size_t flow_order);
     /// @returns the lanes of `trying` whose step to `to` is proved
     [[nodiscard]] mask attempt(mask trying, C const& to, std::size_t order, std::size_t flow_order,
                                square& w, mask& jumps);
@@ -198,6 +220,8 @@ private:
     expansion<polynomial> centre_;
     expansion<column_entry> derivative_;
     expansion<tube_entry> tube_;
+    series_tail<polynomial> centre_tail_;
+    series_tail<column_entry> derivative_tail_;
     series<polynomial> observe_;
     std::optional<perturbed_step<tube_entry>> perturbed_; ///< where inputs are uncertain
     /// About how much of the reach they cause; a preference, no proof rests on it.
@@ -208,13 +232,17 @@ private:
     std::vector<column_entry> around_;
     std::vector<tube_entry> path_, tube_box_, swept_;
     std::vector<C> room_, truncation_;
-    C ratio_{}; ///< of the last attempt's truncation to what is allowed
+    std::vector<C> state_tail_, derivative_beyond_;
+    square flow_rest_;   ///< what V has beyond its coefficients, where no tube was needed
+    bool tails_ = false; ///< the last attempt was proved by the tails of the series alone
+    C ratio_{};          ///< of the last attempt's truncation to what is allowed
     std::array<lane_state, width> lanes_;
     mask running_{};
     bool stale_ = true;          ///< the expansions are not those of the present sets
     bool smooth_ = true;         ///< the expansions are of full order
     std::size_t order_ = 6;      ///< K
     std::size_t flow_order_ = 3; ///< L
+    std::size_t expanded_ = 0;   ///< L of `derivative_`
 };
 
 } // namespace sivid
