@@ -2,7 +2,9 @@
 // Whole identifications, each from a cold start of `identify`, fit included:
 //     sivid_benchmark_identification [--seconds S] [--boxes N] [--accuracy A] [--outliers Q]
 //                                    [--threads N] [--batches N] [--report-1] FOLDER...
-// For each data set of the hovercraft first the hulls alone, then the paving.
+// For each data set of the hovercraft first the hulls alone, then the paving. With --threads each
+// runs with one thread, too, and how much sooner N threads were done is printed; --batches is 4
+// then unless told.
 #include "model.hpp"
 
 #include <sivid/io/dataset.hpp>
@@ -19,6 +21,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -32,12 +35,14 @@ void print(std::string const& name, sivid::interval const& range) {
                 range.upper() - range.lower());
 }
 
-void measure(sivid::identification_problem const& problem, char const* what,
-             sivid::identify_options const& options) {
+/// @returns what was found, and the seconds of the processor
+std::pair<sivid::identification, double> measure(sivid::identification_problem const& problem,
+                                                 std::string const& what,
+                                                 sivid::identify_options const& options) {
     double const begin = processor_seconds();
     auto const found = sivid::identify(problem, options);
     double const spent = processor_seconds() - begin;
-    std::printf("  %s: %.3f s (processor %.3f s), %s, %s\n", what, found.seconds, spent,
+    std::printf("  %s: %.3f s (processor %.3f s), %s, %s\n", what.c_str(), found.seconds, spent,
                 std::string{to_string(found.verdict)}.c_str(),
                 std::string{to_string(found.reason)}.c_str());
     std::printf("    %zu integrations, %zu boxes, %zu drawn; inner %.5g, outer %.5g of the prior\n",
@@ -47,6 +52,34 @@ void measure(sivid::identification_problem const& problem, char const* what,
         print(problem.choice.unknown[j], found.hull[j]);
     }
     for (auto const& c : found.combinations) print(c.what.formula, c.hull);
+    return {found, spent};
+}
+
+/// Whether two runs say the same: threads must not matter unless time ended one of them.
+bool same(sivid::identification const& a, sivid::identification const& b) {
+    bool equal = a.boxes == b.boxes && a.integrations == b.integrations &&
+                 a.paving.boxes().size() == b.paving.boxes().size();
+    for (std::size_t k = 0; equal && k < a.paving.boxes().size(); ++k) {
+        auto const &one = a.paving.boxes()[k], &other = b.paving.boxes()[k];
+        equal = one.verdict == other.verdict && subset(one.set, other.set) &&
+                subset(other.set, one.set);
+    }
+    return equal;
+}
+
+/// With one thread, and where there are more with those.
+void compare(sivid::identification_problem const& problem, std::string const& what,
+             sivid::identify_options options, sivid::executor const& workers, std::size_t threads) {
+    auto const alone = measure(problem, what, options);
+    auto const threads = workers.threads;
+    if (threads < 2) return;
+    options.search.workers = workers;
+    auto const [found, spent] =
+        measure(problem, what + ", " + std::to_string(threads) + " threads", options);
+    std::printf("  %s: %zu threads were done %.2f times as soon (processor %.2f times as much); "
+                "results %s\n",
+                what.c_str(), threads, alone.first.seconds / found.seconds, spent / alone.second,
+                same(alone.first, found) ? "equal" : "DIFFER");
 }
 
 } // namespace
@@ -56,6 +89,8 @@ int main(int count, char** arguments) {
     options.search.seconds = 5;
     options.search.accuracy = 0.003;
     std::optional<std::size_t> outliers;
+    sivid::executor workers;
+    bool batches = false;
     std::vector<std::string> const words(arguments + 1, arguments + count);
     auto const model = sivid::record_model(hovercraft{});
     try {
@@ -71,11 +106,13 @@ int main(int count, char** arguments) {
                 options.search.boxes = static_cast<std::size_t>(value());
             } else if (words[i] == "--batches") {
                 options.search.batches = static_cast<std::size_t>(value());
+                batches = true;
             } else if (words[i] == "--report-1") {
                 options.algorithm = sivid::algorithm::report_1;
             } else if (words[i] == "--threads") {
 #ifdef SIVID_HAS_TBB
-                options.search.workers = sivid::tbb_executor(static_cast<std::size_t>(value()));
+                workers = sivid::tbb_executor(static_cast<std::size_t>(value()));
+                if (!batches) options.search.batches = 4;
 #else
                 throw std::invalid_argument("--threads: built without oneTBB (libtbb-dev)");
 #endif
@@ -87,9 +124,9 @@ int main(int count, char** arguments) {
                 if (options.algorithm == sivid::algorithm::contracting) {
                     auto hulls = options;
                     hulls.only_hulls = true;
-                    measure(problem, "hulls", hulls);
+                    compare(problem, "hulls", hulls, workers);
                 }
-                measure(problem, "paving", options);
+                compare(problem, "paving", options, workers);
             }
         }
     } catch (std::exception const& fault) {

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "identifiability.hpp"
 
-#include <sivid/report/identifiability_words.hpp>
-
-#include <ostream>
+#include <sivid/space/box.hpp>
 
 namespace hovercraft_example {
 
-void print_identifiability(sivid::identification_problem const& problem,
-                           sivid::identification const& found, std::ostream& out) {
+sivid::identifiability identifiability_at(sivid::identification_problem const& problem,
+                                          sivid::identification const& found) {
     sivid::identifiability_options options;
     auto at = is_empty(found.hull) ? mid(problem.prior) : mid(found.hull);
     if (found.witness) {
@@ -17,12 +15,11 @@ void print_identifiability(sivid::identification_problem const& problem,
             options.at_starts.push_back(sivid::point_box(start));
         }
     }
-    auto const told = sivid::identifiability_of(problem, sivid::point_box(at), options);
-    out << "  what such data tell, at "
-        << (found.witness ? "the witness" : "the middle of what is left") << ":\n";
-    for (auto const& line : sivid::report::identifiability_words(told)) {
-        out << "    " << line << "\n";
-    }
+    return sivid::identifiability_of(problem, sivid::point_box(at), options);
+}
+
+std::string place_of_identifiability(sivid::identification const& found) {
+    return found.witness ? "at the witness" : "at the middle of what is left";
 }
 
 } // namespace hovercraft_example

@@ -2,16 +2,20 @@
 #ifndef HOVERCRAFT_IDENTIFIABILITY_HPP
 #define HOVERCRAFT_IDENTIFIABILITY_HPP
 
+#include <sivid/paving/identifiability.hpp>
 #include <sivid/paving/identification.hpp>
 
-#include <iosfwd>
+#include <string>
 
 namespace hovercraft_example {
 
-/// Prints what data like these can tell about the unknowns: at the witness, or in the middle of
-/// what was not excluded.
-void print_identifiability(sivid::identification_problem const& problem,
-                           sivid::identification const& found, std::ostream& out);
+/// What data like these can tell about the unknowns: at the witness, or in the middle of what was
+/// not excluded.
+sivid::identifiability identifiability_at(sivid::identification_problem const& problem,
+                                          sivid::identification const& found);
+
+/// Where that is, in words.
+std::string place_of_identifiability(sivid::identification const& found);
 
 } // namespace hovercraft_example
 

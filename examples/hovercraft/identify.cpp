@@ -14,6 +14,7 @@
 #include <sivid/io/problem_digest.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
 #include <sivid/paving/outlier_budget.hpp>
+#include <sivid/report/identifiability_words.hpp>
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
 
@@ -21,6 +22,7 @@
 #include <sivid/parallel/tbb_executor.hpp>
 #endif
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -61,12 +63,17 @@ void print_summary(sivid::identification_problem const& problem, sivid::identifi
     for (auto const& c : view.combinations)
         std::cout << "  " << c.formula << " in " << report::outward_text(c.hull) << " " << c.unit
                   << "\n";
-    if (!found.entangled.empty()) {
-        std::vector<std::string> names;
-        for (auto const j : found.entangled) names.push_back(problem.choice.unknown[j]);
-        std::cout << "  " << report::detail::joined(names)
-                  << " are only known through such combinations on these data\n";
+    std::vector<std::string> combined, idle;
+    for (auto const j : found.entangled) {
+        bool const stands = std::any_of(found.combinations.begin(), found.combinations.end(),
+                                        [j](auto const& c) { return c.what.exponents[j] != 0; });
+        (stands ? combined : idle).push_back(problem.choice.unknown[j]);
     }
+    if (!combined.empty())
+        std::cout << "  " << report::detail::joined(combined)
+                  << " are only known through such combinations on these data\n";
+    for (auto const& name : idle)
+        std::cout << "  " << name << " stands nowhere in the equations of these data\n";
     std::cout << "  of the prior's volume: inside at least "
               << report::at_least_percent(view.volume_inner.lo) << ", not excluded at most "
               << report::at_most_percent(view.volume_outer.hi) << "\n";
@@ -276,6 +283,12 @@ int run(identify_command const& c) {
                                                 .machine = console::machine_text(),
                                                 .command = c.command_line};
     auto view = report::view_of(problem, found, motion ? &*motion : nullptr, about);
+    std::optional<sivid::identifiability> told;
+    if (c.identifiability) {
+        told = identifiability_at(problem, found);
+        view.identifiability = report::identifiability_words(*told);
+        view.identifiability_at = place_of_identifiability(found);
+    }
     if (baseline) {
         view.comparison = {report::comparison_of(words_of(c.algorithm), found, true),
                            report::comparison_of(words_of("report-1"), *baseline, false,
@@ -296,7 +309,8 @@ int run(identify_command const& c) {
         sivid::identification_json(problem, found,
                                    {.dataset = data.id,
                                     .source_folder = seen_from(c.out, c.dataset),
-                                    .source_digest = digest}));
+                                    .source_digest = digest,
+                                    .identifiability = told ? &*told : nullptr}));
     print_summary(problem, found, data.id, c.out);
     if (baseline) {
         std::cout << "  beside it, Algorithm 1 of the report: not excluded at most "
@@ -304,7 +318,10 @@ int run(identify_command const& c) {
                   << report::duration_text(baseline->seconds) << ", " << baseline->boxes
                   << " boxes\n";
     }
-    if (c.identifiability) print_identifiability(problem, found, std::cout);
+    if (told) {
+        std::cout << "  what such data tell, " << view.identifiability_at << ":\n";
+        for (auto const& line : view.identifiability) std::cout << "    " << line << "\n";
+    }
     checkpoint.finish(found.reason);
     return exit_code_of(found.verdict);
 }

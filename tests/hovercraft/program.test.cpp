@@ -52,12 +52,19 @@ TEST_CASE("identify writes a report, a result and two tables, and says 0 when co
     CHECK(result["verdict"] == "consistent");
     CHECK(result["stop_reason"] == "box budget spent");
     CHECK(result["combinations"][0]["formula"] == "Sg*L");
+    CHECK(result["identifiability"]["rank"]["least"] == 2);
+    CHECK(result["identifiability"]["rank"]["most"] == 2);
+    CHECK(result["identifiability"]["outputs"] == 180);
+    CHECK(result["identifiability"]["fixed"][0]["formula"] == "Sg*L");
+    CHECK(result["identifiability"]["fixed"][0]["proved"] == true);
     CHECK(rows(out / "boxes.csv") > 1);
     CHECK(rows(out / "outputs.csv") == 181);
     std::ifstream page{out / "report.html"};
     std::string const text{std::istreambuf_iterator<char>{page}, {}};
     CHECK_THAT(text, StartsWith("<!DOCTYPE html>") && ContainsSubstring("</html>"));
     CHECK_THAT(text, ContainsSubstring("known only through"));
+    CHECK_THAT(text, ContainsSubstring("What such data can tell") &&
+                         ContainsSubstring("these act through Sg*L alone"));
     CHECK_THAT(text, !ContainsSubstring("<script") && !ContainsSubstring("src=\"http"));
     CHECK_THAT(r.out, ContainsSubstring("h3: consistent") && ContainsSubstring("Sv in [") &&
                           ContainsSubstring("report.html"));

@@ -33,3 +33,30 @@ TEST_CASE("the side to split is the one with the strongest smear that is still w
     CHECK(side_to_split(x, whole, {1, 2}, 0.2) == 0);
     CHECK_FALSE(side_to_split(x, whole, {}, 0.6));
 }
+
+TEST_CASE("a hull rests at the second look in a row at which no side has shrunk") {
+    double wide = 8, high = 1;
+    std::size_t looks = 0;
+    auto const hull = [&] {
+        ++looks;
+        return box{between(0, wide), between(0, high)};
+    };
+    paving_detail::hull_rest rest{.last = box{between(0, 8), between(0, 1)}};
+    CHECK_FALSE(rest(7, 0.02, hull));
+    CHECK(looks == 0);
+    CHECK_FALSE(rest(8, 0.02, hull)); // rests, once
+    CHECK_FALSE(rest(15, 0.02, hull));
+    CHECK(looks == 1);
+    high = 0.9; // a slanting sheet: what was cut at first left the hull as it was
+    CHECK_FALSE(rest(16, 0.02, hull));
+    wide = 4;
+    CHECK_FALSE(rest(32, 0.02, hull));
+    wide = 3.95;
+    CHECK_FALSE(rest(64, 0.02, hull));
+    CHECK_FALSE(rest(127, 0.02, hull));
+    CHECK(rest(128, 0.02, hull));
+    CHECK(rest(128, 0.02, hull)); // also when asked again
+    paving_detail::hull_rest never{.last = hull()};
+    CHECK_FALSE(never(1000, 0, hull));
+    CHECK_FALSE(never(4000, 0, hull));
+}

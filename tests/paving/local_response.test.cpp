@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/catch.hpp"
-#include "support/models.hpp"
-#include "support/random.hpp"
-#include "support/taylor_models.hpp"
+#include "support/random_response.hpp"
 
 #include <sivid/paving/local_response.hpp>
 
@@ -10,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <memory>
 #include <vector>
 
 using namespace sivid;
@@ -24,34 +21,11 @@ constexpr std::size_t degree = 3;
 
 /// A response of random polynomials: three parameters, of which the second is a point, and one
 /// unknown start. Variables: p0 -> 0, p2 -> 1, start -> 2.
-struct random_response {
-    box prior{between(0.5, 2), between(1, 1), between(-3, 0.25)};
-    response known{normalised_unknowns({between(-1, 1)}, prior),
-                   std::make_shared<monomial_table const>(monomial_table::of<3, degree>(3)),
-                   {},
-                   {},
-                   {},
-                   {},
-                   0,
-                   0};
-
-    random_response(draws& d, std::size_t outputs, double curvature) {
-        known.measurements = outputs;
-        auto const& table = *known.table;
-        known.coefficients.assign(table.size() * outputs, 0.0);
-        for (std::size_t m = 0; m < table.size(); ++m) {
-            std::size_t total = 0;
-            for (auto const e : table.exponents[m]) total += e;
-            double const size = total <= 1 ? 1 : curvature;
-            for (std::size_t y = 0; y < outputs; ++y) {
-                known.coefficients[m * outputs + y] = d.uniform(-size, size);
-            }
-        }
-        for (std::size_t y = 0; y < outputs; ++y) {
-            known.radius.push_back(d.coin() ? 0 : d.uniform(0, 0.1));
-        }
-    }
-    [[nodiscard]] std::size_t outputs() const { return known.radius.size(); }
+struct random_response : support::random_response<3, degree> {
+    random_response(draws& d, std::size_t outputs, double curvature)
+        : support::random_response<3, degree>(
+              d, box{between(-1, 1)}, box{between(0.5, 2), between(1, 1), between(-3, 0.25)},
+              outputs, curvature, 0.1) {}
 
     /// Normalised coordinates of parameters and start, exactly.
     [[nodiscard]] std::vector<rational> coordinates(std::vector<double> const& p,
@@ -62,19 +36,6 @@ struct random_response {
             q[side.variable] = (rational(p[j]) - rational(side.centre)) / rational(side.radius);
         }
         return q;
-    }
-    /// The polynomial of an output, exactly.
-    [[nodiscard]] rational value(std::size_t y, std::vector<rational> const& q) const {
-        rational sum = 0;
-        auto const& table = *known.table;
-        for (std::size_t m = 0; m < table.size(); ++m) {
-            rational term(known.coefficients[m * outputs() + y]);
-            for (std::size_t v = 0; v < 3; ++v) {
-                for (std::size_t k = 0; k < table.exponents[m][v]; ++k) term *= q[v];
-            }
-            sum += term;
-        }
-        return sum;
     }
 };
 

@@ -50,6 +50,20 @@ TEST_CASE("identification page: outliers are marked and listed") {
     CHECK_THAT(page, ContainsSubstring("To be noted"));
 }
 
+TEST_CASE("identification page: what such data can tell stands there when it is known") {
+    identification_view v = hovercraft_view(2'000, false);
+    CHECK(identification_page(v).str().find("What such data can tell") == std::string::npos);
+    v.identifiability = {"180 measured outputs and 3 unknowns: rank 2, proved",
+                         "free: Sg * k, L / k (by the equations)"};
+    v.identifiability_at = "at the witness";
+    std::string const page = identification_page(v).str();
+    CHECK(markup_error(body_of(page)) == "");
+    CHECK_THAT(page, ContainsSubstring("<h2>What such data can tell</h2>"));
+    CHECK_THAT(page, ContainsSubstring("measured values, at the witness."));
+    CHECK_THAT(page, ContainsSubstring("rank 2, proved"));
+    CHECK_THAT(page, ContainsSubstring("Sg * k, L / k (by the equations)"));
+}
+
 TEST_CASE("identification page: hostile texts stay texts") {
     identification_view v = hovercraft_view(2'000, true);
     std::string const evil = "<script>alert(1)</script>\" onload='x' & \x01\xFF]]>";
@@ -60,6 +74,8 @@ TEST_CASE("identification page: hostile texts stay texts") {
     v.pavings[0].x.label = v.pavings[0].x.unit = evil;
     v.outliers[0].channel = v.comparison[0].name = v.warnings[0] = v.assumptions[0] = evil;
     v.witness->parameters[0].name = evil;
+    v.identifiability = {evil};
+    v.identifiability_at = evil;
     std::string const page = identification_page(v).str();
     CHECK(markup_error(body_of(page)) == "");
     CHECK(page.find("<script") == std::string::npos);

@@ -2,6 +2,7 @@
 #ifndef SIVID_IO_IDENTIFICATION_JSON_HPP
 #define SIVID_IO_IDENTIFICATION_JSON_HPP
 
+#include <sivid/io/identifiability_json.hpp>
 #include <sivid/io/json_writer.hpp>
 #include <sivid/paving/identify.hpp>
 
@@ -18,6 +19,7 @@ struct identification_json_options {
     std::vector<std::string> further_assumptions{};
     std::string source_folder{}; ///< the data set, seen from the result's folder
     std::string source_digest{}; ///< of `dataset_digest`; without it no source is written
+    sivid::identifiability const* identifiability = nullptr; ///< written where there is one
 };
 
 /// A share of the prior as an interval within [0, 1].
@@ -130,6 +132,11 @@ struct identification_json_options {
         json.key("channel").string(about.channels[m.channel].name).end_object();
     }
     json.end_array().end_object();
+
+    if (options.identifiability != nullptr) {
+        json.key("identifiability");
+        write_identifiability(json, *options.identifiability);
+    }
 
     json.key("boxes").integer(found.boxes).key("integrations").integer(found.integrations);
     json.key("seconds").nearest(found.seconds).end_object();

@@ -3,6 +3,7 @@
 #define SIVID_PAVING_OBSERVER_REFUTATION_HPP
 
 #include <sivid/number/guard.hpp>
+#include <sivid/paving/detail/observer_effort.hpp>
 #include <sivid/paving/interval_observer.hpp>
 #include <sivid/paving/problem.hpp>
 #include <sivid/space/box.hpp>
@@ -163,14 +164,6 @@ private:
     }
     return false;
 }
-
-/// What a refutation by observers may spend; what is proved until then counts.
-struct observer_effort {
-    std::size_t boxes = 3000; ///< of parameters: unlike the time, the same on every machine
-    double seconds = 10;
-    std::function<bool()> go_on{}; ///< false ends the search; may be empty
-    bool only_verdict = false;     ///< stop as soon as something above 1 is proved
-};
 
 struct observer_bound {
     double lower = 0; ///< proved: no parameter has a smaller inflation; 0 or above 1

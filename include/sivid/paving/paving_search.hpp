@@ -47,7 +47,7 @@ public:
           waiting_(options.order),
           batches_(test, waiting_, options.workers),
           whole_(prior),
-          last_hull_(prior) {
+          rest_{.last = prior} {
         require_sound_environment();
         if (prior.size() == 0 || is_empty(prior))
             throw std::invalid_argument("invert: empty prior");
@@ -138,9 +138,9 @@ public:
         s.accuracy_reached = reason_ == stop_reason::accuracy_reached;
         s.whole = whole_;
         s.measured_at = measured_at_;
-        s.last_hull = last_hull_;
-        s.rested = rested_;
-        s.next_look = next_look_;
+        s.last_hull = rest_.last;
+        s.rested = rest_.rested;
+        s.next_look = rest_.next_look;
         s.seconds = seconds();
         return s;
     }
@@ -166,9 +166,7 @@ private:
             if (s.accuracy_reached) reason_ = stop_reason::accuracy_reached;
             whole_ = s.whole;
             measured_at_ = s.measured_at;
-            last_hull_ = s.last_hull;
-            rested_ = s.rested;
-            next_look_ = s.next_look;
+            rest_ = {s.last_hull, s.rested, s.next_look};
             earlier_ = s.seconds;
             written_at_ = earlier_;
         } else {
@@ -197,21 +195,9 @@ private:
         }
     }
 
-    /// Whether the hull of what is left shrinks no more, at two looks one after the other, each of
-    /// them when the tests have doubled. One is not enough: a slanting sheet must be cut at all its
-    /// ends before a side of it is shorter.
     [[nodiscard]] bool hull_rests() {
-        if (!(options_.hull_gain > 0) || tested_ < next_look_) return false;
-        auto const now = waiting_.hull(paving_.outer_hull());
-        bool rests = true;
-        for (std::size_t i = 0; i < now.size(); ++i) {
-            rests = rests && width(now[i]) >= (1 - options_.hull_gain) * width(last_hull_[i]);
-        }
-        if (rests && rested_) return true; // and would again, if asked after an interruption
-        rested_ = rests;
-        next_look_ = 2 * tested_;
-        last_hull_ = now;
-        return false;
+        return rest_(tested_, options_.hull_gain,
+                     [this] { return waiting_.hull(paving_.outer_hull()); });
     }
 
     [[nodiscard]] double volume(box const& x) const { return relative_volume(x, prior_).upper(); }
@@ -343,9 +329,7 @@ private:
     std::size_t cost_ = 0;
     box whole_; ///< what the accuracy is a fraction of
     std::size_t measured_at_ = 0;
-    box last_hull_; ///< at the last look, and whether it rested then
-    bool rested_ = false;
-    std::size_t next_look_ = 8;
+    paving_detail::hull_rest rest_;
     clock::time_point begin_ = clock::now();
     double earlier_ = 0;    ///< seconds of the runs before
     double written_at_ = 0; ///< of the last checkpoint, and what it took

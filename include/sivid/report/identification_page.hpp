@@ -179,6 +179,19 @@ inline void add_computation(page& out, identification_view const& v) {
     }
 }
 
+inline void add_identifiability(page& out, identification_view const& v) {
+    if (v.identifiability.empty()) {
+        return;
+    }
+    out.section("What such data can tell");
+    out.prose(std::string{"Which unknowns the measured outputs determine, and which only in "
+                          "combination, whatever the measured values"} +
+              (v.identifiability_at.empty() ? "" : ", " + v.identifiability_at) +
+              ". Ranks are proved; what is free is proved where it says \xE2\x80\x9C"
+              "by the equations\xE2\x80\x9D, all else is computed in floating point.");
+    out.bullets(v.identifiability);
+}
+
 inline void add_witness(page& out, identification_view const& v) {
     if (!v.witness) {
         return;
@@ -213,6 +226,7 @@ SIVID_ENTRY page identification_page(identification_view const& v) {
     out.assumptions(v.assumptions);
     detail::add_parameters(out, v);
     detail::add_pavings(out, v);
+    detail::add_identifiability(out, v);
     bool const drawn =
         std::any_of(v.scenarios.begin(), v.scenarios.end(),
                     [](scenario_view const& s) { return !s.channels.empty() || s.plane; });

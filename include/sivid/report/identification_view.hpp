@@ -98,6 +98,9 @@ struct identification_view {
     range volume_outer{};
     std::optional<witness_view> witness{};
     std::vector<std::string> proved{}; ///< further statements in plain words
+    /// What such data can tell about the unknowns at all, in sentences, and where.
+    std::vector<std::string> identifiability{};
+    std::string identifiability_at{};
     std::vector<std::string> assumptions{};
     std::vector<std::string> warnings{};
     std::vector<outlier_view> outliers{};

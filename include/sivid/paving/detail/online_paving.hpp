@@ -89,12 +89,13 @@ public:
                    how.seconds;
         };
         gather_open();
-        auto last_hull = prior_;
-        std::size_t next_look = judged_ + std::max<std::size_t>(8, open_.size());
+        auto const before = judged_;
+        paving_detail::hull_rest rest{.last = hull_of_all(),
+                                      .next_look = std::max<std::size_t>(8, open_.size())};
         while (!open_.empty() && judged_ < until && !late()) {
             bool const fresh = std::any_of(open_.begin(), open_.end(),
                                            [](live_box const& b) { return !b.judged; });
-            if (!fresh && enough(how, last_hull, next_look)) break;
+            if (!fresh && enough(how, rest, judged_ - before)) break;
             // What is new is judged before anything is split.
             if (fresh) {
                 judge_all(until, late);
@@ -178,8 +179,15 @@ private:
         boxes_ = std::move(settled);
     }
 
-    [[nodiscard]] bool enough(online_refinement const& how, box& last_hull,
-                              std::size_t& next_look) const {
+    /// The hull of what is left while refining.
+    [[nodiscard]] box hull_of_all() const {
+        auto around = hull();
+        for (auto const& b : open_) around = sivid::hull(around, b.set);
+        return around;
+    }
+    /// @param judged  boxes since the refinement began
+    [[nodiscard]] bool enough(online_refinement const& how, paving_detail::hull_rest& rest,
+                              std::size_t judged) const {
         double inner = 0, outer = 0;
         for (auto const& b : boxes_) {
             outer += b.volume;
@@ -187,16 +195,7 @@ private:
         }
         for (auto const& b : open_) outer += b.volume;
         if (inner > 0 && inner >= how.sufficient_ratio * outer) return true;
-        if (!(how.hull_gain > 0) || judged_ < next_look) return false;
-        next_look = 2 * judged_;
-        auto now = hull();
-        for (auto const& b : open_) now = sivid::hull(now, b.set);
-        bool rests = true;
-        for (std::size_t j = 0; j < now.size(); ++j) {
-            rests = rests && width(now[j]) >= (1 - how.hull_gain) * width(last_hull[j]);
-        }
-        last_hull = now;
-        return rests;
+        return rest(judged, how.hull_gain, [this] { return hull_of_all(); });
     }
 
     template <class Late>
