@@ -50,7 +50,7 @@ inline void write_identified_model(sivid::identification_problem const& problem,
                                    double seconds, std::string const& command,
                                    progress_line& progress) {
     namespace report = sivid::report;
-    if (sivid::diagnosis_detail::has_delays(problem.model)) {
+    if (problem.model.has_delays()) {
         std::cout << "  ranges of its parameters: not proved, the model has a delay\n";
         return;
     }

@@ -21,7 +21,7 @@ holdout_judgement judged(small_campaign::truth const& real, std::vector<std::siz
     s.try_one(effects);
     auto const& fitted = s.candidates().front();
     auto bound = verify_at(fitted.problem, fitted.fit);
-    if (!diagnosis_detail::has_delays(fitted.problem.model)) {
+    if (!fitted.problem.model.has_delays()) {
         auto const proved = bound_inflation(fitted.problem, &fitted.fit);
         bound = {proved.value, proved.witness, {}, proved.hull};
     }

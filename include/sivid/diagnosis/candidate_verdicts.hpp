@@ -59,7 +59,7 @@ private:
     /// The least inflation of the answer from below, and the box that its best parameters lie in.
     void sharpen_answer(screened const& s, cause& c) {
         auto& bound = run_->answer_bound;
-        if (!diagnosis_detail::has_delays(s.problem.model)) {
+        if (!s.problem.model.has_delays()) {
             tighten(bound, s, effort_->search(s.problem, options_->answer));
         }
         c.inflation = bound.range;
@@ -74,7 +74,7 @@ private:
 
     /// Hulls of the effect's parameters: every value that explains the data lies in them.
     void bound_parameters(screened const& s, cause& c) {
-        if (!(c.inflation.upper() <= 1) || diagnosis_detail::has_delays(s.problem.model)) return;
+        if (!(c.inflation.upper() <= 1) || s.problem.model.has_delays()) return;
         if (!effort_->go_on("bounding the effect's parameters")) return;
         identify_options options;
         options.only_hulls = true;
@@ -109,7 +109,7 @@ private:
             auto const& s = candidate_of(k);
             auto& c = causes[k];
             if (c.verdict == cause_verdict::explains) continue;
-            if (diagnosis_detail::has_delays(s.problem.model)) continue;
+            if (s.problem.model.has_delays()) continue;
             if (s.figures.explains()) continue; // nothing to refute
             if (left == 0 || effort_->left() < end) return;
             if (!effort_->go_on("excluding " + c.effects.front())) return;

@@ -76,7 +76,7 @@ inline void add_tube(identification_problem const& judged, box const& parameters
     if (!known_starts) { // another start may do better
         result.at_witness = interval_traits<interval>::bounds(0, result.at_witness.upper());
     }
-    bool const delayed = diagnosis_detail::has_delays(judged.model);
+    bool const delayed = judged.model.has_delays();
     if (!delayed && bound.witness && bound.range.upper() < detail::infinity) {
         inflation_bound fit{bound.range, bound.witness, bound.hull, 0, 0, 0};
         auto proved = holdout_inflation(fitted.problem, fit, judged, search);

@@ -47,7 +47,7 @@ public:
         for (auto const& e : problem.experiments) {
             if (e.outliers == 0 && !any_uncertain(e.inputs)) trusted.push_back(&e);
         }
-        if (!problem.model.input_delays.empty() || !problem.model.channel_delays.empty()) {
+        if (problem.model.has_delays()) {
             obstacle_ = "the model has delays";
         } else if (trusted.empty()) {
             obstacle_ = "every experiment has an outlier budget or inputs with error bounds: no "

@@ -21,14 +21,6 @@
 
 namespace sivid {
 
-namespace diagnosis_detail {
-
-inline bool has_delays(recorded_model const& m) {
-    return !m.input_delays.empty() || !m.channel_delays.empty();
-}
-
-} // namespace diagnosis_detail
-
 /// Encloses the inflation at one point: parameters and delays are those of the guess, so are the
 /// starts but for those that follow from the parameters; inputs are those recorded. Where they have
 /// error bounds nothing is known from below.
@@ -55,7 +47,7 @@ inline bool has_delays(recorded_model const& m) {
         starts.push_back(point_within(initial, guess.starts[s]));
         for (auto const& a : at.model.added_states) starts[s][a.state] = initial[a.state];
     }
-    auto const delayed = diagnosis_detail::has_delays(at.model);
+    auto const delayed = at.model.has_delays();
     auto resolved = resolve_delays(at, p);
     if (resolved.problem.prior.size() == 0) {
         // An identification needs an unknown: any constant that is fixed stands in for it.

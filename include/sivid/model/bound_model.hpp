@@ -104,7 +104,7 @@ struct bound_model {
                                     std::to_string(about.inputs.size()) + " inputs, but " +
                                     std::to_string(inputs.size()) + " signals were given");
     }
-    if (!model.input_delays.empty() || !model.channel_delays.empty()) {
+    if (model.has_delays()) {
         throw std::invalid_argument("model '" + about.name +
                                     "' has delays; fix them and shift the signals first");
     }

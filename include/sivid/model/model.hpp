@@ -157,6 +157,10 @@ struct recorded_model {
     /// The channel at t shows its value at t - c, and the one at the begin before.
     std::vector<time_delay> channel_delays;
     std::vector<added_state> added_states; ///< of effects (see effect.hpp)
+
+    [[nodiscard]] bool has_delays() const {
+        return !input_delays.empty() || !channel_delays.empty();
+    }
 };
 
 /// Runs the functor once on the recording scalar.

@@ -73,7 +73,7 @@ private:
             find_places();
             announce();
         }
-        bool const provable = !diagnosis_detail::has_delays(base.problem.model);
+        bool const provable = !base.problem.model.has_delays();
         if (provable && effort_.go_on("bounding the gap"))
             prove_gap(bound, base, effort_, options_.gap);
         know_gap();
@@ -149,7 +149,7 @@ private:
 
     /// The inflation of each scenario and each channel alone.
     void measure_parts() {
-        if (diagnosis_detail::has_delays(run_.base.model)) return;
+        if (run_.base.model.has_delays()) return;
         auto const each = effort_.search(run_.base, options_.part);
         auto const& whole = run_.base_bound.range;
         double const end = effort_.left() - effort_.seconds_of({0, options_.parts_share});
