@@ -69,7 +69,7 @@ bool same(sivid::identification const& a, sivid::identification const& b) {
 
 /// With one thread, and where there are more with those.
 void compare(sivid::identification_problem const& problem, std::string const& what,
-             sivid::identify_options options, sivid::executor const& workers, std::size_t threads) {
+             sivid::identify_options options, sivid::executor const& workers) {
     auto const alone = measure(problem, what, options);
     auto const threads = workers.threads;
     if (threads < 2) return;

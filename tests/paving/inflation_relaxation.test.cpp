@@ -195,3 +195,28 @@ TEST_CASE("a relaxation of odd measurements") {
     r.bounds.clear();
     CHECK(lower() == 0);
 }
+
+TEST_CASE("a remainder that hides the worst measurement counts as blur") {
+    draws d(92);
+    random_experiments e(d, 1, 4, 0, 0, 0);
+    auto r = *e.known.front();
+    double const error = 0.5 * width(r.bounds[2]);
+    for (std::size_t m = 0; m < r.table->size(); ++m) {
+        std::size_t degree = 0;
+        for (auto const k : r.table->exponents[m]) degree += k;
+        r.coefficients[m * 4 + 2] = degree > 0 ? 0 : mid(r.bounds[2]) + 1000 * error;
+    }
+    auto const found = [&](double radius) {
+        r.radius[2] = radius * error;
+        e.known.front() = std::make_shared<response const>(r);
+        return inflation_bounder(e.known, e.outliers, e.prior)(detail::infinity);
+    };
+    auto const sharp = found(0);
+    CHECK(sharp.lower == Approx(1000.0));
+    auto const masked = found(999.9);
+    CHECK(masked.lower < 500);
+    CHECK(masked.blur.front() > 500);
+    auto const beside = found(1);
+    CHECK(beside.lower == Approx(999.0));
+    CHECK(beside.blur.front() == Approx(1.0));
+}

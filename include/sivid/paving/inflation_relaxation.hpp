@@ -62,6 +62,7 @@ public:
             auto const solved = minimax_solver(unknowns_.count, strict_blocks())();
             take(result, certified(solved.weights));
             describe(result, solved.weights);
+            describe_masked(result);
             propose(result, solved.point);
         }
         for (std::size_t s = 0; s < known_->size(); ++s) {
@@ -195,6 +196,23 @@ private:
                         result.smear[unknown] += c;
                     }
                 }
+            }
+        }
+    }
+    /// Measurements that would prove more on their own, all over the box, were it not for their
+    /// remainders: no program gives them a weight.
+    void describe_masked(inflation_relaxation& result) const {
+        for (std::size_t s = 0; s < blocks_.size(); ++s) {
+            if ((*outliers_)[s] > 0) continue;
+            auto const& block = blocks_[s];
+            for (std::size_t y = 0; y < block.functions(); ++y) {
+                double gain = std::abs(block.offset[y]) - result.lower;
+                for (std::size_t v = 0; v < block.variable.size() && gain > 0; ++v) {
+                    gain -= std::abs(block.slope[v * block.functions() + y]);
+                }
+                if (!(gain > 0)) continue;
+                double const lost = (*known_)[s]->shrinking_radius(y) * scales_[s][y];
+                result.blur[s] = std::max(result.blur[s], std::min(gain, lost));
             }
         }
     }
