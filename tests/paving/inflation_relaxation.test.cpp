@@ -212,11 +212,11 @@ TEST_CASE("a remainder that hides the worst measurement counts as blur") {
         return inflation_bounder(e.known, e.outliers, e.prior)(detail::infinity);
     };
     auto const sharp = found(0);
-    CHECK(sharp.lower == Approx(1000.0));
+    CHECK(std::abs(sharp.lower - 1000) < 1e-6);
     auto const masked = found(999.9);
     CHECK(masked.lower < 500);
     CHECK(masked.blur.front() > 500);
     auto const beside = found(1);
-    CHECK(beside.lower == Approx(999.0));
-    CHECK(beside.blur.front() == Approx(1.0));
+    CHECK(std::abs(beside.lower - 999) < 1e-6);
+    CHECK(std::abs(beside.blur.front() - 1) < 1e-6);
 }
