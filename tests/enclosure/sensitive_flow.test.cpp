@@ -206,6 +206,43 @@ TEST_CASE("the Lagrange term of the derivatives keeps its factor V") {
     CHECK(s.lower() <= std::exp(0.375));
 }
 
+TEST_CASE("what low orders leave out, by closed forms, in single long steps") {
+    // By the parameter alone, x' = p e^t: all but h of dx/dp = e^h - 1 is the rest of
+    // \f$ \partial_p f \f$ at L = 2. And x' = p x^2: dx/dx0 = 1/d^2, dx/dp = h/d^2 at x0 = p = 1.
+    auto const direct = support::flow_of(
+        support::model_of({1, 1}, [](auto const& t, auto const&, auto const& p, auto const&) {
+            return std::vector{p[0] * exp(t)};
+        }));
+    auto const growing = support::flow_of(
+        support::model_of({1, 1}, [](auto const&, auto const& x, auto const& p, auto const&) {
+            return std::vector{p[0] * sqr(x[0])};
+        }));
+    for (std::size_t const order : {2, 3, 4, 6}) {
+        for (double const h : {0.0625, 0.125, 0.25}) {
+            enclosure_options o;
+            o.order = order;
+            o.tolerance = 10;
+            o.minimum_step = o.maximum_step = h;
+            o.widest = o.remainder_share = 1e6;
+            CAPTURE(order, h);
+            sensitive_flow<1, 0> first(*direct, o), second(*growing, o);
+            for (auto* const run : {&first, &second}) {
+                run->begin(0, box{interval(1.0)}, box{interval(1.0)});
+                REQUIRE(run->step(h));
+                REQUIRE(run->time() == h);
+                REQUIRE(run->known());
+            }
+            auto const e = static_cast<extended>(h), d = 1 - e;
+            CHECK(encloses_at(first.derivative(0, 0), {0.0}, 1, 0));
+            CHECK(encloses_at(first.derivative(0, 1), {0.0}, std::expm1(e), 0));
+            CHECK(encloses_at(second.derivative(0, 0), {0.0}, 1 / (d * d), 0));
+            CHECK(encloses_at(second.derivative(0, 1), {0.0}, e / (d * d), 0));
+            // The bounds are near what is left out: at order 6 and h = 1/16 about 1e-6.
+            if (order == 6 && h == 0.0625) CHECK(second.derivative(0, 1).r < 1e-5);
+        }
+    }
+}
+
 TEST_CASE("kinks, sampled inputs and jumps") {
     draws d(340);
     std::size_t compared = 0;

@@ -3,6 +3,7 @@
 #define SIVID_ENCLOSURE_SENSITIVE_FLOW_HPP
 
 #include <sivid/enclosure/derivative_set.hpp>
+#include <sivid/enclosure/detail/expansion_tail.hpp>
 #include <sivid/enclosure/detail/power_sum.hpp>
 #include <sivid/enclosure/parametric_flow.hpp>
 
@@ -21,12 +22,15 @@ namespace sivid {
 ///   \f$ S(q) = \partial x(t) / \partial (x_0, p) \in K(q) + B R \f$
 /// with polynomials K of the states' degree and one orthogonal frame B for what is lost.
 ///
-/// A step of the flow proves a tube b(q, s). With \f$ V^{[k]} \f$ the coefficients of the flow's
-/// derivatives by states and parameters on the set before, and J those of order L on the tube,
+/// With \f$ V^{[k]} \f$ the coefficients of the flow's derivatives by states and parameters on the
+/// set before, \f$ M = V(h) \in \sum_{k<L} h^k V^{[k]} + [-\bar R, \bar R] \f$ encloses the
+/// derivatives over the step at every member, and \f$ S' = M_x S + [0, M_p] \f$. \f$ \bar R \f$
+/// follows from the sizes of coefficients alone (`expansion_tail`). Where that fails, and at kinks,
+/// the tube b(q, s) serves that the step of the flow has left: with J the coefficients of order L
+/// on it,
 ///   \f$ W > \sum_{1 \le k<L} h^k |V^{[k]}| + h^L (|J| + |J_x| W) \f$
 /// bounds \f$ |V - [1, 0]| \f$ on the step (docs/taylor_models.md, section 3, (a)), and
-///   \f$ M \in \sum_{k<L} h^k V^{[k]} + h^L (J + |J_x| [-W, W]) \f$
-/// encloses the derivatives over the step at every member; \f$ S' = M_x S + [0, M_p] \f$.
+///   \f$ M \in \sum_{k<L} h^k V^{[k]} + h^L (J + |J_x| [-W, W]) \f$.
 /// Columns: initial states, then parameters, in the model's units (not per unit of q). Across kinks
 /// L = 1 and the derivative is Clarke's; across jumps there is none, and the entries say nothing
 /// from there on.
@@ -49,6 +53,7 @@ public:
           run_(f, options),
           series_(f, options.order + 1),
           tube_(f, options.order + 1),
+          tail_(f, series_),
           observe_(f.observe_jacobian(), 0),
           parameters_(f.parameters()),
           tube_parameters_(f.parameters()),
@@ -209,6 +214,11 @@ private:
         std::optional<std::vector<double>> w;
         for (;; L = std::max<std::size_t>(1, L / 2)) {
             series_.expand_with_variations(from, entry::constant(from), around_, L - 1);
+            if (L > 1 && tail_.covers() && !series_.undefined() && !series_.kinked() &&
+                tail_.bound_variations(series_, h, L)) {
+                carry(nullptr, length, L);
+                return true;
+            }
             tube_.expand(from, times, run_.swept_models(), L);
             bool const jumps = tube_.jumped();
             bool kinked = L > 1 && (series_.kinked() || tube_.kinked());
@@ -223,39 +233,50 @@ private:
             if (kinked || jumps) L = 1; // halving would not take the kink away
         }
         if (!w) return false;
-        carry(*w, length, L);
+        carry(&*w, length, L);
         return true;
     }
 
-    void carry(std::vector<double> const& w, double length, std::size_t L) {
+    /// @param w  what `bound` says of the tube; null where `tail_` has bounded V
+    void carry(std::vector<double> const* w, double length, std::size_t L) {
         auto const n = flow_->states();
         auto const m = columns();
         std::vector<entry> map(n * m);
-        double tail = 0, spread = 0;
-        double power = std::pow(length, static_cast<double>(L));
+        double tail = 0, spread = 0, size = 0;
+        double const power = w ? std::pow(length, static_cast<double>(L)) : 1;
         for (std::size_t i = 0; i < n; ++i) {
             double row = 0;
             for (std::size_t c = 0; c < m; ++c) {
                 if (!flow_->sensitive(i, c)) continue;
-                auto last = without_last_variable<N, D>(tube_.variation(i, c, L));
-                double more = 0; // |J_x| W
-                for (std::size_t l = 0; l < n; ++l) {
-                    if (!flow_->sensitive(i, l)) continue;
-                    more += tube_.variation(i, l, L).norm() * w[l * m + c];
+                entry last;
+                double more = 0;
+                if (w) { // |J_x| W
+                    for (std::size_t l = 0; l < n; ++l) {
+                        if (!flow_->sensitive(i, l)) continue;
+                        more += tube_.variation(i, l, L).norm() * (*w)[l * m + c];
+                    }
+                    last =
+                        widened(without_last_variable<N, D>(tube_.variation(i, c, L)), more * up);
+                    row += last.norm();
+                } else {
+                    row += tail_.variation(i, c);
                 }
-                last = widened(last, more * up);
-                row += last.norm();
-                map[i * m + c] = at_time<entry>(
+                auto& over_step = map[i * m + c];
+                over_step = at_time<entry>(
                     [&](std::size_t k) -> entry const& {
                         return k < L ? series_.variation(i, c, k) : last;
                     },
-                    L, length);
-                spread = std::max(spread, map[i * m + c].spread());
+                    w ? L : L - 1, length);
+                if (!w) over_step = widened(over_step, tail_.variation(i, c));
+                spread = std::max(spread, over_step.spread());
+                size = std::max(size, over_step.polynomial_norm());
             }
             tail = std::max(tail, row * power);
         }
-        // The next step's order follows the truncation: a preference.
-        double const allowed = options_.tolerance + options_.relative_tolerance * spread;
+        // The next step's order follows the truncation, as far as it exceeds a rounding: a
+        // preference.
+        double const allowed =
+            std::max(options_.tolerance + options_.relative_tolerance * spread, entry::unit * size);
         if (tail > allowed) {
             order_ = std::min(options_.order, L + 2);
         } else if (tail < 0.01 * allowed && L > 2) {
@@ -294,6 +315,7 @@ private:
     flow_type run_;
     expansion<entry> series_;
     expansion<tube_entry> tube_;
+    expansion_tail<entry> tail_;
     series<entry> observe_;
     std::vector<entry> parameters_;
     std::vector<tube_entry> tube_parameters_;

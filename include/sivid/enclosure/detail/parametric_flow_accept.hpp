@@ -44,7 +44,7 @@ void parametric_flow<N, D, C>::accept(mask moved, C const& to, std::size_t order
             C row{};
             for (std::size_t c = 0; c < n; ++c) {
                 if (!flow_->sensitive(i, c)) continue;
-                row += tails_ ? flow_rest_[i * n + c]
+                row += tails_ ? derivative_tail_.variation(i, c)
                               : tube_.variation(i, c, flow_order).norm() * flow_power;
             }
             tail = side_by_side::max(tail, row);
@@ -71,7 +71,7 @@ void parametric_flow<N, D, C>::accept(mask moved, C const& to, std::size_t order
                         return k < flow_order ? derivative_.variation(i, c, k) : last;
                     },
                     tails_ ? flow_order - 1 : flow_order, length);
-                if (tails_) sum = widened(sum, flow_rest_[i * n + c]);
+                if (tails_) sum = widened(sum, derivative_tail_.variation(i, c));
                 // Lanes that stay, or jump, keep their generators.
                 j[i * n + c] =
                     select(moved & !jumps, sum, column_entry::constant(C(i == c ? 1.0 : 0.0)));

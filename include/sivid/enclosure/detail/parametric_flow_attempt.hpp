@@ -139,7 +139,7 @@ parametric_flow<N, D, C>::attempt(mask trying, C const& to, std::size_t order,
             for (std::size_t i = 0; i < n; ++i) {
                 C sum = truncation_[i];
                 for (std::size_t c = 0; c < n; ++c) {
-                    sum += (all[i * n + c] + flow_rest_[i * n + c]) * set_.reach[c];
+                    sum += (all[i * n + c] + derivative_tail_.variation(i, c)) * set_.reach[c];
                 }
                 tube_box_[i] = widened(path_[i], sum * up);
             }

@@ -2,13 +2,13 @@
 #ifndef SIVID_ENCLOSURE_DETAIL_PARAMETRIC_FLOW_CLASS_HPP
 #define SIVID_ENCLOSURE_DETAIL_PARAMETRIC_FLOW_CLASS_HPP
 
+#include <sivid/enclosure/detail/expansion_tail.hpp>
 #include <sivid/enclosure/domain_edge.hpp>
 #include <sivid/enclosure/expansion.hpp>
 #include <sivid/enclosure/failure.hpp>
 #include <sivid/enclosure/options.hpp>
 #include <sivid/enclosure/parametric_set.hpp>
 #include <sivid/enclosure/perturbed_step.hpp>
-#include <sivid/model/series_tail.hpp>
 #include <sivid/model/taylor_arithmetic.hpp>
 #include <sivid/number/guard.hpp>
 
@@ -33,7 +33,7 @@ namespace sivid {
 ///   centre  \f$ x(s; P) \in \sum_{k \le K} s^k x_k + s^{K+1} x_{K+1}(b) \f$
 ///   flow    \f$ V(s) \in \sum_{k<L} s^k V_k + s^L J_L(b) (1 + [-W, W]) \f$
 /// and the tube is proved when both images lie strictly inside it. Smooth steps are first tried
-/// without a tube, with what both series leave out from `series_tail`. Inputs with error bounds:
+/// without a tube, with what both series leave out from `expansion_tail`. Inputs with error bounds:
 /// the step is that of the recorded inputs, and what the others may add (see `perturbed_step`) goes
 /// into the generators.
 ///
@@ -69,8 +69,8 @@ public:
           centre_(f, options.order + 1, variations::by_state),
           derivative_(f, options.order + 1, variations::by_state),
           tube_(f, options.order + 1, variations::by_state),
-          centre_tail_(centre_.program(), options.order + 1),
-          derivative_tail_(derivative_.program(), options.order + 1),
+          centre_tail_(f, centre_),
+          derivative_tail_(f, derivative_),
           observe_(f.observe(), 0),
           parameters_(f.parameters()),
           column_parameters_(f.parameters()),
@@ -179,15 +179,9 @@ private:
     [[nodiscard]] mask useful(mask lanes);
     void guess_tube(C const& h, std::size_t order);
     /// Bounds what the series of a step over h leave out from the sizes of their coefficients:
-    /// `truncation_`, and |V| beyond the terms below `flow_order` in `flow_rest_`.
+    /// `truncation_`, and |V| beyond the terms below `flow_order` in `derivative_tail_`.
     /// @returns the lanes in which that is proved
     [[nodiscard]] mask bound_tails(C const& h, std::size_t order, std::size_t flow_order);
-    /// \f$ \rho_x \f$ of the states in the expansion e of order M, and \f$ h \rho_f / (M + 1) \f$.
-    template <class Entry>
-    [[nodiscard]] mask bound_states(expansion<Entry> const& e, series_tail<Entry>& tail, C const& h,
-                                    std::size_t order, bool rest, std::vector<C>& beyond);
-    /// The same for V, whose coefficients below `flow_order` have the norms in `flow_sizes_`.
-    [[nodiscard]] mask bound_flow_tail(C const& h, std::size_t flow_order);
     /// The lanes of `trying` whose truncation is small enough.
     [[nodiscard]] mask short_enough(mask trying, C const& h, std::size_t order,
                                     std::vector<C> const& truncation);
@@ -220,8 +214,8 @@ private:
     expansion<polynomial> centre_;
     expansion<column_entry> derivative_;
     expansion<tube_entry> tube_;
-    series_tail<polynomial> centre_tail_;
-    series_tail<column_entry> derivative_tail_;
+    expansion_tail<polynomial> centre_tail_;
+    expansion_tail<column_entry> derivative_tail_;
     series<polynomial> observe_;
     std::optional<perturbed_step<tube_entry>> perturbed_; ///< where inputs are uncertain
     /// About how much of the reach they cause; a preference, no proof rests on it.
@@ -232,8 +226,6 @@ private:
     std::vector<column_entry> around_;
     std::vector<tube_entry> path_, tube_box_, swept_;
     std::vector<C> room_, truncation_;
-    std::vector<C> state_tail_, derivative_beyond_;
-    square flow_rest_;   ///< what V has beyond its coefficients, where no tube was needed
     bool tails_ = false; ///< the last attempt was proved by the tails of the series alone
     C ratio_{};          ///< of the last attempt's truncation to what is allowed
     std::array<lane_state, width> lanes_;
