@@ -84,6 +84,8 @@ TEST_CASE("a growing response decides parts as all measurements at once do") {
             if (growing.refuted()) {
                 auto part = live;
                 CHECK(assess(s.plain(count, q), part).refuted);
+                part = live;
+                CHECK_FALSE(assess(*growing.known(), part).explained);
                 break;
             }
             for (int k = 0; k < 6; ++k) {
@@ -106,6 +108,13 @@ TEST_CASE("a growing response decides parts as all measurements at once do") {
             if (d.below(3) == 0) {
                 live = part_of(d, live);
                 growing.settle(live);
+                if (growing.refuted()) {
+                    auto part = live;
+                    CHECK(assess(s.plain(count, q), part).refuted);
+                    part = live;
+                    CHECK_FALSE(assess(*growing.known(), part).explained);
+                    break;
+                }
             }
             pruned += growing.known()->measurements < count ? 1 : 0;
         }

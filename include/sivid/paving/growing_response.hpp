@@ -155,8 +155,12 @@ private:
             if (status[y] == sample_status::holds) continue;
             if (status[y] == sample_status::fails) {
                 failed_now_ = true;
-                refuted_ = refuted_ || known_->allowed == 0;
-                if (known_->allowed > 0) --known_->allowed;
+                if (known_->allowed > 0) {
+                    --known_->allowed;
+                } else { // counts as unknown from now on, so that the rest explains nothing
+                    refuted_ = true;
+                    ++known_->measurements;
+                }
                 continue;
             }
             news_.push_back(samples_.size());

@@ -73,13 +73,8 @@ public:
             is_smooth_.push_back(std::none_of(
                 steps.begin(), steps.end(), [](step const& s) { return s.op == operation::sign; }));
         }
-        for (auto const& rows : model_.rate_dp) {
-            influences_.push_back(program_of(rows));
-        }
-        low_.resize(n);
-        high_.resize(n);
-        rise_low_.resize(n);
-        rise_high_.resize(n);
+        for (auto const& rows : model_.rate_dp) influences_.push_back(program_of(rows));
+        for (auto* bounds : {&low_, &high_, &rise_low_, &rise_high_}) bounds->resize(n);
         box_.resize(n);
         find_ticks();
     }
@@ -395,9 +390,8 @@ private:
     leaf_list times_, states_, inputs_, parameters_;
     std::vector<program> rates_, outputs_, slopes_, influences_;
     std::vector<bool> is_smooth_;                   ///< per channel: the mean value theorem holds
-    std::vector<lane_values> low_, high_;           ///< bounds of the states
-    std::vector<lane_values> rise_low_, rise_high_; ///< slopes of the bounds
-    std::vector<number> box_;                       ///< the states during a slice
+    std::vector<lane_values> low_, high_, rise_low_, rise_high_; ///< bounds of the states, slopes
+    std::vector<number> box_;                                    ///< the states during a slice
     mask live_{};
 };
 

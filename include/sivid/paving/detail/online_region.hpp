@@ -81,6 +81,7 @@ struct online_region {
         live = rest;
         for (std::size_t e = 0; e < all.size(); ++e) {
             for_each_run(e, [&](run_state& run) { run.known.settle(live); });
+            refuted = refuted || all[e].known.refuted();
         }
     }
 };
