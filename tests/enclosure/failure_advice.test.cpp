@@ -181,7 +181,7 @@ TEST_CASE("a blow-up: nothing helps a point, splitting helps some of a box") {
 
 TEST_CASE("van der Pol from a wide box: doubletons need another set") {
     family const y{oscillator(), {between(1.25, 1.55), between(2.35, 2.45)}, {}, 7};
-    auto const said = followed<doubletons, better_models>(y);
+    auto const said = followed<doubletons, parametric_flow<2, 6>>(y);
     CHECK(said.failure.help == advice::other_set);
     CHECK(said.trials.back().reached == 7);
     CHECK_THAT(said.message("v"), ContainsSubstring("use Taylor models") &&

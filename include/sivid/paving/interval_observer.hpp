@@ -389,7 +389,7 @@ private:
     std::vector<number> memory_;
     leaf_list times_, states_, inputs_, parameters_;
     std::vector<program> rates_, outputs_, slopes_, influences_;
-    std::vector<bool> is_smooth_;                   ///< per channel: the mean value theorem holds
+    std::vector<bool> is_smooth_; ///< per channel: the mean value theorem holds
     std::vector<lane_values> low_, high_, rise_low_, rise_high_; ///< bounds of the states, slopes
     std::vector<number> box_;                                    ///< the states during a slice
     mask live_{};
