@@ -100,9 +100,10 @@ TEST_CASE("killed at random moments with kill -9, identify resumes and finds the
                 for (int k = 0; k < 20000 && !fs::exists(out / "checkpoint.txt"); ++k) {
                     std::this_thread::sleep_for(1ms);
                 }
-                std::this_thread::sleep_for(took * d.uniform(0, 0.3));
+                std::this_thread::sleep_for(took * d.uniform(0, 0.2));
             } else {
-                std::this_thread::sleep_for(took * d.uniform(0, 1));
+                // Two of these and one of the others are less than the whole run.
+                std::this_thread::sleep_for(took * d.uniform(0, 0.4));
             }
             c.signal(SIGKILL);
             int const code = c.wait();
