@@ -75,17 +75,20 @@ TEST_CASE("a growing response decides parts as all measurements at once do") {
         scene const s(d, 12, q);
         growing_response growing(s.unknowns, s.table, q);
         auto live = s.whole;
-        for (std::size_t count = 0; count < s.all.size();) {
+        std::size_t count = 0;
+        auto const check_refuted = [&] {
+            auto mine = live, theirs = live;
+            CHECK(assess(s.plain(count, q), theirs).refuted);
+            CHECK_FALSE(assess(*growing.known(), mine).explained);
+        };
+        while (count < s.all.size()) {
             std::vector<growing_response::arrival> group;
             auto const size = 1 + d.below(3);
             while (group.size() < size && count < s.all.size()) group.push_back(s.all[count++]);
             auto const before = *growing.known();
             growing.take(group, live);
             if (growing.refuted()) {
-                auto part = live;
-                CHECK(assess(s.plain(count, q), part).refuted);
-                part = live;
-                CHECK_FALSE(assess(*growing.known(), part).explained);
+                check_refuted();
                 break;
             }
             for (int k = 0; k < 6; ++k) {
@@ -109,10 +112,7 @@ TEST_CASE("a growing response decides parts as all measurements at once do") {
                 live = part_of(d, live);
                 growing.settle(live);
                 if (growing.refuted()) {
-                    auto part = live;
-                    CHECK(assess(s.plain(count, q), part).refuted);
-                    part = live;
-                    CHECK_FALSE(assess(*growing.known(), part).explained);
+                    check_refuted();
                     break;
                 }
             }
