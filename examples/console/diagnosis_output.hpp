@@ -77,9 +77,9 @@ inline void print_holdout(sivid::diagnosis const& d) {
     namespace report = sivid::report;
     if (d.causes.empty() || !d.causes.front().holdout) return;
     auto const& h = *d.causes.front().holdout;
-    std::cout << "  on data that chose nothing bounds must grow by "
-              << report::outward_text(range_of(h.inflation_before)) << " without it, "
-              << report::outward_text(range_of(h.inflation_after)) << " with it";
+    std::cout << "  inflation on data that chose nothing: "
+              << report::inflation_text(range_of(h.inflation_before)) << " without it, "
+              << report::inflation_text(range_of(h.inflation_after)) << " with it";
     if (d.shrink_holdout && std::isfinite(d.shrink_holdout->lower()))
         std::cout << ": the gap shrinks by " << percent(*d.shrink_holdout);
     std::cout << "\n";

@@ -6,6 +6,7 @@
 #include "diagnosis_output.hpp"
 #include "number_range.hpp"
 #include "program.hpp"
+#include "thorough_diagnosis.hpp"
 
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/identification_json.hpp>
@@ -23,24 +24,6 @@
 #include <vector>
 
 namespace console {
-
-/// Efforts for a machine of which nothing is known: whatever is still open may use most of the
-/// time, since on an unknown model nobody can say after how many boxes it pays.
-/// @param seconds  for the diagnosis
-inline sivid::diagnosis_options thorough_diagnosis(double seconds) {
-    sivid::diagnosis_options options;
-    options.seconds = seconds;
-    options.gap.bound = {300, 0.12};
-    options.gap.further_boxes = 900;
-    options.answer = {60, 0.05};
-    options.hulls = {60, 0.05};
-    options.exclusion = {60, 0.04};
-    options.exclusions = {600, 0.37};
-    options.part = {20, 0.02};
-    options.screening.seconds = 0.5 * seconds;
-    options.screening.most_effects = 3;
-    return options;
-}
 
 /// The ranges of all parameters of a model that explains the data, on the terminal, and as
 /// model.html and model.json.

@@ -110,18 +110,6 @@ int compare(draws& d, support::formula const& f, double radius) {
     return compared;
 }
 
-support::formula chain(std::vector<support::formula::term> const& terms) {
-    support::formula f;
-    f.terms = {{operation::time},
-               {operation::state, 0, 0, 0},
-               {operation::state, 0, 0, 1},
-               {operation::constant, 0, 0, 0},
-               {operation::constant, 0, 0, 1},
-               {operation::literal, 0, 0, 0, 1.5}};
-    f.terms.insert(f.terms.end(), terms.begin(), terms.end());
-    return f;
-}
-
 } // namespace
 
 TEST_CASE("each operation's recurrence, varying, constant and literal operands") {
@@ -138,7 +126,7 @@ TEST_CASE("each operation's recurrence, varying, constant and literal operands")
                     if (op != operation::pown && n != 3) continue;
                     for (double const radius : {0.0, 0.0, 0.05, 0.3}) {
                         for (int draw = 0; draw < 6; ++draw) {
-                            compared += compare(d, chain({{op, a, b, n}}), radius);
+                            compared += compare(d, support::over_leaves({{op, a, b, n}}), radius);
                         }
                     }
                 }

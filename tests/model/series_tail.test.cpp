@@ -149,18 +149,6 @@ int compare(draws& d, support::formula const& f, double radius, double& sharp) {
     return compared;
 }
 
-support::formula chain(std::vector<support::formula::term> const& terms) {
-    support::formula f;
-    f.terms = {{operation::time},
-               {operation::state, 0, 0, 0},
-               {operation::state, 0, 0, 1},
-               {operation::constant, 0, 0, 0},
-               {operation::constant, 0, 0, 1},
-               {operation::literal, 0, 0, 0, 1.5}};
-    f.terms.insert(f.terms.end(), terms.begin(), terms.end());
-    return f;
-}
-
 } // namespace
 
 TEST_CASE("tails of each operation, at every order") {
@@ -179,7 +167,8 @@ TEST_CASE("tails of each operation, at every order") {
                     if (op != operation::pown && n != 3) continue;
                     for (double const radius : {0.0, 0.0, 0.05}) {
                         for (int draw = 0; draw < 25; ++draw) {
-                            compared += compare(d, chain({{op, a, b, n}}), radius, sharp);
+                            compared +=
+                                compare(d, support::over_leaves({{op, a, b, n}}), radius, sharp);
                         }
                     }
                 }

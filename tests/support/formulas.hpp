@@ -38,6 +38,20 @@ struct formula {
 
 inline constexpr std::size_t formula_states = 2, formula_parameters = 2;
 
+/// Terms over the operands 0 to 5: t, x0, x1, p0, p1 and 1.5.
+inline formula over_leaves(std::vector<formula::term> const& terms) {
+    using sivid::operation;
+    formula f;
+    f.terms = {{operation::time},
+               {operation::state, 0, 0, 0},
+               {operation::state, 0, 0, 1},
+               {operation::constant, 0, 0, 0},
+               {operation::constant, 0, 0, 1},
+               {operation::literal, 0, 0, 0, 1.5}};
+    f.terms.insert(f.terms.end(), terms.begin(), terms.end());
+    return f;
+}
+
 /// @param smooth  without abs, sign, min, max
 inline formula random_formula(draws& d, std::size_t size, bool smooth) {
     using sivid::operation;

@@ -4,6 +4,7 @@
 #include "console/diagnosis_output.hpp"
 #include "console/program.hpp"
 #include "console/sensitivity.hpp"
+#include "console/thorough_diagnosis.hpp"
 #include "windows.hpp"
 
 #include <sivid/diagnosis/affected_problem.hpp>
@@ -333,18 +334,8 @@ int run(diagnose_command const& c) {
     console::progress_line progress(c.quiet);
     progress.note("diagnosing M v' = F - F_v v on " + std::to_string(windows.size()) +
                   " windows; Ctrl-C stops early");
-    sivid::diagnosis_options options;
     // The rest is for the hold-out record and the tables.
-    options.seconds = 0.8 * c.budget;
-    // So many boxes of parameters, or this share of the time, whichever is less.
-    options.gap.bound = {300, 0.12};
-    options.gap.further_boxes = 900;
-    options.answer = {60, 0.05};
-    options.hulls = {60, 0.05};
-    options.exclusion = {60, 0.04};
-    options.exclusions = {600, 0.37};
-    options.screening.seconds = 0.5 * c.budget;
-    options.screening.most_effects = 3;
+    auto options = console::thorough_diagnosis(0.8 * c.budget);
     console::watch(options, progress);
     auto run = sivid::diagnose(problem, axis_catalogue(), options);
     progress.finish();

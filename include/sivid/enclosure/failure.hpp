@@ -4,8 +4,8 @@
 
 #include <sivid/enclosure/options.hpp>
 #include <sivid/model/operation.hpp>
+#include <sivid/number/nearest_text.hpp>
 
-#include <array>
 #include <charconv>
 #include <cstddef>
 #include <limits>
@@ -108,23 +108,15 @@ enum class advice {
 }
 
 /// A double in a message: six significant digits.
-[[nodiscard]] inline std::string short_text(double x) {
-    std::array<char, 32> text{};
-    auto const end =
-        std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::general, 6).ptr;
-    return {text.data(), end};
-}
+[[nodiscard]] inline std::string short_text(double x) { return nearest_text(x, 6); }
 
 /// The same, never above x: what was proved up to x was proved up to that.
 [[nodiscard]] inline std::string short_text_down(double x) {
-    std::array<char, 32> text{};
     for (int digits = 6;; ++digits) {
-        auto const end = std::to_chars(text.data(), text.data() + text.size(), x,
-                                       std::chars_format::general, digits)
-                             .ptr;
+        auto text = nearest_text(x, digits);
         double value = 0;
-        std::from_chars(text.data(), end, value);
-        if (!(value > x) || digits >= 17) return {text.data(), end};
+        std::from_chars(text.data(), text.data() + text.size(), value);
+        if (!(value > x) || digits >= 17) return text;
     }
 }
 

@@ -4,12 +4,11 @@
 
 #include <sivid/measurement/detail/local_residual.hpp>
 #include <sivid/measurement/quantisation.hpp>
+#include <sivid/number/nearest_text.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -39,8 +38,7 @@ struct error_bound_proposal {
 /// not count.
 /// @given  as many values as times, finite, times strictly increasing (checked)
 /// @guarantee  none for the instrument: an offset, a drift, a wrong scale and noise slower than
-/// seven
-///             samples leave no residual; motion that seven samples do not resolve raises the bound
+///             seven samples leave no residual; motion that these do not resolve raises the bound
 /// @throws std::invalid_argument
 /// @cost  n log n
 [[nodiscard]] inline error_bound_proposal propose_error_bound(std::vector<double> const& times,
@@ -89,8 +87,7 @@ struct error_bound_proposal {
         "the error has no part that is slower than seven samples: no offset, drift or wrong scale",
         "errors of neighbouring samples are independent",
         "the largest error of the record is at most 1.25 times the largest residual that counts, "
-        "or "
-        "four standard deviations",
+        "or four standard deviations",
         result.quantum > 0
             ? "readings are rounded or truncated to the step that was found: at most one step"
             : "no step was found: the readings are not quantised"};
@@ -99,19 +96,17 @@ struct error_bound_proposal {
                                      "not hold for them, allow for their share");
     double const usual = std::max(sigmas * result.spread, result.quantum);
     if (!unresolved && margin * result.largest_residual > 1.5 * usual) {
-        std::array<char, 32> text{};
-        std::snprintf(text.data(), text.size(), "%.3g", result.quantum + sigmas * result.spread);
         result.assumptions.push_back(
             "the few samples farthest from their neighbours are errors of the instrument: they set "
             "the bound; step and four standard deviations alone make " +
-            std::string{text.data()} +
+            nearest_text(result.quantum + sigmas * result.spread, 3) +
             ", so state a bound if they are kinks of the motion, as where an input jumps");
     }
     if (unresolved)
         result.assumptions.push_back(
             "more than 5 % of the samples are far from their neighbours: motion that the samples "
-            "do "
-            "not resolve, or noise of another kind; all count, and the bound is that much larger");
+            "do not resolve, or noise of another kind; all count, and the bound is that much "
+            "larger");
     return result;
 }
 
