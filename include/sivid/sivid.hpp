@@ -121,6 +121,7 @@
 #include <sivid/paving/combined_polynomial.hpp>
 #include <sivid/paving/constraint_blocks.hpp>
 #include <sivid/paving/continued_run.hpp>
+#include <sivid/paving/core_box.hpp>
 #include <sivid/paving/cut_certificate.hpp>
 #include <sivid/paving/cut_contraction.hpp>
 #include <sivid/paving/cut_program.hpp>

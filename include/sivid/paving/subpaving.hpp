@@ -77,6 +77,27 @@ private:
     bool has_outer_ = false;
 };
 
+/// The same paving, where what a box that is proved inside covers is inside: boxes that were not
+/// decided are cut along its faces.
+/// @given  all of `core` is proved inside; the volumes are those of the boxes
+[[nodiscard]] inline subpaving with_inside(subpaving const& paving, box const& core) {
+    subpaving result(paving.prior());
+    for (auto const& b : paving.boxes()) {
+        auto common = intersect(b.set, core);
+        bool thick = !is_empty(common);
+        for (std::size_t i = 0; thick && i < common.size(); ++i) {
+            thick = width(common[i]) > 0 || width(b.set[i]) == 0;
+        }
+        if (!thick || b.verdict == box_verdict::outside || b.verdict == box_verdict::inside) {
+            result.add(b.set, b.verdict);
+            continue;
+        }
+        for (auto& part : difference(b.set, common)) result.add(std::move(part), b.verdict);
+        result.add(std::move(common), box_verdict::inside);
+    }
+    return result;
+}
+
 } // namespace sivid
 
 #endif

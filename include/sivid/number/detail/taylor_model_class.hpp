@@ -107,13 +107,12 @@ private:
         } else if constexpr (Count <= 16) {
             return sizes<First, Count / 2>() + sizes<First + Count / 2, Count - Count / 2>();
         } else {
-            constexpr std::size_t chains = 4;
+            constexpr std::size_t chains = 4, rest = Count % chains, end = First + Count - rest;
             std::array<C, chains> sum{};
-            std::size_t i = First;
-            for (; i + chains <= First + Count; i += chains) {
+            for (std::size_t i = First; i < end; i += chains) {
                 for (std::size_t j = 0; j < chains; ++j) sum[j] += side_by_side::abs(c[i + j]);
             }
-            for (; i < First + Count; ++i) sum[0] += side_by_side::abs(c[i]);
+            for (std::size_t j = 0; j < rest; ++j) sum[j] += side_by_side::abs(c[end + j]);
             return (sum[0] + sum[1]) + (sum[2] + sum[3]);
         }
     }

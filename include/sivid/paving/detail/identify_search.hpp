@@ -3,6 +3,7 @@
 #define SIVID_PAVING_DETAIL_IDENTIFY_SEARCH_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/paving/core_box.hpp>
 #include <sivid/paving/data_test.hpp>
 #include <sivid/paving/dependence.hpp>
 #include <sivid/paving/detail/drawing.hpp>
@@ -101,6 +102,16 @@ SIVID_ENTRY identification identify(identification_problem const& problem,
     // Not what was integrated but what the result stands on: resuming repeats some.
     result.integrations = found.cost + integrated - searching.integrations();
     auto const left = found.paving.outer_hull();
+    if (result.witness && !options.only_hulls && found.reason != stop_reason::cancelled &&
+        found.paving.count(box_verdict::inside) == 0) {
+        auto const point = map ? mid(map->forward(point_box(result.witness->parameters)))
+                               : result.witness->parameters;
+        if (contains(left, point)) {
+            if (auto const core = core_about(searching, left, point, starts)) {
+                found.paving = with_inside(found.paving, *core);
+            }
+        }
+    }
     result.reason = found.reason;
     result.boxes = found.tested;
     if (map) {
