@@ -77,6 +77,7 @@ void print_summary(sivid::identification_problem const& problem, sivid::identifi
     std::cout << "  of the prior's volume: inside at least "
               << report::at_least_percent(view.volume_inner.lo) << ", not excluded at most "
               << report::at_most_percent(view.volume_outer.hi) << "\n";
+    if (!view.inside_box.empty()) std::cout << "  explained by all of " << view.inside_box << "\n";
     if (found.witness) {
         std::cout << "  verified witness:";
         for (std::size_t j = 0; j < problem.choice.unknown.size(); ++j)

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "support/catch.hpp"
+#include "support/random.hpp"
 
 #include <sivid/report/number_text.hpp>
 
+#include <boost/multiprecision/cpp_dec_float.hpp>
+
 #include <cmath>
 #include <limits>
+#include <string>
 
 using namespace sivid::report;
 
@@ -55,4 +59,40 @@ TEST_CASE("number text: counts, durations, units") {
     CHECK(unit_text("s^-1") == "s\xE2\x81\xBB\xC2\xB9");
     CHECK(unit_text("a^b") == "a^b");
     CHECK(unit_suffix("") == "");
+}
+
+TEST_CASE("a range all of whose points have a property is printed inward") {
+    CHECK(inward_text({0.218203, 0.221809}) == "[0.21821, 0.22180]");
+    CHECK(inward_text({2.9611e-5, 2.9689e-5}, {.significant = 1, .shift = 0}) ==
+          "[2.962, 2.968] \xC3\x97 10\xE2\x81\xBB\xE2\x81\xB5");
+    CHECK_FALSE(inward_text({1, 1 + 1e-15}));
+    CHECK_FALSE(inward_text({1, 1}));
+    CHECK_FALSE(inward_text(range{}));
+    CHECK_FALSE(inward_text({0, INFINITY}));
+    CHECK_FALSE(inward_text({0, 0}));
+    using exact = boost::multiprecision::cpp_dec_float_100;
+    support::draws d(7);
+    int compared = 0;
+    for (int k = 0; k < 2000; ++k) {
+        double const at = d.uniform(-3, 3);
+        double const width = std::pow(10, d.uniform(-15, 1));
+        range const r{at, at + width};
+        auto const text = inward_text(r, {.significant = 1 + static_cast<int>(d.below(4))});
+        if (!text) continue;
+        if (text->find("\xC3\x97") != std::string::npos) continue; // a power of ten
+        auto plain = *text;
+        for (auto minus = plain.find("\xE2\x88\x92"); minus != std::string::npos;
+             minus = plain.find("\xE2\x88\x92")) {
+            plain.replace(minus, 3, "-");
+        }
+        auto const comma = plain.find(',');
+        exact const low(plain.substr(1, comma - 1));
+        exact const high(plain.substr(comma + 2, plain.size() - comma - 3));
+        CAPTURE(*text);
+        CHECK(exact(r.lo) <= low);
+        CHECK(low <= high);
+        CHECK(high <= exact(r.hi));
+        ++compared;
+    }
+    CHECK(compared > 1000);
 }

@@ -58,6 +58,20 @@ public:
         for (std::size_t i = 0; i < none.size(); ++i) none[i] = interval_traits<interval>::empty();
         return none;
     }
+    /// The largest box of a verdict against the prior, null when there is none.
+    [[nodiscard]] box const* largest(box_verdict v) const {
+        box const* best = nullptr;
+        double most = -1;
+        for (auto const& b : boxes_) {
+            if (b.verdict != v) continue;
+            double const volume = relative_volume(b.set, prior_).upper();
+            if (volume > most) {
+                most = volume;
+                best = &b.set;
+            }
+        }
+        return best;
+    }
     [[nodiscard]] std::size_t count(box_verdict v) const {
         std::size_t n = 0;
         for (auto const& b : boxes_) n += b.verdict == v ? 1 : 0;

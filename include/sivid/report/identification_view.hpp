@@ -96,6 +96,8 @@ struct identification_view {
     std::vector<combination_view> combinations{};
     range volume_inner{}; ///< share of the prior, as proven intervals; empty: not known
     range volume_outer{};
+    /// The largest box that is proved to explain the data, in words: "S_v in [0.2, 0.3] m^2, ...".
+    std::string inside_box{};
     std::optional<witness_view> witness{};
     std::vector<std::string> proved{}; ///< further statements in plain words
     /// What such data can tell about the unknowns at all, in sentences, and where.

@@ -128,6 +128,10 @@ namespace sivid::report {
                                    : "";
         out.push_back("There is a parameter vector in the prior whose motion meets " + which + "." +
                       at);
+        if (!v.inside_box.empty()) {
+            out.push_back("So does every one with " + v.inside_box +
+                          ": it is the largest box of parameters that was proved to.");
+        }
     } else if (v.verdict == outcome::refuted) {
         out.push_back("No parameter vector in the prior has a motion that meets " + which +
                       ": every part of the prior was excluded by a proof.");

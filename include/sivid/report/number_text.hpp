@@ -11,12 +11,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <string_view>
 
 /// Numbers as a reader sees them. Proven bounds are rounded outward, so that the printed interval
-/// contains the binary one. Decimals read as the user gave them (`given_text`) are printed as
-/// given.
+/// contains the binary one; intervals all of whose points have a proven property inward. Decimals
+/// read as the user gave them (`given_text`) are printed as given.
 namespace sivid::report {
 
 /// How an outward text is written: `significant` digits of the width (of the value for a single
@@ -57,28 +58,48 @@ inline std::string bound_text(double x, int quantum, int shift, int power, round
     return power == 0 ? text : text + power_text(power);
 }
 
+namespace detail {
+
+/// Ends of an interval that is not empty, each rounded its way.
+inline std::string interval_text(range const& r, number_format f, rounding low, rounding high) {
+    double const largest = std::max(std::isfinite(r.lo) ? std::fabs(r.lo) : 0.0,
+                                    std::isfinite(r.hi) ? std::fabs(r.hi) : 0.0);
+    if (largest == 0 && is_finite(r)) {
+        return "[0, 0]";
+    }
+    int const lead = leading_exponent(largest);
+    double const width = r.hi - r.lo;
+    int const finest = lead - 15;
+    int const quantum = width > 0 && std::isfinite(width)
+                            ? std::max(leading_exponent(width) - f.significant + 1, finest)
+                            : (width == 0 ? finest : lead - f.significant + 1);
+    int const power = needs_power(lead + f.shift) ? lead + f.shift : 0;
+    std::string const text = std::string{"["} + bound_text(r.lo, quantum, f.shift, power, low) +
+                             ", " + bound_text(r.hi, quantum, f.shift, power, high) + "]";
+    return power == 0 ? text : text + power_text(power);
+}
+
+} // namespace detail
+
 /// An interval rounded outward: "[0.21820, 0.22181]", "[2.0, 2.1] x 10^-4".
 /// @guarantee  the printed interval contains [lo, hi].
 [[nodiscard]] inline std::string outward_text(range const& r, number_format f = {}) {
     if (is_empty(r)) {
         return "empty";
     }
-    double const largest = std::max(std::isfinite(r.lo) ? std::fabs(r.lo) : 0.0,
-                                    std::isfinite(r.hi) ? std::fabs(r.hi) : 0.0);
-    if (largest == 0 && is_finite(r)) {
-        return "[0, 0]";
+    return detail::interval_text(r, f, rounding::down, rounding::up);
+}
+
+/// An interval rounded inward: for what holds at all of its points.
+/// @guarantee  [lo, hi] contains the printed interval.
+/// @returns  nothing when the interval is too thin for sixteen digits
+[[nodiscard]] inline std::optional<std::string> inward_text(range const& r, number_format f = {}) {
+    // Three units of the last digit that 16 digits leave: the ends cannot pass each other.
+    double const size = std::max(std::fabs(r.lo), std::fabs(r.hi));
+    if (is_empty(r) || !is_finite(r) || !(r.hi - r.lo > 3e-15 * size)) {
+        return std::nullopt;
     }
-    int const lead = detail::leading_exponent(largest);
-    double const width = r.hi - r.lo;
-    int const finest = lead - 15;
-    int const quantum = width > 0 && std::isfinite(width)
-                            ? std::max(detail::leading_exponent(width) - f.significant + 1, finest)
-                            : (width == 0 ? finest : lead - f.significant + 1);
-    int const power = detail::needs_power(lead + f.shift) ? lead + f.shift : 0;
-    std::string const text =
-        std::string{"["} + detail::bound_text(r.lo, quantum, f.shift, power, rounding::down) +
-        ", " + detail::bound_text(r.hi, quantum, f.shift, power, rounding::up) + "]";
-    return power == 0 ? text : text + power_text(power);
+    return detail::interval_text(r, f, rounding::up, rounding::down);
 }
 
 /// The shortest decimal within two units in the last place: how a decimal that was read outward

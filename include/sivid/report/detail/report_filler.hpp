@@ -33,6 +33,7 @@ public:
         add_result();
         add_parameters();
         add_combinations();
+        add_inside_box();
         add_witness();
         for (std::size_t e = 0; e < problem_.experiments.size(); ++e) {
             view_.scenarios.push_back(
@@ -132,6 +133,30 @@ private:
             view_.combinations.push_back({c.what.formula, c.what.unit, shown(c.hull),
                                           shown(c.what.over(problem_.prior)), note});
         }
+    }
+
+    /// In products where the search ran there.
+    void add_inside_box() {
+        auto const* const products = found_.products ? &*found_.products : nullptr;
+        auto const* const box =
+            (products ? products->paving : found_.paving).largest(box_verdict::inside);
+        if (box == nullptr) {
+            return;
+        }
+        std::vector<std::string> sides;
+        for (std::size_t k = 0; k < box->size(); ++k) {
+            auto const* const side = products ? &products->map.sides()[k] : nullptr;
+            std::size_t const j = side ? side->parameter : k;
+            bool const product = side && side->product;
+            auto const range = inward_text(shown((*box)[k]));
+            if (!range) {
+                return;
+            }
+            std::string const unit = unit_text(product ? side->product->unit : unit_of(j));
+            sides.push_back((product ? formula_text(side->product->formula) : names()[j]) + " in " +
+                            *range + (unit.empty() ? "" : " " + unit));
+        }
+        view_.inside_box = joined(sides);
     }
 
     void add_witness() {
