@@ -3,6 +3,7 @@
 // containment of sampled trajectories. One thread; the least time of several runs.
 #include "hovercraft/model.hpp"
 #include "measure.hpp"
+#include "points.hpp"
 #include "problems.hpp"
 #include "sensitivities.hpp"
 
@@ -170,6 +171,8 @@ int main(int argc, char** argv) {
     };
 
     measure<1, 0, double>(hovercraft_problem("H3-point", 0), {20, 2e-14, 0}, "0.5 ms, 1e-11");
+    benchmark::measure_corners(hovercraft_problem("H3, eight points at once", 0.05), {20, 2e-14, 0},
+                               "1 ms");
     measure<3, 2, double>(h3(0.01), {10, 1e-6, 1e-4}, "0.5 ms, 1.005");
     measure<3, 3, double>(h3(0.05), {8, 3e-6, 1e-4}, "0.5 ms, 1.02");
     measure<3, 2, eight>(h3(0.05), {6, 1e-5, 1e-4, 3}, "0.2 ms a box");
