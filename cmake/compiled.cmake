@@ -28,7 +28,7 @@ template std::unique_ptr<continued_run> make_taylor_continuation<${kernel}>(
 ")
 endforeach()
 
-sivid_compiled_source(enclosure "\
+sivid_compiled_source(tube "\
 #include <sivid/enclosure/tube.hpp>
 namespace sivid {
 template tube<interval> integrate(
@@ -36,26 +36,50 @@ template tube<interval> integrate(
 }
 ")
 
+# What each source that links to the library asks for: the machine and the layouts that both were compiled for.
+sivid_compiled_source(flags "\
+#define SIVID_COMPILE_LIBRARY_FOR
+#include <sivid/compiled.hpp>
+#include <sivid/space/detail/compiled_eigen.hpp>
+")
+
 # Headers with functions that are compiled once; those of one floor share most of their code.
 set(entries_number decimal_text)
+set(entries_model bound_model effect)
+set(entries_enclosure flow enclosed_motion simulate)
 set(entries_paving identify inflation holdout_inflation outlier_budget)
-set(entries_diagnosis diagnose diagnosis_run)
-set(entries_io dataset explaining_motion)
-set(entries_report identification_report identification_page diagnosis_report diagnosis_page)
-foreach(floor IN ITEMS number paving diagnosis io report)
+set(entries_paving_further identifiability online_identification)   # apart: together they need 2 GB
+set(entries_diagnosis affected_problem diagnose diagnosis_run manoeuvre)
+set(entries_io checkpoint checkpoint_reader dataset dataset_digest dataset_writer diagnosis_json explaining_motion
+               identification_csv identification_json identification_reader model_names problem_digest
+               problem_from_dataset same_problem text_file)
+set(entries_report bar_chart diagnosis_page diagnosis_plot_data diagnosis_report identifiability_words
+                   identification_page identification_report plane_plot time_plot)
+foreach(group IN ITEMS number model enclosure paving paving_further diagnosis io report)
+    string(REGEX REPLACE "_.*" "" floor "${group}")
     if(floor MATCHES "^(io|report)$" AND NOT TARGET sivid::${floor})
         continue()
     endif()
     set(macros "")
     set(includes "")
-    foreach(header IN LISTS entries_${floor})
+    foreach(header IN LISTS entries_${group})
         file(STRINGS "${sivid_include_dir}/sivid/${floor}/${header}.hpp" condition REGEX "SIVID_COMPILE_[A-Z_]+")
         string(REGEX MATCH "SIVID_COMPILE_[A-Z_]+" macro "${condition}")
         string(APPEND macros "#define ${macro}\n")
         string(APPEND includes "#include <sivid/${floor}/${header}.hpp>\n")
     endforeach()
-    sivid_compiled_source(${floor} "${macros}${includes}")
+    sivid_compiled_source(${group} "${macros}${includes}")
 endforeach()
+
+if(TARGET sivid::io)
+    sivid_compiled_source(check "\
+#define SIVID_COMPILE_IDENTIFICATION_CHECK
+#include <sivid/io/identification_check.hpp>
+namespace sivid {
+template class identification_check<interval, interval>;
+}
+")
+endif()
 
 add_library(sivid_compiled STATIC EXCLUDE_FROM_ALL ${sivid_compiled_sources})
 add_library(sivid::compiled ALIAS sivid_compiled)
@@ -65,3 +89,23 @@ foreach(component IN ITEMS sivid io report)
         target_link_libraries(sivid_compiled PRIVATE sivid::${component})
     endif()
 endforeach()
+
+# sivid::compiled_mpfi: the check of stored results in the interval types of MPFI, where that is installed.
+find_library(SIVID_GMP gmp)
+find_library(SIVID_MPFR mpfr)
+find_library(SIVID_MPFI mpfi)
+find_path(SIVID_MPFI_INCLUDE mpfi.h)
+mark_as_advanced(SIVID_GMP SIVID_MPFR SIVID_MPFI SIVID_MPFI_INCLUDE)
+if(TARGET sivid::io AND SIVID_GMP AND SIVID_MPFR AND SIVID_MPFI AND SIVID_MPFI_INCLUDE)
+    set(sivid_compiled_sources "")
+    foreach(function IN ITEMS check_by_proven_functions check_in_multiprecision)
+        string(TOUPPER "SIVID_COMPILE_${function}" macro)
+        sivid_compiled_source(${function} "#define ${macro}\n#include <sivid/io/mp_identification_check.hpp>\n")
+    endforeach()
+    add_library(sivid_compiled_mpfi STATIC EXCLUDE_FROM_ALL ${sivid_compiled_sources})
+    add_library(sivid::compiled_mpfi ALIAS sivid_compiled_mpfi)
+    target_compile_definitions(sivid_compiled_mpfi PUBLIC SIVID_COMPILED_MPFI)
+    target_include_directories(sivid_compiled_mpfi SYSTEM PUBLIC "${SIVID_MPFI_INCLUDE}")
+    target_link_libraries(sivid_compiled_mpfi PUBLIC sivid_compiled "${SIVID_MPFI}" "${SIVID_MPFR}" "${SIVID_GMP}"
+                          PRIVATE sivid::io)
+endif()

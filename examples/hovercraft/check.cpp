@@ -6,12 +6,12 @@
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset_digest.hpp>
 #include <sivid/io/identification_check.hpp>
+#include <sivid/io/identification_reader.hpp>
+#ifdef SIVID_HAS_MPFI
+#include <sivid/io/mp_identification_check.hpp>
+#endif
 #include <sivid/io/problem_from_dataset.hpp>
 #include <sivid/report/number_text.hpp>
-
-#ifdef SIVID_HAS_MPFI
-#include <sivid/number/mp_functions.hpp>
-#endif
 
 #include <iomanip>
 #include <iostream>
@@ -21,13 +21,9 @@ namespace hovercraft_example {
 namespace {
 
 #ifdef SIVID_HAS_MPFI
-using exact_type = sivid::mp_interval;
-using fast_type = sivid::proven_interval;
 constexpr auto exact_words = "40 digits";
 constexpr auto fast_words = "doubles, elementary functions in 40 digits";
 #else
-using exact_type = sivid::interval;
-using fast_type = sivid::interval;
 constexpr auto exact_words = "doubles (built without MPFI)";
 constexpr auto fast_words = exact_words;
 #endif
@@ -55,11 +51,17 @@ int exit_code_of(outcome o) {
     return console::undecided;
 }
 
-template <class Fast>
 std::vector<sivid::check_finding> work(sivid::identification_problem const& problem,
                                        sivid::stored_identification const& stored,
-                                       sivid::identification_check_options const& options) {
-    return sivid::identification_check<exact_type, Fast>(problem, stored, options)(print);
+                                       sivid::identification_check_options const& options,
+                                       [[maybe_unused]] bool multiprecision) {
+#ifdef SIVID_HAS_MPFI
+    return multiprecision ? sivid::check_in_multiprecision(problem, stored, options, print)
+                          : sivid::check_by_proven_functions(problem, stored, options, print);
+#else
+    using check = sivid::identification_check<sivid::interval, sivid::interval>;
+    return check(problem, stored, options)(print);
+#endif
 }
 
 } // namespace
@@ -98,8 +100,7 @@ int run(check_command const& c) {
     options.seed = c.seed;
     options.seconds = 0.5 * c.budget.value_or(c.all ? 3600 : 10);
     options.certificate.keep_going = [] { return !console::interrupted(); };
-    auto const findings = c.multiprecision ? work<exact_type>(problem, stored, options)
-                                           : work<fast_type>(problem, stored, options);
+    auto const findings = work(problem, stored, options, c.multiprecision);
     auto const verdict = overall(findings);
     double seconds = 0;
     std::string left;

@@ -120,4 +120,8 @@ struct describe_command {
 
 } // namespace hovercraft_example
 
+namespace sivid { // the craft's equations are compiled once, in describe.cpp
+extern template recorded_model record_model(hovercraft const&);
+} // namespace sivid
+
 #endif

@@ -9,6 +9,10 @@
 
 #include <iostream>
 
+namespace sivid {
+template recorded_model record_model(hovercraft const&);
+} // namespace sivid
+
 namespace hovercraft_example {
 
 int run(describe_command const& c) {

@@ -2,7 +2,7 @@
 #include "commands.hpp"
 #include "console/program.hpp"
 
-#include <sivid/enclosure/tube.hpp>
+#include <sivid/enclosure/enclosed_motion.hpp>
 #include <sivid/io/dataset_writer.hpp>
 #include <sivid/io/json_writer.hpp>
 #include <sivid/model/bound_model.hpp>
@@ -130,12 +130,12 @@ private:
         std::vector<sivid::signal> signals;
         for (auto const& input : out.inputs) signals.emplace_back(input.signal);
         auto const f = std::make_shared<sivid::flow const>(model_, true_constants_, signals);
-        auto const tube = sivid::integrate<sivid::interval>(f, start, sivid::box{}, 0, s.duration);
-        if (!tube.complete())
+        sivid::enclosed_motion const motion(f, start, sivid::box{}, 0, s.duration);
+        if (!motion.complete())
             throw bad_request(
                 std::string{"scenario "} + s.name + ": the true motion could not be enclosed: " +
-                tube.failure()->message(model_.about.states[tube.failure()->component].name));
-        auto const truth = sample_truth(out, tube);
+                motion.failure()->message(model_.about.states[motion.failure()->component].name));
+        auto const truth = sample_truth(out, motion);
         add_samples(out, truth, choose_outliers(truth));
         if (out.measurements.empty())
             throw bad_request(std::string{"scenario "} + s.name + ": no measurement is left");
@@ -148,10 +148,10 @@ private:
         sivid::interval value; ///< M_real
     };
     [[nodiscard]] std::vector<true_sample> sample_truth(sivid::scenario const& s,
-                                                        sivid::tube<sivid::interval> const& tube) {
+                                                        sivid::enclosed_motion const& motion) {
         std::vector<true_sample> truth;
         for (double const t : sample_times(s.duration, options_.rate, options_.decimals, false)) {
-            auto const y = tube.observe_at(t);
+            auto const y = motion.observe_at(t);
             for (std::size_t c = 0; c < y.size(); ++c) {
                 // Relative bounds say nothing about a value that is stored as zero.
                 bool const vanishes =

@@ -3,9 +3,8 @@
 #include "console/console.hpp"
 #include "console/program.hpp"
 
-#include <sivid/enclosure/failure_advice.hpp>
+#include <sivid/enclosure/enclosed_motion.hpp>
 #include <sivid/enclosure/simulate.hpp>
-#include <sivid/enclosure/tube.hpp>
 #include <sivid/io/text_file.hpp>
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/report/page.hpp>
@@ -56,11 +55,10 @@ public:
         sivid::enclosure_options options;
         options.maximum_step = s.duration / 300;
         options.minimum_step = 1e-5 * s.duration; // a tube that needs shorter ones gets no further
-        tube_ = std::make_unique<sivid::tube<sivid::interval>>(
-            sivid::integrate<sivid::interval>(flow_, start, sivid::box{}, 0, s.duration, options));
+        tube_.emplace(flow_, start, sivid::box{}, 0, s.duration, options);
         if (!tube_->complete())
-            why_ = sivid::explain_failure<sivid::trajectory<sivid::interval>>(
-                *flow_, options, start, sivid::box{}, 0, s.duration);
+            why_ =
+                sivid::explain_enclosed_motion(*flow_, start, sivid::box{}, 0, s.duration, options);
     }
 
     [[nodiscard]] std::string trajectory_csv() const {
@@ -78,7 +76,7 @@ public:
         return text;
     }
 
-    [[nodiscard]] bool validated() const { return tube_ != nullptr; }
+    [[nodiscard]] bool validated() const { return tube_.has_value(); }
     [[nodiscard]] bool complete() const { return !tube_ || tube_->complete(); }
     [[nodiscard]] std::string failure() const {
         return why_->message(about_.states[why_->failure.component].name);
@@ -89,9 +87,9 @@ public:
         for (auto const& s : about_.states)
             text += std::string{","} + s.name + "_lower," + s.name + "_upper";
         text += "\n";
-        for (auto const& step : tube_->steps()) {
+        for (auto const& step : tube_->spans()) {
             text += shortest(step.from) + "," + shortest(step.to);
-            for (auto const& side : step.swept)
+            for (auto const& side : step.states)
                 text += std::string{","} + sivid::to_decimal_lower(side.lower()) + "," +
                         sivid::to_decimal_upper(side.upper());
             text += "\n";
@@ -123,9 +121,9 @@ public:
             for (std::size_t k = 0; k < line_.times.size(); ++k)
                 c.reference.push_back({line_.times[k], line_.states[k][i]});
             if (tube_)
-                for (auto const& step : tube_->steps())
+                for (auto const& step : tube_->spans())
                     c.tube.push_back(
-                        {step.from, step.to, {step.swept[i].lower(), step.swept[i].upper()}});
+                        {step.from, step.to, {step.states[i].lower(), step.states[i].upper()}});
             all.push_back(std::move(c));
         }
         std::string const tube =
@@ -161,9 +159,9 @@ public:
             if (k % every == every / 2) plane.poses.push_back({x[3], x[4], x[5]});
         }
         if (tube_)
-            for (auto const& step : tube_->steps())
-                plane.tube.push_back({{step.swept[3].lower(), step.swept[3].upper()},
-                                      {step.swept[4].lower(), step.swept[4].upper()}});
+            for (auto const& step : tube_->spans())
+                plane.tube.push_back({{step.states[3].lower(), step.states[3].upper()},
+                                      {step.states[4].lower(), step.states[4].upper()}});
         page.add(report::figure{
             .panels = {report::draw_plane_plot(plane, {.width = 1000, .height = 330})},
             .legend = report::plane_plot_legend(plane),
@@ -187,7 +185,7 @@ private:
     std::vector<sivid::signal> inputs_;
     std::shared_ptr<sivid::flow const> flow_;
     sivid::approximate_trajectory line_;
-    std::unique_ptr<sivid::tube<sivid::interval>> tube_;
+    std::optional<sivid::enclosed_motion> tube_;
     std::optional<sivid::advised_failure> why_; ///< where the tube ends early
 };
 

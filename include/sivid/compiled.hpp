@@ -2,6 +2,7 @@
 #ifndef SIVID_COMPILED_HPP
 #define SIVID_COMPILED_HPP
 
+/// @file
 /// Before the few functions that most of the compile time goes into.
 /// sivid is header only. Where SIVID_COMPILED is defined these functions, and the kernels of
 /// `taylor_kernels.hpp`, are declared alone, and a library that was compiled with the same flags
@@ -10,6 +11,57 @@
 #define SIVID_ENTRY
 #else
 #define SIVID_ENTRY inline
+#endif
+/// The same for what needs MPFI, too (CMake: sivid::compiled_mpfi).
+#ifdef SIVID_COMPILED_MPFI
+#define SIVID_MPFI_ENTRY
+#else
+#define SIVID_MPFI_ENTRY inline
+#endif
+
+#ifdef SIVID_COMPILED
+
+#include <sivid/number/detail/pack_target.hpp>
+
+#include <string> // the macros of the standard library
+
+// Linkers that drop unused sections would drop the question with them.
+#if defined(__has_attribute) && __has_attribute(retain)
+#define SIVID_KEPT [[gnu::used, gnu::retain]]
+#else
+#define SIVID_KEPT [[gnu::used]]
+#endif
+
+namespace sivid {
+
+struct plain_containers;
+struct debug_containers;
+#ifdef _GLIBCXX_DEBUG
+using containers_of_this_source = debug_containers;
+#else
+using containers_of_this_source = plain_containers;
+#endif
+
+inline namespace SIVID_PACK_TARGET {
+
+/// The library defines this for its own vector instructions and standard containers, each source
+/// asks for its own: objects have the same layout in both, or the program does not link.
+template <class Containers>
+struct library_for {
+    static char const sivid_compiled_has_other_machine_flags;
+};
+#ifdef SIVID_COMPILE_LIBRARY_FOR
+template <class Containers>
+char const library_for<Containers>::sivid_compiled_has_other_machine_flags = 0;
+#endif
+
+} // namespace SIVID_PACK_TARGET
+
+SIVID_KEPT static char const* const library_for_this_source =
+    &library_for<containers_of_this_source>::sivid_compiled_has_other_machine_flags;
+
+} // namespace sivid
+
 #endif
 
 #endif

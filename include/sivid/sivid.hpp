@@ -78,6 +78,7 @@
 #include <sivid/enclosure/dissipative_step.hpp>
 #include <sivid/enclosure/domain_edge.hpp>
 #include <sivid/enclosure/doubleton.hpp>
+#include <sivid/enclosure/enclosed_motion.hpp>
 #include <sivid/enclosure/expansion.hpp>
 #include <sivid/enclosure/failure.hpp>
 #include <sivid/enclosure/failure_advice.hpp>

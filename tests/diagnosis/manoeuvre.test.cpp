@@ -4,6 +4,8 @@
 #include "diagnosis/small_catalogue.hpp"
 #include "support/catch.hpp"
 
+#include <sivid/diagnosis/screening.hpp>
+
 using namespace sivid;
 
 namespace {

@@ -24,7 +24,7 @@ char const* const good = R"({
 
 scenario_description parsed(std::string const& text) {
     auto const model = names();
-    return scenario_reader(model).read(sivid::json_builder{"s.json"}.parse(text));
+    return parse_scenario("s.json", text, model);
 }
 
 } // namespace

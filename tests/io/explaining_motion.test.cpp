@@ -4,6 +4,8 @@
 #include "io/small_identification.hpp"
 #include "support/catch.hpp"
 
+#include <sivid/enclosure/tube.hpp>
+
 #include <cmath>
 
 using namespace sivid;

@@ -2,6 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_AFFECTED_PROBLEM_HPP
 #define SIVID_DIAGNOSIS_AFFECTED_PROBLEM_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/model/arithmetic.hpp>
 #include <sivid/model/effect.hpp>
 #include <sivid/paving/problem.hpp>
@@ -93,8 +94,12 @@ inline void start_added_states(identification_problem& problem) {
 /// further unknowns, with the effects' priors.
 ///   A parameter that is feasible for `base` is feasible here with all effects neutral.
 /// @throws std::invalid_argument as `with`
-[[nodiscard]] inline identification_problem affected(identification_problem const& base,
-                                                     std::vector<effect> const& effects) {
+[[nodiscard]] SIVID_ENTRY identification_problem affected(identification_problem const& base,
+                                                          std::vector<effect> const& effects);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_AFFECTED)
+SIVID_ENTRY identification_problem affected(identification_problem const& base,
+                                            std::vector<effect> const& effects) {
     identification_problem result{with(base.model, effects), base.choice, {}, base.experiments};
     std::vector<interval> prior(base.prior.begin(), base.prior.end());
     for (auto const& e : effects) {
@@ -107,6 +112,7 @@ inline void start_added_states(identification_problem& problem) {
     start_added_states(result);
     return result;
 }
+#endif
 
 } // namespace sivid
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_ENCLOSURE_FLOW_HPP
 #define SIVID_ENCLOSURE_FLOW_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/measurement/signal.hpp>
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/tape.hpp>
@@ -27,18 +28,7 @@ struct jacobian_entry {
 class flow {
 public:
     flow(recorded_model const& model, parameter_choice const& choice,
-         std::vector<signal> const& inputs)
-        : model_(bind(model, choice, inputs)), signals_(inputs.size()) {
-        for (auto const i : model_.sampled) signals_[i] = std::get<sampled_signal>(inputs[i]);
-        rate_ = tape(model_.g, model_.rate);
-        rate_state_jacobian_ = with_jacobian(model_.rate, model_.rate_dx, {}, entries_);
-        state_entries_ = std::exchange(entries_, {}).size();
-        rate_jacobian_ = with_jacobian(model_.rate, model_.rate_dx, model_.rate_dp, entries_);
-        observe_ = tape(model_.g, model_.observe);
-        observe_jacobian_ =
-            with_jacobian(model_.observe, model_.observe_dx, model_.observe_dp, observe_entries_);
-        find_structure();
-    }
+         std::vector<signal> const& inputs);
 
     [[nodiscard]] bound_model const& model() const { return model_; }
     [[nodiscard]] std::size_t states() const { return model_.state_count(); }
@@ -128,6 +118,22 @@ private:
     std::vector<jacobian_entry> entries_, observe_entries_;
     std::vector<bool> sensitive_;
 };
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_FLOW)
+SIVID_ENTRY flow::flow(recorded_model const& model, parameter_choice const& choice,
+                       std::vector<signal> const& inputs)
+    : model_(bind(model, choice, inputs)), signals_(inputs.size()) {
+    for (auto const i : model_.sampled) signals_[i] = std::get<sampled_signal>(inputs[i]);
+    rate_ = tape(model_.g, model_.rate);
+    rate_state_jacobian_ = with_jacobian(model_.rate, model_.rate_dx, {}, entries_);
+    state_entries_ = std::exchange(entries_, {}).size();
+    rate_jacobian_ = with_jacobian(model_.rate, model_.rate_dx, model_.rate_dp, entries_);
+    observe_ = tape(model_.g, model_.observe);
+    observe_jacobian_ =
+        with_jacobian(model_.observe, model_.observe_dx, model_.observe_dp, observe_entries_);
+    find_structure();
+}
+#endif
 
 } // namespace sivid
 

@@ -2,20 +2,17 @@
 #ifndef SIVID_ENCLOSURE_SIMULATE_HPP
 #define SIVID_ENCLOSURE_SIMULATE_HPP
 
-#include <sivid/enclosure/expansion.hpp>
+#include <sivid/compiled.hpp>
 #include <sivid/enclosure/flow.hpp>
 
-#include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
-#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
-#include <boost/numeric/odeint/stepper/generation.hpp>
-#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
-
-#include <algorithm>
-#include <cstddef>
-#include <stdexcept>
+#include <memory>
 #include <vector>
 
 namespace sivid {
+
+namespace enclosure_detail {
+class odeint_simulator;
+}
 
 /// States (and outputs) of a simulated trajectory at requested times. Not a proof.
 struct approximate_trajectory {
@@ -31,77 +28,25 @@ struct approximate_trajectory {
 /// @throws boost::numeric::odeint::step_adjustment_error or no_progress_error when it gets stuck
 class approximate_simulator {
 public:
-    explicit approximate_simulator(flow const& f)
-        : flow_(&f), rate_(f.rate(), 0), observe_(f.observe(), 0) {}
+    /// @given  the flow outlives this
+    explicit approximate_simulator(flow const& f);
+    approximate_simulator(approximate_simulator&&) noexcept;
+    approximate_simulator& operator=(approximate_simulator&&) noexcept;
+    ~approximate_simulator();
 
     [[nodiscard]] approximate_trajectory operator()(std::vector<double> const& initial,
                                                     std::vector<double> const& parameters,
                                                     double from, std::vector<double> const& times,
-                                                    double tolerance = 1e-9) {
-        namespace odeint = boost::numeric::odeint;
-        using state = std::vector<double>;
-        rate_.set_parameters(parameters);
-        observe_.set_parameters(parameters);
-        double piece_start = from;
-        auto const rhs = [&](state const& x, state& dxdt, double t) {
-            evaluate(rate_, piece_start, t, x);
-            for (std::size_t i = 0; i < dxdt.size(); ++i) dxdt[i] = rate_.output(i, 0);
-        };
-        auto method =
-            odeint::make_controlled(tolerance, tolerance, odeint::runge_kutta_dopri5<state>{});
-        approximate_trajectory result;
-        result.times = times;
-        state x = initial;
-        double t = from;
-        double step = 1e-3;
-        for (double const target : times) {
-            while (t < target) {
-                piece_start = t;
-                double const to = std::min(target, flow_->next_knot(t));
-                // The method keeps its last derivative, which a knot may have changed.
-                method.reset();
-                step = std::min(step, to - t);
-                advance(method, rhs, x, t, to, step);
-            }
-            result.states.push_back(x);
-            evaluate(observe_, t, t, x);
-            auto& y = result.outputs.emplace_back(flow_->channels());
-            for (std::size_t i = 0; i < y.size(); ++i) y[i] = observe_.output(i, 0);
-        }
-        return result;
-    }
+                                                    double tolerance = 1e-9);
 
 private:
-    template <class Method, class Rate>
-    static void advance(Method& method, Rate const& rate, std::vector<double>& x, double& t,
-                        double to, double& step) {
-        namespace odeint = boost::numeric::odeint;
-        std::size_t attempts = 0;
-        while (t < to) {
-            double trial = std::min(step, to - t);
-            bool const last = trial >= to - t;
-            if (method.try_step(rate, x, t, trial) == odeint::success) {
-                if (last) t = to;
-                step = std::max(trial, last ? step : trial);
-                attempts = 0;
-            } else {
-                step = trial;
-                if (++attempts > 500) throw std::runtime_error("simulation got stuck");
-            }
-        }
-    }
-    void evaluate(series<double>& s, double start, double t, std::vector<double> const& x) {
-        input_pieces<double> const inputs(*flow_, start, t);
-        s.start(t);
-        s.advance(
-            0, [&x](std::size_t i, std::size_t) { return x[i]; }, inputs);
-    }
-
-    flow const* flow_;
-    series<double> rate_;
-    series<double> observe_;
+    std::unique_ptr<enclosure_detail::odeint_simulator> work_;
 };
 
 } // namespace sivid
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_APPROXIMATE_SIMULATOR)
+#include <sivid/enclosure/detail/odeint_simulator.hpp>
+#endif
 
 #endif

@@ -2,6 +2,7 @@
 #ifndef SIVID_IO_CHECKPOINT_HPP
 #define SIVID_IO_CHECKPOINT_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/io/durable_file.hpp>
 #include <sivid/io/sha256.hpp>
 #include <sivid/number/decimal_output.hpp>
@@ -114,10 +115,15 @@ inline void put(checkpoint_lines& line, search_state const& s) {
 /// Writes a checkpoint so that a kill at any moment, or a loss of power, leaves this one or the one
 /// before.
 /// @throws output_error
-inline void write_checkpoint(std::filesystem::path const& file, identification_state const& state,
-                             std::string const& problem) {
+SIVID_ENTRY void write_checkpoint(std::filesystem::path const& file,
+                                  identification_state const& state, std::string const& problem);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_WRITE_CHECKPOINT)
+SIVID_ENTRY void write_checkpoint(std::filesystem::path const& file,
+                                  identification_state const& state, std::string const& problem) {
     write_durably(file, checkpoint_text(state, problem));
 }
+#endif
 
 } // namespace sivid
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_IO_CHECKPOINT_READER_HPP
 #define SIVID_IO_CHECKPOINT_READER_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/io/checkpoint.hpp>
 #include <sivid/io/input_error.hpp>
 #include <sivid/io/text_file.hpp>
@@ -236,10 +237,15 @@ parse_checkpoint(std::string_view text, std::string const& file, std::string con
 }
 
 /// @throws input_error  as above, or when there is no such file
-[[nodiscard]] inline identification_state read_checkpoint(std::filesystem::path const& file,
-                                                          std::string const& problem) {
+[[nodiscard]] SIVID_ENTRY identification_state read_checkpoint(std::filesystem::path const& file,
+                                                               std::string const& problem);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_READ_CHECKPOINT)
+SIVID_ENTRY identification_state read_checkpoint(std::filesystem::path const& file,
+                                                 std::string const& problem) {
     return parse_checkpoint(read_text(file), file.string(), problem);
 }
+#endif
 
 } // namespace sivid
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_IO_DATASET_WRITER_HPP
 #define SIVID_IO_DATASET_WRITER_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/io/dataset_value.hpp>
 #include <sivid/io/json_writer.hpp>
 #include <sivid/io/model_names.hpp>
@@ -133,14 +134,19 @@ namespace sivid {
 /// @given  as read_dataset returns it: one interpolation in a scenario, indices within the model's
 /// (trusted)
 /// @throws output_error
-inline void write_dataset(dataset const& data, model_names const& model,
-                          std::filesystem::path const& folder) {
+SIVID_ENTRY void write_dataset(dataset const& data, model_names const& model,
+                               std::filesystem::path const& folder);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_WRITE_DATASET)
+SIVID_ENTRY void write_dataset(dataset const& data, model_names const& model,
+                               std::filesystem::path const& folder) {
     for (auto const& s : data.scenarios) {
         write_atomically(folder / (s.name + ".inputs.csv"), inputs_csv(s, model));
         write_atomically(folder / (s.name + ".measurements.csv"), measurements_csv(s, model));
     }
     write_atomically(folder / "dataset.json", dataset_json(data, model));
 }
+#endif
 
 } // namespace sivid
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_IO_DIAGNOSIS_JSON_HPP
 #define SIVID_IO_DIAGNOSIS_JSON_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/io/json_writer.hpp>
 
@@ -222,9 +223,14 @@ private:
 /// The text of `diagnosis.json` in the format sivid-diagnosis-1.
 /// @guarantee  bounds are printed outward; the witness's numbers read back as the doubles that were
 ///             verified
-[[nodiscard]] inline std::string diagnosis_json(diagnosis const& d, std::string const& dataset) {
+[[nodiscard]] SIVID_ENTRY std::string diagnosis_json(diagnosis const& d,
+                                                     std::string const& dataset);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_DIAGNOSIS_JSON)
+SIVID_ENTRY std::string diagnosis_json(diagnosis const& d, std::string const& dataset) {
     return io_detail::diagnosis_writer(d).text(dataset);
 }
+#endif
 
 } // namespace sivid
 

@@ -3,7 +3,8 @@
 #define SIVID_IO_EXPLAINING_MOTION_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/enclosure/tube.hpp>
+#include <sivid/measurement/record.hpp>
+#include <sivid/number/interval.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/problem.hpp>
 
@@ -14,6 +15,10 @@
 #include <vector>
 
 namespace sivid {
+
+class flow;
+template <class I>
+class tube; // enclosure/tube.hpp, for those who look into one
 
 /// Which parameters a tube stands for.
 enum class motion_source {
@@ -32,22 +37,7 @@ struct explaining_motion {
     std::vector<std::shared_ptr<tube<interval>>> tubes; ///< one per experiment
 
     /// Encloses the measured channels of experiment e; unbounded where the tube ends before.
-    [[nodiscard]] std::vector<interval> outputs_of(std::size_t e, record const& samples) const {
-        std::vector<interval> result;
-        auto const& tube = *tubes[e];
-        std::optional<box> outputs;
-        double time = 0;
-        for (auto const& m : samples) {
-            if (!outputs || m.time != time) {
-                bool const covered = tube.begin_time() <= m.time && m.time <= tube.end_time();
-                outputs = covered ? tube.observe_at(m.time) : box{};
-                time = m.time;
-            }
-            result.push_back(outputs->size() > m.channel ? (*outputs)[m.channel]
-                                                         : interval_traits<interval>::entire());
-        }
-        return result;
-    }
+    [[nodiscard]] std::vector<interval> outputs_of(std::size_t e, record const& samples) const;
 };
 
 namespace io_detail {

@@ -2,38 +2,21 @@
 #ifndef SIVID_IO_IDENTIFICATION_CONSISTENCY_HPP
 #define SIVID_IO_IDENTIFICATION_CONSISTENCY_HPP
 
-#include <sivid/io/identification_reader.hpp>
+#include <sivid/io/detail/check_finding.hpp>
+#include <sivid/io/detail/stored_identification.hpp>
 #include <sivid/io/product_formula.hpp>
-#include <sivid/model/unit.hpp>
 #include <sivid/paving/problem.hpp>
 #include <sivid/space/box_cover.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace sivid {
-
-/// What became of one statement of a stored result.
-struct check_finding {
-    enum class outcome { verified, refuted, undecided, nothing };
-    std::string what;
-    outcome found = outcome::nothing; ///< nothing: the result states nothing of the kind
-    std::string detail;
-    double seconds = 0;
-};
-
-[[nodiscard]] constexpr std::string_view to_string(check_finding::outcome o) {
-    using outcome = check_finding::outcome;
-    return o == outcome::verified    ? "verified"
-           : o == outcome::refuted   ? "REFUTED"
-           : o == outcome::undecided ? "not decided"
-                                     : "not checked";
-}
 
 namespace io_detail {
 
@@ -66,43 +49,6 @@ inline check_finding agreement(std::string what, std::string const& fault,
 }
 
 } // namespace io_detail
-
-/// Whether a result speaks of this problem: its parameters, its scenarios.
-/// @throws input_error when it speaks of another
-inline void require_same_problem(identification_problem const& problem,
-                                 stored_identification const& stored,
-                                 std::filesystem::path const& file) {
-    auto const fail = [&](std::string const& what) {
-        throw input_error{{.file = file.string()}, what, "give the data set of this result"};
-    };
-    auto const& names = problem.choice.unknown;
-    if (stored.parameters.size() != names.size()) fail("other parameters than the data set's");
-    for (std::size_t j = 0; j < names.size(); ++j) {
-        if (stored.parameters[j].name != names[j]) fail("other parameters than the data set's");
-    }
-    auto const& constants = problem.model.about.constants;
-    auto const unit_of = [&](product_formula const& formula) {
-        unit product;
-        for (std::size_t j = 0; j < names.size(); ++j) {
-            auto const& own = constants[index_of(constants, names[j], "constant")].unit;
-            product = product.times(unit(own), formula.exponents()[j]);
-        }
-        return product.text();
-    };
-    for (auto const* const list : {&stored.parameters, &stored.combinations}) {
-        for (auto const& q : *list) {
-            auto const formula = product_formula::parse(q.name, names);
-            if (!formula) fail(text_of("no product of the parameters: ", in_quotes(q.name)));
-            if (unit(q.unit).text() != unit_of(*formula)) fail("another unit of " + q.name);
-        }
-    }
-    for (auto const& e : problem.experiments) {
-        if (stored.budget.count(e.name) == 0) {
-            fail(text_of("no outlier budget for the scenario ", in_quotes(e.name)));
-        }
-    }
-    if (stored.budget.size() != problem.experiments.size()) fail("other scenarios");
-}
 
 /// The hull of the rows is the one stated, and every row lies in the prior.
 [[nodiscard]] inline check_finding check_hull(identification_problem const& problem,

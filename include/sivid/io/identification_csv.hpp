@@ -2,6 +2,7 @@
 #ifndef SIVID_IO_IDENTIFICATION_CSV_HPP
 #define SIVID_IO_IDENTIFICATION_CSV_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/io/exact_decimal.hpp>
 #include <sivid/io/explaining_motion.hpp>
 #include <sivid/number/decimal_output.hpp>
@@ -76,26 +77,39 @@ inline std::string paving_csv(std::vector<std::string> const& names, subpaving c
 /// @guarantee  as decimals: every point of an `inside` row is feasible; every feasible point of the
 /// prior lies in some row read outward to doubles (between neighbouring inside rows, which are
 /// printed inward, less than two floats are in none)
-[[nodiscard]] inline std::string boxes_csv(identification_problem const& problem,
-                                           identification const& found) {
+[[nodiscard]] SIVID_ENTRY std::string boxes_csv(identification_problem const& problem,
+                                                identification const& found);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_IDENTIFICATION_CSV)
+SIVID_ENTRY std::string boxes_csv(identification_problem const& problem,
+                                  identification const& found) {
     return io_detail::paving_csv(problem.choice.unknown, found.paving);
 }
+#endif
 
 /// The text of `products.csv`: the paving of products from which `boxes.csv` was drawn, in the same
 /// form; the columns bear the formulas of the products. Empty when the search ran in the parameters
 /// themselves.
 /// @guarantee  as for `boxes_csv`, of the products' ranges over the prior
-[[nodiscard]] inline std::string products_csv(identification const& found) {
+[[nodiscard]] SIVID_ENTRY std::string products_csv(identification const& found);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_IDENTIFICATION_CSV)
+SIVID_ENTRY std::string products_csv(identification const& found) {
     if (!found.products) return {};
     return io_detail::paving_csv(found.products->map.side_names(), found.products->paving);
 }
+#endif
 
 /// The text of `outputs.csv`: each measurement with its bound, and the proven enclosure of the
 /// model's output for the parameters of `motion`; `state` is `forced_outlier` when every feasible
 /// parameter violates it, `witness_outlier` when the witness does, else empty.
-[[nodiscard]] inline std::string outputs_csv(identification_problem const& problem,
-                                             identification const& found,
-                                             explaining_motion const* motion) {
+[[nodiscard]] SIVID_ENTRY std::string outputs_csv(identification_problem const& problem,
+                                                  identification const& found,
+                                                  explaining_motion const* motion);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_IDENTIFICATION_CSV)
+SIVID_ENTRY std::string outputs_csv(identification_problem const& problem,
+                                    identification const& found, explaining_motion const* motion) {
     auto const& channels = problem.model.about.channels;
     std::set<std::pair<std::size_t, std::size_t>> forced;
     for (auto const& f : found.forced) forced.insert({f.experiment, f.measurement});
@@ -129,6 +143,7 @@ inline std::string paving_csv(std::vector<std::string> const& names, subpaving c
     }
     return text;
 }
+#endif
 
 } // namespace sivid
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_IO_IDENTIFICATION_JSON_HPP
 #define SIVID_IO_IDENTIFICATION_JSON_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/io/identifiability_json.hpp>
 #include <sivid/io/json_writer.hpp>
 #include <sivid/paving/identify.hpp>
@@ -30,9 +31,14 @@ struct identification_json_options {
 /// The text of `result.json` in the format sivid-identification-1.
 /// @guarantee  bounds are printed outward; the witness's numbers read back as the very doubles
 /// that were verified
-[[nodiscard]] inline std::string identification_json(identification_problem const& problem,
-                                                     identification const& found,
-                                                     identification_json_options const& options) {
+[[nodiscard]] SIVID_ENTRY std::string
+identification_json(identification_problem const& problem, identification const& found,
+                    identification_json_options const& options);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_IDENTIFICATION_JSON)
+SIVID_ENTRY std::string identification_json(identification_problem const& problem,
+                                            identification const& found,
+                                            identification_json_options const& options) {
     using layout = json_writer::layout;
     auto const& about = problem.model.about;
     auto const& names = problem.choice.unknown;
@@ -142,6 +148,7 @@ struct identification_json_options {
     json.key("seconds").nearest(found.seconds).end_object();
     return json.text();
 }
+#endif
 
 } // namespace sivid
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_IO_MODEL_NAMES_HPP
 #define SIVID_IO_MODEL_NAMES_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/number/interval.hpp>
 
@@ -28,7 +29,10 @@ struct model_names {
 };
 
 /// The names of a recorded model.
-[[nodiscard]] inline model_names names_of(model_description const& model) {
+[[nodiscard]] SIVID_ENTRY model_names names_of(model_description const& model);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_NAMES_OF)
+SIVID_ENTRY model_names names_of(model_description const& model) {
     model_names names;
     names.name = model.name;
     for (auto const& c : model.constants) names.constants.push_back({c.name, c.unit});
@@ -40,6 +44,7 @@ struct model_names {
     }
     return names;
 }
+#endif
 
 /// The index of the entry with this name, or nothing.
 [[nodiscard]] inline std::optional<std::size_t> index_of(std::vector<name_unit> const& list,

@@ -2,13 +2,14 @@
 #ifndef SIVID_IO_PAVING_CHECK_HPP
 #define SIVID_IO_PAVING_CHECK_HPP
 
+#include <sivid/io/detail/identification_check_options.hpp>
+#include <sivid/io/exact_decimal.hpp>
 #include <sivid/io/identification_consistency.hpp>
 #include <sivid/number/nearest_text.hpp>
 #include <sivid/paving/certificate.hpp>
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <random>
 #include <string>
@@ -16,17 +17,6 @@
 #include <vector>
 
 namespace sivid {
-
-struct identification_check_options {
-    std::size_t sample = 24; ///< so many inside and so many excluded boxes, or parts of them
-    bool all = false;        ///< every box instead
-    std::uint64_t seed = 1;
-    double seconds = 10; ///< for the inside boxes, and as much for the excluded ones
-    /// Share of the prior's sides next to a box that is not excluded of which the check may say
-    /// nothing.
-    double rim = 1e-6;
-    certificate_options certificate;
-};
 
 /// Checks a stored paving against its problem: its boxes cover the prior with what it excludes, and
 /// what it says of boxes is proved anew, for a sample or for all.

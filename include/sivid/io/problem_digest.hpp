@@ -2,6 +2,7 @@
 #ifndef SIVID_IO_PROBLEM_DIGEST_HPP
 #define SIVID_IO_PROBLEM_DIGEST_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/io/sha256.hpp>
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/paving/identify.hpp>
@@ -135,14 +136,19 @@ inline void describe(canonical_text& t, identify_options const& o) {
 /// Budgets of time, boxes and memory, and threads are not in it.
 /// @param also  what else it shall depend on, the digest of the data set's files for instance
 /// @cost  linear in the problem
-[[nodiscard]] inline std::string problem_digest(identification_problem const& problem,
-                                                identify_options const& options,
-                                                std::string const& also = {}) {
+[[nodiscard]] SIVID_ENTRY std::string problem_digest(identification_problem const& problem,
+                                                     identify_options const& options,
+                                                     std::string const& also = {});
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_PROBLEM_DIGEST)
+SIVID_ENTRY std::string problem_digest(identification_problem const& problem,
+                                       identify_options const& options, std::string const& also) {
     io_detail::canonical_text text;
     describe(text, problem);
     describe(text, options);
     return sha256(text("also", also).text());
 }
+#endif
 
 } // namespace sivid
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_IO_PROBLEM_FROM_DATASET_HPP
 #define SIVID_IO_PROBLEM_FROM_DATASET_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/diagnosis/holdout.hpp>
 #include <sivid/io/dataset_value.hpp>
 #include <sivid/paving/problem.hpp>
@@ -32,7 +33,8 @@ inline std::vector<experiment> experiments_of(dataset const& data, model_descrip
         e.name = s.name;
         for (auto const& input : s.inputs) {
             auto const& u = input.signal;
-            e.inputs.push_back(sampled_signal(u.times(), u.values(), u.kind(), input.error));
+            e.inputs.emplace_back(std::in_place_type<sampled_signal>, u.times(), u.values(),
+                                  u.kind(), input.error);
         }
         e.initial = box(s.initial.size());
         for (std::size_t i = 0; i < s.initial.size(); ++i) e.initial[i] = s.initial[i].range;
@@ -52,9 +54,12 @@ inline std::vector<experiment> experiments_of(dataset const& data, model_descrip
 /// @param outliers  a budget for every scenario instead of the data set's own
 /// @given  `data` was read with the names of this model (checked: name and sizes)
 /// @throws std::invalid_argument otherwise
-[[nodiscard]] inline identification_problem
-problem_from_dataset(dataset const& data, recorded_model model,
-                     std::optional<std::size_t> outliers = std::nullopt) {
+[[nodiscard]] SIVID_ENTRY identification_problem problem_from_dataset(
+    dataset const& data, recorded_model model, std::optional<std::size_t> outliers = std::nullopt);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_PROBLEM_FROM_DATASET)
+SIVID_ENTRY identification_problem problem_from_dataset(dataset const& data, recorded_model model,
+                                                        std::optional<std::size_t> outliers) {
     auto const fail = [](std::string const& what) {
         throw std::invalid_argument(std::string{"problem_from_dataset: "} + what);
     };
@@ -75,13 +80,18 @@ problem_from_dataset(dataset const& data, recorded_model model,
     problem.experiments = io_detail::experiments_of(data, about, scenario_role::fit, outliers);
     return problem;
 }
+#endif
 
 /// The scenarios of the role holdout: they choose nothing.
 /// @given  as for `problem_from_dataset`
-[[nodiscard]] inline holdout holdout_from_dataset(dataset const& data,
-                                                  model_description const& about) {
+[[nodiscard]] SIVID_ENTRY holdout holdout_from_dataset(dataset const& data,
+                                                       model_description const& about);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_PROBLEM_FROM_DATASET)
+SIVID_ENTRY holdout holdout_from_dataset(dataset const& data, model_description const& about) {
     return holdout(io_detail::experiments_of(data, about, scenario_role::holdout, std::nullopt));
 }
+#endif
 
 } // namespace sivid
 

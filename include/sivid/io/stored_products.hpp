@@ -2,7 +2,7 @@
 #ifndef SIVID_IO_STORED_PRODUCTS_HPP
 #define SIVID_IO_STORED_PRODUCTS_HPP
 
-#include <sivid/io/identification_reader.hpp>
+#include <sivid/io/detail/stored_identification.hpp>
 #include <sivid/io/product_formula.hpp>
 #include <sivid/model/homogeneity.hpp>
 #include <sivid/paving/problem.hpp>

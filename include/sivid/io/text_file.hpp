@@ -2,6 +2,7 @@
 #ifndef SIVID_IO_TEXT_FILE_HPP
 #define SIVID_IO_TEXT_FILE_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/io/input_error.hpp>
 
 #include <cstdint>
@@ -27,7 +28,10 @@ inline constexpr std::uintmax_t largest_text = 1'000'000'000; ///< [byte]
 
 /// The whole of a regular file, without its UTF-8 byte-order mark.
 /// @throws input_error when there is no such file, or it is too large or cannot be read
-[[nodiscard]] inline std::string read_text(std::filesystem::path const& file) {
+[[nodiscard]] SIVID_ENTRY std::string read_text(std::filesystem::path const& file);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_TEXT_FILE)
+SIVID_ENTRY std::string read_text(std::filesystem::path const& file) {
     std::error_code fault;
     auto const fail = [&](std::string problem, std::string remedy) {
         throw input_error{{.file = file.string()}, std::move(problem), std::move(remedy)};
@@ -44,12 +48,16 @@ inline constexpr std::uintmax_t largest_text = 1'000'000'000; ///< [byte]
     if (std::string_view{text}.substr(0, 3) == "\xEF\xBB\xBF") text.erase(0, 3);
     return text;
 }
+#endif
 
 /// Writes a file whole or not at all: into a temporary neighbour, which then takes the name. A
 /// reader, or a run that was killed, sees the old content or the new one.
 /// @throws output_error when the folder or the file cannot be written; the old content is then
 /// still there
-inline void write_atomically(std::filesystem::path const& file, std::string_view text) {
+SIVID_ENTRY void write_atomically(std::filesystem::path const& file, std::string_view text);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_TEXT_FILE)
+SIVID_ENTRY void write_atomically(std::filesystem::path const& file, std::string_view text) {
     namespace fs = std::filesystem;
     std::error_code fault;
     if (file.has_parent_path()) {
@@ -78,6 +86,7 @@ inline void write_atomically(std::filesystem::path const& file, std::string_view
         throw output_error{file.string() + ": cannot be written: " + reason};
     }
 }
+#endif
 
 /// The path of a file that a data set names, made safe: relative, and inside the folder even when
 /// links are followed.

@@ -2,6 +2,7 @@
 #ifndef SIVID_MODEL_BOUND_MODEL_HPP
 #define SIVID_MODEL_BOUND_MODEL_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/measurement/signal.hpp>
 #include <sivid/model/differentiate.hpp>
 #include <sivid/model/model.hpp>
@@ -96,8 +97,13 @@ struct bound_model {
 /// @param inputs  one signal per input of the model
 /// @given  the model has no delays (checked): they have to be resolved first
 /// @throws std::invalid_argument on unknown names, a wrong number of inputs, or an empty value
-[[nodiscard]] inline bound_model bind(recorded_model const& model, parameter_choice const& choice,
-                                      std::vector<signal> const& inputs) {
+[[nodiscard]] SIVID_ENTRY bound_model bind(recorded_model const& model,
+                                           parameter_choice const& choice,
+                                           std::vector<signal> const& inputs);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_BIND)
+SIVID_ENTRY bound_model bind(recorded_model const& model, parameter_choice const& choice,
+                             std::vector<signal> const& inputs) {
     auto const& about = model.about;
     if (inputs.size() != about.inputs.size()) {
         throw std::invalid_argument("model '" + about.name + "' has " +
@@ -165,6 +171,7 @@ struct bound_model {
     if (!u.empty()) result.rate_du = differentiate(g, result.rate, u);
     return result;
 }
+#endif
 
 } // namespace sivid
 

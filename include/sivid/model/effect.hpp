@@ -2,6 +2,7 @@
 #ifndef SIVID_MODEL_EFFECT_HPP
 #define SIVID_MODEL_EFFECT_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/expression.hpp>
 #include <sivid/model/model.hpp>
@@ -127,7 +128,11 @@ private:
 /// A model with effects. Their parameters become constants `<effect>.<parameter>`, nominal at the
 /// neutral value; states that they add stand behind the model's own.
 /// @throws std::invalid_argument when an effect names what the model lacks, or stands twice
-[[nodiscard]] inline recorded_model with(recorded_model const& base, std::vector<effect> effects) {
+[[nodiscard]] SIVID_ENTRY recorded_model with(recorded_model const& base,
+                                              std::vector<effect> effects);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_WITH_EFFECTS)
+SIVID_ENTRY recorded_model with(recorded_model const& base, std::vector<effect> effects) {
     std::stable_sort(effects.begin(), effects.end(),
                      [](effect const& a, effect const& b) { return a.order < b.order; });
     recorded_model result;
@@ -189,6 +194,7 @@ private:
     }
     return result;
 }
+#endif
 
 /// `with(model{}, effect...)`: records the model and adds the effects.
 template <dynamic_model M, std::same_as<effect>... Effects>

@@ -2,12 +2,12 @@
 #ifndef SIVID_PAVING_CERTIFICATE_HPP
 #define SIVID_PAVING_CERTIFICATE_HPP
 
+#include <sivid/paving/detail/certificate_options.hpp>
 #include <sivid/paving/plain_campaign.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -23,21 +23,6 @@ struct box_claim {
     kind what = kind::outside;
     status found = status::open;
     std::vector<double> counterexample = {}; ///< a point that proves the contrary, when refuted
-};
-
-struct certificate_options {
-    enclosure_options enclosure{.order = 10,
-                                .tolerance = 1e-9,
-                                .relative_tolerance = 1e-3,
-                                .minimum_step = 1e-4,
-                                .maximum_steps = 4000,
-                                .widest = 1.0};
-    double seconds = 10;
-    /// Validated runs for one claim before it is left open.
-    std::size_t runs_per_claim = 200;
-    /// Regions wider than this share of the prior are split without a run.
-    double widest_region = 1.0 / 16;
-    std::function<bool()> keep_going; ///< false ends the work
 };
 
 /// Proves or refutes claims about boxes by plain runs, in subdivisions of its own.

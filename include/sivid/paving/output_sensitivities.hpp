@@ -3,6 +3,7 @@
 #define SIVID_PAVING_OUTPUT_SENSITIVITIES_HPP
 
 #include <sivid/enclosure/sensitivity_tube.hpp>
+#include <sivid/paving/detail/unknown_quantity.hpp>
 #include <sivid/paving/problem.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/space/matrix.hpp>
@@ -16,17 +17,6 @@
 #include <vector>
 
 namespace sivid {
-
-/// Something that the data are to determine: a parameter, or the start of a state in an experiment.
-struct unknown_quantity {
-    std::string name;                      ///< of the parameter, or "<state>(<experiment>)"
-    std::size_t index = 0;                 ///< of the parameter or state
-    std::optional<std::size_t> experiment; ///< of a start
-    interval prior;
-
-    /// Its prior does not touch 0, so that relative changes make sense.
-    [[nodiscard]] bool relative() const { return !interval_traits<interval>::contains(prior, 0); }
-};
 
 /// A point, or the enclosure of a decimal: nothing that data could determine.
 [[nodiscard]] inline bool is_known(interval const& side) {

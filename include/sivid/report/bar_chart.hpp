@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_BAR_CHART_HPP
 #define SIVID_REPORT_BAR_CHART_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/number_text.hpp>
 #include <sivid/report/svg.hpp>
 #include <sivid/report/ticks.hpp>
@@ -32,8 +33,11 @@ struct bar_chart_options {
 };
 
 /// Horizontal bars of bounded quantities, with their numbers, and a threshold line.
-[[nodiscard]] inline svg draw_bar_chart(std::vector<bar> const& bars,
-                                        bar_chart_options const& o = {}) {
+[[nodiscard]] SIVID_ENTRY svg draw_bar_chart(std::vector<bar> const& bars,
+                                             bar_chart_options const& o = {});
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_DRAW_BAR_CHART)
+SIVID_ENTRY svg draw_bar_chart(std::vector<bar> const& bars, bar_chart_options const& o) {
     double const top = o.title.empty() ? 20 : 44;
     double const pitch = 28;
     double const bottom = top + pitch * static_cast<double>(std::max<std::size_t>(bars.size(), 1));
@@ -107,6 +111,7 @@ struct bar_chart_options {
              {.size = 11.5, .align = anchor::middle});
     return out;
 }
+#endif
 
 } // namespace sivid::report
 

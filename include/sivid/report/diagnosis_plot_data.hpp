@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_DIAGNOSIS_PLOT_DATA_HPP
 #define SIVID_REPORT_DIAGNOSIS_PLOT_DATA_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/number/interval.hpp>
 #include <sivid/paving/approximate_fit.hpp>
 #include <sivid/paving/problem.hpp>
@@ -83,9 +84,15 @@ inline std::vector<bool> suspects(std::vector<double> const& residuals, std::siz
 /// without residuals is not drawn. Suspected outliers are the largest misfits of the second fit (of
 /// the first when there is no second), as many as the budget allows.
 /// @pre  both fits are of problems with these measurements, with whatever effects
-[[nodiscard]] inline std::vector<scenario_data>
+[[nodiscard]] SIVID_ENTRY std::vector<scenario_data>
 compared_scenarios(identification_problem const& problem, approximate_fit const& base,
-                   approximate_fit const& after = {}, bool holdout = false) {
+                   approximate_fit const& after = {}, bool holdout = false);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_COMPARED_SCENARIOS)
+SIVID_ENTRY std::vector<scenario_data> compared_scenarios(identification_problem const& problem,
+                                                          approximate_fit const& base,
+                                                          approximate_fit const& after,
+                                                          bool holdout) {
     auto const& about = problem.model.about;
     std::vector<double> const nothing;
     std::vector<scenario_data> out;
@@ -115,6 +122,7 @@ compared_scenarios(identification_problem const& problem, approximate_fit const&
     }
     return out;
 }
+#endif
 
 } // namespace sivid::report
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_IDENTIFIABILITY_WORDS_HPP
 #define SIVID_REPORT_IDENTIFIABILITY_WORDS_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/paving/identifiability.hpp>
 #include <sivid/report/number_text.hpp>
 
@@ -68,8 +69,12 @@ inline std::string joined_formulas(std::vector<fixed_formula> const& list) {
 /// One sentence a line: the ranks, what is free, what acts through which combinations, and the
 /// directions that the data notice least.
 /// @param directions  so many at most
-[[nodiscard]] inline std::vector<std::string> identifiability_words(identifiability const& found,
-                                                                    std::size_t directions = 3) {
+[[nodiscard]] SIVID_ENTRY std::vector<std::string>
+identifiability_words(identifiability const& found, std::size_t directions = 3);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_IDENTIFIABILITY_WORDS)
+SIVID_ENTRY std::vector<std::string> identifiability_words(identifiability const& found,
+                                                           std::size_t directions) {
     auto const count = [](std::size_t n, std::string const& what) {
         return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
     };
@@ -112,6 +117,7 @@ inline std::string joined_formulas(std::vector<fixed_formula> const& list) {
     }
     return lines;
 }
+#endif
 
 } // namespace sivid::report
 

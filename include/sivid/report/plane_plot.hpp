@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_PLANE_PLOT_HPP
 #define SIVID_REPORT_PLANE_PLOT_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/axes.hpp>
 #include <sivid/report/legend.hpp>
 
@@ -88,7 +89,11 @@ inline void add_box(path_data& d, axes const& a, plane_box const& b, double leas
 
 /// A motion seen from above: the proven boxes step by step, the measured positions and a
 /// reference line that is not validated; equal scales on both axes by default.
-[[nodiscard]] inline svg draw_plane_plot(plane_series const& s, plane_plot_options const& o = {}) {
+[[nodiscard]] SIVID_ENTRY svg draw_plane_plot(plane_series const& s,
+                                              plane_plot_options const& o = {});
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_DRAW_PLANE_PLOT)
+SIVID_ENTRY svg draw_plane_plot(plane_series const& s, plane_plot_options const& o) {
     svg out{o.width, o.height, o.title.empty() ? s.y_name + " against " + s.x_name : o.title};
     range xs;
     range ys;
@@ -166,6 +171,7 @@ inline void add_box(path_data& d, axes const& a, plane_box const& b, double leas
     }
     return out;
 }
+#endif
 
 } // namespace sivid::report
 

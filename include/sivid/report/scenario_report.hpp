@@ -3,6 +3,7 @@
 #define SIVID_REPORT_SCENARIO_REPORT_HPP
 
 #include <sivid/enclosure/simulate.hpp>
+#include <sivid/enclosure/tube.hpp>
 #include <sivid/io/explaining_motion.hpp>
 #include <sivid/report/detail/plane_channels.hpp>
 #include <sivid/report/identification_view.hpp>

@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_TIME_PLOT_HPP
 #define SIVID_REPORT_TIME_PLOT_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/axes.hpp>
 #include <sivid/report/channel_series.hpp>
 #include <sivid/report/legend.hpp>
@@ -145,7 +146,11 @@ inline void draw_outlier(svg& out, axes const& a, measured_sample const& m, doub
 /// Measured intervals over time as bars, the proven tube as a band, outliers marked, and a
 /// reference line that is not validated: the report's Figure 4.1.
 /// @cost  O(samples + pieces); the text grows with neither beyond a few hundred marks
-[[nodiscard]] inline svg draw_time_plot(channel_series const& c, time_plot_options const& o = {}) {
+[[nodiscard]] SIVID_ENTRY svg draw_time_plot(channel_series const& c,
+                                             time_plot_options const& o = {});
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_DRAW_TIME_PLOT)
+SIVID_ENTRY svg draw_time_plot(channel_series const& c, time_plot_options const& o) {
     auto const entries = o.legend ? time_plot_legend({c}) : std::vector<legend_entry>{};
     svg measure{0, 0, ""};
     double const below = draw_legend(measure, entries, 0, 0, o.width - 60);
@@ -193,6 +198,7 @@ inline void draw_outlier(svg& out, axes const& a, measured_sample const& m, doub
     draw_legend(out, entries, a.left(), o.height + 4, o.width - 60);
     return out;
 }
+#endif
 
 } // namespace sivid::report
 

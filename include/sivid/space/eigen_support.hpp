@@ -14,6 +14,7 @@
 #include <sivid/number/elementary.hpp>
 #include <sivid/number/interval.hpp>
 #include <sivid/number/interval_traits.hpp>
+#include <sivid/space/detail/compiled_eigen.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/LU>

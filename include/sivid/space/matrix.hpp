@@ -4,6 +4,7 @@
 
 #include <sivid/number/interval_traits.hpp>
 #include <sivid/space/box.hpp>
+#include <sivid/space/detail/compiled_eigen.hpp>
 
 #include <Eigen/Core>
 

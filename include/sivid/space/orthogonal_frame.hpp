@@ -2,6 +2,7 @@
 #ifndef SIVID_SPACE_ORTHOGONAL_FRAME_HPP
 #define SIVID_SPACE_ORTHOGONAL_FRAME_HPP
 
+#include <sivid/space/detail/compiled_eigen.hpp>
 #include <sivid/space/matrix.hpp>
 
 #include <Eigen/Core>

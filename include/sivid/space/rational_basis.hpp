@@ -2,6 +2,8 @@
 #ifndef SIVID_SPACE_RATIONAL_BASIS_HPP
 #define SIVID_SPACE_RATIONAL_BASIS_HPP
 
+#include <sivid/space/detail/compiled_eigen.hpp>
+
 #include <Eigen/Core>
 #include <Eigen/QR>
 

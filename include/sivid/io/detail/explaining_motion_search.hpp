@@ -17,6 +17,24 @@
 
 namespace sivid {
 
+SIVID_ENTRY std::vector<interval> explaining_motion::outputs_of(std::size_t e,
+                                                                record const& samples) const {
+    std::vector<interval> result;
+    auto const& tube = *tubes[e];
+    std::optional<box> outputs;
+    double time = 0;
+    for (auto const& m : samples) {
+        if (!outputs || m.time != time) {
+            bool const covered = tube.begin_time() <= m.time && m.time <= tube.end_time();
+            outputs = covered ? tube.observe_at(m.time) : box{};
+            time = m.time;
+        }
+        result.push_back(outputs->size() > m.channel ? (*outputs)[m.channel]
+                                                     : interval_traits<interval>::entire());
+    }
+    return result;
+}
+
 namespace io_detail {
 
 inline explaining_motion enclose_motion(identification_problem const& problem, motion_source source,

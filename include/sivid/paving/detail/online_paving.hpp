@@ -2,6 +2,7 @@
 #ifndef SIVID_PAVING_DETAIL_ONLINE_PAVING_HPP
 #define SIVID_PAVING_DETAIL_ONLINE_PAVING_HPP
 
+#include <sivid/paving/detail/online_refinement.hpp>
 #include <sivid/paving/detail/online_test.hpp>
 #include <sivid/paving/frontier.hpp>
 #include <sivid/paving/subpaving.hpp>
@@ -15,16 +16,6 @@
 #include <vector>
 
 namespace sivid {
-
-/// How far each update refines what is left.
-struct online_refinement {
-    double accuracy = 0.003;       ///< no side is split below this share of the hull
-    double sufficient_ratio = 0.5; ///< stop when inside / not excluded reaches it
-    double hull_gain = 0;          ///< as of `inversion_options`; 0.02 with hulls alone
-    std::size_t boxes = 400;       ///< judged in one update
-    std::size_t live = 64;         ///< no box is split while there are so many
-    double seconds = 1;            ///< of one update
-};
 
 /// The boxes of a prior that are not excluded, kept up to date while measurements arrive.
 ///   Boxes whose measurements so far and the new one certainly hold stay as they are; the others

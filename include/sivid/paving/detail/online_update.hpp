@@ -3,8 +3,8 @@
 #define SIVID_PAVING_DETAIL_ONLINE_UPDATE_HPP
 
 #include <sivid/measurement/record.hpp>
-#include <sivid/paving/data_test.hpp>
-#include <sivid/paving/detail/online_paving.hpp>
+#include <sivid/paving/data_test_options.hpp>
+#include <sivid/paving/detail/online_refinement.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/space/box.hpp>

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IO_DETAIL_IDENTIFICATION_CHECK_OPTIONS_HPP
+#define SIVID_IO_DETAIL_IDENTIFICATION_CHECK_OPTIONS_HPP
+
+#include <sivid/paving/detail/certificate_options.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace sivid {
+
+/// How much of a stored identification is proved anew.
+struct identification_check_options {
+    std::size_t sample = 24; ///< so many inside and so many excluded boxes, or parts of them
+    bool all = false;        ///< every box instead
+    std::uint64_t seed = 1;
+    double seconds = 10; ///< for the inside boxes, and as much for the excluded ones
+    /// Share of the prior's sides next to a box that is not excluded of which the check may say
+    /// nothing.
+    double rim = 1e-6;
+    certificate_options certificate;
+};
+
+} // namespace sivid
+
+#endif

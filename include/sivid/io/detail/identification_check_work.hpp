@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IO_DETAIL_IDENTIFICATION_CHECK_WORK_HPP
+#define SIVID_IO_DETAIL_IDENTIFICATION_CHECK_WORK_HPP
+
+#include <sivid/io/detail/check_finding.hpp>
+#include <sivid/io/detail/identification_check_options.hpp>
+#include <sivid/io/detail/stored_identification.hpp>
+#include <sivid/io/fewest_outliers_check.hpp>
+#include <sivid/io/forced_outlier_check.hpp>
+#include <sivid/io/identification_consistency.hpp>
+#include <sivid/io/paving_check.hpp>
+#include <sivid/io/product_check.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+namespace io_detail {
+
+/// One check of a stored identification.
+template <class Exact, class Fast>
+class identification_check_work {
+public:
+    identification_check_work(identification_problem const& problem,
+                              stored_identification const& stored,
+                              identification_check_options const& options)
+        : problem_(&problem), stored_(&stored), options_(options) {}
+
+    /// All findings, each handed to `tell` as soon as it is there.
+    std::vector<check_finding> operator()(std::function<void(check_finding const&)> const& tell) {
+        std::vector<check_finding> all;
+        auto const add = [&](auto const& work) {
+            auto const begin = std::chrono::steady_clock::now();
+            all.push_back(work());
+            all.back().seconds =
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+            if (tell) tell(all.back());
+        };
+        stored_products rebuilt;
+        bool const by_products = stored_->products.has_value();
+        auto options = options_;
+        if (by_products) options.seconds *= 0.5; // for two pavings
+        if (by_products) {
+            rebuilt = rebuild_products<Exact>(*problem_, stored_->products->sides);
+            add([&] { return check_products(rebuilt, *stored_->products); });
+            if (!rebuilt.malformed.empty()) return all;
+        }
+        add([&] { return check_verdict(*stored_); });
+        add([&] {
+            return by_products ? check_hull_of_products<Exact>(*problem_, *stored_, rebuilt)
+                               : check_hull(*problem_, *stored_);
+        });
+        add([&] {
+            return by_products ? check_volumes_of_products<Fast>(*problem_, *stored_, rebuilt)
+                               : check_volumes(*problem_, *stored_);
+        });
+        add([&] {
+            return by_products ? check_combinations_of_products(*stored_)
+                               : check_combinations<Exact>(*problem_, *stored_);
+        });
+        add([&] { return witness(); });
+        add([&] {
+            return check_forced<Fast>(*problem_, *stored_, hits_, options_.certificate.enclosure,
+                                      0.5 * options_.seconds);
+        });
+        add([&] {
+            auto how = options_.certificate;
+            if (options_.all) how.runs_per_claim = static_cast<std::size_t>(-1);
+            return check_fewest<Fast>(*problem_, *stored_, how, 0.5 * options_.seconds,
+                                      options_.all ? 0 : std::max<std::size_t>(options_.sample, 1),
+                                      options_.seed + 2);
+        });
+        if (by_products) add([&] { return check_rows(*problem_, *stored_); });
+        paving_check<Fast> boxes(*problem_, problem_->choice.unknown, stored_->rows, starts_,
+                                 options);
+        add([&] { return boxes.covering("cover"); });
+        add([&] { return boxes.inside("inside boxes"); });
+        add([&] { return boxes.outside("excluded boxes"); });
+        if (!by_products || !rebuilt.unproved.empty()) return all;
+        paving_check<Fast> products(rebuilt.problem, stored_->products->sides,
+                                    stored_->products->rows, starts_, options);
+        add([&] { return products.covering("product cover"); });
+        add([&] { return products.inside("inside products"); });
+        add([&] { return products.outside("excluded products"); });
+        return all;
+    }
+
+private:
+    using outcome = check_finding::outcome;
+
+    /// The parameters and starts of the witness, if they fit the problem.
+    struct point {
+        std::vector<double> parameters;
+        std::vector<std::vector<double>> starts;
+    };
+    [[nodiscard]] std::optional<point> witness_point(std::string& fault) const {
+        point result;
+        auto const look = [&](std::map<std::string, double> const& values,
+                              std::string const& name) {
+            auto const found = values.find(name);
+            if (found == values.end()) fault = "the witness lacks " + name;
+            return found == values.end() ? 0.0 : found->second;
+        };
+        for (auto const& name : problem_->choice.unknown) {
+            result.parameters.push_back(look(stored_->witness->parameters, name));
+        }
+        if (!contains(problem_->prior, result.parameters)) fault = "the witness leaves the prior";
+        for (auto const& e : problem_->experiments) {
+            auto const found = stored_->witness->initial.find(e.name);
+            if (found == stored_->witness->initial.end()) {
+                fault = "the witness has no start for " + e.name;
+                return std::nullopt;
+            }
+            auto& start = result.starts.emplace_back();
+            for (auto const& state : problem_->model.about.states) {
+                start.push_back(look(found->second, state.name));
+            }
+            if (!contains(e.initial, start)) fault = "the start in " + e.name + " is not allowed";
+        }
+        if (!fault.empty()) return std::nullopt;
+        return result;
+    }
+
+    [[nodiscard]] check_finding witness() {
+        std::string fault;
+        if (!stored_->witness) return {"witness", outcome::nothing, fault};
+        auto const w = witness_point(fault);
+        if (!w) return {"witness", outcome::refuted, fault};
+        enclosure_options const fine{
+            .order = 14, .tolerance = 1e-11, .relative_tolerance = 1e-3, .minimum_step = 1e-6};
+        check_finding result{"witness", outcome::verified, ""};
+        std::size_t samples = 0;
+        auto const p = point_box(w->parameters);
+        for (std::size_t e = 0; e < problem_->experiments.size(); ++e) {
+            auto own = problem_->experiments[e];
+            bool const uncertain = any_uncertain(own.inputs);
+            own.inputs = nominal(std::move(own.inputs)); // any possible input will do
+            plain_run<Exact> run(problem_->model, problem_->choice, own, fine);
+            auto const known = run(point_box(w->starts[e]), p);
+            note_hits(e, known, run.samples());
+            samples += run.samples().size();
+            auto says = decide(known, run.samples(), p, own.outliers);
+            if (says == run_finding::explained) continue;
+            if (uncertain && says == run_finding::refuted) { // by the recorded inputs, not by all
+                plain_run<Exact> all(problem_->model, problem_->choice, problem_->experiments[e],
+                                     fine);
+                says = decide(all(point_box(w->starts[e]), p), all.samples(), p, own.outliers);
+            }
+            if (says == run_finding::open && result.found == outcome::refuted) continue;
+            result.found = says == run_finding::refuted ? outcome::refuted : outcome::undecided;
+            result.detail = (says == run_finding::refuted ? "it does not explain "
+                                                          : "no proof that it explains ") +
+                            own.name;
+        }
+        if (result.found != outcome::verified) return result;
+        result.detail = "explains " + std::to_string(samples) + " measurements by " +
+                        std::to_string(problem_->experiments.size()) + " validated runs";
+        for (auto const& s : w->starts) starts_.push_back(point_box(s));
+        return result;
+    }
+    /// Which measurements the witness certainly meets: none of them can be a forced outlier.
+    void note_hits(std::size_t e, plain_outputs<Exact> const& known, record const& samples) {
+        using traits = interval_traits<Exact>;
+        hits_.resize(problem_->experiments.size());
+        for (std::size_t k = 0; k < samples.size(); ++k) {
+            auto const& b = samples[k].bound;
+            hits_[e].push_back(
+                k < known.outputs.size() && known.outputs[k].defined &&
+                traits::subset(known.outputs[k].value, traits::bounds(b.lower(), b.upper())));
+        }
+    }
+
+    identification_problem const* problem_;
+    stored_identification const* stored_;
+    identification_check_options options_;
+    std::vector<box> starts_;             ///< of a verified witness
+    std::vector<std::vector<bool>> hits_; ///< of the witness
+};
+
+} // namespace io_detail
+
+} // namespace sivid
+
+#endif

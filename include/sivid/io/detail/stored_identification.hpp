@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IO_DETAIL_STORED_IDENTIFICATION_HPP
+#define SIVID_IO_DETAIL_STORED_IDENTIFICATION_HPP
+
+#include <sivid/number/interval.hpp>
+#include <sivid/paving/detail/fewest_outliers.hpp>
+#include <sivid/paving/subpaving.hpp>
+#include <sivid/paving/verdict.hpp>
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sivid {
+
+/// An identification as its files state it; nothing in it is trusted.
+struct stored_identification {
+    /// A quantity and what it may be; an empty range where the file says null.
+    struct bound {
+        std::string name;
+        interval range;
+        std::string unit{};
+    };
+    struct witness_point {
+        std::map<std::string, double> parameters;
+        std::map<std::string, std::map<std::string, double>> initial; ///< by scenario, by state
+    };
+    struct outlier {
+        std::string scenario;
+        double time = 0;
+        std::string channel;
+    };
+
+    /// The paving of products from which hull, volumes, combinations and rows were drawn.
+    struct product_boxes {
+        std::vector<std::string> sides;                 ///< formulas
+        std::vector<paved_box> rows;                    ///< of products.csv, read outward
+        std::map<std::string, std::size_t> stated_rows; ///< how many of each kind
+    };
+
+    std::string dataset;
+    std::string source_folder; ///< the data set, as seen from the folder of the result; may be ""
+    std::string source_digest; ///< of `dataset_digest`; "" when the file has none
+    sivid::verdict verdict = sivid::verdict::undecided;
+    std::vector<bound> parameters;
+    std::vector<bound> combinations; ///< by formula
+    interval inner, outer;
+    std::optional<product_boxes> products;
+    std::optional<witness_point> witness;
+    std::map<std::string, std::size_t> budget; ///< of outliers, by scenario
+    std::vector<outlier> forced;
+    /// How many outliers are needed, in all and by scenario; nothing when the result does not say.
+    std::optional<proved_count> fewest;
+    std::map<std::string, proved_count> fewest_alone;
+    std::vector<paved_box> rows;                    ///< of boxes.csv, read outward
+    std::map<std::string, std::size_t> stated_rows; ///< how many of each kind, if stated
+};
+
+} // namespace sivid
+
+#endif
