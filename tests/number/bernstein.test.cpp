@@ -3,6 +3,7 @@
 #include "support/taylor_models.hpp"
 
 #include <sivid/number/bernstein.hpp>
+#include <sivid/number/lanes.hpp>
 
 #include <array>
 #include <cmath>
@@ -130,6 +131,39 @@ TEST_CASE("ranges of many variables contain all values") {
                 q[v] = ((corner >> v) & 1U) != 0 ? 1 : -1;
             }
             REQUIRE(contains_exactly(values, support::member<rational>(d, a, q)));
+        }
+    }
+}
+
+TEST_CASE("ranges of many variables side by side") {
+    // A variable is set where all lanes agree that it can be, each lane at its own end.
+    using pack = taylor_model<7, 3, lanes<8>>;
+    using side_by_side = pack::side_by_side;
+    auto const& t = pack::basis::data;
+    draws d(17);
+    for (int trial = 0; trial < 8; ++trial) {
+        pack all;
+        std::vector<taylor_model<7, 3>> alone;
+        for (std::size_t l = 0; l < 8; ++l) {
+            auto a = random_model<7, 3>(d, 0.3, 1, 0.1);
+            for (std::size_t v = 0; v <= static_cast<std::size_t>(trial) % 7; ++v) {
+                a.c[t.variable[v]] = d.coin() ? 100 : -100;
+            }
+            a.finish();
+            for (std::size_t i = 0; i < a.c.size(); ++i) side_by_side::put(all.c[i], l, a.c[i]);
+            side_by_side::put(all.r, l, a.r);
+            alone.push_back(a);
+        }
+        all.finish();
+        auto const values = bounds(all);
+        for (std::size_t l = 0; l < 8; ++l) {
+            interval const x(side_by_side::get(values.lower, l),
+                             side_by_side::get(values.upper, l));
+            REQUIRE(subset(x, rough_range(alone[l])));
+            for (int sample = 0; sample < 40; ++sample) {
+                auto const q = support::short_point(d, 7);
+                REQUIRE(contains_exactly(x, support::member<rational>(d, alone[l], q)));
+            }
         }
     }
 }
