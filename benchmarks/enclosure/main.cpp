@@ -173,10 +173,10 @@ int main(int argc, char** argv) {
     measure<1, 0, double>(hovercraft_problem("H3-point", 0), {20, 2e-14, 0}, "0.5 ms, 1e-11");
     benchmark::measure_corners(hovercraft_problem("H3, eight points at once", 0.05), {20, 2e-14, 0},
                                "1 ms");
-    measure<3, 2, double>(h3(0.01), {10, 1e-6, 1e-4}, "0.5 ms, 1.005");
+    measure<3, 2, double>(h3(0.01), {8, 1e-7, 1e-4}, "0.5 ms, 1.005");
     measure<3, 3, double>(h3(0.05), {8, 3e-6, 1e-4}, "0.5 ms, 1.02");
     measure<3, 2, eight>(h3(0.05), {6, 1e-5, 1e-4, 3}, "0.2 ms a box");
-    measure<3, 3, double>(h3(0.1), {8, 1e-5, 1e-4}, "0.8 ms, 1.05");
+    measure<3, 3, double>(h3(0.1), {6, 1e-6, 1e-4}, "0.8 ms, 1.05");
     measure<3, 4, double>(h3(0.2), {8, 1e-5, 1e-4}, "2 ms, 1.07");
     measure<3, 3, eight>(h3(0.2), {6, 1e-5, 1e-4, 3}, "2 ms, 1.07");
     measure<3, 4, eight>(h3(0.3), {8, 1e-5, 1e-4, 3}, "10 ms, 1.02");

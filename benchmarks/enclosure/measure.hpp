@@ -51,16 +51,26 @@ sampled sample(problem const& p, Cover const& cover, std::size_t count) {
     std::uniform_real_distribution<double> unit(0, 1);
     sivid::approximate_simulator simulate(*p.flow);
     auto const n = p.initial.size();
-    auto const wide = n + p.parameters.size();
+    auto const side_of = [&](std::size_t i) -> interval const& {
+        return i < n ? p.initial[i] : p.parameters[i - n];
+    };
+    // Corners of the sides that have a width: which ends of the others were taken would not matter.
+    std::vector<std::size_t> bit;
+    std::size_t varying = 0;
+    for (std::size_t i = 0; i < n + p.parameters.size(); ++i) {
+        bit.push_back(varying % 8);
+        varying += sivid::width(side_of(i)) > 0 ? 1 : 0;
+    }
+    std::size_t const corners = std::size_t{1} << std::min<std::size_t>(varying, 8);
     sampled s;
     s.low.assign(n, HUGE_VAL);
     s.high.assign(n, -HUGE_VAL);
     for (std::size_t k = 0; k < count; ++k) {
         std::vector<double> x0, c;
-        for (std::size_t i = 0; i < wide; ++i) {
-            auto const& side = i < n ? p.initial[i] : p.parameters[i - n];
-            double const share = k < 256 ? static_cast<double>((k >> (i % 8)) & 1U) : unit(random);
-            (i < n ? x0 : c).push_back(inside(side, share));
+        for (std::size_t i = 0; i < bit.size(); ++i) {
+            double const share =
+                k < corners ? static_cast<double>((k >> bit[i]) & 1U) : unit(random);
+            (i < n ? x0 : c).push_back(inside(side_of(i), share));
         }
         auto const end = simulate(x0, c, 0, {p.end}, 1e-11).states.back();
         bool found = false, inside_one = false;

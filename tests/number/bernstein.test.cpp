@@ -3,6 +3,7 @@
 #include "support/taylor_models.hpp"
 
 #include <sivid/number/bernstein.hpp>
+#include <sivid/number/lanes.hpp>
 
 #include <array>
 #include <cmath>
@@ -102,14 +103,107 @@ TEST_CASE("ranges see cancellation that the norms do not") {
     REQUIRE(range(y).lower() <= 0);
 }
 
-TEST_CASE("ranges fall back to the norms where there are too many coefficients") {
-    draws d(7);
-    auto const a = random_model<9, 2>(d, 1, 1, 0);
-    auto const values = range(a);
-    REQUIRE(values.lower() == rough_range(a).lower());
-    for (int sample = 0; sample < 50; ++sample) {
-        auto const q = support::short_point(d, 9);
-        REQUIRE(contains_exactly(values, support::value<rational>(a, q)));
+TEST_CASE("ranges of many variables contain all values") {
+    // More than 4096 Bernstein coefficients: some variables are set or bounded by norms.
+    check_samples<7, 3>(11, 5);
+    check_samples<6, 4>(12, 4);
+    check_samples<9, 2>(13, 8);
+    check_samples<13, 2>(14, 3);
+    // Those that are nearly or certainly monotone.
+    draws d(15);
+    for (int trial = 0; trial < 30; ++trial) {
+        auto a = random_model<7, 3>(d, 0.3, 1, 0.1);
+        auto const& t = taylor_model<7, 3>::basis::data;
+        for (std::size_t v = 0; v < 7; ++v) {
+            double rest = 0; // of the slope
+            for (std::size_t i = 0; i < a.c.size(); ++i) {
+                if (t.degree[i] > 1) rest += t.exponents[i][v] * std::abs(a.c[i]);
+            }
+            double const share = d.coin() ? d.uniform(0, 1.5) : 1 + d.uniform(-1e-9, 1e-9);
+            a.c[t.variable[v]] = std::copysign(share * rest, a.c[t.variable[v]]);
+        }
+        a.finish();
+        auto const values = range(a);
+        REQUIRE(subset(values, rough_range(a)));
+        for (std::size_t corner = 0; corner < 128 + 30; ++corner) {
+            auto q = support::short_point(d, 7);
+            for (std::size_t v = 0; v < 7 && corner < 128; ++v) {
+                q[v] = ((corner >> v) & 1U) != 0 ? 1 : -1;
+            }
+            REQUIRE(contains_exactly(values, support::member<rational>(d, a, q)));
+        }
+    }
+}
+
+TEST_CASE("ranges of many variables side by side") {
+    // A variable is set where all lanes agree that it can be, each lane at its own end.
+    using pack = taylor_model<7, 3, lanes<8>>;
+    using side_by_side = pack::side_by_side;
+    auto const& t = pack::basis::data;
+    draws d(17);
+    for (int trial = 0; trial < 8; ++trial) {
+        pack all;
+        std::vector<taylor_model<7, 3>> alone;
+        for (std::size_t l = 0; l < 8; ++l) {
+            auto a = random_model<7, 3>(d, 0.3, 1, 0.1);
+            for (std::size_t v = 0; v <= static_cast<std::size_t>(trial) % 7; ++v) {
+                a.c[t.variable[v]] = d.coin() ? 100 : -100;
+            }
+            a.finish();
+            for (std::size_t i = 0; i < a.c.size(); ++i) side_by_side::put(all.c[i], l, a.c[i]);
+            side_by_side::put(all.r, l, a.r);
+            alone.push_back(a);
+        }
+        all.finish();
+        auto const values = bounds(all);
+        for (std::size_t l = 0; l < 8; ++l) {
+            interval const x(side_by_side::get(values.lower, l),
+                             side_by_side::get(values.upper, l));
+            REQUIRE(subset(x, rough_range(alone[l])));
+            for (int sample = 0; sample < 40; ++sample) {
+                auto const q = support::short_point(d, 7);
+                REQUIRE(contains_exactly(x, support::member<rational>(d, alone[l], q)));
+            }
+        }
+    }
+}
+
+TEST_CASE("ranges of many variables are exact where they can be") {
+    // Multi-affine and monotone in one to seven of seven variables: both ends lie at corners, and
+    // Bernstein coefficients of the other variables are means of values at corners.
+    constexpr std::size_t variables = 7;
+    using model = taylor_model<variables, 3>;
+    auto const& t = model::basis::data;
+    draws d(16);
+    for (int trial = 0; trial < 60; ++trial) {
+        model a;
+        for (std::size_t i = 0; i < a.c.size(); ++i) {
+            bool affine = true;
+            for (auto const e : t.exponents[i]) affine = affine && e <= 1;
+            a.c[i] = affine ? d.uniform(-1, 1) : 0;
+        }
+        std::size_t const monotone = 1 + d.below(variables);
+        for (std::size_t v = 0; v < monotone; ++v) {
+            double rest = 0;
+            for (std::size_t i = 0; i < a.c.size(); ++i) {
+                if (t.degree[i] > 1 && t.exponents[i][v] > 0) rest += std::abs(a.c[i]);
+            }
+            a.c[t.variable[v]] = std::copysign(1.01 * rest, a.c[t.variable[v]]);
+        }
+        a.finish();
+        auto const values = range(a);
+        double lo = HUGE_VAL, hi = -HUGE_VAL;
+        for (std::size_t corner = 0; corner < 128; ++corner) {
+            std::vector<double> q(variables);
+            for (std::size_t v = 0; v < variables; ++v) q[v] = ((corner >> v) & 1U) != 0 ? 1 : -1;
+            REQUIRE(contains_exactly(values, support::value<rational>(a, q)));
+            double const value = support::value<double>(a, q);
+            lo = std::min(lo, value);
+            hi = std::max(hi, value);
+        }
+        CAPTURE(trial, monotone);
+        REQUIRE(values.upper() <= hi + 1e-9);
+        REQUIRE(values.lower() >= lo - 1e-9);
     }
 }
 

@@ -128,7 +128,37 @@ double parametric_flow<N, D, C>::propose(std::size_t lane, double rest) const {
     return h > 0.5 * rest ? std::max(0.5 * rest, std::min(h, options_.minimum_step)) : h;
 }
 
-/// One order more where the tolerance limits the step, one less where the end of an interval does.
+/// The longest step up to h that does not magnify by much what the degree of the polynomials loses.
+///   What products lose beyond degree D is in the radii of the coefficients \f$ x_k \f$, so a step
+///   loses \f$ \ell(h) = \sum_{k \ge 1} h^k r_k \f$. In proportion to the time that is least on
+///   short steps, \f$ \ell(h)/h \to r_1 \f$; on long ones every term is magnified by norms,
+///   like \f$ e^{3 h |A|} \f$. Where it is more than a step may lose, it should stay below \f$ 2 h
+///   r_1 \f$. A preference, no proof rests on it.
+template <std::size_t N, std::size_t D, class C>
+double parametric_flow<N, D, C>::gentle(std::size_t lane, double h) const {
+    if constexpr (D == 0)
+        return h; // no degree: all of it are roundings, which do not want more steps
+    constexpr double most = 2, rounding = 1e-12;
+    std::array<double, 64> lost{}; // the largest share of what the step may lose, for each order
+    std::size_t const last = std::min(order_, lost.size() - 1);
+    for (std::size_t k = 1; k <= last; ++k) {
+        for (std::size_t i = 0; i < set_.centre.size(); ++i) {
+            auto const& x = centre_.state(i, k);
+            C const share = (x.r - x.norm() * rounding) / allowed(i);
+            lost[k] = std::max(lost[k], side_by_side::get(share, lane));
+        }
+    }
+    while (h > options_.minimum_step) {
+        double rate = 0;
+        for (std::size_t k = last; k >= 1; --k) rate = rate * h + lost[k];
+        if (!(rate * h > 1 && rate > most * lost[1])) break;
+        h *= 0.9;
+    }
+    return h;
+}
+
+/// One order more where the tolerance limits the step, one less where the end of an interval or
+/// `gentle` does.
 template <std::size_t N, std::size_t D, class C>
 void parametric_flow<N, D, C>::adapt_order(mask moved, C const& h, bool clamped) {
     if (!clamped) {
@@ -261,8 +291,13 @@ typename parametric_flow<N, D, C>::mask parametric_flow<N, D, C>::advance(C cons
         double const end = std::min(side_by_side::get(limit, l), flow_->next_knot(from));
         double const rest = end - from;
         if (lane.attempts == 0) {
-            lane.proposed = lane.next = propose(l, rest);
-            lane.free = lane.next < 0.5 * rest;
+            double const length = propose(l, rest);
+            lane.next = smooth ? gentle(l, length) : length;
+            lane.held = lane.next < length;
+            if (lane.held)
+                lane.next = std::min(lane.next, std::max(0.5 * rest, options_.minimum_step));
+            lane.proposed = lane.next;
+            lane.free = lane.next < 0.5 * rest && !lane.held;
             lane.tried = infinity;
             lane.forced = false;
             lane.why = enclosure_failure{};

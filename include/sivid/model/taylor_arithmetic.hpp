@@ -110,7 +110,10 @@ struct taylor_arithmetic {
     static value_type tanh(value_type const& a) { return everywhere(univariate::tanh, a); }
 
     static decided_sign<mask> sign_of(value_type const& a) {
-        auto const values = bounds(a);
+        auto values = rough_bounds(a); // decides as often as not, and costs nothing
+        if (!side_by_side::all((values.lower > C(0.0)) | (values.upper < C(0.0)))) {
+            values = bounds(a);
+        }
         decided_sign<mask> s;
         s.positive = values.lower > C(0.0);
         s.negative = values.upper < C(0.0);

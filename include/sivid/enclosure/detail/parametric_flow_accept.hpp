@@ -113,7 +113,7 @@ void parametric_flow<N, D, C>::accept(mask moved, C const& to, std::size_t order
         if (!side_by_side::test(moved, l)) continue;
         double const h = side_by_side::get(length, l);
         clamped = clamped && (side_by_side::get(to, l) >= flow_->next_knot(time(l)) ||
-                              h >= options_.maximum_step);
+                              h >= options_.maximum_step || lanes_[l].held);
     }
     if (order > 0) {
         // What V's Lagrange term adds to the reach may be a share of what the step may lose anyway.
@@ -139,7 +139,7 @@ void parametric_flow<N, D, C>::accept(mask moved, C const& to, std::size_t order
     }
     set_.time = side_by_side::select(moved, to, set_.time);
     set_.append(lost);
-    set_.reduce(10 * n, running_);
+    set_.reduce(12 * n, running_);
     set_.measure();
     for (std::size_t i = 0; i < n && perturbed_; ++i) {
         disturbed_[i] = side_by_side::min(disturbed_[i], set_.reach[i]);

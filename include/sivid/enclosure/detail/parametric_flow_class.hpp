@@ -158,7 +158,8 @@ private:
         double next = 0;          ///< length to try
         double tried = 0;         ///< the last one tried since the last accepted step
         double learned = 1;
-        bool free = false;   ///< the end of the interval had no say in it
+        bool free = false;   ///< neither the end of the interval nor `gentle` had a say in it
+        bool held = false;   ///< by `gentle`
         bool rough = false;  ///< at a kink: the next attempt is of first order
         bool forced = false; ///< the shortest step, although the coefficients suggest less
     };
@@ -172,6 +173,7 @@ private:
     void expand_flow(std::size_t flow_order);
     [[nodiscard]] std::pair<double, std::size_t> estimate(std::size_t lane) const;
     [[nodiscard]] double propose(std::size_t lane, double rest) const;
+    [[nodiscard]] double gentle(std::size_t lane, double h) const;
     void adapt_order(mask moved, C const& h, bool clamped);
     /// Bounds |V - 1| on the step; returns the lanes where it is short enough for that.
     [[nodiscard]] mask bound_flow(square const& base, square const& last, mask pending,
