@@ -232,6 +232,7 @@
 #include <sivid/diagnosis/separation.hpp>
 #include <sivid/diagnosis/state_samples.hpp>
 #include <sivid/diagnosis/time_cell.hpp>
+#include <sivid/diagnosis/untouched_relation.hpp>
 #include <sivid/diagnosis/verification.hpp>
 #include <sivid/diagnosis/weak_windows.hpp>
 #include <sivid/diagnosis/window_integrals.hpp>

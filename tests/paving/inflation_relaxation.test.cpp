@@ -220,3 +220,35 @@ TEST_CASE("a remainder that hides the worst measurement counts as blur") {
     CHECK(std::abs(beside.lower - 999) < 1e-6);
     CHECK(std::abs(beside.blur.front() - 1) < 1e-6);
 }
+
+TEST_CASE("what ends an experiment early is told by the parameters that spread its last outputs") {
+    // Thirty outputs: the first parameter moves the early ones, the second one the last ones.
+    response r{normalised_unknowns(box{}, box{between(-1, 1), between(0, 4)}),
+               std::make_shared<monomial_table const>(monomial_table::of<2, 1>(2)),
+               std::vector<double>(90, 0.0),
+               std::vector<double>(30, 0.0),
+               {},
+               std::vector<interval>(30, between(-0.5, 0.5)),
+               30,
+               0};
+    for (std::size_t m = 0; m < r.table->size(); ++m) {
+        auto const& e = r.table->exponents[m];
+        for (std::size_t y = 0; y < 30; ++y) {
+            if (e[0] == 1 && y < 15) r.coefficients[m * 30 + y] = 100;
+            if (e[1] == 1 && y >= 15) r.coefficients[m * 30 + y] = 1;
+        }
+    }
+    std::vector<std::size_t> const none{0};
+    auto const found = [&](box const& part) {
+        inflation_bounder::responses const known{std::make_shared<response const>(r)};
+        return inflation_bounder(known, none, part)(1);
+    };
+    box const whole{between(-1, 1), between(0, 4)};
+    CHECK(found(whole).ending == std::vector<double>{0, 0}); // it did not end early
+    r.measurements = 60;
+    auto const ended = found(whole).ending;
+    CHECK(ended[0] == 0);
+    CHECK(ended[1] > 0);
+    auto const half = found(box{between(-1, 1), between(0, 2)}).ending;
+    CHECK(std::abs(half[1] - ended[1] / 2) < 1e-9 * ended[1]);
+}

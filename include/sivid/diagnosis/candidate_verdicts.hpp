@@ -6,6 +6,7 @@
 #include <sivid/diagnosis/describe_candidate.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/diagnosis/gap_proof.hpp>
+#include <sivid/diagnosis/untouched_relation.hpp>
 #include <sivid/paving/identify.hpp>
 
 #include <algorithm>
@@ -26,7 +27,9 @@ public:
         : run_(&run), order_(&order), effort_(&effort), options_(&options) {}
 
     void operator()() {
-        if (verify_witnesses()) exclude();
+        if (!verify_witnesses()) return;
+        exclude_by_relations();
+        exclude();
     }
 
 private:
@@ -88,6 +91,30 @@ private:
         }
     }
 
+    /// Candidates that leave a refuted relation as it is. A relation that stands in one that
+    /// explains the data, or seems to, rests on assumptions in doubt: it excludes nothing.
+    void exclude_by_relations() {
+        auto& causes = run_->result.causes;
+        for (auto const& f : run_->findings) {
+            if (!f.proved) continue;
+            std::vector<std::size_t> keeping;
+            bool doubtful = false;
+            for (std::size_t k = 0; k < causes.size() && !doubtful; ++k) {
+                auto const& s = candidate_of(k);
+                if (!keeps_relation(run_->base.model, s.problem.model, f)) continue;
+                keeping.push_back(k);
+                doubtful = causes[k].verdict == cause_verdict::explains || s.figures.explains();
+            }
+            if (doubtful) continue;
+            for (auto const k : keeping) {
+                auto& c = causes[k];
+                if (c.verdict == cause_verdict::excluded) continue; // by a clearer relation
+                c.verdict = cause_verdict::excluded;
+                c.assumptions = f.assumptions;
+            }
+        }
+    }
+
     /// Fewest effects first, within an effort for all of them; where observers split every
     /// parameter, fewest parameters first, and what is farthest from explaining.
     void exclude() {
@@ -108,7 +135,7 @@ private:
         for (auto const k : open) {
             auto const& s = candidate_of(k);
             auto& c = causes[k];
-            if (c.verdict == cause_verdict::explains) continue;
+            if (c.verdict != cause_verdict::undecided) continue;
             if (s.problem.model.has_delays()) continue;
             if (s.figures.explains()) continue; // nothing to refute
             if (left == 0 || effort_->left() < end) return;

@@ -32,6 +32,7 @@ struct relation_finding {
     std::size_t equation = 0;
     std::string name;                  ///< of the state whose rate it is
     std::vector<std::string> channels; ///< the sensors in the row, if proved
+    std::vector<std::size_t> further;  ///< equations that the proof rests on, too
     /// For no parameter of the prior and no start do the equation and all bounds of these sensors
     /// hold, if the assumptions do. Nothing is said about which of them fails.
     bool proved = false;

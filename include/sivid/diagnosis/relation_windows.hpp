@@ -186,6 +186,7 @@ private:
     void add_pair(derivative_pair const& p, std::set<std::size_t>& states,
                   relation_finding& result) const {
         states.insert(p.q);
+        result.further.push_back(p.q);
         result.assumptions.push_back(about().states[p.q].name + "' = " + about().states[p.r].name);
     }
     /// What the differences of the equation's own state are taken from. A kinematic equation is one

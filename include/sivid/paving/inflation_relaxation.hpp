@@ -24,6 +24,9 @@ struct inflation_relaxation {
     double slack = 0;          ///< what the curvature may have cost the bound
     std::vector<double> blur;  ///< per experiment: what its remainders may have cost
     std::vector<double> smear; ///< per parameter
+    /// Per parameter: how far it spreads the last outputs of the experiments that ended early; the
+    /// width of the sets there is what ended them.
+    std::vector<double> ending;
     std::vector<double> point; ///< parameters where the inflation is about least, not proved
     std::vector<std::vector<double>> starts; ///< one initial state per experiment, for `point`
     double approximate_value = std::numeric_limits<double>::infinity(); ///< about, at `point`
@@ -57,6 +60,7 @@ public:
         inflation_relaxation result;
         result.blur.assign(known_->size(), 0.0);
         result.smear.assign(part_->size(), 0.0);
+        describe_ends(result);
         bool const strict = std::count(outliers_->begin(), outliers_->end(), 0u) > 0;
         if (strict) {
             auto const solved = minimax_solver(unknowns_.count, strict_blocks())();
@@ -78,6 +82,8 @@ public:
     }
 
 private:
+    static constexpr std::size_t last_outputs = 12; ///< of an experiment that ended early
+
     static void take(inflation_relaxation& result, double bound) {
         if (bound > result.lower) result.lower = std::min(bound, detail::greatest);
     }
@@ -213,6 +219,22 @@ private:
                 if (!(gain > 0)) continue;
                 double const lost = (*known_)[s]->shrinking_radius(y) * scales_[s][y];
                 result.blur[s] = std::max(result.blur[s], std::min(gain, lost));
+            }
+        }
+    }
+    /// What ended experiments before all their measurements.
+    void describe_ends(inflation_relaxation& result) const {
+        result.ending.assign(part_->size(), 0.0);
+        for (std::size_t s = 0; s < known_->size(); ++s) {
+            auto const& r = *(*known_)[s];
+            auto const count = r.outputs();
+            if (count == r.measurements) continue;
+            for (std::size_t y = count - std::min(count, last_outputs); y < count; ++y) {
+                for (std::size_t v = 0; v < blocks_[s].variable.size(); ++v) {
+                    auto const unknown = blocks_[s].variable[v];
+                    if (unknown >= part_->size()) continue;
+                    result.ending[unknown] += std::abs(blocks_[s].slope[v * count + y]);
+                }
             }
         }
     }

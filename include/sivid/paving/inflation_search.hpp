@@ -123,11 +123,14 @@ private:
         b.smear = found.smear;
         propose(found, b.is_complete());
         double const missing = std::isfinite(above_) ? above_ - b.lower : std::max(b.lower, 1.0);
+        bool ended = false; // early, and that holds the bound back
         for (std::size_t s = 0; s < b.known.size(); ++s) {
             auto const& r = *b.known[s];
             bool const cut = r.outputs() < r.measurements && found.slack < 0.5 * missing;
             b.stale[s] = cut || !(found.blur[s] <= 0.1 * missing);
+            ended = ended || cut;
         }
+        if (ended) b.smear = found.ending;
     }
 
     box_explorer explorer_;

@@ -93,7 +93,7 @@ private:
     void consider(inflation_relaxation const& found, bool complete) {
         double const enough = (1 - 0.2 * options_->relative_width) * upper_;
         if (found.point.empty() || !(found.approximate_value < enough)) return;
-        if (!complete && witness_ && 10 * descents_ > search_.tested()) return;
+        if (!complete && witness_ && 30 * descents_ > search_.tested()) return;
         if (promise_ && !(found.approximate_value < promise_->approximate_value)) return;
         promise_ = found;
     }
