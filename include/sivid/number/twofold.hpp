@@ -5,7 +5,6 @@
 #include <sivid/number/interval_traits.hpp>
 #include <sivid/number/rounding.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -8,7 +8,7 @@
 #include <sivid/enclosure/detail/parametric_flow_class.hpp>
 #include <sivid/enclosure/detail/power_sum.hpp>
 
-#include <cmath>
+#include <algorithm>
 #include <cstddef>
 #include <type_traits>
 #include <vector>
