@@ -211,7 +211,7 @@ int main(int argc, char** argv) {
         measure<1, 0, double>(
             autonomous<problems::lorenz>("Lorenz T=" + std::to_string(static_cast<int>(end)),
                                          sivid::point_box({15, 15, 36}), end),
-            {24, 1e-15, 0}, end < 15 ? "4 ms, 1.3e-7" : "8 ms, 2.5e-4");
+            {28, 1e-17, 0}, end < 15 ? "4 ms, 1.3e-7" : "8 ms, 2.5e-4");
     }
     using namespace sivid::literals;
     for (auto const& [beta, gamma, goal] : {std::tuple{100_dec, 1000_dec, "35 ms, 8.5e-10"},

@@ -35,6 +35,7 @@
 #include <sivid/number/taylor_model_functions.hpp>
 #include <sivid/number/traits_by_bounds.hpp>
 #include <sivid/number/trigonometric.hpp>
+#include <sivid/number/twofold.hpp>
 #include <sivid/number/univariate_taylor.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/space/box_cover.hpp>
@@ -73,6 +74,7 @@
 #include <sivid/model/tape.hpp>
 #include <sivid/model/taylor_arithmetic.hpp>
 #include <sivid/model/to_dot.hpp>
+#include <sivid/model/twofold_arithmetic.hpp>
 #include <sivid/model/unit.hpp>
 #include <sivid/enclosure/derivative_set.hpp>
 #include <sivid/enclosure/dissipative_step.hpp>

@@ -14,14 +14,16 @@
 
 namespace support {
 
-/// x within P(q) plus the generators at this q, componentwise; `slack` covers the reference.
+/// x within P(q), its tail and the generators at this q, componentwise; `slack` covers the
+/// reference.
 template <class Set>
 bool encloses_at(Set const& set, std::vector<double> const& q, extended_state const& x,
                  extended slack = 1e-16L) {
     for (std::size_t i = 0; i < x.size(); ++i) {
         extended reach = 0;
         for (auto const& g : set.columns) reach += std::fabs(value<extended>(g[i], q));
-        extended const off = std::fabs(x[i] - value<extended>(set.centre[i], q));
+        extended const tail = set.tail.empty() ? 0.0 : set.tail[i];
+        extended const off = std::fabs(x[i] - value<extended>(set.centre[i], q) - tail);
         if (!(off <= reach + slack * (1 + std::fabs(x[i])))) return false;
     }
     return true;

@@ -56,6 +56,8 @@ void parametric_flow<N, D, C>::begin(std::size_t lane, double time, box const& i
         flow_order_ = 3;
     }
     set_.begin(lane, time, unknowns);
+    sharp_ready_ = false;
+    sharp_pays_ = true;
     lanes_[lane] = lane_state{};
     lanes_[lane].unknowns.emplace(std::move(unknowns));
     running_ = running_ | side_by_side::only(lane);
@@ -84,8 +86,21 @@ std::vector<typename parametric_flow<N, D, C>::polynomial> parametric_flow<N, D,
 
 template <std::size_t N, std::size_t D, class C>
 void parametric_flow<N, D, C>::expand(std::size_t order) {
-    centre_.expand(set_.time, polynomial::constant(set_.time), set_.centre,
-                   std::max<std::size_t>(order, 1));
+    auto const through = [&](std::vector<polynomial> const& start) {
+        centre_.expand(set_.time, polynomial::constant(set_.time), start,
+                       std::max<std::size_t>(order, 1));
+    };
+    bool exact = true;
+    for (auto const& x : set_.tail) exact = exact && side_by_side::all(x == C(0.0));
+    if (exact) {
+        through(set_.centre);
+    } else {
+        auto start = set_.centre;
+        for (std::size_t i = 0; i < start.size(); ++i) {
+            start[i] = widened(start[i], side_by_side::abs(set_.tail[i]));
+        }
+        through(start);
+    }
     smooth_ = order > 0;
     stale_ = false;
     expanded_ = 0;

@@ -65,11 +65,11 @@ struct normalised_unknowns {
 };
 
 /// The states of a family at one time,
-///   \f$ x(q) \in P(q) + \sum_j g_j(q) \xi_j,\; \xi \in [-1,1]^m \f$, for each q in \f$ [-1,1]^N
-///   \f$:
-/// polynomials of degree D in the unknowns, and what is lost on the way in generators that are
-/// themselves polynomials of degree (D+1)/2, so that they keep their dependence on q as they are
-/// carried, and never have to be inverted.
+///   \f$ x(q) \in P(q) + \ell + \sum_j g_j(q) \xi_j,\; \xi \in [-1,1]^m \f$, for each q in
+///   \f$ [-1,1]^N \f$:
+/// polynomials of degree D in the unknowns, digits of theirs beyond those of doubles, and what is
+/// lost on the way in generators that are themselves polynomials of degree (D+1)/2, so that they
+/// keep their dependence on q as they are carried, and never have to be inverted.
 /// @tparam C  `double`, or `lanes<W>`: W families side by side, each at its own time
 template <std::size_t N, std::size_t D, class C = double>
 struct parametric_set {
@@ -82,10 +82,11 @@ struct parametric_set {
 
     C time{};
     std::vector<polynomial> centre; ///< P, radii 0
+    std::vector<C> tail;            ///< \f$ \ell \f$, 0 but for points: see `parametric_flow`
     std::vector<column> columns;    ///< g_j, radii 0
-    std::vector<C> reach;           ///< \f$ E_i \ge \sum_j \|g_{ij}\| \f$
+    std::vector<C> reach;           ///< \f$ E_i \ge |\ell_i| + \sum_j \|g_{ij}\| \f$
 
-    explicit parametric_set(std::size_t states = 0) : centre(states), reach(states) {}
+    explicit parametric_set(std::size_t states = 0) : centre(states), tail(states), reach(states) {}
 
     /// Starts the family of one lane.
     void begin(std::size_t lane, double t, normalised_unknowns const& unknowns) {
@@ -98,10 +99,12 @@ struct parametric_set {
             }
         }
         std::vector<C> rest(centre.size());
+        tail.resize(centre.size());
         for (std::size_t i = 0; i < centre.size(); ++i) {
             normalised_unknowns::put(unknowns.initial[i], lane, centre[i]);
             side_by_side::put(rest[i], lane, side_by_side::get(centre[i].r, lane));
             centre[i].r = 0.0;
+            side_by_side::put(tail[i], lane, 0.0);
         }
         append(rest);
         measure();
@@ -119,6 +122,7 @@ struct parametric_set {
     /// Recomputes the reach.
     void measure() {
         reach.assign(centre.size(), C(0.0));
+        for (std::size_t i = 0; i < tail.size(); ++i) reach[i] = side_by_side::abs(tail[i]);
         for (auto const& g : columns) {
             for (std::size_t i = 0; i < g.size(); ++i) reach[i] += g[i].norm();
         }
@@ -184,6 +188,7 @@ template <std::size_t N, std::size_t D, class C>
     parametric_set<N, D> result;
     result.time = lane_traits<C>::get(set.time, lane);
     for (auto const& p : set.centre) result.centre.push_back(lane_of(p, lane));
+    for (auto const& x : set.tail) result.tail.push_back(lane_traits<C>::get(x, lane));
     for (auto const& g : set.columns) {
         auto& column = result.columns.emplace_back();
         for (auto const& entry : g) column.push_back(lane_of(entry, lane));

@@ -82,6 +82,14 @@ struct convolution_kernel {
     typedef double stored __attribute__((vector_size(64), may_alias));
     typedef double loose __attribute__((vector_size(64), aligned(8), may_alias));
 
+    typedef std::int64_t loose_whole __attribute__((vector_size(64), aligned(8), may_alias));
+    /// Eight zeros, eight times all bits, eight zeros.
+    static constexpr std::array<std::int64_t, 3 * width> ramp = [] {
+        std::array<std::int64_t, 3 * width> r{};
+        for (std::size_t i = width; i < 2 * width; ++i) r[i] = -1;
+        return r;
+    }();
+
     /// Adds factor * \f$ \sum_{j=from}^{to} w_j a_j b_{k-j} \f$, w as `weight` says. What stands in
     /// the rows outside of that is not read as a number: it may be a NaN.
     [[gnu::noinline]] static void add(double* totals, double const* a, std::size_t pitch_a,
@@ -93,10 +101,13 @@ struct convolution_kernel {
         vector right[rows::count];
         bool const plain = factor == 1 && weight == convolution_weight::one;
         for (std::size_t first = from / width * width; first <= to; first += width) {
-            whole order{0, 1, 2, 3, 4, 5, 6, 7};
-            order += static_cast<std::int64_t>(first);
-            whole const used = (order >= static_cast<std::int64_t>(from)) &
-                               (order <= static_cast<std::int64_t>(to));
+            // Read rather than compared: without AVX-512, g++ compares numbers one by one.
+            std::int64_t const* const not_before =
+                ramp.data() + width - (from > first ? from - first : 0);
+            std::int64_t const* const not_after =
+                ramp.data() + width + (to - first < width ? width - 1 - (to - first) : 0);
+            whole const used = *reinterpret_cast<loose_whole const*>(not_before) &
+                               *reinterpret_cast<loose_whole const*>(not_after);
             double const* p = a + first;
             double const* q =
                 b + static_cast<std::ptrdiff_t>(k) - static_cast<std::ptrdiff_t>(first + width - 1);
@@ -111,7 +122,9 @@ struct convolution_kernel {
             }
             if (!plain) {
                 vector w = vector{} + 1;
-                if (weight == convolution_weight::order) w = __builtin_convertvector(order, vector);
+                if (weight == convolution_weight::order) {
+                    w = vector{0, 1, 2, 3, 4, 5, 6, 7} + static_cast<double>(first);
+                }
                 double const size = factor < 0 ? -factor : factor;
                 vector const signed_weight = w * factor;
                 vector const unsigned_weight = w * size;

@@ -6,6 +6,7 @@
 /// The sets after a proved step.
 
 #include <sivid/enclosure/detail/parametric_flow_class.hpp>
+#include <sivid/enclosure/detail/parametric_flow_sharp.hpp>
 #include <sivid/enclosure/detail/power_sum.hpp>
 
 namespace sivid {
@@ -17,24 +18,30 @@ void parametric_flow<N, D, C>::accept(mask moved, C const& to, std::size_t order
     C const length = to - set_.time; // off by less than a unit
     std::vector<C> lost(n);
     std::vector<polynomial> next(n);
+    std::vector<C> tails(n);
+    std::size_t const sharp = sharp_orders(length, order);
+    bool const sharply = sharp > 0 && expand_sharply(sharp);
+    bool pays = false;
+    std::size_t const top = tails_ ? order : order + 1;
     for (std::size_t i = 0; i < n; ++i) {
-        if (tails_) {
-            next[i] =
-                widened(at_time<polynomial>(
-                            [&](std::size_t k) -> polynomial const& { return centre_.state(i, k); },
-                            order, length),
-                        truncation_[i]);
-        } else {
-            auto const last = without_last_variable<N, D>(tube_.state(i, order + 1));
-            next[i] = at_time<polynomial>(
-                [&](std::size_t k) -> polynomial const& {
-                    return k <= order ? centre_.state(i, k) : last;
-                },
-                order + 1, length);
+        polynomial last;
+        if (!tails_) last = without_last_variable<N, D>(tube_.state(i, order + 1));
+        auto const coefficient = [&](std::size_t k) -> polynomial const& {
+            return k <= order ? centre_.state(i, k) : last;
+        };
+        next[i] = at_time<polynomial>(coefficient, top, length);
+        if (sharply) {
+            C const rounding = next[i].r;
+            C const beyond = tails_ ? truncation_[i] : C(0.0);
+            tails[i] = sharpen(i, coefficient, top, to, sharp, beyond, next[i]);
+            pays = pays || side_by_side::all(next[i].r < beyond + rounding * 0.5);
+        } else if (tails_) {
+            next[i] = widened(next[i], truncation_[i]);
         }
         lost[i] = side_by_side::select(moved, next[i].r, C(0.0));
         next[i].r = 0.0;
     }
+    if (sharp > 0) sharp_pays_ = pays;
     // The order of V follows the size of its Lagrange term.
     C tail{};
     C flow_power = length;
@@ -133,6 +140,7 @@ void parametric_flow<N, D, C>::accept(mask moved, C const& to, std::size_t order
     }
     for (std::size_t i = 0; i < n; ++i) {
         set_.centre[i] = select(moved, next[i], set_.centre[i]);
+        set_.tail[i] = side_by_side::select(moved, tails[i], set_.tail[i]);
         auto const during =
             perturbed_ ? widened(tube_box_[i], perturbed_->largest()[i]) : tube_box_[i];
         swept_[i] = select(moved, during, swept_[i]);

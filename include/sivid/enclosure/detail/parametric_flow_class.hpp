@@ -10,6 +10,7 @@
 #include <sivid/enclosure/parametric_set.hpp>
 #include <sivid/enclosure/perturbed_step.hpp>
 #include <sivid/model/taylor_arithmetic.hpp>
+#include <sivid/model/twofold_arithmetic.hpp>
 #include <sivid/number/guard.hpp>
 
 #include <algorithm>
@@ -36,6 +37,10 @@ namespace sivid {
 /// without a tube, with what both series leave out from `expansion_tail`. Inputs with error bounds:
 /// the step is that of the recorded inputs, and what the others may add (see `perturbed_step`) goes
 /// into the generators.
+///
+/// Where nothing is unknown (a point) and roundings would cost more than the truncation that is
+/// asked for, the centre is kept in twice the digits, and so are the lowest orders of its series:
+/// see `sharpen`.
 ///
 /// With lanes, W families advance together, each at its own time and with its own step. No lane's
 /// proof rests on another; shared are orders, the choice of generators to keep, and which of
@@ -194,6 +199,18 @@ private:
     void accept(mask moved, C const& to, std::size_t order, std::size_t flow_order, square const& w,
                 mask jumps);
     void sizes(C const& h, std::size_t order, std::size_t from, square& result) const;
+    /// How many of the centre's lowest orders are worth twice the digits; a preference.
+    [[nodiscard]] std::size_t sharp_orders(C const& length, std::size_t order) const;
+    /// Expands the centre of a point in twice the digits, up to `orders` - 1.
+    /// @returns whether that is possible
+    [[nodiscard]] bool expand_sharply(std::size_t orders);
+    /// One state at the end of the step, from the sharp coefficients below `orders` and the others
+    /// up to `top`. Writes `next` where that is tighter.
+    /// @param beyond  bound of what the series leaves out
+    /// @returns what the state has beyond the constant of `next`
+    template <class Coefficient>
+    [[nodiscard]] C sharpen(std::size_t i, Coefficient const& coefficient, std::size_t top,
+                            C const& to, std::size_t orders, C const& beyond, polynomial& next);
     /// Uncertain inputs: the lanes of a proved step for which their share is bounded as well.
     [[nodiscard]] mask perturb(mask moved, C const& to);
     void reject(mask lanes, failure_reason reason, C const& shorten);
@@ -222,6 +239,9 @@ private:
     std::optional<perturbed_step<tube_entry>> perturbed_; ///< where inputs are uncertain
     /// About how much of the reach they cause; a preference, no proof rests on it.
     std::vector<C> disturbed_;
+    std::optional<expansion<twofold>> sharp_; ///< of a point, where it was needed
+    bool sharp_ready_ = false;                ///< it knows the parameters
+    bool sharp_pays_ = true;                  ///< it was tighter when it was last tried
     std::vector<polynomial> parameters_;
     std::vector<column_entry> column_parameters_;
     std::vector<tube_entry> tube_parameters_;
