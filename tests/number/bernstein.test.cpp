@@ -135,6 +135,25 @@ TEST_CASE("ranges of many variables contain all values") {
     }
 }
 
+TEST_CASE("ranges of many variables: nearly monotone is not monotone") {
+    // sum of c_v (2 a_v q_v - q_v^2), a_v just below 1: largest at q = a, inside of the box.
+    using model = taylor_model<7, 3>;
+    draws d(18);
+    for (int trial = 0; trial < 20; ++trial) {
+        model a;
+        std::vector<double> best(7);
+        for (std::size_t v = 0; v < 7; ++v) {
+            best[v] = d.uniform(0.55, 0.999) * (d.coin() ? 1 : -1);
+            double const c = d.uniform(0.5, 2);
+            auto const x = model::variable(v, 0, 1);
+            a = a + scaled(x, 2 * best[v] * c) - scaled(x * x, c);
+        }
+        a.r = 0;
+        REQUIRE(contains_exactly(range(a), support::value<rational>(a, best)));
+        REQUIRE(contains_exactly(range(-a), -support::value<rational>(a, best)));
+    }
+}
+
 TEST_CASE("ranges of many variables side by side") {
     // A variable is set where all lanes agree that it can be, each lane at its own end.
     using pack = taylor_model<7, 3, lanes<8>>;
