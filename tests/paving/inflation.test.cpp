@@ -7,8 +7,10 @@
 #include <sivid/paving/residuals.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 using namespace sivid;
@@ -130,6 +132,91 @@ TEST_CASE("solutions that blow up within the prior") {
     CHECK(nowhere.value.upper() == HUGE_VAL);
     CHECK_FALSE(nowhere.witness);
     CHECK(nowhere.value.lower() >= 0);
+}
+
+namespace {
+
+/// x' = p x^2 from 1 and y' = p - k y from 1: runs over wide ranges of p end before the last
+/// samples.
+struct late_growth {
+    identification_problem problem;
+    std::vector<double> times{0.2, 0.4, 0.6, 0.8};
+    std::vector<double> x, y; ///< measured, within +-0.05 x and +-0.02
+
+    late_growth(draws& d, std::size_t outliers) {
+        problem.model =
+            support::model_of({2, 2}, [](auto const&, auto const& s, auto const& p, auto const&) {
+                return std::vector{p[0] * s[0] * s[0], p[0] - p[1] * s[1]};
+            });
+        problem.choice.unknown = {"p0", "p1"};
+        problem.prior = box{between(0.25, 1.5), between(0.5, 4)};
+        experiment e;
+        e.name = "E";
+        e.initial = box{interval(1.0), interval(1.0)};
+        e.outliers = outliers;
+        for (double const t : times) {
+            x.push_back(seen_x(0.9, t) * (1 + d.uniform(-0.3, 0.3)));
+            y.push_back(seen_y(0.9, 2, t) + d.uniform(-0.1, 0.1));
+            e.measurements.push_back({t, 0, support::around(x.back(), 0.05 * x.back())});
+            e.measurements.push_back({t, 1, support::around(y.back(), 0.02)});
+        }
+        problem.experiments = {e};
+    }
+    static double seen_x(double p, double t) { return p * t < 1 ? 1 / (1 - p * t) : HUGE_VAL; }
+    static double seen_y(double p, double k, double t) {
+        return p / k + (1 - p / k) * std::exp(-k * t);
+    }
+    [[nodiscard]] double inflation_at(double p, double k) const {
+        std::vector<double> missed;
+        for (std::size_t n = 0; n < times.size(); ++n) {
+            missed.push_back(std::abs(seen_x(p, times[n]) - x[n]) / (0.05 * x[n]));
+            missed.push_back(std::abs(seen_y(p, k, times[n]) - y[n]) / 0.02);
+        }
+        std::sort(missed.begin(), missed.end(), std::greater<>());
+        return missed[problem.experiments[0].outliers];
+    }
+    /// The least on a grid over a box, then on finer and finer grids about the best point.
+    [[nodiscard]] double least() const {
+        double best = HUGE_VAL;
+        std::array<double, 2> at{}, middle{}, reach{};
+        for (std::size_t j = 0; j < 2; ++j) {
+            middle[j] = mid(problem.prior[j]);
+            reach[j] = rad(problem.prior[j]);
+        }
+        for (int level = 0; level < 12; ++level) {
+            int const n = level == 0 ? 250 : 40;
+            for (int a = -n; a <= n; ++a) {
+                for (int b = -n; b <= n; ++b) {
+                    double const p = std::clamp(middle[0] + reach[0] * a / n, 0.25, 1.5);
+                    double const k = std::clamp(middle[1] + reach[1] * b / n, 0.5, 4.0);
+                    double const there = inflation_at(p, k);
+                    if (there < best) {
+                        best = there;
+                        at = {p, k};
+                    }
+                }
+            }
+            middle = at;
+            for (double& r : reach) r *= level == 0 ? 0.02 : 0.2;
+        }
+        return best;
+    }
+};
+
+} // namespace
+
+TEST_CASE("runs that end early: the inflation is that of a dense grid, and narrowly bounded") {
+    draws d(408);
+    for (int trial = 0; trial < 12; ++trial) {
+        late_growth const real(d, trial % 3 == 2 ? 1 : 0);
+        double const least = real.least();
+        auto const found = bound_inflation(real.problem, nullptr, brief(5));
+        INFO("trial " << trial << ": " << found.value.lower() << " .. " << found.value.upper()
+                      << " with " << least << ", " << found.boxes << " boxes");
+        CHECK(found.value.lower() <= least * (1 + 1e-9));
+        CHECK(found.value.upper() >= least * (1 - 1e-4));
+        CHECK(found.value.lower() >= 0.9 * found.value.upper());
+    }
 }
 
 TEST_CASE("without time the bounds are wide but valid") {

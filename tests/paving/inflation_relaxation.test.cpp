@@ -252,3 +252,31 @@ TEST_CASE("what ends an experiment early is told by the parameters that spread i
     auto const half = found(box{between(-1, 1), between(0, 2)}).ending;
     CHECK(std::abs(half[1] - ended[1] / 2) < 1e-9 * ended[1]);
 }
+
+TEST_CASE("a measurement that its curvature hides smears the parameters in its nonlinear terms") {
+    // One output is off by two bounds everywhere, one by five and more or less with p q.
+    response r{normalised_unknowns(box{}, box{between(-1, 1), between(-1, 1)}),
+               std::make_shared<monomial_table const>(monomial_table::of<2, 2>(2)),
+               {},
+               {0, 0},
+               {},
+               {between(-1, 1), between(-1, 1)},
+               2,
+               0};
+    for (auto const& e : r.table->exponents) {
+        bool const constant = e[0] + e[1] == 0;
+        r.coefficients.push_back(constant ? 2 : 0);
+        r.coefficients.push_back(constant ? 5 : e[0] * e[1] == 1 ? 40 : 0);
+    }
+    auto const found = [&] {
+        std::vector<std::size_t> const none{0};
+        box const part{between(-1, 1), between(-1, 1)};
+        inflation_bounder::responses const known{std::make_shared<response const>(r)};
+        return inflation_bounder(known, none, part)(detail::infinity);
+    };
+    auto const hidden = found();
+    CHECK(std::abs(hidden.lower - 2) < 1e-9);
+    CHECK((hidden.smear[0] > 1 && hidden.smear[1] > 1));
+    r.bounds[1] = interval_traits<interval>::entire(); // nothing to gain there
+    CHECK(found().smear == std::vector<double>{0, 0});
+}

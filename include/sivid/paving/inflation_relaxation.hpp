@@ -67,6 +67,7 @@ public:
             take(result, certified(solved.weights));
             describe(result, solved.weights);
             describe_masked(result);
+            describe_hidden(result, solved.point);
             propose(result, solved.point);
         }
         for (std::size_t s = 0; s < known_->size(); ++s) {
@@ -181,29 +182,51 @@ private:
     void describe(inflation_relaxation& result, std::vector<minimax_weight> const& weights) const {
         for (auto const& w : weights) {
             auto const& r = *(*known_)[w.block];
-            auto const& table = *r.table;
-            auto const& local = locals_[w.block];
             double const size = std::abs(w.value);
             result.blur[w.block] +=
                 size * r.shrinking_radius(w.function) * scales_[w.block][w.function];
             result.slack += size * blocks_[w.block].margin[w.function];
-            for (std::size_t m = 0; m < table.size(); ++m) {
-                double c = size * scales_[w.block][w.function] *
-                           std::abs(r.coefficients[m * r.outputs() + w.function]);
-                std::size_t degree = 0;
-                for (std::size_t v = 0; v < table.variables; ++v) {
-                    degree += table.exponents[m][v];
-                    for (std::size_t k = 0; k < table.exponents[m][v]; ++k) c *= local.reach[v];
-                }
-                if (degree < 2) continue;
-                for (std::size_t v = 0; v < table.variables; ++v) {
-                    auto const unknown = unknowns_.places[w.block][v].unknown;
-                    if (table.exponents[m][v] > 0 && unknown < part_->size()) {
-                        result.smear[unknown] += c;
-                    }
+            add_curvature(result, w.block, w.function, size);
+        }
+    }
+    /// Adds the nonlinear terms of a measurement to the smear of the parameters in them.
+    void add_curvature(inflation_relaxation& result, std::size_t s, std::size_t y,
+                       double size) const {
+        auto const& r = *(*known_)[s];
+        auto const& table = *r.table;
+        auto const& local = locals_[s];
+        for (std::size_t m = 0; m < table.size(); ++m) {
+            double c = size * scales_[s][y] * std::abs(r.coefficients[m * r.outputs() + y]);
+            std::size_t degree = 0;
+            for (std::size_t v = 0; v < table.variables; ++v) {
+                degree += table.exponents[m][v];
+                for (std::size_t k = 0; k < table.exponents[m][v]; ++k) c *= local.reach[v];
+            }
+            if (degree < 2) continue;
+            for (std::size_t v = 0; v < table.variables; ++v) {
+                auto const unknown = unknowns_.places[s][v].unknown;
+                if (table.exponents[m][v] > 0 && unknown < part_->size()) {
+                    result.smear[unknown] += c;
                 }
             }
         }
+    }
+    /// Where the polynomials promise far more than was proved at the very point that the program
+    /// ends in, a measurement without weight is hidden by its own curvature: it counts, too.
+    void describe_hidden(inflation_relaxation& result, std::vector<double> const& d) const {
+        double worst = result.lower + result.slack;
+        std::size_t block = blocks_.size(), function = 0;
+        for (std::size_t s = 0; s < blocks_.size(); ++s) {
+            if ((*outliers_)[s] > 0) continue;
+            auto const values = misfits_at(s, d);
+            for (std::size_t y = 0; y < values.size(); ++y) {
+                if (!(values[y] > worst) || !std::isfinite(blocks_[s].margin[y])) continue;
+                worst = values[y];
+                block = s;
+                function = y;
+            }
+        }
+        if (block < blocks_.size()) add_curvature(result, block, function, 1);
     }
     /// Measurements that would prove more on their own, all over the box, were it not for their
     /// remainders: no program gives them a weight.
@@ -261,32 +284,45 @@ private:
         result.blur[s] = blur / n;
     }
 
+    /// The normalised variables of a response at a point of the unknowns.
+    [[nodiscard]] std::vector<double> variables_at(std::size_t s,
+                                                   std::vector<double> const& d) const {
+        auto const& local = locals_[s];
+        std::vector<double> q(local.middle.size());
+        for (std::size_t v = 0; v < q.size(); ++v) {
+            q[v] = local.middle[v] + local.reach[v] * d[unknowns_.places[s][v].unknown];
+        }
+        return q;
+    }
+    /// What the polynomials say at a point: |y - m| / e of each measurement.
+    [[nodiscard]] std::vector<double> misfits_at(std::size_t s,
+                                                 std::vector<double> const& d) const {
+        auto const& r = *(*known_)[s];
+        auto const q = variables_at(s, d);
+        std::vector<double> values(r.outputs(), 0.0);
+        for (std::size_t m = 0; m < r.table->size(); ++m) {
+            double factor = 1;
+            for (std::size_t v = 0; v < q.size(); ++v) {
+                for (std::size_t k = 0; k < r.table->exponents[m][v]; ++k) factor *= q[v];
+            }
+            double const* const row = &r.coefficients[m * r.outputs()];
+            for (std::size_t y = 0; y < values.size(); ++y) values[y] += factor * row[y];
+        }
+        for (std::size_t y = 0; y < values.size(); ++y) {
+            values[y] = std::abs(values[y] - mid(r.bounds[y])) * scales_[s][y];
+        }
+        return values;
+    }
+
     /// Keeps a point of the unknowns when the polynomials promise less there.
     void propose(inflation_relaxation& result, std::vector<double> const& d) const {
         double worst = 0;
         std::vector<std::vector<double>> starts;
         for (std::size_t s = 0; s < known_->size(); ++s) {
-            auto const& r = *(*known_)[s];
-            auto const& local = locals_[s];
-            std::vector<double> q(r.table->variables);
-            for (std::size_t v = 0; v < q.size(); ++v) {
-                q[v] = local.middle[v] + local.reach[v] * d[unknowns_.places[s][v].unknown];
-            }
-            std::vector<double> values(r.outputs(), 0.0);
-            for (std::size_t m = 0; m < r.table->size(); ++m) {
-                double factor = 1;
-                for (std::size_t v = 0; v < q.size(); ++v) {
-                    for (std::size_t k = 0; k < r.table->exponents[m][v]; ++k) factor *= q[v];
-                }
-                double const* const row = &r.coefficients[m * r.outputs()];
-                for (std::size_t y = 0; y < values.size(); ++y) values[y] += factor * row[y];
-            }
-            for (std::size_t y = 0; y < values.size(); ++y) {
-                values[y] = std::abs(values[y] - mid(r.bounds[y])) * scales_[s][y];
-            }
-            worst = std::max(worst, largest_after(values, (*outliers_)[s]));
+            worst = std::max(worst, largest_after(misfits_at(s, d), (*outliers_)[s]));
+            auto const q = variables_at(s, d);
             std::vector<double> x0;
-            for (auto const& side : r.unknowns.initial) {
+            for (auto const& side : (*known_)[s]->unknowns.initial) {
                 x0.push_back(side.centre + (side.radius > 0 ? side.radius * q[side.variable] : 0));
             }
             starts.push_back(std::move(x0));
