@@ -177,8 +177,8 @@ private:
     double head_ = 0, tail_ = 0, radius_ = 0;
 };
 
-[[nodiscard]] twofold quotient(twofold const& a, twofold const& b, bool& undefined);
-[[nodiscard]] twofold sqrt(twofold const& a, bool& undefined);
+twofold quotient(twofold const& a, twofold const& b, bool& undefined);
+twofold sqrt(twofold const& a, bool& undefined);
 
 } // namespace sivid
 
