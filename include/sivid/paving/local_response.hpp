@@ -226,9 +226,10 @@ struct response_verdict {
             if (is_parameter[v]) moved += std::abs(row.gradient[v]);
         }
         spoilt += moved > rad(bound) ? 1 : 0;
-        // A radius that is small against the measurement leaves only a thin undecided rim.
+        // A radius below a hundredth of the measurement leaves only a thin undecided rim, also
+        // where little room is left between the data and what explains them.
         double const radius = known.shrinking_radius(y);
-        if (radius > 0.05 * rad(bound)) {
+        if (radius > 0.01 * rad(bound)) {
             result.sharpness = std::max(result.sharpness, radius / (moved + local.rest[y]));
         }
         row.target = traits::sub(bound, traits::add(traits::point(local.value[y]),
