@@ -72,6 +72,7 @@ TEST_CASE("whatever decides a search changes the digest; budgets and threads do 
     matters([](o& x) { x.search.batches += 1; });
     matters([](o& x) { x.search.keep_outside = false; });
     matters([](o& x) { x.test.sharp_enough = 0.25; });
+    matters([](o& x) { x.test.witness_steps = 1000; });
     matters([](o& x) { x.test.run.set = carried_set::doubleton; });
     matters([](o& x) { x.test.run.enclosure.tolerance = 1e-9; });
     matters([](o& x) { x.test.witness.enclosure.order = 9; });

@@ -124,7 +124,7 @@ inline void describe(canonical_text& t, identify_options const& o) {
     t("options", o.algorithm, o.only_hulls, o.drawn_boxes);
     t("search", s.accuracy, s.accuracy_of_hull, s.hull_gain, s.sufficient_ratio, s.order,
       s.keep_outside, s.batches);
-    t("test", o.test.contract, o.test.cut, o.test.sharp_enough);
+    t("test", o.test.contract, o.test.cut, o.test.sharp_enough, o.test.witness_steps);
     describe(t, o.test.run);
     describe(t, o.test.witness);
 }

@@ -201,11 +201,16 @@ public:
     }
 
     /// One experiment over next to nothing with the recorded inputs, by the options for witnesses.
+    /// A trajectory that chatters at a kink would take a million steps of the shortest length: it
+    /// ends after `data_test_options::witness_steps` and some for each knot and measurement.
     [[nodiscard]] std::shared_ptr<response const> run_finely(std::size_t e, box const& initial,
                                                              box const& parameters) {
         pool_->count(1);
+        auto options = options_.witness;
+        auto& most = options.enclosure.maximum_steps;
+        most = std::min(most, options_.witness_steps + 4 * stops(e));
         auto const fine = make_run(*recorded_[e], problem_->experiments[e], records_[e],
-                                   problem_->prior, options_.witness);
+                                   problem_->prior, options);
         return (*fine)(initial, parameters);
     }
     /// One experiment over boxes of starts and parameters, for all possible inputs.
@@ -219,6 +224,17 @@ public:
     }
 
 private:
+    /// Knots of the inputs and measurements until the last of them: each ends a step.
+    [[nodiscard]] std::size_t stops(std::size_t e) const {
+        std::size_t count = records_[e].size();
+        if (records_[e].empty()) return count;
+        double const end = records_[e].back().time;
+        for (double t = recorded_[e]->next_knot(problem_->experiments[e].begin); t < end;
+             t = recorded_[e]->next_knot(t)) {
+            ++count;
+        }
+        return count;
+    }
     /// Notes how much of the radii is due to uncertain inputs.
     [[nodiscard]] std::vector<std::shared_ptr<response const>>
     marked(std::size_t e, std::vector<std::shared_ptr<response const>> answers) const {

@@ -4,6 +4,8 @@
 
 #include <sivid/paving/run_options.hpp>
 
+#include <cstddef>
+
 namespace sivid {
 
 /// How boxes of parameters are tested against the data.
@@ -15,6 +17,7 @@ struct data_test_options {
                                       .relative_tolerance = 1e-5,
                                       .minimum_step = 1e-6},
                         .set = carried_set::doubleton};
+    std::size_t witness_steps = 20'000; ///< at most, besides those that knots and samples end
     /// Contract boxes by the dependence of the outputs on the parameters, and decide parts of a box
     /// by what was computed for the whole. Without it the test is the report's: enclosure against
     /// measurement, one integration a box.
