@@ -27,3 +27,35 @@ TEST_CASE("a witness is verified with what it violates, or refused") {
     CHECK(tolerant->violated[0] == std::vector<bool>{true, true, false, false, false, false});
     CHECK_FALSE(check(plain_problem::make(2, 1), plain_problem::truth, 2));
 }
+
+namespace {
+
+/// Dry friction that brings the state to rest at 0, where a set chatters about the kink.
+struct resting : plain_problem::decay {
+    static constexpr auto name = "resting";
+    template <class T>
+    sivid::vec<T, 1> rate(T const&, sivid::vec<T, 1> const& x, sivid::vec<T, 1> const& c,
+                          sivid::vec<T, 0> const&) const {
+        using sivid::sign;
+        return {-(c[0] * sign(x[0]))};
+    }
+};
+
+} // namespace
+
+TEST_CASE("a run that chatters at a kink ends by its number of steps") {
+    auto problem = plain_problem::make();
+    problem.model = record_model<resting>();
+    problem.experiments[0].outliers = 6; // misfits end nothing
+    data_test_options options;
+    options.witness_steps = 300;
+    data_test test(problem, options);
+    auto const before = test.run_finely(0, problem.experiments[0].initial, {interval(1.0)});
+    // x = 2 - t is at rest from t = 2 on; six measurements until t = 3.
+    CHECK(before->outputs() >= 3);
+    CHECK(before->outputs() < 6);
+    // A smooth run of as many measurements does not notice.
+    auto const smooth = plain_problem::make();
+    data_test other(smooth, options);
+    CHECK(other.run_finely(0, smooth.experiments[0].initial, {interval(0.5)})->outputs() == 6);
+}
