@@ -99,12 +99,7 @@ problem quadrotor_problem(double delta) {
 template <std::size_t D>
 void prove_height(problem const& p, benchmark::setting const& s) {
     if (!benchmark::asked.wants(p.name)) return;
-    sivid::enclosure_options options;
-    options.order = s.order;
-    options.tolerance = s.tolerance;
-    options.relative_tolerance = s.relative;
-    options.minimum_step = s.minimum_step;
-    sivid::parametric_flow<6, D> run(*p.flow, options);
+    sivid::parametric_flow<6, D> run(*p.flow, s.options());
     run.begin(0, p.initial, p.parameters);
     bool below = true, above = true;
     for (double const stop : {1.0, p.end}) {

@@ -144,6 +144,15 @@ struct setting {
     std::size_t halvings = 0;
     double minimum_step = 1e-3;
     std::size_t samples = 1000;
+
+    [[nodiscard]] sivid::enclosure_options options() const {
+        sivid::enclosure_options result;
+        result.order = order;
+        result.tolerance = tolerance;
+        result.relative_tolerance = relative;
+        result.minimum_step = minimum_step;
+        return result;
+    }
 };
 
 /// What the command line asks for.
@@ -161,11 +170,7 @@ template <std::size_t N, std::size_t D, class C>
 void measure(problem const& p, setting const& s, std::string const& goal) {
     constexpr std::size_t width = sivid::lane_traits<C>::count;
     if (!asked.wants(p.name)) return;
-    sivid::enclosure_options options;
-    options.order = s.order;
-    options.tolerance = s.tolerance;
-    options.relative_tolerance = s.relative;
-    options.minimum_step = s.minimum_step;
+    auto const options = s.options();
     sivid::cover_options const choice{.first_halvings = s.halvings};
     sivid::parametric_cover<N, D> result;
     double best = HUGE_VAL;
@@ -202,11 +207,7 @@ void measure(problem const& p, setting const& s, std::string const& goal) {
 /// The whole box in one doubleton.
 inline void measure_doubleton(problem const& p, setting const& s, std::string const& goal) {
     if (!asked.wants(p.name)) return;
-    sivid::enclosure_options options;
-    options.order = s.order;
-    options.tolerance = s.tolerance;
-    options.relative_tolerance = s.relative;
-    options.minimum_step = s.minimum_step;
+    auto const options = s.options();
     double best = HUGE_VAL, total = 0;
     std::size_t steps = 0;
     struct family {

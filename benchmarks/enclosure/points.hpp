@@ -21,11 +21,7 @@ namespace benchmark {
 /// The eight corners of a problem's box of three parameters, each as a point, at once.
 inline void measure_corners(problem const& p, setting const& s, std::string const& goal) {
     if (!asked.wants(p.name)) return;
-    sivid::enclosure_options options;
-    options.order = s.order;
-    options.tolerance = s.tolerance;
-    options.relative_tolerance = s.relative;
-    options.minimum_step = s.minimum_step;
+    auto const options = s.options();
     std::array<problem, 8> points;
     for (std::size_t l = 0; l < points.size(); ++l) {
         points[l] = p;

@@ -80,11 +80,7 @@ inline void sensitivities_at_a_point(problem const& p) {
 template <std::size_t N, std::size_t D>
 void sensitivities_over_a_box(problem const& p, setting const& s) {
     if (!asked.wants(p.name)) return;
-    sivid::enclosure_options o;
-    o.order = s.order;
-    o.tolerance = s.tolerance;
-    o.relative_tolerance = s.relative;
-    o.minimum_step = s.minimum_step;
+    auto const o = s.options();
     sivid::sensitive_flow<N, D> run(*p.flow, o);
     sivid::parametric_flow<N, D> states(*p.flow, o);
     double const both = least_time([&] {

@@ -2,6 +2,7 @@
 #include "conformance/shapes.hpp"
 #include "conformance/types.hpp"
 #include "support/catch.hpp"
+#include "support/rounding_modes.hpp"
 
 #include <cfenv>
 #include <concepts>
@@ -144,11 +145,10 @@ TEMPLATE_TEST_CASE("shapes: after a callback that leaves another mode behind", "
     using a = by_traits<TestType>;
     using b = by_operators<TestType>;
     std::function<void(int)> const callback = change_rounding_elsewhere;
-    static constexpr int modes[] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
     require_none_missed(run(15, [&](tally& t, oracle::inputs& in) {
         double const x = in.magnitude(-20, 20), y = in.magnitude(-20, 20);
         auto const before = a::mul(a::of(x), a::of(y));
-        int const mode = modes[in.below(4)];
+        int const mode = support::rounding_modes[in.below(4)];
         callback(mode);
         auto const after = a::mul(a::of(x), a::of(y)), sum = b::add(a::of(x), a::of(y));
         auto const sine = a::sin(a::of(x));

@@ -20,9 +20,9 @@ TEST_CASE("names can head a column") {
 }
 
 TEST_CASE("words, ranges and whole numbers") {
-    CHECK(entries::choice(entry("\"fit\""), {"fit", "holdout"}) == 0);
-    CHECK(entries::choice(entry("\"holdout\""), {"fit", "holdout"}) == 1);
-    CHECK_THROWS_AS(entries::choice(entry("\"test\""), {"fit", "holdout"}), input_error);
+    CHECK_FALSE(entry("\"fit\"").is_second_of("fit", "holdout"));
+    CHECK(entry("\"holdout\"").is_second_of("fit", "holdout"));
+    CHECK_THROWS_AS(entry("\"test\"").is_second_of("fit", "holdout"), input_error);
     auto const r = entries::range(entry("[0.1, 0.3]"));
     CHECK(r.lower == io_support::dec("0.1"));
     CHECK(contains(r.enclosure, 0.3));

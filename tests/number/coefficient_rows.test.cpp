@@ -2,12 +2,12 @@
 #include <sivid/number/coefficient_rows.hpp>
 
 #include "support/catch.hpp"
+#include "support/rounding_modes.hpp"
 #include "support/taylor_models.hpp"
 
 #include <sivid/number/taylor_model.hpp>
 
 #include <algorithm>
-#include <cfenv>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -53,12 +53,6 @@ range_of_orders draw_range(draws& d, std::size_t most) {
     return {k, from, from + d.below(k - from + 1)};
 }
 
-[[gnu::noinline]] void in_mode(int mode, auto const& f) {
-    std::fesetround(mode);
-    f();
-    std::fesetround(FE_TONEAREST);
-}
-
 template <std::size_t N, std::size_t D>
 void check_rounding(std::uint64_t seed, int trials) {
     draws d(seed);
@@ -84,9 +78,9 @@ void check_rounding(std::uint64_t seed, int trials) {
                                                                    support::exact(s.a[r.k - j])));
             }
         }
-        for (int const mode : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+        for (int const mode : support::rounding_modes) {
             taylor_model<N, D> result;
-            in_mode(mode, [&] {
+            support::in_mode(mode, [&] {
                 product_sum<N, D> sum;
                 sum.add_convolution(s.rows, 0, s.rows, 1, r.k, r.from, r.to, factor, weight);
                 if (more) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "support/catch.hpp"
+#include "support/rounding_modes.hpp"
 #include "support/taylor_models.hpp"
 
 #include <sivid/number/bernstein.hpp>
 #include <sivid/number/decimal.hpp>
 #include <sivid/number/taylor_model.hpp>
 
-#include <cfenv>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -25,15 +25,6 @@ using support::rational;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int modes[] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
-
-/// Runs f in a rounding mode. The call is not inlined, so that nothing moves out of the mode.
-template <class F>
-[[gnu::noinline]] void in_mode(int mode, F const& f) {
-    std::fesetround(mode);
-    f();
-    std::fesetround(FE_TONEAREST);
-}
 
 /// Numbers of all sizes: ordinary, tiny, subnormal, huge.
 template <std::size_t N, std::size_t D>
@@ -71,9 +62,9 @@ void check_rounding(std::uint64_t seed, int trials) {
         if (!all_finite(a) || !all_finite(b) || !std::isfinite(m)) continue;
         auto const p = exact(a);
         auto const s = exact(b);
-        for (int const mode : modes) {
+        for (int const mode : support::rounding_modes) {
             taylor_model<N, D> sum, difference, times, twice, negative;
-            in_mode(mode, [&] {
+            support::in_mode(mode, [&] {
                 sum = a + b;
                 difference = a - b;
                 times = a * b;
@@ -149,7 +140,7 @@ TEST_CASE("Taylor models: the radius covers each coefficient's error in every ro
 TEST_CASE("Taylor models: one rounding bound for hundreds of products") {
     using model = taylor_model<2, 3>;
     for (std::size_t const addends : {1U, 20U, 400U}) {
-        for (int const mode : modes) {
+        for (int const mode : support::rounding_modes) {
             draws d(addends);
             std::vector<model> a, b;
             exact_polynomial<2> p;
@@ -164,7 +155,7 @@ TEST_CASE("Taylor models: one rounding bound for hundreds of products") {
                 p = support::sum(p, exact(b[k]));
             }
             model result;
-            in_mode(mode, [&] {
+            support::in_mode(mode, [&] {
                 product_sum<2, 3> sum;
                 for (std::size_t k = 0; k < addends; ++k) {
                     sum.add(a[k], b[k]);
@@ -198,11 +189,11 @@ TEST_CASE("Taylor models: norms are upper bounds in every rounding mode") {
     for (int trial = 0; trial < 100; ++trial) {
         auto const a = wild_model<3, 3>(d);
         if (!std::isfinite(a.norm())) continue;
-        for (int const mode : modes) {
+        for (int const mode : support::rounding_modes) {
             auto b = a;
             b.r = 0.25;
             double spread = 0, polynomial = 0, norm = 0;
-            in_mode(mode, [&] {
+            support::in_mode(mode, [&] {
                 b.finish();
                 spread = b.spread();
                 polynomial = b.polynomial_norm();
@@ -233,9 +224,9 @@ TEST_CASE("Taylor models: the norms of a multiple bound what became of its coeff
         auto const a = wild_model<3, 3>(d);
         constexpr double factors[] = {1, -3, 1e-3, 1e-290, 1e-310, 5e-324, 1e150, 0};
         double const m = factors[d.below(8)] * d.uniform(0.5, 1);
-        for (int const mode : modes) {
+        for (int const mode : support::rounding_modes) {
             taylor_model<3, 3> b;
-            in_mode(mode, [&] { b = scaled(a, m); });
+            support::in_mode(mode, [&] { b = scaled(a, m); });
             if (!std::isfinite(b.r)) continue;
             CAPTURE(trial, mode, m);
             rational spread = 0;

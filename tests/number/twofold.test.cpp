@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Numbers of twice the digits against exact rationals, in every rounding mode.
 #include "support/catch.hpp"
+#include "support/rounding_modes.hpp"
 #include "support/taylor_models.hpp"
 
 #include <sivid/number/twofold.hpp>
 
 #include <algorithm>
-#include <cfenv>
 #include <cmath>
 #include <limits>
 
@@ -17,15 +17,6 @@ using support::rational;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int modes[] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
-
-/// Runs f in a rounding mode. The call is not inlined, so that nothing moves out of the mode.
-template <class F>
-[[gnu::noinline]] void in_mode(int mode, F const& f) {
-    std::fesetround(mode);
-    f();
-    std::fesetround(FE_TONEAREST);
-}
 
 rational middle(twofold const& a) { return rational(a.head()) + rational(a.tail()); }
 
@@ -67,10 +58,10 @@ void check(std::uint64_t seed, bool wild, double radius) {
         // The digits themselves, for what the operations alone lose.
         auto const x = radius > 0 ? member(d, a) : middle(a);
         auto const y = radius > 0 ? member(d, b) : middle(b);
-        for (int const mode : modes) {
+        for (int const mode : support::rounding_modes) {
             twofold sum, difference, times, over, root;
             bool undefined = false, cut = false;
-            in_mode(mode, [&] {
+            support::in_mode(mode, [&] {
                 sum = a + b;
                 difference = a - b;
                 times = a * b;
@@ -137,9 +128,9 @@ TEST_CASE("twice the digits: three numbers made one") {
     for (int trial = 0; trial < 4000; ++trial) {
         double const head = d.uniform(-1, 1),
                      tail = d.uniform(-1, 1) * std::pow(10, d.uniform(-20, 2));
-        for (int const mode : modes) {
+        for (int const mode : support::rounding_modes) {
             twofold a;
-            in_mode(mode, [&] { a = twofold(head, tail, 0); });
+            support::in_mode(mode, [&] { a = twofold(head, tail, 0); });
             CAPTURE(trial, mode);
             REQUIRE(used(a, rational(head) + rational(tail)) <= 1);
             REQUIRE(rational(a.bounds().upper()) >= middle(a) + rational(a.radius()));

@@ -12,6 +12,7 @@
 #include <sivid/model/tape.hpp>
 
 #include <cstddef>
+#include <initializer_list>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -50,6 +51,23 @@ inline formula over_leaves(std::vector<formula::term> const& terms) {
                {operation::literal, 0, 0, 0, 1.5}};
     f.terms.insert(f.terms.end(), terms.begin(), terms.end());
     return f;
+}
+
+/// Calls use(formula) for an operation on every pair of leaves, the same leaf twice where it is
+/// unary.
+/// @param exponents  of pown
+template <class Use>
+void for_each_use(sivid::operation op, std::initializer_list<int> exponents, Use const& use) {
+    constexpr std::size_t leaves[] = {0, 1, 2, 3, 5}; // t, x0, x1, p0, 1.5
+    for (auto const a : leaves) {
+        for (auto const b : leaves) {
+            if (!is_binary(op) && b != a) continue;
+            for (int const n : exponents) {
+                use(over_leaves({{op, a, b, n}}));
+                if (op != sivid::operation::pown) break;
+            }
+        }
+    }
 }
 
 /// @param smooth  without abs, sign, min, max
@@ -185,6 +203,15 @@ inline void require_defined(formula::term const& n, mp const& a, mp const& b, bo
     if (bad) throw not_defined{};
     if (n.op == operation::exp && a > 60) throw too_large{};
     if (derivatives && n.op == operation::sqrt && a == 0) throw not_defined{};
+}
+
+/// Whether a series can be continued through an operation: defined, smooth and on no kink.
+template <class Series>
+void require_smooth(formula::term const& n, Series const& a, Series const& b) {
+    require_defined(n, a.c[0], b.c[0], true);
+    if (!has_kink(n.op)) return;
+    mp const side = is_binary(n.op) ? mp(a.c[0] - b.c[0]) : a.c[0];
+    if (side == 0) throw not_defined{};
 }
 
 /// A point at which a formula is evaluated.

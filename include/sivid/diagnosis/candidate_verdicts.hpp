@@ -137,7 +137,8 @@ private:
             auto& c = causes[k];
             if (c.verdict != cause_verdict::undecided) continue;
             if (s.problem.model.has_delays()) continue;
-            // A lag is stiff near 0, where its runs take long, and seldom excluded by boxes.
+            // States of its own (a lag) are stiff near a time constant of 0, where runs take long
+            // and exclude nothing.
             if (s.problem.model.rate.size() > run_->base.model.rate.size()) continue;
             if (s.figures.explains()) continue; // nothing to refute
             if (left == 0 || effort_->left() < end) return;

@@ -96,9 +96,8 @@ private:
         scenario_mapping result;
         result.place = entry.place();
         result.name = mapping_entries::name(entry.at("name"), entry.at("name").string());
-        result.role = mapping_entries::choice(need(entry, "role"), {"fit", "holdout"}) == 0
-                          ? scenario_role::fit
-                          : scenario_role::holdout;
+        result.role = need(entry, "role").is_second_of("fit", "holdout") ? scenario_role::holdout
+                                                                         : scenario_role::fit;
         std::filesystem::path const stated{need(entry, "file").string()};
         result.file = stated.is_absolute() ? stated : file_.parent_path() / stated;
         auto const& form = need(entry, "source");
@@ -116,10 +115,9 @@ private:
             if (!(*nearest(*result.duration) > 0))
                 duration->fail("the duration is not above 0", "state it in seconds");
         }
-        result.between =
-            mapping_entries::choice(need(entry, "interpolation"), {"linear", "hold"}) == 0
-                ? interpolation::linear
-                : interpolation::hold;
+        result.between = need(entry, "interpolation").is_second_of("linear", "hold")
+                             ? interpolation::hold
+                             : interpolation::linear;
         result.inputs = quantities(need(entry, "inputs"), true);
         auto const& channels = need(entry, "channels");
         result.channels = quantities(channels, false);

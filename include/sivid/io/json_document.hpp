@@ -53,6 +53,14 @@ public:
         return text_;
     }
 
+    /// Whether the text is the second of two words.
+    [[nodiscard]] bool is_second_of(char const* first, char const* second) const {
+        auto const& text = string();
+        if (text == second) return true;
+        if (text == first) return false;
+        fail(text_of("found ", in_quotes(text)), std::string{"write "} + first + " or " + second);
+    }
+
     /// A number as written. That its double is finite is checked here.
     [[nodiscard]] exact_decimal number() const {
         expect(kind::number, "a number");

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
-#include <utility>
 
 /// The small entries of a mapping: names, words, ranges, columns, counters. Each either gives what
 /// it says or throws input_error with the entry's pointer.
@@ -27,16 +26,6 @@ namespace sivid::mapping_entries {
         entry.fail(text_of("the name ", in_quotes(text), " cannot stand in a table"),
                    "use letters, digits, - and _, at most 100, and not just t");
     return text;
-}
-
-/// The index of the text in a list of two.
-[[nodiscard]] inline std::size_t choice(json_value const& entry,
-                                        std::pair<char const*, char const*> const& words) {
-    auto const& text = entry.string();
-    if (text == words.first) return 0;
-    if (text == words.second) return 1;
-    entry.fail(text_of("found ", in_quotes(text)),
-               std::string{"write "} + words.first + " or " + words.second);
 }
 
 /// [lower, upper] with lower <= upper.

@@ -15,7 +15,7 @@ namespace sivid {
 [[nodiscard]] inline source_form read_source_form(json_value const& entry) {
     using namespace mapping_entries;
     source_form form;
-    bool const serial = choice(entry.at("kind"), {"csv", "serial"}) == 1;
+    bool const serial = entry.at("kind").is_second_of("csv", "serial");
     form.from = serial ? source_form::kind::serial : source_form::kind::csv;
     if (serial)
         entry.allow_only(

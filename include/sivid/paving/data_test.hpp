@@ -201,8 +201,9 @@ public:
     }
 
     /// One experiment over next to nothing with the recorded inputs, by the options for witnesses.
-    /// A trajectory that chatters at a kink would take a million steps of the shortest length: it
-    /// ends after `data_test_options::witness_steps` and some for each knot and measurement.
+    /// A trajectory that is stiff, or chatters at a kink, would take a million steps of the
+    /// shortest length: it ends after `data_test_options::witness_steps` and some for each knot and
+    /// measurement.
     [[nodiscard]] std::shared_ptr<response const> run_finely(std::size_t e, box const& initial,
                                                              box const& parameters) {
         pool_->count(1);

@@ -123,16 +123,16 @@ private:
             entry.at("name").fail(
                 text_of("the name ", in_quotes(result.name), " cannot be a file name"),
                 "use letters, digits, - and _");
-        result.role = choice(entry.at("role"), {"fit", "holdout"}) == 0 ? scenario_role::fit
-                                                                        : scenario_role::holdout;
+        result.role = entry.at("role").is_second_of("fit", "holdout") ? scenario_role::holdout
+                                                                      : scenario_role::fit;
         auto const duration = entry.at("duration").number();
         result.duration = *nearest(duration);
         if (!(result.duration > 0))
             entry.at("duration").fail("the duration is not above 0", "state it in seconds");
 
-        auto const kind = choice(entry.at("interpolation"), {"linear", "hold"}) == 0
-                              ? interpolation::linear
-                              : interpolation::hold;
+        auto const kind = entry.at("interpolation").is_second_of("linear", "hold")
+                              ? interpolation::hold
+                              : interpolation::linear;
         auto const file = [&](char const* key) {
             auto const& value = entry.at(key);
             auto const path = path_inside(folder_, value.string(), value.place());
@@ -164,16 +164,6 @@ private:
             auto const range = read_range(entry, "initial value");
             result.initial[*index] = {range.enclosure, range};
         }
-    }
-
-    /// The index of the text in a list of two.
-    static std::size_t choice(json_value const& entry,
-                              std::pair<char const*, char const*> const& words) {
-        auto const& text = entry.string();
-        if (text == words.first) return 0;
-        if (text == words.second) return 1;
-        entry.fail(text_of("found ", in_quotes(text)),
-                   std::string{"write "} + words.first + " or " + words.second);
     }
 
     static interval enclosed(json_value const& entry, exact_decimal const& lower,
