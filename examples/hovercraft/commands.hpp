@@ -53,7 +53,8 @@ struct check_command {
 struct diagnose_command {
     hovercraft craft;
     std::filesystem::path dataset, out;
-    double budget = 60; ///< [s]
+    double budget = 60;      ///< [s]
+    std::size_t threads = 0; ///< 0: as many as the machine has
     bool quiet = false;
     std::string command_line; ///< for the report's footer
 };

@@ -4,6 +4,7 @@
 #include "console/program.hpp"
 #include "effects.hpp"
 #include "manoeuvres.hpp"
+#include "threads.hpp"
 
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
@@ -19,6 +20,7 @@ int run(diagnose_command const& c) {
     console::progress_line progress(c.quiet);
     sivid::diagnosis_options options;
     options.seconds = c.budget;
+    options.test.workers = threads_for(c.threads);
     options.menu = recorded_manoeuvres(problem);
     for (auto& m : new_manoeuvres()) options.menu.push_back(std::move(m));
     console::watch(options, progress);
@@ -26,7 +28,7 @@ int run(diagnose_command const& c) {
     progress.finish();
     progress.note("judging by data that chose nothing");
     auto const kept = sivid::holdout_from_dataset(data, model.about);
-    sivid::judge_by_holdout(run, kept);
+    sivid::judge_by_holdout(run, kept, 6, options.test);
     auto& d = run.result;
     console::write_diagnosis(d, data.id, console::plot_data(run, kept),
                              console::page_options(run, data.id, c.command_line), c.out,

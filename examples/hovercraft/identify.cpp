@@ -4,6 +4,7 @@
 #include "console/program.hpp"
 #include "identifiability.hpp"
 #include "online.hpp"
+#include "threads.hpp"
 
 #include <sivid/io/checkpoint.hpp>
 #include <sivid/io/checkpoint_reader.hpp>
@@ -17,10 +18,6 @@
 #include <sivid/report/identifiability_words.hpp>
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
-
-#ifdef SIVID_HAS_TBB
-#include <sivid/parallel/tbb_executor.hpp>
-#endif
 
 #include <algorithm>
 #include <chrono>
@@ -103,16 +100,6 @@ void print_summary(sivid::identification_problem const& problem, sivid::identifi
               << found.integrations << " validated integrations\n"
               << "  written: " << (out / "report.html").string()
               << " and result.json, boxes.csv, outputs.csv beside it\n";
-}
-
-sivid::executor threads_for([[maybe_unused]] std::size_t threads) {
-    if (threads == 1) return {};
-#ifdef SIVID_HAS_TBB
-    return sivid::tbb_executor(threads);
-#else
-    throw bad_request("--threads: this program was built without oneTBB; install it (Debian: "
-                      "libtbb-dev), configure and build anew, or leave the option out");
-#endif
 }
 
 /// The search's file in the folder of results.

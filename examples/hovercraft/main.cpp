@@ -230,6 +230,9 @@ private:
         s->add_option("--budget", c.budget, "seconds")
             ->check(console::number_between(0.0, 1e9))
             ->capture_default_str();
+        s->add_option("--threads", c.threads, "threads (0: all); the result does not depend on it")
+            ->check(CLI::Range(0, 1024))
+            ->capture_default_str();
         s->add_flag("--quiet", c.quiet, "no progress");
         add_variants(*s, shared_);
         s->callback([this] {

@@ -59,3 +59,34 @@ TEST_CASE("a run that chatters at a kink ends by its number of steps") {
     data_test other(smooth, options);
     CHECK(other.run_finely(0, smooth.experiments[0].initial, {interval(0.5)})->outputs() == 6);
 }
+
+TEST_CASE("a point is run without generators where nothing stops it, and means the same") {
+    auto const smooth = plain_problem::make();
+    data_test_options first_order;
+    first_order.witness.set = carried_set::doubleton;
+    data_test quick(smooth, {});
+    data_test slow(smooth, first_order);
+    for (double const rate : {0.2, 0.5, 0.9}) {
+        for (double const start : {1.9, 2.0, 2.1}) {
+            box const parameters{interval(rate)};
+            auto const a =
+                output_ranges(*quick.run_finely(0, {interval(start)}, parameters), parameters);
+            auto const b =
+                output_ranges(*slow.run_finely(0, {interval(start)}, parameters), parameters);
+            REQUIRE(a.size() == b.size());
+            for (std::size_t y = 0; y < a.size(); ++y) {
+                CHECK_FALSE(disjoint(a[y], b[y]));
+                CHECK(width(a[y]) <= 2 * width(b[y]));
+            }
+        }
+    }
+    // At rest on a kink first-order sets go on.
+    auto rests = plain_problem::make();
+    rests.model = record_model<resting>();
+    rests.experiments[0].outliers = 6;
+    data_test both(rests, {});
+    data_test one(rests, first_order);
+    box const parameters{interval(1.0)};
+    auto const far = both.run_finely(0, rests.experiments[0].initial, parameters);
+    CHECK(far->outputs() >= one.run_finely(0, rests.experiments[0].initial, parameters)->outputs());
+}

@@ -39,9 +39,12 @@ struct diagnosis_options {
     std::size_t remaining_sets = 30; ///< of places that the closest candidate may have wrong
     screening_options screening{};
     choice_options choice{};
-    data_test_options test{};      ///< how boxes of parameters are enclosed
+    /// How boxes of parameters are enclosed. Its workers run candidates and scenarios at once; the
+    /// result is that of one thread, but for what a limit of time cuts off.
+    data_test_options test{};
     std::vector<manoeuvre> menu{}; ///< from which the next experiment is proposed
-    /// Called with what is being done; false ends with what is known so far.
+    /// Called with what is being done, by one thread at a time; false ends with what is known so
+    /// far.
     std::function<bool(std::string const&)> progress{};
     /// Called with what is known of whether there is a gap, and where: first before anything that
     /// takes long, then as often as more is known.

@@ -7,12 +7,15 @@
 
 #include <cstddef>
 #include <functional>
+#include <mutex>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sivid {
 
-/// Called before each part with its name; false ends the list there.
+/// Called before each part with its name, by one thread at a time; false ends the list there.
 using next_part = std::function<bool(std::string const&)>;
 
 namespace diagnosis_detail {
@@ -23,15 +26,36 @@ inline std::size_t count_measurements(identification_problem const& p) {
     return count;
 }
 
-template <class Keep>
-void add_part(identification_problem const& p, inflation_range const& whole,
-              std::string const& name, Keep const& keep, inflation_options const& each,
-              std::vector<named_estimate>& to) {
-    auto const part = restricted_to(p, keep);
-    if (part.experiments.empty()) return;
-    bool const all = count_measurements(part) == count_measurements(p);
-    auto const proved = all ? whole : bound_inflation(part, nullptr, each).value;
-    to.push_back({name, "1", proved.upper(), proved});
+struct named_part {
+    std::string name;
+    identification_problem problem;
+};
+
+inline std::vector<named_estimate> inflation_of_parts(identification_problem const& p,
+                                                      inflation_range const& whole,
+                                                      std::vector<named_part> const& parts,
+                                                      inflation_options const& each,
+                                                      next_part const& next) {
+    std::vector<std::optional<named_estimate>> found(parts.size());
+    std::mutex asking;
+    bool stopped = false;
+    each.test.workers(parts.size(), [&](std::size_t k) {
+        auto const& [name, part] = parts[k];
+        {
+            std::lock_guard const alone(asking);
+            stopped = stopped || !next(name);
+            if (stopped) return;
+        }
+        bool const all = count_measurements(part) == count_measurements(p);
+        auto const proved = all ? whole : bound_inflation(part, nullptr, each).value;
+        found[k] = named_estimate{name, "1", proved.upper(), proved};
+    });
+    std::vector<named_estimate> result;
+    for (auto& f : found) {
+        if (!f) break;
+        result.push_back(std::move(*f));
+    }
+    return result;
 }
 
 } // namespace diagnosis_detail
@@ -41,13 +65,12 @@ void add_part(identification_problem const& p, inflation_range const& whole,
 [[nodiscard]] inline std::vector<named_estimate>
 inflation_of_experiments(identification_problem const& p, inflation_range const& whole,
                          inflation_options const& each, next_part const& next) {
-    std::vector<named_estimate> result;
-    for (std::size_t s = 0; s < p.experiments.size() && next(p.experiments[s].name); ++s) {
-        diagnosis_detail::add_part(
-            p, whole, p.experiments[s].name,
-            [s](std::size_t e, measurement const&) { return e == s; }, each, result);
+    std::vector<diagnosis_detail::named_part> parts;
+    for (std::size_t s = 0; s < p.experiments.size(); ++s) {
+        auto part = restricted_to(p, [s](std::size_t e, measurement const&) { return e == s; });
+        if (!part.experiments.empty()) parts.push_back({p.experiments[s].name, std::move(part)});
     }
-    return result;
+    return diagnosis_detail::inflation_of_parts(p, whole, parts, each, next);
 }
 
 /// Certified inflation of every channel alone, over all experiments; channels that were not
@@ -55,14 +78,14 @@ inflation_of_experiments(identification_problem const& p, inflation_range const&
 [[nodiscard]] inline std::vector<named_estimate>
 inflation_of_channels(identification_problem const& p, inflation_range const& whole,
                       inflation_options const& each, next_part const& next) {
-    std::vector<named_estimate> result;
+    std::vector<diagnosis_detail::named_part> parts;
     auto const& channels = p.model.about.channels;
-    for (std::size_t y = 0; y < channels.size() && next(channels[y].name); ++y) {
-        diagnosis_detail::add_part(
-            p, whole, channels[y].name,
-            [y](std::size_t, measurement const& m) { return m.channel == y; }, each, result);
+    for (std::size_t y = 0; y < channels.size(); ++y) {
+        auto part =
+            restricted_to(p, [y](std::size_t, measurement const& m) { return m.channel == y; });
+        if (!part.experiments.empty()) parts.push_back({channels[y].name, std::move(part)});
     }
-    return result;
+    return diagnosis_detail::inflation_of_parts(p, whole, parts, each, next);
 }
 
 } // namespace sivid

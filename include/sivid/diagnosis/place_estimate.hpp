@@ -25,6 +25,7 @@ struct place_options {
     place_search_options search;
     /// Names of dynamic equations by their states, where they have other ones ("u" -> "surge").
     std::map<std::string, std::string> equation_names;
+    executor workers{}; ///< simulate the experiments at once
 };
 
 /// Where does the model depart from the data, and how? Nothing is reported when some parameters
@@ -97,6 +98,7 @@ private:
             }
         }
         place_fitter fit(*problem_, places_of(problem_->model, measured, sampled));
+        fit.simulations().set_workers(options_.workers);
         auto const base = fit.plain(result.base.parameters, result.base.starts);
         fit.release({});
         fit.set_scales(missing_rate_scales(fit.simulations(), fit.vector_of(base)));

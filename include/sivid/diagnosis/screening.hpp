@@ -13,6 +13,8 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +25,8 @@ namespace sivid {
 /// is proved.
 class screening {
 public:
+    using effect_sets = std::vector<std::vector<std::size_t>>;
+
     screening(identification_problem base, std::vector<effect> catalogue,
               screening_options options = {})
         : base_(std::move(base)), catalogue_(std::move(catalogue)), options_(std::move(options)) {
@@ -53,38 +57,37 @@ public:
     /// misfit ends on decides what explains.
     void polish() {
         constexpr double close = 1.05;
-        for (auto& s : tried_) {
+        options_.workers(tried_.size(), [this](std::size_t k) {
+            auto& s = tried_[k];
             double const before = s.figures.inflation;
-            if (!(before > 1 && before < close) || seconds() > options_.seconds) continue;
+            if (!(before > 1 && before < close) || seconds() > options_.seconds) return;
             auto better = minimax_fitter(s.problem)(s.fit.parameters, s.fit.starts,
                                                     [this] { return !stopped_; });
-            if (!(better.inflation < before)) continue;
+            if (!(better.inflation < before)) return;
             better.squares = s.fit.squares;
             s.fit = std::move(better);
             s.figures.inflation = s.fit.inflation;
-        }
+        });
     }
 
     /// Fits one set of effects, unless that was done.
-    void try_one(std::vector<std::size_t> const& effects) {
-        if (stopped_ || find(effects) != nullptr) return;
-        std::vector<effect> chosen;
-        std::string name;
-        for (auto const e : effects) {
-            chosen.push_back(catalogue_[e]);
-            name += (name.empty() ? "" : " + ") + catalogue_[e].name;
+    void try_one(std::vector<std::size_t> const& effects) { try_all({effects}); }
+
+    /// Fits sets of effects of which none contains another, each unless that was done; several at
+    /// once where there are workers.
+    void try_all(effect_sets const& wanted) {
+        effect_sets open;
+        for (auto const& effects : wanted) {
+            bool const known = std::find(open.begin(), open.end(), effects) != open.end();
+            if (!known && find(effects) == nullptr) open.push_back(effects);
         }
-        if (seconds() > options_.seconds ||
-            (options_.progress && !options_.progress(name.empty() ? "the model itself" : name))) {
-            stopped_ = true;
-            return;
+        std::vector<std::optional<screened>> fitted(open.size());
+        options_.workers(open.size(), [&](std::size_t k) {
+            if (may_try(open[k])) fitted[k] = fit(open[k]);
+        });
+        for (auto& s : fitted) {
+            if (s) tried_.push_back(std::move(*s));
         }
-        screened s{{effects, 0, {}, {}}, affected(base_, chosen), {}};
-        s.fit = fit(s.problem, effects, s.silent);
-        s.figures.inflation = s.fit.inflation;
-        s.figures.squares = s.fit.squares;
-        s.figures.unknowns = s.problem.prior.size();
-        tried_.push_back(std::move(s));
     }
 
     [[nodiscard]] screened const* find(std::vector<std::size_t> const& effects) const {
@@ -99,18 +102,21 @@ private:
 
     void singles_and_pairs() {
         try_one({});
-        for (std::size_t e = 0; e < catalogue_.size(); ++e) try_one({e});
+        effect_sets wanted;
+        for (std::size_t e = 0; e < catalogue_.size(); ++e) wanted.push_back({e});
+        try_all(wanted);
         polish();
         auto singles = ranked_singles();
         bool const alone = explained();
         if (alone && !options_.always_pairs) return;
         singles.resize(std::min(singles.size(), alone ? 1 : options_.partners));
+        wanted.clear();
         for (auto const a : singles) {
             for (std::size_t b = 0; b < catalogue_.size(); ++b) {
-                if (b == a) continue;
-                try_one({std::min(a, b), std::max(a, b)});
+                if (b != a) wanted.push_back({std::min(a, b), std::max(a, b)});
             }
         }
+        try_all(wanted);
     }
     /// Joins every other effect to the likeliest candidate of size - 1 effects. What explains must
     /// then do without each of its effects, or a smaller candidate is the answer.
@@ -124,11 +130,13 @@ private:
         }
         if (likeliest == nullptr) return;
         auto const part = likeliest->figures.effects;
+        effect_sets larger;
         for (std::size_t e = 0; e < catalogue_.size(); ++e) {
             if (std::find(part.begin(), part.end(), e) != part.end()) continue;
-            try_one(united(part, e));
+            larger.push_back(united(part, e));
         }
-        std::vector<std::vector<std::size_t>> parts;
+        try_all(larger);
+        effect_sets parts;
         for (auto const& s : tried_) {
             if (s.figures.effects.size() != size || !s.figures.explains()) continue;
             for (std::size_t k = 0; k < size; ++k) {
@@ -136,7 +144,7 @@ private:
                 parts.back().erase(parts.back().begin() + static_cast<std::ptrdiff_t>(k));
             }
         }
-        for (auto const& smaller : parts) try_one(smaller);
+        try_all(parts);
     }
     [[nodiscard]] static std::vector<std::size_t> united(std::vector<std::size_t> effects,
                                                          std::size_t one) {
@@ -148,6 +156,27 @@ private:
                            [](screened const& s) { return s.figures.explains(); });
     }
 
+    [[nodiscard]] std::string name_of(std::vector<std::size_t> const& effects) const {
+        std::string name;
+        for (auto const e : effects) name += (name.empty() ? "" : " + ") + catalogue_[e].name;
+        return name.empty() ? "the model itself" : name;
+    }
+    [[nodiscard]] bool may_try(std::vector<std::size_t> const& effects) {
+        std::lock_guard const alone(asking_);
+        stopped_ = stopped_ || seconds() > options_.seconds ||
+                   (options_.progress && !options_.progress(name_of(effects)));
+        return !stopped_;
+    }
+    [[nodiscard]] screened fit(std::vector<std::size_t> const& effects) const {
+        std::vector<effect> chosen;
+        for (auto const e : effects) chosen.push_back(catalogue_[e]);
+        screened s{{effects, 0, {}, {}}, affected(base_, chosen), {}};
+        s.fit = fit(s.problem, effects, s.silent);
+        s.figures.inflation = s.fit.inflation;
+        s.figures.squares = s.fit.squares;
+        s.figures.unknowns = s.problem.prior.size();
+        return s;
+    }
     /// Fits a problem from the best of a grid over the parameters of its last effect, the others as
     /// a part of the candidate was fitted: an effect that sleeps (a saturation that is never
     /// reached, say) has no slope to follow.
@@ -257,6 +286,7 @@ private:
     screening_options options_;
     std::vector<screened> tried_;
     std::size_t measurements_ = 0;
+    std::mutex asking_;
     bool stopped_ = false;
     clock::time_point begin_ = clock::now();
 };

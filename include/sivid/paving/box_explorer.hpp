@@ -3,6 +3,7 @@
 #define SIVID_PAVING_BOX_EXPLORER_HPP
 
 #include <sivid/paving/data_test.hpp>
+#include <sivid/paving/executor.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/problem.hpp>
 #include <sivid/space/box.hpp>
@@ -12,6 +13,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -41,7 +43,9 @@ struct explored_box {
 class box_explorer {
 public:
     box_explorer(identification_problem const& problem, data_test_options const& options)
-        : everything_(without_limit(problem)), test_(everything_, options) {}
+        : everything_(without_limit(problem)),
+          test_(everything_, options),
+          workers_(options.workers) {}
     box_explorer(box_explorer const&) = delete;
     box_explorer& operator=(box_explorer const&) = delete;
 
@@ -83,7 +87,8 @@ public:
 
     /// Integrates the stale experiments of all boxes. A full pack costs little more than one box:
     /// while there are few boxes their halves take their place.
-    /// @param go_on  false ends the work between two experiments; the boxes are not fresh then
+    /// @param go_on  false ends the work between two experiments; the boxes are not fresh then.
+    ///               Called by one thread at a time
     template <std::derived_from<explored_box> Box>
     void learn(std::vector<Box>& boxes, std::function<bool()> const& go_on) {
         while (!boxes.empty() && 2 * boxes.size() <= at_once()) {
@@ -94,8 +99,14 @@ public:
             if (parts.size() < 2 * boxes.size()) break; // one cannot be split
             boxes = std::move(parts);
         }
-        for (std::size_t s = 0; s < everything_.experiments.size(); ++s) {
-            if (!go_on()) return;
+        std::mutex asking;
+        bool stopped = false;
+        workers_(everything_.experiments.size(), [&](std::size_t s) {
+            {
+                std::lock_guard const alone(asking);
+                stopped = stopped || !go_on();
+                if (stopped) return;
+            }
             std::vector<box> sets;
             std::vector<Box*> whose;
             for (auto& b : boxes) {
@@ -103,12 +114,13 @@ public:
                 sets.push_back(b.set);
                 whose.push_back(&b);
             }
-            if (sets.empty()) continue;
+            if (sets.empty()) return;
             auto answers = test_.run(s, everything_.experiments[s].initial, sets);
             for (std::size_t k = 0; k < whose.size(); ++k) {
                 whose[k]->known[s] = std::move(answers[k]);
             }
-        }
+        });
+        if (stopped) return;
         for (auto& b : boxes) b.fresh = true;
     }
 
@@ -117,6 +129,7 @@ private:
 
     identification_problem everything_;
     data_test test_;
+    executor workers_;
 };
 
 } // namespace sivid

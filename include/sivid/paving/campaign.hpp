@@ -4,12 +4,14 @@
 
 #include <sivid/enclosure/sensitive_simulator.hpp>
 #include <sivid/paving/arrow_system.hpp>
+#include <sivid/paving/executor.hpp>
 #include <sivid/paving/problem.hpp>
 #include <sivid/paving/residuals.hpp>
 
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -179,6 +181,8 @@ public:
     void set_accuracy(double factor) {
         for (auto& s : simulators_) s.set_accuracy(factor);
     }
+    /// Simulates the experiments at once; they say the same with any.
+    void set_workers(executor workers) { workers_ = std::move(workers); }
     /// @returns false when a simulation fails
     [[nodiscard]] bool residuals(arrow_vector const& z, residual_lists& r) {
         return run(z, r, false);
@@ -225,20 +229,26 @@ private:
     [[nodiscard]] bool run(arrow_vector const& z, residual_lists& r, bool sensitive) {
         r.resize(simulators_.size());
         auto const p = parameters(z);
-        for (std::size_t e = 0; e < simulators_.size(); ++e) {
-            auto& out = outputs_[e];
-            if (!simulators_[e](start(e, z), p, disturbance(e, z), layouts_[e], sensitive, out)) {
-                return false;
-            }
-            r[e].resize(centres_[e].size());
-            for (std::size_t k = 0; k < r[e].size(); ++k) {
-                r[e][k] = (out.values[k] - centres_[e][k]) / radii_[e][k];
-                if (!std::isfinite(r[e][k])) return false;
-                if (!sensitive) continue;
-                double* row = out.jacobian.data() + k * layouts_[e].columns;
-                double const scale = 1 / radii_[e][k];
-                for (std::size_t c = 0; c < layouts_[e].columns; ++c) row[c] *= scale;
-            }
+        std::atomic<bool> failed = false;
+        workers_(simulators_.size(), [&](std::size_t e) {
+            if (!failed && !run(e, z, p, r[e], sensitive)) failed = true;
+        });
+        return !failed;
+    }
+    [[nodiscard]] bool run(std::size_t e, arrow_vector const& z, std::vector<double> const& p,
+                           std::vector<double>& r, bool sensitive) {
+        auto& out = outputs_[e];
+        if (!simulators_[e](start(e, z), p, disturbance(e, z), layouts_[e], sensitive, out)) {
+            return false;
+        }
+        r.resize(centres_[e].size());
+        for (std::size_t k = 0; k < r.size(); ++k) {
+            r[k] = (out.values[k] - centres_[e][k]) / radii_[e][k];
+            if (!std::isfinite(r[k])) return false;
+            if (!sensitive) continue;
+            double* row = out.jacobian.data() + k * layouts_[e].columns;
+            double const scale = 1 / radii_[e][k];
+            for (std::size_t c = 0; c < layouts_[e].columns; ++c) row[c] *= scale;
         }
         return true;
     }
@@ -279,6 +289,7 @@ private:
     std::vector<double> held_;
     arrow_vector lower_, upper_;
     std::vector<simulated_outputs> outputs_;
+    executor workers_{};
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> scaled_;
 };
 

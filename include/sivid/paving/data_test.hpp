@@ -210,9 +210,18 @@ public:
         auto options = options_.witness;
         auto& most = options.enclosure.maximum_steps;
         most = std::min(most, options_.witness_steps + 4 * stops(e));
-        auto const fine = make_run(*recorded_[e], problem_->experiments[e], records_[e],
-                                   problem_->prior, options);
-        return (*fine)(initial, parameters);
+        auto const run = [&](carried_set set) {
+            options.set = set;
+            return (*make_run(*recorded_[e], problem_->experiments[e], records_[e], initial,
+                              parameters, options))(initial, parameters);
+        };
+        bool const point = paving_detail::unknown_count(initial, parameters) == 0;
+        if (point && options.set == carried_set::taylor_model) {
+            auto quick = run(carried_set::taylor_model);
+            bool const whole = quick->outputs() == quick->measurements;
+            if (auto rest = parameters; whole || assess(*quick, rest).refuted) return quick;
+        }
+        return run(carried_set::doubleton);
     }
     /// One experiment over boxes of starts and parameters, for all possible inputs.
     [[nodiscard]] std::vector<std::shared_ptr<response const>>

@@ -2,6 +2,7 @@
 #ifndef SIVID_PAVING_DATA_TEST_OPTIONS_HPP
 #define SIVID_PAVING_DATA_TEST_OPTIONS_HPP
 
+#include <sivid/paving/executor.hpp>
 #include <sivid/paving/run_options.hpp>
 
 #include <cstddef>
@@ -11,12 +12,13 @@ namespace sivid {
 /// How boxes of parameters are tested against the data.
 struct data_test_options {
     run_options run;
-    /// How a guessed point is verified: first-order sets with fine steps, which kinks do not stop.
+    /// How a guessed point is verified: a point without unknowns by a Taylor model of degree 0;
+    /// otherwise, and where a kink stops that, by first-order sets with fine steps.
     run_options witness{.enclosure = {.order = 14,
                                       .tolerance = 1e-11,
                                       .relative_tolerance = 1e-5,
                                       .minimum_step = 1e-6},
-                        .set = carried_set::doubleton};
+                        .set = carried_set::taylor_model};
     std::size_t witness_steps = 20'000; ///< at most, besides those that knots and samples end
     /// Contract boxes by the dependence of the outputs on the parameters, and decide parts of a box
     /// by what was computed for the whole. Without it the test is the report's: enclosure against
@@ -26,6 +28,9 @@ struct data_test_options {
     /// A part of a box is integrated anew when more than this share of an undecided output's width
     /// is neither affine in the parameters nor shrinks with the part.
     double sharp_enough = 0.5;
+    /// Runs experiments at once where the least inflation is sought; that says the same with any.
+    /// (Searches for what explains the data have `inversion_options::workers`.)
+    executor workers{};
 };
 
 } // namespace sivid

@@ -19,6 +19,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -93,8 +94,8 @@ private:
     return answer;
 }
 
-/// Taylor models in lanes: a lane that is done takes the next box.
-template <std::size_t N, std::size_t D>
+/// Taylor models in lanes: a lane that is done takes the next box. Points are run one by one.
+template <std::size_t N, std::size_t D, class C = std::conditional_t<D == 0, double, lanes<8>>>
 class taylor_run final : public experiment_run {
 public:
     taylor_run(flow const& f, experiment const& e, record const& samples,
@@ -112,7 +113,7 @@ public:
         std::size_t next = 0;
         std::size_t in_work = 0;
         while (next < parameters.size() || in_work > 0) {
-            scalar limit(experiment_->begin);
+            C limit(experiment_->begin);
             for (std::size_t l = 0; l < width; ++l) {
                 while (!lanes[l] && next < parameters.size()) {
                     lanes[l] = begin(l, next, initial, parameters[next]);
@@ -123,10 +124,10 @@ public:
                     lanes[l].reset();
                     --in_work;
                 }
-                if (lanes[l]) lane_traits<scalar>::put(limit, l, lanes[l]->walk.time());
+                if (lanes[l]) lane_traits<C>::put(limit, l, lanes[l]->walk.time());
             }
             (void)flow_.advance(limit);
-            std::vector<taylor_model<N, D, scalar>> seen;
+            std::vector<taylor_model<N, D, C>> seen;
             for (std::size_t l = 0; l < width; ++l) {
                 if (!lanes[l]) continue;
                 auto& mine = *lanes[l];
@@ -149,8 +150,7 @@ public:
     }
 
 private:
-    using scalar = lanes<8>;
-    static constexpr std::size_t width = lane_traits<scalar>::count;
+    static constexpr std::size_t width = lane_traits<C>::count;
 
     /// What is known of the box in one lane.
     struct lane {
@@ -199,7 +199,7 @@ private:
     experiment const* experiment_;
     record const* samples_;
     run_options options_;
-    parametric_flow<N, D, scalar> flow_;
+    parametric_flow<N, D, C> flow_;
     std::map<std::size_t, std::shared_ptr<monomial_table const>> tables_;
 };
 
@@ -301,13 +301,14 @@ SIVID_TAYLOR_KERNELS(SIVID_KERNEL)
 } // namespace paving_detail
 
 /// The kernel that fits the number of unknowns; beyond the largest the sets are of first order.
+/// @param initial, prior  what the boxes to come lie in
 [[nodiscard]] inline std::unique_ptr<experiment_run> make_run(flow const& f, experiment const& e,
                                                               record const& samples,
-                                                              box const& prior,
+                                                              box const& initial, box const& prior,
                                                               run_options options) {
     using namespace paving_detail;
     options.enclosure.minimum_step = minimum_step_for(e, options.enclosure.minimum_step);
-    auto const unknowns = unknown_count(e.initial, prior);
+    auto const unknowns = unknown_count(initial, prior);
     // What uncertain inputs cost, no smaller box gives back.
     if (f.uncertain()) options.hopeless = 1e300;
     if (options.set == carried_set::taylor_model) {
@@ -317,6 +318,12 @@ SIVID_TAYLOR_KERNELS(SIVID_KERNEL)
         if (run) return run;
     }
     return std::make_unique<doubleton_run>(f, e, samples, options);
+}
+[[nodiscard]] inline std::unique_ptr<experiment_run> make_run(flow const& f, experiment const& e,
+                                                              record const& samples,
+                                                              box const& prior,
+                                                              run_options const& options) {
+    return make_run(f, e, samples, e.initial, prior, options);
 }
 
 } // namespace sivid

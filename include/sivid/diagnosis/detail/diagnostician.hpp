@@ -38,6 +38,7 @@ public:
         options_.screening.progress = [this](std::string const& what) {
             return effort_.go_on("trying " + what);
         };
+        options_.screening.workers = options_.test.workers;
         options_.screening.seconds = std::min(options_.screening.seconds, 0.7 * options_.seconds);
     }
 
@@ -104,6 +105,7 @@ private:
     }
     [[nodiscard]] place_options place_effort(std::string what) {
         place_options result;
+        result.workers = effort_.test().workers;
         double const end = effort_.left() - effort_.seconds_of({0, options_.places_share});
         result.search.go_on = [this, end, what = std::move(what)] {
             return effort_.left() >= end && effort_.go_on(what);

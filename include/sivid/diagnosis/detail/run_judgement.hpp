@@ -22,11 +22,17 @@ SIVID_ENTRY void judge_by_holdout(diagnosis_run& run, holdout const& data, doubl
         search.test = test;
         return judge_by_holdout(candidate, bound, judged, search);
     };
-    auto const before = judge(run.candidates.front(), run.base_bound);
-    run.holdout_before = before;
-    if (run.result.causes.empty()) return;
-    auto const after = judge(run.candidates[run.answer], run.answer_bound);
-    run.holdout_after = after;
+    bool const answered = !run.result.causes.empty();
+    test.workers(answered ? 2 : 1, [&](std::size_t k) {
+        if (k == 0) {
+            run.holdout_before = judge(run.candidates.front(), run.base_bound);
+        } else {
+            run.holdout_after = judge(run.candidates[run.answer], run.answer_bound);
+        }
+    });
+    if (!answered) return;
+    auto const& before = *run.holdout_before;
+    auto const& after = *run.holdout_after;
     holdout_figures figures;
     figures.inflation_before = before.at_witness;
     figures.inflation_after = after.at_witness;

@@ -4,6 +4,7 @@
 
 #include <sivid/diagnosis/candidate.hpp>
 #include <sivid/paving/approximate_fit.hpp>
+#include <sivid/paving/executor.hpp>
 #include <sivid/paving/problem.hpp>
 
 #include <cstddef>
@@ -29,8 +30,10 @@ struct screening_options {
     /// Candidates of up to so many effects are tried: where no pair explains, effects join the
     /// likeliest candidate one by one.
     std::size_t most_effects = 2;
-    /// Called before each fit with what is tried; false ends the screening.
+    /// Called before each fit with what is tried, by one thread at a time; false ends the
+    /// screening.
     std::function<bool(std::string const&)> progress{};
+    executor workers{}; ///< for candidates that do not build on each other
 };
 
 } // namespace sivid
