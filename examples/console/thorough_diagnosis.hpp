@@ -3,6 +3,8 @@
 #ifndef EXAMPLES_CONSOLE_THOROUGH_DIAGNOSIS_HPP
 #define EXAMPLES_CONSOLE_THOROUGH_DIAGNOSIS_HPP
 
+#include "threads.hpp"
+
 #include <sivid/diagnosis/diagnosis_run.hpp>
 
 namespace console {
@@ -10,10 +12,12 @@ namespace console {
 /// Efforts for a machine of which nothing is known: whatever is still open may use most of the
 /// time, since on an unknown model nobody can say after how many boxes it pays. Each step ends
 /// after so many boxes of parameters, or this share of the time, whichever is less.
+/// On all threads where the program links to `sivid::parallel`.
 /// @param seconds  for the diagnosis
 inline sivid::diagnosis_options thorough_diagnosis(double seconds) {
     sivid::diagnosis_options options;
     options.seconds = seconds;
+    options.test.workers = threads_for(0);
     options.gap.bound = {300, 0.12};
     options.gap.further_boxes = 900;
     options.answer = {60, 0.05};

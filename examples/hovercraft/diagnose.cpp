@@ -2,9 +2,9 @@
 #include "commands.hpp"
 #include "console/diagnosis_output.hpp"
 #include "console/program.hpp"
+#include "console/threads.hpp"
 #include "effects.hpp"
 #include "manoeuvres.hpp"
-#include "threads.hpp"
 
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
@@ -20,7 +20,7 @@ int run(diagnose_command const& c) {
     console::progress_line progress(c.quiet);
     sivid::diagnosis_options options;
     options.seconds = c.budget;
-    options.test.workers = threads_for(c.threads);
+    options.test.workers = console::threads_for(c.threads);
     options.menu = recorded_manoeuvres(problem);
     for (auto& m : new_manoeuvres()) options.menu.push_back(std::move(m));
     console::watch(options, progress);

@@ -2,9 +2,9 @@
 #include "commands.hpp"
 #include "console/console.hpp"
 #include "console/program.hpp"
+#include "console/threads.hpp"
 #include "identifiability.hpp"
 #include "online.hpp"
-#include "threads.hpp"
 
 #include <sivid/io/checkpoint.hpp>
 #include <sivid/io/checkpoint_reader.hpp>
@@ -219,7 +219,7 @@ int run(identify_command const& c) {
     }
     if (c.memory) options.search.memory = static_cast<std::size_t>(1e6 * *c.memory);
     options.search.batches = 4; // whatever the threads, so that the result is the same
-    options.search.workers = threads_for(c.threads);
+    options.search.workers = console::threads_for(c.threads);
     checkpoint_file checkpoint(c, sivid::problem_digest(problem, options, digest));
     options.resume = checkpoint.state();
     if (checkpoint.used()) {

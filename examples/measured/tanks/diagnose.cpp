@@ -3,6 +3,7 @@
 #include "console/diagnosis_output.hpp"
 #include "console/program.hpp"
 #include "console/sensitivity.hpp"
+#include "console/threads.hpp"
 #include "effects.hpp"
 
 #include <sivid/diagnosis/verification.hpp>
@@ -188,6 +189,7 @@ int run(diagnose_command const& c) {
     sivid::diagnosis_options options;
     // The rest is for the hold-out record and the tables.
     options.seconds = 0.75 * c.budget;
+    options.test.workers = console::threads_for(0);
     // Boxes end a step; the shares of the time only do on a machine that is far too slow. With
     // starts as wide as these, observers prove something and sets of trajectories little.
     options.gap.observers = {4000, 0.15};

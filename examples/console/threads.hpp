@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef HOVERCRAFT_THREADS_HPP
-#define HOVERCRAFT_THREADS_HPP
-
-#include "generate.hpp"
+#ifndef EXAMPLES_CONSOLE_THREADS_HPP
+#define EXAMPLES_CONSOLE_THREADS_HPP
 
 #include <sivid/paving/executor.hpp>
 
@@ -11,22 +9,24 @@
 #endif
 
 #include <cstddef>
+#include <stdexcept>
 
-namespace hovercraft_example {
+namespace console {
 
 /// @param threads  0: as many as the machine has; without oneTBB that is one
-/// @throws bad_request where more are asked for than the program can have
+/// @throws std::invalid_argument where more are asked for than the program can have
 [[nodiscard]] inline sivid::executor threads_for(std::size_t threads) {
     if (threads == 1) return {};
 #ifdef SIVID_HAS_TBB
     return sivid::tbb_executor(threads);
 #else
     if (threads == 0) return {};
-    throw bad_request("--threads: this program was built without oneTBB; install it (Debian: "
-                      "libtbb-dev), configure and build anew, or leave the option out");
+    throw std::invalid_argument("--threads: this program was built without oneTBB; install it "
+                                "(Debian: libtbb-dev), configure and build anew, or leave the "
+                                "option out");
 #endif
 }
 
-} // namespace hovercraft_example
+} // namespace console
 
 #endif
