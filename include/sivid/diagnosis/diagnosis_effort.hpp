@@ -40,7 +40,12 @@ public:
 
     /// Whether there is time for a step.
     bool go_on(std::string const& what) {
-        if (left() <= 0 || (progress_ && !progress_(what))) stopped_ = true;
+        doing_ = what;
+        return go_on();
+    }
+    /// The same in the midst of it.
+    bool go_on() {
+        if (left() <= 0 || (progress_ && !progress_(doing_))) stopped_ = true;
         return !stopped_;
     }
 
@@ -59,7 +64,7 @@ public:
     }
     /// A refutation by interval observers that spends no more.
     [[nodiscard]] observer_effort observers(step_effort const& e) {
-        return {e.boxes, seconds_of(e), [this] { return go_on("bounding the states"); }, false};
+        return {e.boxes, seconds_of(e), [this] { return go_on(); }, false};
     }
     /// What such a search has spent, in boxes.
     [[nodiscard]] static std::size_t boxes_of(identification_problem const& p,
@@ -73,6 +78,7 @@ private:
     double all_;
     data_test_options test_;
     std::function<bool(std::string const&)> progress_;
+    std::string doing_;
     bool stopped_ = false;
     clock::time_point begin_ = clock::now();
 };
