@@ -4,6 +4,7 @@
 #include "support/random.hpp"
 #include "support/reference.hpp"
 
+#include <sivid/paving/data_test_options.hpp>
 #include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/local_response.hpp>
 
@@ -210,6 +211,13 @@ void check_kernels(std::uint64_t seed, int samples) {
             auto const part = part_of(d, p.prior, share);
             check_containment(d, p, *(*taylor)(initial, part), samples);
         }
+        // points have a kernel of their own
+        auto const initial = part_of(d, p.run.initial, 0.0);
+        auto const part = part_of(d, p.prior, 0.0);
+        auto const point = (*make_run(*p.equations, p.run, p.run.measurements, initial, part,
+                                      data_test_options{}.witness))(initial, part);
+        CHECK(point->table->size() == 1);
+        check_containment(d, p, *point, 1);
     }
 }
 
