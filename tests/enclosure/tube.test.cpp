@@ -26,19 +26,24 @@ enclosure_options coarse(std::size_t order, std::size_t variational, double tole
 }
 
 /// All systems with given options: complete where asked for, sampled over whatever was proved.
-void sweep(std::uint64_t seed, enclosure_options const& options, double share, int members,
-           bool complete) {
+/// @returns how many tubes did not get beyond the first step
+int sweep(std::uint64_t seed, enclosure_options const& options, double share, int members,
+          bool complete) {
     draws d(seed);
-    support::for_each_system([&](auto system) {
+    int none = 0;
+    auto const check = [&](auto system, bool rough) {
         system.initial = part_of(d, system.initial, share);
         system.parameters = part_of(d, system.parameters, share);
         CAPTURE(system.name);
         auto const tube = integrate<interval>(system.flow(), system.initial, system.parameters, 0,
                                               system.horizon, options);
         if (complete) CHECK(tube.complete());
-        REQUIRE(tube.end_time() > 0);
-        support::check_tube(system, tube, d, members);
-    });
+        none += tube.end_time() > 0 ? 0 : 1;
+        support::check_tube(system, tube, d, members, 12, rough);
+    };
+    support::for_each_rough_system([&](auto const& system) { check(system, true); });
+    support::for_each_smooth_system([&](auto const& system) { check(system, false); });
+    return none;
 }
 
 } // namespace
@@ -75,36 +80,38 @@ TEST_CASE("tubes of points contain the trajectory and are thin") {
 }
 
 TEST_CASE("tubes of boxes contain the trajectories of their members") {
-    sweep(202, {}, 0.3, 6, true);
-    sweep(203, {}, 1, 6, false);
+    CHECK(sweep(202, {}, 0.3, 6, true) == 0);
+    CHECK(sweep(203, {}, 1, 6, false) == 0);
 }
 
 TEST_CASE("low orders and long steps: the Lagrange terms alone") {
-    sweep(204, coarse(2, 0, 1e-3), 0.2, 4, false);
-    sweep(205, coarse(3, 1, 1e-2), 0.2, 4, false);
-    sweep(206, coarse(1, 0, 1e-2), 0.2, 4, false);
-    sweep(207, coarse(4, 2, 1e-1), 0, 4, false);
-    sweep(208, coarse(14, 1, 1e-6), 0.5, 4, false);
+    CHECK(sweep(204, coarse(2, 0, 1e-3), 0.2, 4, false) == 0);
+    CHECK(sweep(205, coarse(3, 1, 1e-2), 0.2, 4, false) == 0);
+    CHECK(sweep(206, coarse(1, 0, 1e-2), 0.2, 4, false) == 0);
+    CHECK(sweep(207, coarse(4, 2, 1e-1), 0, 4, false) == 0);
+    CHECK(sweep(208, coarse(14, 1, 1e-6), 0.5, 4, false) == 0);
 }
 
 TEST_CASE("Runge-Kutta methods") {
     for (auto const& method : {heun(), rk4()}) {
         auto options = coarse(14, 0, method.order == 2 ? 1e-5 : 1e-8);
         options.method = method;
-        sweep(209, options, 0.2, 3, false);
+        CHECK(sweep(209, options, 0.2, 3, false) == 0);
         options.order = 2; // below the method's own: for the other series only
-        sweep(210, options, 0, 2, false);
+        CHECK(sweep(210, options, 0, 2, false) == 0);
     }
 }
 
 TEST_CASE("tubes against samples, longer", "[.long]") {
+    int none = 0; // the shortest step is too long for some orders and tolerances
     for (std::uint64_t seed = 2000; seed < 2030; ++seed) {
         draws d(seed);
         enclosure_options o = coarse(1 + d.below(16), d.below(5), std::pow(10, -d.uniform(1, 13)));
         o.relative_tolerance = std::pow(10, -d.uniform(1, 6));
         if (d.below(4) == 0) o.method = d.coin() ? heun() : rk4();
-        sweep(seed, o, d.uniform(0, 1), 30, false);
+        none += sweep(seed, o, d.uniform(0, 1), 30, false);
     }
+    CHECK(none < 10);
 }
 
 TEST_CASE("the derivative's remainder is not short: x' = a x at its ends") {

@@ -47,13 +47,31 @@ inline bool some_start_explains(planted_problem const& planted, std::size_t e,
     // wrongly.
     std::vector<std::size_t> out;
     auto const search = [&](auto const& self, std::size_t next) -> bool {
-        held.experiments[0].measurements = without(samples, out);
         if (out.size() == own.outliers) {
             auto begin = tries;
             begin.push_back(sivid::mid(own.initial));
             for (auto const& start : begin) {
-                auto const fit = sivid::minimax_fitter(held)(p, {start});
-                if (!fit.starts.empty() && explains(fit.starts[0])) return true;
+                auto const kept = without(samples, out);
+                auto& bounds = held.experiments[0].measurements;
+                bounds = kept;
+                for (int round = 0; round < 3; ++round) {
+                    auto const fit = sivid::minimax_fitter(held)(p, {start});
+                    if (fit.starts.empty()) break;
+                    if (explains(fit.starts[0])) return true;
+                    // Where bounds are narrower than the fit's simulation is exact they are moved
+                    // by its error.
+                    auto exact = planted.simulate(e, p, fit.starts[0]);
+                    for (auto k = out.size(); k-- > 0;) {
+                        exact.erase(exact.begin() + static_cast<std::ptrdiff_t>(out[k]));
+                    }
+                    for (std::size_t k = 0; k < kept.size(); ++k) {
+                        double const plain =
+                            mid(bounds[k].bound) + fit.residuals[0][k] * rad(bounds[k].bound);
+                        double const error = plain - static_cast<double>(exact[k]);
+                        bounds[k].bound = sivid::interval(kept[k].bound.lower() + error,
+                                                          kept[k].bound.upper() + error);
+                    }
+                }
             }
             return false;
         }
