@@ -8,6 +8,7 @@
 #include <sivid/number/arithmetic.hpp>
 #include <sivid/number/bernstein.hpp>
 #include <sivid/number/cancellation.hpp>
+#include <sivid/number/coefficient_columns.hpp>
 #include <sivid/number/coefficient_rows.hpp>
 #include <sivid/number/decimal.hpp>
 #include <sivid/number/decimal_output.hpp>
@@ -86,6 +87,7 @@
 #include <sivid/enclosure/failure_advice.hpp>
 #include <sivid/enclosure/flow.hpp>
 #include <sivid/enclosure/forward_sensitivity.hpp>
+#include <sivid/enclosure/framed_radii.hpp>
 #include <sivid/enclosure/implicit_runge_kutta.hpp>
 #include <sivid/enclosure/implicit_stages.hpp>
 #include <sivid/enclosure/implicit_tableau.hpp>

@@ -2,6 +2,7 @@
 #ifndef SIVID_ENCLOSURE_EXPANSION_HPP
 #define SIVID_ENCLOSURE_EXPANSION_HPP
 
+#include <sivid/enclosure/detail/variation_columns.hpp>
 #include <sivid/enclosure/flow.hpp>
 #include <sivid/model/series.hpp>
 #include <sivid/number/lanes.hpp>
@@ -52,6 +53,18 @@ struct input_pieces {
     }
 };
 
+namespace enclosure_detail {
+/// What computes V with its columns side by side, where the lanes are not taken by boxes.
+template <class T>
+struct columns_of {
+    struct type {};
+};
+template <std::size_t N, std::size_t D>
+struct columns_of<taylor_model<N, D>> {
+    using type = variation_columns<N, D>;
+};
+} // namespace enclosure_detail
+
 /// Which derivatives of the flow an expansion computes.
 enum class variations {
     by_state,              ///< n columns
@@ -77,7 +90,9 @@ public:
           series_(*program_, max_order),
           x_(f.states() * stride_, arithmetic::point(0.0)),
           v_(f.states() * columns_ * stride_, arithmetic::point(0.0)) {
-        if constexpr (arithmetic::keeps_rows) v_rows_ = {f.states() * columns_, stride_};
+        if constexpr (arithmetic::keeps_rows) {
+            columns_at_once_ = {f, *program_, entries_, columns_, stride_};
+        }
     }
 
     template <class Box>
@@ -111,14 +126,25 @@ public:
         }
         for (std::size_t i = 0; i < n; ++i) {
             for (std::size_t c = 0; c < columns_; ++c) {
-                set_variation(i, c, 0, arithmetic::point(i == c ? 1.0 : 0.0));
+                v(i, c, 0) = arithmetic::point(i == c ? 1.0 : 0.0);
             }
         }
-        for (std::size_t k = 0; k < order; ++k) {
+        if constexpr (arithmetic::keeps_rows) {
+            columns_at_once_.expand(series_, order);
             for (std::size_t i = 0; i < n; ++i) {
-                for (std::size_t c = 0; c < columns_; ++c) {
-                    if (flow_->sensitive(i, c))
-                        set_variation(i, c, k + 1, over(next_variation(i, c, k), k + 1));
+                for (auto const c : columns_at_once_.columns(i)) {
+                    for (std::size_t k = 1; k <= order; ++k) {
+                        v(i, c, k) = columns_at_once_.get(i, c, k);
+                    }
+                }
+            }
+        } else {
+            for (std::size_t k = 0; k < order; ++k) {
+                for (std::size_t i = 0; i < n; ++i) {
+                    for (std::size_t c = 0; c < columns_; ++c) {
+                        if (flow_->sensitive(i, c))
+                            v(i, c, k + 1) = over(next_variation(i, c, k), k + 1);
+                    }
                 }
             }
         }
@@ -158,10 +184,6 @@ private:
     T& v(std::size_t i, std::size_t c, std::size_t k) {
         return v_[(i * columns_ + c) * stride_ + k];
     }
-    void set_variation(std::size_t i, std::size_t c, std::size_t k, T const& value) {
-        v(i, c, k) = value;
-        if constexpr (arithmetic::keeps_rows) v_rows_.put(i * columns_ + c, k, value);
-    }
     [[nodiscard]] auto state_at() const {
         return [this](std::size_t i, std::size_t k) -> T const& { return x_[i * stride_ + k]; };
     }
@@ -179,15 +201,6 @@ private:
             }
             if (!flow_->sensitive(e.column, c)) continue;
             std::size_t const last = varies ? k : 0;
-            if constexpr (arithmetic::keeps_rows) {
-                // V starts as the identity.
-                std::size_t const to =
-                    e.column == c ? last : std::min(last, k - std::min<std::size_t>(k, 1));
-                if (k >= 2 && to >= 2) {
-                    series_.add_convolution(sum, e.output, v_rows_, e.column * columns_ + c, k, to);
-                    continue;
-                }
-            }
             for (std::size_t j = 0; j <= last; ++j) {
                 if (k - j == 0 && e.column != c) continue; // V starts as the identity
                 sum.add_product(series_.output(e.output, j), v(e.column, c, k - j));
@@ -206,7 +219,7 @@ private:
     input_pieces<T> inputs_;
     std::vector<T> x_;
     std::vector<T> v_;
-    [[no_unique_address]] typename model_detail::rows_of<arithmetic>::type v_rows_;
+    [[no_unique_address]] typename enclosure_detail::columns_of<T>::type columns_at_once_;
     typename arithmetic::mask jumped_{};
 };
 

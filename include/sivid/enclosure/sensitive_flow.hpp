@@ -2,9 +2,9 @@
 #ifndef SIVID_ENCLOSURE_SENSITIVE_FLOW_HPP
 #define SIVID_ENCLOSURE_SENSITIVE_FLOW_HPP
 
-#include <sivid/enclosure/derivative_set.hpp>
 #include <sivid/enclosure/detail/expansion_tail.hpp>
 #include <sivid/enclosure/detail/power_sum.hpp>
+#include <sivid/enclosure/framed_radii.hpp>
 #include <sivid/enclosure/parametric_flow.hpp>
 
 #include <algorithm>
@@ -78,7 +78,7 @@ public:
         observe_.set_parameters(parameters_);
         centre_.assign(n * columns(), entry::constant(0.0));
         for (std::size_t i = 0; i < n; ++i) centre_[i * columns() + i] = entry::constant(1.0);
-        rest_ = framed_columns<interval>(n, columns());
+        rest_ = framed_radii(n, columns());
         exists_ = true;
         order_ = options_.order;
     }
@@ -102,7 +102,7 @@ public:
 
     /// \f$ \partial x_i / \partial (x_0, p)_c \f$ as a function of the unknowns.
     [[nodiscard]] entry derivative(std::size_t i, std::size_t c) const {
-        double const r = exists_ ? mag(rest_(i, c)) : std::numeric_limits<double>::infinity();
+        double const r = exists_ ? rest_(i, c) : std::numeric_limits<double>::infinity();
         return widened(centre_[i * columns() + c], r);
     }
 
@@ -285,11 +285,16 @@ private:
             order_ = L;
         }
         std::vector<entry> next(n * m);
-        interval_matrix<interval> lost(n, m), along(n, n);
-        using traits = interval_traits<interval>;
+        auto const rows = static_cast<Eigen::Index>(n);
+        Eigen::MatrixXd lost = Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(m));
+        Eigen::MatrixXd along = Eigen::MatrixXd::Zero(rows, rows);
+        Eigen::MatrixXd spread_along = along;
         for (std::size_t i = 0; i < n; ++i) {
             for (std::size_t l = 0; l < n; ++l) {
-                if (flow_->sensitive(i, l)) along(i, l) = range(map[i * m + l]);
+                if (!flow_->sensitive(i, l)) continue;
+                auto const entries = range(map[i * m + l]);
+                at(along, i, l) = mid(entries);
+                at(spread_along, i, l) = rad(entries);
             }
             for (std::size_t c = 0; c < m; ++c) {
                 if (!flow_->sensitive(i, c)) continue;
@@ -300,14 +305,17 @@ private:
                 }
                 if (c >= n) sum.add(map[i * m + c]);
                 auto image = sum.result();
-                lost(i, c) =
-                    std::isfinite(image.r) ? traits::bounds(-image.r, image.r) : traits::entire();
+                at(lost, i, c) = image.r;
                 image.r = 0;
                 next[i * m + c] = std::move(image);
             }
         }
         centre_ = std::move(next);
-        rest_.map(along, lost);
+        rest_.map(along, spread_along, lost);
+    }
+
+    static double& at(Eigen::MatrixXd& a, std::size_t i, std::size_t j) {
+        return a(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
     }
 
     flow const* flow_;
@@ -320,8 +328,8 @@ private:
     std::vector<entry> parameters_;
     std::vector<tube_entry> tube_parameters_;
     std::vector<entry> around_;
-    std::vector<entry> centre_;     ///< K, radii 0, n x columns
-    framed_columns<interval> rest_; ///< B R
+    std::vector<entry> centre_; ///< K, radii 0, n x columns
+    framed_radii rest_;         ///< B R
     bool exists_ = false;
     std::size_t order_ = 8; ///< L to try next
 };

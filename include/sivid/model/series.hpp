@@ -128,14 +128,6 @@ public:
         advance(program_->principal_varying(), program_->varying().size(), k, state, input);
     }
 
-    /// Adds \f$ \sum_{j=0}^{to} o_j v_{k-j} \f$, o an output that varies and is not principal.
-    void add_convolution(typename arithmetic::accumulator& sum, std::size_t o,
-                         typename model_detail::rows_of<arithmetic>::type const& rows,
-                         std::size_t v, std::size_t k, std::size_t to) const
-        requires(arithmetic::keeps_rows) {
-        sum.add_convolution(rows_, row_[program_->output(o)], rows, v, k, 0, to);
-    }
-
 private:
     static constexpr std::size_t no_row = ~std::size_t{0};
     /// Fewer products than that are faster one by one.

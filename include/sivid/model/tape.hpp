@@ -185,12 +185,6 @@ private:
             convolve(t.a);
             convolve(t.b);
         }
-        // Entries of a Jacobian are convolved with the columns that it multiplies.
-        if (first_kept_output > 0) {
-            for (std::size_t k = first_kept_output; k < outputs_.size(); ++k) {
-                if (output_varies_[k]) convolve(outputs_[k]);
-            }
-        }
         // What comes later is evaluated when the principal part has gone on to higher orders.
         std::vector<bool> principal(slots_, false);
         for (std::size_t k = 0; k < varying_.size(); ++k) {

@@ -61,40 +61,46 @@ template <class I>
     return true;
 }
 
-/// An orthogonal frame whose first axes follow the longest columns of `a`, so that boxing in it
-/// wraps least. Falls back to the identity when `a` is not finite or the factorisation fails.
+/// Nearly orthogonal axes whose first ones follow the longest columns of `a`, so that boxing along
+/// them wraps least; the identity when `a` is not finite or the factorisation fails. Nothing is
+/// proved.
 /// @param a        n x n
 /// @param weights  the length of each column in the set to be carried, n values
-/// @guarantee  `inverse` encloses the inverse of `axes`; no property of `a` is trusted.
 /// @cost  O(n^3)
 /// @ref   Lohner 1987 (QR with column pivoting by size); Nedialkov and Jackson 2001, section 3.
-template <class I>
-[[nodiscard]] orthogonal_frame<I> make_frame(Eigen::MatrixXd const& a,
-                                             std::vector<double> const& weights) {
+[[nodiscard]] inline Eigen::MatrixXd orthogonal_axes(Eigen::MatrixXd const& a,
+                                                     std::vector<double> const& weights) {
     auto const n = a.rows();
-    orthogonal_frame<I> frame{Eigen::MatrixXd::Identity(n, n),
-                              interval_matrix<I>::identity(static_cast<std::size_t>(n))};
-    if (!a.allFinite()) return frame;
+    Eigen::MatrixXd const straight = Eigen::MatrixXd::Identity(n, n);
+    if (!a.allFinite()) return straight;
     std::vector<Eigen::Index> order(static_cast<std::size_t>(n));
     std::iota(order.begin(), order.end(), Eigen::Index{0});
     std::vector<double> length(static_cast<std::size_t>(n));
     for (Eigen::Index j = 0; j < n; ++j) {
         auto const k = static_cast<std::size_t>(j);
         length[k] = a.col(j).norm() * weights[k];
-        if (!(length[k] >= 0)) return frame;
+        if (!(length[k] >= 0)) return straight;
     }
     std::stable_sort(order.begin(), order.end(), [&](Eigen::Index i, Eigen::Index j) {
         return length[static_cast<std::size_t>(i)] > length[static_cast<std::size_t>(j)];
     });
     Eigen::MatrixXd sorted(n, n);
     for (Eigen::Index j = 0; j < n; ++j) sorted.col(j) = a.col(order[static_cast<std::size_t>(j)]);
-    Eigen::MatrixXd const q = Eigen::HouseholderQR<Eigen::MatrixXd>(sorted).householderQ();
+    Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(sorted).householderQ();
+    return q.allFinite() ? q : straight;
+}
+
+/// `orthogonal_axes` with a proven inverse; the identity where that fails.
+/// @guarantee  `inverse` encloses the inverse of `axes`; no property of `a` is trusted.
+template <class I>
+[[nodiscard]] orthogonal_frame<I> make_frame(Eigen::MatrixXd const& a,
+                                             std::vector<double> const& weights) {
+    auto const n = a.rows();
+    auto q = orthogonal_axes(a, weights);
     interval_matrix<I> inverse;
-    if (q.allFinite() && enclose_inverse<I>(q, inverse)) {
-        frame.axes = q;
-        frame.inverse = std::move(inverse);
-    }
-    return frame;
+    if (enclose_inverse<I>(q, inverse)) return {std::move(q), std::move(inverse)};
+    return {Eigen::MatrixXd::Identity(n, n),
+            interval_matrix<I>::identity(static_cast<std::size_t>(n))};
 }
 
 } // namespace sivid

@@ -114,9 +114,9 @@ public:
         std::size_t b, std::size_t k, std::size_t from, std::size_t to, double factor = 1,
         convolution_weight weight = convolution_weight::one) requires(std::is_same_v<C, double>) {
         using rows = coefficient_rows<N, D>;
-        if (blocks_ == 0) side_by_side_.fill(0.0);
+        bool const fresh = blocks_ == 0;
         blocks_ += static_cast<double>(to / rows::at_once - from / rows::at_once + 1);
-        convolution_kernel<N, D>::add(side_by_side_.data(), left.begin(a), left.pitch(),
+        convolution_kernel<N, D>::add(side_by_side_.data(), fresh, left.begin(a), left.pitch(),
                                       right.begin(b), right.pitch(), k, from, to, factor, weight);
     }
     [[nodiscard]] model result() const {
