@@ -141,7 +141,7 @@ private:
 
 scenario_description parse_scenario(std::string const& name, std::string const& text,
                                     sivid::model_names const& model) {
-    return scenario_reader(model).read(sivid::json_builder{name}.parse(text));
+    return scenario_reader(model).read(sivid::parse_json(name, text));
 }
 
 scenario_description read_scenario(std::filesystem::path const& file,

@@ -7,7 +7,7 @@
 using namespace sivid;
 
 namespace {
-json_value parse(std::string const& text) { return json_builder{"a.json"}.parse(text); }
+json_value parse(std::string const& text) { return parse_json("a.json", text); }
 } // namespace
 
 TEST_CASE("numbers keep the text of the file") {

@@ -7,7 +7,7 @@ using namespace sivid;
 namespace entries = sivid::mapping_entries;
 
 namespace {
-json_value entry(std::string const& text) { return json_builder{"m.json"}.parse(text); }
+json_value entry(std::string const& text) { return parse_json("m.json", text); }
 } // namespace
 
 TEST_CASE("names can head a column") {

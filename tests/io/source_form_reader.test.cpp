@@ -7,7 +7,7 @@ using namespace sivid;
 using io_support::dec;
 
 namespace {
-json_value entry(std::string const& text) { return json_builder{"m.json"}.parse(text); }
+json_value entry(std::string const& text) { return parse_json("m.json", text); }
 } // namespace
 
 TEST_CASE("the form of a table") {

@@ -2,6 +2,7 @@
 #ifndef SIVID_IO_EXACT_DECIMAL_HPP
 #define SIVID_IO_EXACT_DECIMAL_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/number/decimal.hpp>
 
 #include <algorithm>
@@ -29,65 +30,14 @@ public:
 
     /// Reads `[+-] digits [. digits] [e [+-] digits]`; at least one digit; nothing else around it.
     /// @returns nothing when malformed, or when digits or exponent pass the limits above
-    [[nodiscard]] static std::optional<exact_decimal> parse(std::string_view text) {
-        exact_decimal result;
-        if (!text.empty() && (text.front() == '+' || text.front() == '-')) {
-            result.negative_ = text.front() == '-';
-            text.remove_prefix(1);
-        }
-        bool any_digit = false, after_point = false;
-        while (!text.empty()) {
-            char const c = text.front();
-            if (c >= '0' && c <= '9') {
-                result.digits_ += c;
-                any_digit = true;
-                if (after_point) --result.exponent_;
-            } else if (c == '.' && !after_point) {
-                after_point = true;
-            } else {
-                break;
-            }
-            text.remove_prefix(1);
-        }
-        if (!any_digit) return std::nullopt;
-        long stated = 0;
-        if (!text.empty()) {
-            if (text.front() != 'e' && text.front() != 'E') return std::nullopt;
-            text.remove_prefix(1);
-            if (!text.empty() && text.front() == '+') {
-                text.remove_prefix(1);
-                if (!text.empty() && text.front() == '-') return std::nullopt;
-            }
-            auto const [end, fault] =
-                std::from_chars(text.data(), text.data() + text.size(), stated);
-            if (end != text.data() + text.size() || text.empty()) return std::nullopt;
-            if (fault != std::errc{}) return std::nullopt;
-        }
-        result.normalise();
-        if (result.is_zero()) return exact_decimal{};
-        if (result.digits_.size() > most_digits || std::abs(stated) > largest_exponent)
-            return std::nullopt;
-        result.exponent_ += stated;
-        if (std::abs(result.exponent_) > 2 * largest_exponent) return std::nullopt;
-        return result;
-    }
+    [[nodiscard]] static std::optional<exact_decimal> parse(std::string_view text);
 
     /// The shortest decimal that reads back as `value` (zero for what is not finite).
-    [[nodiscard]] static exact_decimal shortest(double value) {
-        char buffer[64];
-        auto const end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-        return parse({buffer, static_cast<std::size_t>(end - buffer)}).value_or(exact_decimal{});
-    }
+    [[nodiscard]] static exact_decimal shortest(double value);
 
     /// `value` rounded to so many digits after the point.
     /// @given  a magnitude below 1e300 and places <= 300 (trusted)
-    [[nodiscard]] static exact_decimal rounded(double value, int places) {
-        char buffer[700];
-        auto const end =
-            std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, places)
-                .ptr;
-        return parse({buffer, static_cast<std::size_t>(end - buffer)}).value_or(exact_decimal{});
-    }
+    [[nodiscard]] static exact_decimal rounded(double value, int places);
 
     [[nodiscard]] bool is_zero() const { return digits_.empty(); }
     [[nodiscard]] bool is_positive() const { return !is_zero() && !negative_; }
@@ -100,26 +50,7 @@ public:
     }
 
     [[nodiscard]] friend exact_decimal operator+(exact_decimal const& a, exact_decimal const& b) {
-        auto const exponent = std::min(a.exponent_, b.exponent_);
-        auto x = a.digits_at(exponent), y = b.digits_at(exponent);
-        auto const width = std::max(x.size(), y.size()) + 1;
-        x.insert(0, width - x.size(), '0');
-        y.insert(0, width - y.size(), '0');
-
-        exact_decimal result;
-        result.exponent_ = exponent;
-        if (a.negative_ == b.negative_) {
-            result.negative_ = a.negative_;
-            result.digits_ = combine(x, y, +1);
-        } else if (x >= y) { // same length: text order is number order
-            result.negative_ = a.negative_;
-            result.digits_ = combine(x, y, -1);
-        } else {
-            result.negative_ = b.negative_;
-            result.digits_ = combine(y, x, -1);
-        }
-        result.normalise();
-        return result;
+        return sum(a, b);
     }
     [[nodiscard]] friend exact_decimal operator-(exact_decimal const& a, exact_decimal const& b) {
         return a + (-b);
@@ -127,93 +58,20 @@ public:
 
     /// x n, for n below 1e18. Named, because Boost's interval converts from everything and would
     /// make `*` ambiguous.
-    [[nodiscard]] exact_decimal times(std::size_t n) const {
-        exact_decimal result;
-        if (is_zero() || n == 0) return result;
-        std::string reversed;
-        // carry < n + 1, so 9 n + carry must fit: n below 1e18
-        std::size_t carry = 0;
-        for (auto d = digits_.rbegin(); d != digits_.rend(); ++d) {
-            carry += static_cast<std::size_t>(*d - '0') * n;
-            reversed += static_cast<char>('0' + carry % 10);
-            carry /= 10;
-        }
-        for (; carry > 0; carry /= 10) reversed += static_cast<char>('0' + carry % 10);
-        result.negative_ = negative_;
-        result.exponent_ = exponent_;
-        result.digits_.assign(reversed.rbegin(), reversed.rend());
-        result.normalise();
-        return result;
-    }
+    [[nodiscard]] exact_decimal times(std::size_t n) const;
 
     /// x y, exactly.
     /// @cost  the product of the counts of digits
-    [[nodiscard]] exact_decimal times(exact_decimal const& y) const {
-        exact_decimal result;
-        if (is_zero() || y.is_zero()) return result;
-        std::vector<unsigned> sums(digits_.size() + y.digits_.size(), 0); // last digit first
-        for (std::size_t i = 0; i < digits_.size(); ++i) {
-            auto const d = static_cast<unsigned>(digits_[digits_.size() - 1 - i] - '0');
-            for (std::size_t j = 0; j < y.digits_.size(); ++j)
-                sums[i + j] += d * static_cast<unsigned>(y.digits_[y.digits_.size() - 1 - j] - '0');
-        }
-        for (std::size_t i = 0; i + 1 < sums.size(); ++i) {
-            sums[i + 1] += sums[i] / 10;
-            sums[i] %= 10;
-        }
-        for (auto s = sums.rbegin(); s != sums.rend(); ++s)
-            result.digits_ += static_cast<char>('0' + *s);
-        result.negative_ = negative_ != y.negative_;
-        result.exponent_ = exponent_ + y.exponent_;
-        result.normalise();
-        return result;
-    }
+    [[nodiscard]] exact_decimal times(exact_decimal const& y) const;
 
     /// The tightest pair lower <= x / n <= upper of decimals with at most so many digits; both are
     /// the quotient where it has no more.
     /// @given  0 < n <= 1e18, digits > 0 (trusted)
     [[nodiscard]] std::pair<exact_decimal, exact_decimal> divided_by(std::size_t n,
-                                                                     std::size_t digits) const {
-        exact_decimal near;
-        if (is_zero()) return {near, near};
-        near.negative_ = negative_;
-        near.exponent_ = exponent_ + static_cast<long>(digits_.size());
-        std::size_t rest = 0, i = 0;
-        while ((i < digits_.size() || rest != 0) && near.digits_.size() < digits) {
-            rest =
-                rest * 10 + (i < digits_.size() ? static_cast<std::size_t>(digits_[i] - '0') : 0);
-            ++i;
-            --near.exponent_;
-            if (!near.digits_.empty() || rest >= n)
-                near.digits_ += static_cast<char>('0' + rest / n);
-            rest %= n;
-        }
-        bool const exact = rest == 0 && i >= digits_.size();
-        exact_decimal last; // one unit of the last digit, away from zero
-        last.negative_ = negative_;
-        last.digits_ = "1";
-        last.exponent_ = near.exponent_;
-        near.normalise();
-        if (exact) return {near, near};
-        auto const far = near + last;
-        return negative_ ? std::pair{far, near} : std::pair{near, far};
-    }
+                                                                     std::size_t digits) const;
 
     /// floor(x) for 0 <= x < 1e18.
-    [[nodiscard]] std::size_t floor() const {
-        if (is_zero() || negative_) return 0;
-        auto whole = digits_;
-        if (exponent_ >= 0) {
-            whole.append(static_cast<std::size_t>(exponent_), '0');
-        } else {
-            auto const cut = static_cast<std::size_t>(-exponent_);
-            if (cut >= whole.size()) return 0;
-            whole.resize(whole.size() - cut);
-        }
-        std::size_t result = 0;
-        std::from_chars(whole.data(), whole.data() + whole.size(), result);
-        return result;
-    }
+    [[nodiscard]] std::size_t floor() const;
 
     [[nodiscard]] friend bool operator==(exact_decimal const& a, exact_decimal const& b) = default;
     [[nodiscard]] friend bool operator<(exact_decimal const& a, exact_decimal const& b) {
@@ -221,54 +79,18 @@ public:
     }
 
     /// Plain notation where it is short ("0.0042", "-1250"), otherwise with an exponent.
-    [[nodiscard]] std::string text() const {
-        if (is_zero()) return "0";
-        std::string const sign = negative_ ? "-" : "";
-        auto const count = static_cast<long>(digits_.size());
-        if (exponent_ >= 0 && count + exponent_ <= 17)
-            return sign + digits_ + std::string(static_cast<std::size_t>(exponent_), '0');
-        if (exponent_ < 0 && count + exponent_ > 0) {
-            auto const whole = static_cast<std::size_t>(count + exponent_);
-            return sign + digits_.substr(0, whole) + "." + digits_.substr(whole);
-        }
-        if (exponent_ < 0 && count + exponent_ > -6)
-            return sign + "0." + std::string(static_cast<std::size_t>(-(count + exponent_)), '0') +
-                   digits_;
-        auto const fraction = digits_.substr(1);
-        return sign + digits_.substr(0, 1) + (fraction.empty() ? "" : "." + fraction) + "e" +
-               std::to_string(exponent_ + count - 1);
-    }
+    [[nodiscard]] std::string text() const;
 
 private:
+    static exact_decimal sum(exact_decimal const& a, exact_decimal const& b);
+
     /// Digit-wise x + y or x - y for texts of one length; the difference must not be negative.
-    static std::string combine(std::string const& x, std::string const& y, int sign) {
-        std::string result(x.size(), '0');
-        int carry = 0;
-        for (auto i = x.size(); i-- > 0;) {
-            int digit = (x[i] - '0') + sign * (y[i] - '0') + carry;
-            carry = digit < 0 ? -1 : digit / 10;
-            digit -= 10 * carry;
-            result[i] = static_cast<char>('0' + digit);
-        }
-        return result;
-    }
+    static std::string combine(std::string const& x, std::string const& y, int sign);
 
     /// The digits of the integer |x| 10^-exponent, for an exponent not above that of x.
-    [[nodiscard]] std::string digits_at(long exponent) const {
-        if (is_zero()) return {};
-        return digits_ + std::string(static_cast<std::size_t>(exponent_ - exponent), '0');
-    }
+    [[nodiscard]] std::string digits_at(long exponent) const;
 
-    void normalise() {
-        digits_.erase(0, std::min(digits_.find_first_not_of('0'), digits_.size()));
-        auto const last = digits_.find_last_not_of('0');
-        if (last == std::string::npos) {
-            *this = exact_decimal{};
-            return;
-        }
-        exponent_ += static_cast<long>(digits_.size() - last - 1);
-        digits_.resize(last + 1);
-    }
+    void normalise();
 
     bool negative_ = false;
     std::string digits_;
@@ -276,23 +98,237 @@ private:
 };
 
 /// The tightest interval around a decimal; nothing when it is beyond the largest double.
-[[nodiscard]] inline std::optional<interval> enclose(exact_decimal const& x) {
-    return parse_decimal(x.text());
-}
+[[nodiscard]] SIVID_ENTRY std::optional<interval> enclose(exact_decimal const& x);
 
 /// The tightest interval around [lower, upper]; nothing when it is beyond the largest double.
 /// @given  lower <= upper (trusted)
-[[nodiscard]] inline std::optional<interval> enclose(exact_decimal const& lower,
-                                                     exact_decimal const& upper) {
+[[nodiscard]] SIVID_ENTRY std::optional<interval> enclose(exact_decimal const& lower,
+                                                          exact_decimal const& upper);
+
+/// The nearest double; nothing when it is beyond the largest one.
+[[nodiscard]] SIVID_ENTRY std::optional<double> nearest(exact_decimal const& x);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_EXACT_DECIMAL)
+SIVID_ENTRY std::optional<exact_decimal> exact_decimal::parse(std::string_view text) {
+    exact_decimal result;
+    if (!text.empty() && (text.front() == '+' || text.front() == '-')) {
+        result.negative_ = text.front() == '-';
+        text.remove_prefix(1);
+    }
+    bool any_digit = false, after_point = false;
+    while (!text.empty()) {
+        char const c = text.front();
+        if (c >= '0' && c <= '9') {
+            result.digits_ += c;
+            any_digit = true;
+            if (after_point) --result.exponent_;
+        } else if (c == '.' && !after_point) {
+            after_point = true;
+        } else {
+            break;
+        }
+        text.remove_prefix(1);
+    }
+    if (!any_digit) return std::nullopt;
+    long stated = 0;
+    if (!text.empty()) {
+        if (text.front() != 'e' && text.front() != 'E') return std::nullopt;
+        text.remove_prefix(1);
+        if (!text.empty() && text.front() == '+') {
+            text.remove_prefix(1);
+            if (!text.empty() && text.front() == '-') return std::nullopt;
+        }
+        auto const [end, fault] = std::from_chars(text.data(), text.data() + text.size(), stated);
+        if (end != text.data() + text.size() || text.empty()) return std::nullopt;
+        if (fault != std::errc{}) return std::nullopt;
+    }
+    result.normalise();
+    if (result.is_zero()) return exact_decimal{};
+    if (result.digits_.size() > most_digits || std::abs(stated) > largest_exponent)
+        return std::nullopt;
+    result.exponent_ += stated;
+    if (std::abs(result.exponent_) > 2 * largest_exponent) return std::nullopt;
+    return result;
+}
+
+SIVID_ENTRY exact_decimal exact_decimal::shortest(double value) {
+    char buffer[64];
+    auto const end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+    return parse({buffer, static_cast<std::size_t>(end - buffer)}).value_or(exact_decimal{});
+}
+
+SIVID_ENTRY exact_decimal exact_decimal::rounded(double value, int places) {
+    char buffer[700];
+    auto const end =
+        std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, places).ptr;
+    return parse({buffer, static_cast<std::size_t>(end - buffer)}).value_or(exact_decimal{});
+}
+
+SIVID_ENTRY exact_decimal exact_decimal::sum(exact_decimal const& a, exact_decimal const& b) {
+    auto const exponent = std::min(a.exponent_, b.exponent_);
+    auto x = a.digits_at(exponent), y = b.digits_at(exponent);
+    auto const width = std::max(x.size(), y.size()) + 1;
+    x.insert(0, width - x.size(), '0');
+    y.insert(0, width - y.size(), '0');
+
+    exact_decimal result;
+    result.exponent_ = exponent;
+    if (a.negative_ == b.negative_) {
+        result.negative_ = a.negative_;
+        result.digits_ = combine(x, y, +1);
+    } else if (x >= y) { // same length: text order is number order
+        result.negative_ = a.negative_;
+        result.digits_ = combine(x, y, -1);
+    } else {
+        result.negative_ = b.negative_;
+        result.digits_ = combine(y, x, -1);
+    }
+    result.normalise();
+    return result;
+}
+
+SIVID_ENTRY exact_decimal exact_decimal::times(std::size_t n) const {
+    exact_decimal result;
+    if (is_zero() || n == 0) return result;
+    std::string reversed;
+    // carry < n + 1, so 9 n + carry must fit: n below 1e18
+    std::size_t carry = 0;
+    for (auto d = digits_.rbegin(); d != digits_.rend(); ++d) {
+        carry += static_cast<std::size_t>(*d - '0') * n;
+        reversed += static_cast<char>('0' + carry % 10);
+        carry /= 10;
+    }
+    for (; carry > 0; carry /= 10) reversed += static_cast<char>('0' + carry % 10);
+    result.negative_ = negative_;
+    result.exponent_ = exponent_;
+    result.digits_.assign(reversed.rbegin(), reversed.rend());
+    result.normalise();
+    return result;
+}
+
+SIVID_ENTRY exact_decimal exact_decimal::times(exact_decimal const& y) const {
+    exact_decimal result;
+    if (is_zero() || y.is_zero()) return result;
+    std::vector<unsigned> sums(digits_.size() + y.digits_.size(), 0); // last digit first
+    for (std::size_t i = 0; i < digits_.size(); ++i) {
+        auto const d = static_cast<unsigned>(digits_[digits_.size() - 1 - i] - '0');
+        for (std::size_t j = 0; j < y.digits_.size(); ++j)
+            sums[i + j] += d * static_cast<unsigned>(y.digits_[y.digits_.size() - 1 - j] - '0');
+    }
+    for (std::size_t i = 0; i + 1 < sums.size(); ++i) {
+        sums[i + 1] += sums[i] / 10;
+        sums[i] %= 10;
+    }
+    for (auto s = sums.rbegin(); s != sums.rend(); ++s)
+        result.digits_ += static_cast<char>('0' + *s);
+    result.negative_ = negative_ != y.negative_;
+    result.exponent_ = exponent_ + y.exponent_;
+    result.normalise();
+    return result;
+}
+
+SIVID_ENTRY std::pair<exact_decimal, exact_decimal>
+exact_decimal::divided_by(std::size_t n, std::size_t digits) const {
+    exact_decimal near;
+    if (is_zero()) return {near, near};
+    near.negative_ = negative_;
+    near.exponent_ = exponent_ + static_cast<long>(digits_.size());
+    std::size_t rest = 0, i = 0;
+    while ((i < digits_.size() || rest != 0) && near.digits_.size() < digits) {
+        rest = rest * 10 + (i < digits_.size() ? static_cast<std::size_t>(digits_[i] - '0') : 0);
+        ++i;
+        --near.exponent_;
+        if (!near.digits_.empty() || rest >= n) near.digits_ += static_cast<char>('0' + rest / n);
+        rest %= n;
+    }
+    bool const exact = rest == 0 && i >= digits_.size();
+    exact_decimal last; // one unit of the last digit, away from zero
+    last.negative_ = negative_;
+    last.digits_ = "1";
+    last.exponent_ = near.exponent_;
+    near.normalise();
+    if (exact) return {near, near};
+    auto const far = near + last;
+    return negative_ ? std::pair{far, near} : std::pair{near, far};
+}
+
+SIVID_ENTRY std::size_t exact_decimal::floor() const {
+    if (is_zero() || negative_) return 0;
+    auto whole = digits_;
+    if (exponent_ >= 0) {
+        whole.append(static_cast<std::size_t>(exponent_), '0');
+    } else {
+        auto const cut = static_cast<std::size_t>(-exponent_);
+        if (cut >= whole.size()) return 0;
+        whole.resize(whole.size() - cut);
+    }
+    std::size_t result = 0;
+    std::from_chars(whole.data(), whole.data() + whole.size(), result);
+    return result;
+}
+
+SIVID_ENTRY std::string exact_decimal::text() const {
+    if (is_zero()) return "0";
+    std::string const sign = negative_ ? "-" : "";
+    auto const count = static_cast<long>(digits_.size());
+    if (exponent_ >= 0 && count + exponent_ <= 17)
+        return sign + digits_ + std::string(static_cast<std::size_t>(exponent_), '0');
+    if (exponent_ < 0 && count + exponent_ > 0) {
+        auto const whole = static_cast<std::size_t>(count + exponent_);
+        return sign + digits_.substr(0, whole) + "." + digits_.substr(whole);
+    }
+    if (exponent_ < 0 && count + exponent_ > -6)
+        return sign + "0." + std::string(static_cast<std::size_t>(-(count + exponent_)), '0') +
+               digits_;
+    auto const fraction = digits_.substr(1);
+    return sign + digits_.substr(0, 1) + (fraction.empty() ? "" : "." + fraction) + "e" +
+           std::to_string(exponent_ + count - 1);
+}
+
+SIVID_ENTRY std::string exact_decimal::combine(std::string const& x, std::string const& y,
+                                               int sign) {
+    std::string result(x.size(), '0');
+    int carry = 0;
+    for (auto i = x.size(); i-- > 0;) {
+        int digit = (x[i] - '0') + sign * (y[i] - '0') + carry;
+        carry = digit < 0 ? -1 : digit / 10;
+        digit -= 10 * carry;
+        result[i] = static_cast<char>('0' + digit);
+    }
+    return result;
+}
+
+SIVID_ENTRY std::string exact_decimal::digits_at(long exponent) const {
+    if (is_zero()) return {};
+    return digits_ + std::string(static_cast<std::size_t>(exponent_ - exponent), '0');
+}
+
+SIVID_ENTRY void exact_decimal::normalise() {
+    digits_.erase(0, std::min(digits_.find_first_not_of('0'), digits_.size()));
+    auto const last = digits_.find_last_not_of('0');
+    if (last == std::string::npos) {
+        *this = exact_decimal{};
+        return;
+    }
+    exponent_ += static_cast<long>(digits_.size() - last - 1);
+    digits_.resize(last + 1);
+}
+
+SIVID_ENTRY std::optional<interval> enclose(exact_decimal const& x) {
+    return parse_decimal(x.text());
+}
+
+SIVID_ENTRY std::optional<interval> enclose(exact_decimal const& lower,
+                                            exact_decimal const& upper) {
     auto const a = parse_decimal(lower.text()), b = parse_decimal(upper.text());
     if (!a || !b) return std::nullopt;
     return hull(*a, *b);
 }
 
-/// The nearest double; nothing when it is beyond the largest one.
-[[nodiscard]] inline std::optional<double> nearest(exact_decimal const& x) {
+SIVID_ENTRY std::optional<double> nearest(exact_decimal const& x) {
     return parse_nearest(x.text());
 }
+#endif
 
 } // namespace sivid
 

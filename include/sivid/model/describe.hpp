@@ -2,6 +2,7 @@
 #ifndef SIVID_MODEL_DESCRIBE_HPP
 #define SIVID_MODEL_DESCRIBE_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/model/graph_listing.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/number/nearest_text.hpp>
@@ -13,10 +14,28 @@
 
 namespace sivid {
 
+/// A model as text: names and units of states, inputs, channels and constants, and the recorded
+/// graph as numbered lines. A line says whether it is computed once for each box of parameters
+/// ("parameters only"), once for each scenario ("inputs only"), how often its value is used, and
+/// whether only the Taylor series of another line needs it. Literals are shown as decimals.
+/// @cost  O(size of the graph)
+[[nodiscard]] SIVID_ENTRY std::string describe(recorded_model const& model);
+
+/// The same of a model whose constants are bound: its unknown parameters, and the graph in which
+/// everything else is folded. The derivatives are counted, not listed.
+[[nodiscard]] SIVID_ENTRY std::string describe(bound_model const& model);
+
+/// `describe(model{})` of a functor: records it first.
+template <dynamic_model M>
+[[nodiscard]] std::string describe(M const& model) {
+    return describe(record_model(model));
+}
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_DESCRIBE)
 namespace model_detail {
 
 /// Rows of cells, each column as wide as its widest cell.
-[[nodiscard]] inline std::string aligned(std::vector<std::vector<std::string>> const& rows) {
+[[nodiscard]] SIVID_ENTRY std::string aligned(std::vector<std::vector<std::string>> const& rows) {
     std::vector<std::size_t> widths;
     for (auto const& row : rows) {
         widths.resize(std::max(widths.size(), row.size()), 0);
@@ -34,14 +53,16 @@ namespace model_detail {
     return text;
 }
 
-[[nodiscard]] inline std::string section(std::string const& title,
-                                         std::vector<std::vector<std::string>> const& rows) {
+[[nodiscard]] SIVID_ENTRY std::string section(std::string const& title,
+                                              std::vector<std::vector<std::string>> const& rows) {
     return title + "\n" + (rows.empty() ? "  none\n" : aligned(rows));
 }
 
-[[nodiscard]] inline std::string bracketed(std::string const& unit) { return "[" + unit + "]"; }
+[[nodiscard]] SIVID_ENTRY std::string bracketed(std::string const& unit) {
+    return "[" + unit + "]";
+}
 
-[[nodiscard]] inline std::string describe_names(model_description const& about) {
+[[nodiscard]] SIVID_ENTRY std::string describe_names(model_description const& about) {
     std::vector<std::vector<std::string>> states, inputs, channels;
     for (auto const& s : about.states) {
         states.push_back({s.name, bracketed(s.unit), "|" + s.name + "| <= " + nearest_text(s.limit),
@@ -53,7 +74,7 @@ namespace model_detail {
 }
 
 /// The graph as numbered lines, and what each rate and channel is.
-[[nodiscard]] inline std::string describe_graph(graph_listing const& listing) {
+[[nodiscard]] SIVID_ENTRY std::string describe_graph(graph_listing const& listing) {
     std::vector<std::vector<std::string>> rows, outputs;
     for (auto const& l : listing.lines()) {
         if (l.number == 0) continue;
@@ -80,12 +101,7 @@ namespace model_detail {
 
 } // namespace model_detail
 
-/// A model as text: names and units of states, inputs, channels and constants, and the recorded
-/// graph as numbered lines. A line says whether it is computed once for each box of parameters
-/// ("parameters only"), once for each scenario ("inputs only"), how often its value is used, and
-/// whether only the Taylor series of another line needs it. Literals are shown as decimals.
-/// @cost  O(size of the graph)
-[[nodiscard]] inline std::string describe(recorded_model const& model) {
+SIVID_ENTRY std::string describe(recorded_model const& model) {
     using namespace model_detail;
     auto const& about = model.about;
     std::vector<std::vector<std::string>> constants, delays;
@@ -104,9 +120,7 @@ namespace model_detail {
            (delays.empty() ? "" : section("delays", delays)) + describe_graph(graph_listing(model));
 }
 
-/// The same of a model whose constants are bound: its unknown parameters, and the graph in which
-/// everything else is folded. The derivatives are counted, not listed.
-[[nodiscard]] inline std::string describe(bound_model const& model) {
+SIVID_ENTRY std::string describe(bound_model const& model) {
     using namespace model_detail;
     auto const& about = model.about;
     std::vector<std::vector<std::string>> unknown;
@@ -141,12 +155,7 @@ namespace model_detail {
            section("unknown parameters", unknown) + describe_graph(graph_listing(model)) +
            section("derivatives", derivatives);
 }
-
-/// `describe(model{})` of a functor: records it first.
-template <dynamic_model M>
-[[nodiscard]] std::string describe(M const& model) {
-    return describe(record_model(model));
-}
+#endif
 
 } // namespace sivid
 

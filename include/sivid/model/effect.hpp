@@ -52,69 +52,31 @@ class effect_scope {
 public:
     [[nodiscard]] expression const& time() const { return time_; }
     /// The effect's own k-th parameter.
-    [[nodiscard]] expression const& parameter(std::size_t k = 0) const {
-        return constants_.at(first_parameter_ + k);
-    }
-    [[nodiscard]] expression const& state(std::string const& name) const {
-        return states_[index_of(model_->about.states, name, "state")];
-    }
+    [[nodiscard]] expression const& parameter(std::size_t k = 0) const;
+    [[nodiscard]] expression const& state(std::string const& name) const;
     /// The constant, as the model sees it.
-    [[nodiscard]] expression& constant(std::string const& name) {
-        return constants_[index_of(model_->about.constants, name, "constant")];
-    }
+    [[nodiscard]] expression& constant(std::string const& name);
     /// The input, as the model sees it.
-    [[nodiscard]] expression& input(std::string const& name) {
-        return inputs_[index_of(model_->about.inputs, name, "input")];
-    }
+    [[nodiscard]] expression& input(std::string const& name);
     /// Time derivative of a state; of the model's own ones from `on_rates` on.
-    [[nodiscard]] expression& rate(std::string const& state) {
-        return rates_[index_of(model_->about.states, state, "state")];
-    }
+    [[nodiscard]] expression& rate(std::string const& state);
     /// Output of a channel, in `on_channels`.
-    [[nodiscard]] expression& channel(std::string const& name) {
-        return channels_[index_of(model_->about.channels, name, "channel")];
-    }
+    [[nodiscard]] expression& channel(std::string const& name);
 
     /// A further state, whose rate the effect sets.
     /// @param limit     own range |x| <= limit
     /// @param at_begin  its initial value, in inputs (at the begin) and constants
     expression add_state(std::string const& name, std::string const& unit, double limit,
-                         expression const& at_begin) {
-        auto const k = model_->about.states.size();
-        for (auto const& s : model_->about.states) {
-            if (s.name == name) {
-                throw std::invalid_argument("effect: the model has a state '" + name + "'");
-            }
-        }
-        model_->about.states.push_back({name, unit, limit, {}});
-        model_->added_states.push_back({k, at_begin.in(model_->g)});
-        states_.emplace_back(model_->g, model_->g.leaf(operation::state, k));
-        rates_.emplace_back(0.0);
-        return states_.back();
-    }
+                         expression const& at_begin);
     /// The model sees the input late, by the effect's k-th parameter.
-    void delay_input(std::string const& name, std::size_t k = 0) {
-        model_->input_delays.push_back(
-            {index_of(model_->about.inputs, name, "input"), first_parameter_ + k});
-    }
+    void delay_input(std::string const& name, std::size_t k = 0);
     /// The channel shows the past, by the effect's k-th parameter.
-    void delay_channel(std::string const& name, std::size_t k = 0) {
-        model_->channel_delays.push_back(
-            {index_of(model_->about.channels, name, "channel"), first_parameter_ + k});
-    }
+    void delay_channel(std::string const& name, std::size_t k = 0);
 
 private:
     friend recorded_model with(recorded_model const& base, std::vector<effect> effects);
 
-    explicit effect_scope(recorded_model& model) : model_(&model), time_(leaf(operation::time, 0)) {
-        auto const leaves = [this](operation op, std::size_t count, std::vector<expression>& to) {
-            for (std::size_t i = 0; i < count; ++i) to.push_back(leaf(op, i));
-        };
-        leaves(operation::state, model.about.states.size(), states_);
-        leaves(operation::constant, model.about.constants.size(), constants_);
-        leaves(operation::input, model.about.inputs.size(), inputs_);
-        rates_.resize(states_.size());
-    }
+    explicit effect_scope(recorded_model& model);
     [[nodiscard]] expression leaf(operation op, std::size_t index) const {
         return expression(model_->g, model_->g.leaf(op, index));
     }
@@ -132,6 +94,66 @@ private:
                                               std::vector<effect> effects);
 
 #if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_WITH_EFFECTS)
+SIVID_ENTRY expression const& effect_scope::parameter(std::size_t k) const {
+    return constants_.at(first_parameter_ + k);
+}
+
+SIVID_ENTRY expression const& effect_scope::state(std::string const& name) const {
+    return states_[index_of(model_->about.states, name, "state")];
+}
+
+SIVID_ENTRY expression& effect_scope::constant(std::string const& name) {
+    return constants_[index_of(model_->about.constants, name, "constant")];
+}
+
+SIVID_ENTRY expression& effect_scope::input(std::string const& name) {
+    return inputs_[index_of(model_->about.inputs, name, "input")];
+}
+
+SIVID_ENTRY expression& effect_scope::rate(std::string const& state) {
+    return rates_[index_of(model_->about.states, state, "state")];
+}
+
+SIVID_ENTRY expression& effect_scope::channel(std::string const& name) {
+    return channels_[index_of(model_->about.channels, name, "channel")];
+}
+
+SIVID_ENTRY void effect_scope::delay_input(std::string const& name, std::size_t k) {
+    model_->input_delays.push_back(
+        {index_of(model_->about.inputs, name, "input"), first_parameter_ + k});
+}
+
+SIVID_ENTRY void effect_scope::delay_channel(std::string const& name, std::size_t k) {
+    model_->channel_delays.push_back(
+        {index_of(model_->about.channels, name, "channel"), first_parameter_ + k});
+}
+
+SIVID_ENTRY expression effect_scope::add_state(std::string const& name, std::string const& unit,
+                                               double limit, expression const& at_begin) {
+    auto const k = model_->about.states.size();
+    for (auto const& s : model_->about.states) {
+        if (s.name == name) {
+            throw std::invalid_argument("effect: the model has a state '" + name + "'");
+        }
+    }
+    model_->about.states.push_back({name, unit, limit, {}});
+    model_->added_states.push_back({k, at_begin.in(model_->g)});
+    states_.emplace_back(model_->g, model_->g.leaf(operation::state, k));
+    rates_.emplace_back(0.0);
+    return states_.back();
+}
+
+SIVID_ENTRY effect_scope::effect_scope(recorded_model& model)
+    : model_(&model), time_(leaf(operation::time, 0)) {
+    auto const leaves = [this](operation op, std::size_t count, std::vector<expression>& to) {
+        for (std::size_t i = 0; i < count; ++i) to.push_back(leaf(op, i));
+    };
+    leaves(operation::state, model.about.states.size(), states_);
+    leaves(operation::constant, model.about.constants.size(), constants_);
+    leaves(operation::input, model.about.inputs.size(), inputs_);
+    rates_.resize(states_.size());
+}
+
 SIVID_ENTRY recorded_model with(recorded_model const& base, std::vector<effect> effects) {
     std::stable_sort(effects.begin(), effects.end(),
                      [](effect const& a, effect const& b) { return a.order < b.order; });

@@ -2,6 +2,7 @@
 #ifndef SIVID_MODEL_EFFECTS_HPP
 #define SIVID_MODEL_EFFECTS_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/model/effect.hpp>
 
 #include <string>
@@ -18,8 +19,61 @@ struct range {
 };
 
 namespace detail {
-inline effect one(std::string name, std::string parameter, std::string unit, range const& prior,
-                  std::string about, int order = 0, decimal neutral = {}) {
+SIVID_ENTRY effect one(std::string name, std::string parameter, std::string unit,
+                       range const& prior, std::string about, int order = 0, decimal neutral = {});
+} // namespace detail
+
+/// The input acts late: u(t - tau), and u at the begin before.
+SIVID_ENTRY effect input_delay(std::string const& name, std::string const& input, range const& tau);
+/// u - b above b, u + b below -b, else 0.
+SIVID_ENTRY effect input_dead_band(std::string const& name, std::string const& input,
+                                   std::string const& unit, range const& b);
+/// First-order lag: d' = (u - d)/tau replaces u. tau = 0 is a limit, where the right-hand side is
+/// not defined.
+/// @param rests  the lag starts at 0; otherwise at the input's value at the begin
+SIVID_ENTRY effect input_lag(std::string const& name, std::string const& input,
+                             std::string const& unit, double limit, range const& tau,
+                             bool rests = false);
+/// The input clamped to [-lim, lim].
+SIVID_ENTRY effect input_saturation(std::string const& name, std::string const& input,
+                                    std::string const& unit, range const& lim);
+/// u + d0.
+SIVID_ENTRY effect input_trim(std::string const& name, std::string const& input,
+                              std::string const& parameter, std::string const& unit,
+                              range const& d0);
+/// (1 + k) u.
+SIVID_ENTRY effect input_gain(std::string const& name, std::string const& input, range const& k);
+
+/// x' + a.
+SIVID_ENTRY effect constant_rate(std::string const& name, std::string const& state,
+                                 std::string const& unit, range const& a);
+/// x' - k x.
+SIVID_ENTRY effect linear_damping(std::string const& name, std::string const& state,
+                                  range const& k);
+/// x' - k |x| x.
+SIVID_ENTRY effect quadratic_damping(std::string const& name, std::string const& state,
+                                     std::string const& unit, range const& k);
+/// x' - k x/sqrt(x^2 + s^2): dry friction, smooth within about the speed s of rest.
+SIVID_ENTRY effect dry_friction(std::string const& name, std::string const& state,
+                                std::string const& unit, range const& k, decimal smooth_below);
+/// A constant that drifts: c (1 + k t).
+SIVID_ENTRY effect drift(std::string const& name, std::string const& constant, range const& k);
+
+/// y + b.
+SIVID_ENTRY effect sensor_bias(std::string const& name, std::string const& channel,
+                               std::string const& unit, range const& b);
+/// (1 + k) y, for all the channels of one instrument.
+SIVID_ENTRY effect sensor_scale(std::string const& name, std::vector<std::string> const& channels,
+                                range const& k);
+/// y(t - tau), and its value at the begin before, for all the channels of one instrument.
+SIVID_ENTRY effect sensor_latency(std::string const& name, std::vector<std::string> const& channels,
+                                  range const& tau);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_EFFECTS)
+namespace detail {
+
+SIVID_ENTRY effect one(std::string name, std::string parameter, std::string unit,
+                       range const& prior, std::string about, int order, decimal neutral) {
     effect e;
     e.name = std::move(name);
     e.parameters = {{std::move(parameter), std::move(unit), prior.lower, prior.upper, neutral}};
@@ -27,28 +81,27 @@ inline effect one(std::string name, std::string parameter, std::string unit, ran
     e.about = std::move(about);
     return e;
 }
+
 } // namespace detail
 
-/// The input acts late: u(t - tau), and u at the begin before.
-inline effect input_delay(std::string const& name, std::string const& input, range const& tau) {
+SIVID_ENTRY effect input_delay(std::string const& name, std::string const& input,
+                               range const& tau) {
     auto e = detail::one(name, "tau", "s", tau, "pure delay of the input " + input, 0);
     e.on_inputs = [input](effect_scope& m) { m.delay_input(input); };
     return e;
 }
-/// u - b above b, u + b below -b, else 0.
-inline effect input_dead_band(std::string const& name, std::string const& input,
-                              std::string const& unit, range const& b) {
+
+SIVID_ENTRY effect input_dead_band(std::string const& name, std::string const& input,
+                                   std::string const& unit, range const& b) {
     auto e = detail::one(name, "b", unit, b, "dead band of the input " + input, 1);
     e.on_inputs = [input](effect_scope& m) {
         m.input(input) = deadband(m.input(input), m.parameter());
     };
     return e;
 }
-/// First-order lag: d' = (u - d)/tau replaces u. tau = 0 is a limit, where the right-hand side is
-/// not defined.
-/// @param rests  the lag starts at 0; otherwise at the input's value at the begin
-inline effect input_lag(std::string const& name, std::string const& input, std::string const& unit,
-                        double limit, range const& tau, bool rests = false) {
+
+SIVID_ENTRY effect input_lag(std::string const& name, std::string const& input,
+                             std::string const& unit, double limit, range const& tau, bool rests) {
     auto e = detail::one(name, "tau", "s", tau, "first-order lag of the input " + input, 2);
     e.on_inputs = [input, unit, limit, rests, name](effect_scope& m) {
         auto& u = m.input(input);
@@ -58,45 +111,46 @@ inline effect input_lag(std::string const& name, std::string const& input, std::
     };
     return e;
 }
-/// The input clamped to [-lim, lim].
-inline effect input_saturation(std::string const& name, std::string const& input,
-                               std::string const& unit, range const& lim) {
+
+SIVID_ENTRY effect input_saturation(std::string const& name, std::string const& input,
+                                    std::string const& unit, range const& lim) {
     auto e = detail::one(name, "lim", unit, lim, "saturation of the input " + input, 3, lim.upper);
     e.on_inputs = [input](effect_scope& m) {
         m.input(input) = saturate(m.input(input), -m.parameter(), m.parameter());
     };
     return e;
 }
-/// u + d0.
-inline effect input_trim(std::string const& name, std::string const& input,
-                         std::string const& parameter, std::string const& unit, range const& d0) {
+
+SIVID_ENTRY effect input_trim(std::string const& name, std::string const& input,
+                              std::string const& parameter, std::string const& unit,
+                              range const& d0) {
     auto e = detail::one(name, parameter, unit, d0, "constant offset of the input " + input, 4);
     e.on_inputs = [input](effect_scope& m) { m.input(input) += m.parameter(); };
     return e;
 }
-/// (1 + k) u.
-inline effect input_gain(std::string const& name, std::string const& input, range const& k) {
+
+SIVID_ENTRY effect input_gain(std::string const& name, std::string const& input, range const& k) {
     auto e = detail::one(name, "k", "1", k, "wrong gain of the input " + input, 4);
     e.on_inputs = [input](effect_scope& m) { m.input(input) *= 1 + m.parameter(); };
     return e;
 }
 
-/// x' + a.
-inline effect constant_rate(std::string const& name, std::string const& state,
-                            std::string const& unit, range const& a) {
+SIVID_ENTRY effect constant_rate(std::string const& name, std::string const& state,
+                                 std::string const& unit, range const& a) {
     auto e = detail::one(name, "a", unit, a, "constant in the equation of " + state);
     e.on_rates = [state](effect_scope& m) { m.rate(state) += m.parameter(); };
     return e;
 }
-/// x' - k x.
-inline effect linear_damping(std::string const& name, std::string const& state, range const& k) {
+
+SIVID_ENTRY effect linear_damping(std::string const& name, std::string const& state,
+                                  range const& k) {
     auto e = detail::one(name, "k", "1/s", k, "linear damping in the equation of " + state);
     e.on_rates = [state](effect_scope& m) { m.rate(state) -= m.parameter() * m.state(state); };
     return e;
 }
-/// x' - k |x| x.
-inline effect quadratic_damping(std::string const& name, std::string const& state,
-                                std::string const& unit, range const& k) {
+
+SIVID_ENTRY effect quadratic_damping(std::string const& name, std::string const& state,
+                                     std::string const& unit, range const& k) {
     auto e = detail::one(name, "k", unit, k, "quadratic damping in the equation of " + state);
     e.on_rates = [state](effect_scope& m) {
         auto const& x = m.state(state);
@@ -104,9 +158,9 @@ inline effect quadratic_damping(std::string const& name, std::string const& stat
     };
     return e;
 }
-/// x' - k x/sqrt(x^2 + s^2): dry friction, smooth within about the speed s of rest.
-inline effect dry_friction(std::string const& name, std::string const& state,
-                           std::string const& unit, range const& k, decimal smooth_below) {
+
+SIVID_ENTRY effect dry_friction(std::string const& name, std::string const& state,
+                                std::string const& unit, range const& k, decimal smooth_below) {
     auto e = detail::one(name, "k", unit, k, "dry friction in the equation of " + state);
     e.on_rates = [state, smooth_below](effect_scope& m) {
         auto const& x = m.state(state);
@@ -114,8 +168,8 @@ inline effect dry_friction(std::string const& name, std::string const& state,
     };
     return e;
 }
-/// A constant that drifts: c (1 + k t).
-inline effect drift(std::string const& name, std::string const& constant, range const& k) {
+
+SIVID_ENTRY effect drift(std::string const& name, std::string const& constant, range const& k) {
     auto e = detail::one(name, "k", "1/s", k, "slow drift of the constant " + constant);
     e.on_inputs = [constant](effect_scope& m) {
         m.constant(constant) *= 1 + m.parameter() * m.time();
@@ -123,31 +177,31 @@ inline effect drift(std::string const& name, std::string const& constant, range 
     return e;
 }
 
-/// y + b.
-inline effect sensor_bias(std::string const& name, std::string const& channel,
-                          std::string const& unit, range const& b) {
+SIVID_ENTRY effect sensor_bias(std::string const& name, std::string const& channel,
+                               std::string const& unit, range const& b) {
     auto e = detail::one(name, "b", unit, b, "bias of the sensor " + channel);
     e.on_channels = [channel](effect_scope& m) { m.channel(channel) += m.parameter(); };
     return e;
 }
-/// (1 + k) y, for all the channels of one instrument.
-inline effect sensor_scale(std::string const& name, std::vector<std::string> const& channels,
-                           range const& k) {
+
+SIVID_ENTRY effect sensor_scale(std::string const& name, std::vector<std::string> const& channels,
+                                range const& k) {
     auto e = detail::one(name, "k", "1", k, "wrong scale of the sensor " + channels.at(0));
     e.on_channels = [channels](effect_scope& m) {
         for (auto const& y : channels) m.channel(y) *= 1 + m.parameter();
     };
     return e;
 }
-/// y(t - tau), and its value at the begin before, for all the channels of one instrument.
-inline effect sensor_latency(std::string const& name, std::vector<std::string> const& channels,
-                             range const& tau) {
+
+SIVID_ENTRY effect sensor_latency(std::string const& name, std::vector<std::string> const& channels,
+                                  range const& tau) {
     auto e = detail::one(name, "tau", "s", tau, "latency of the sensor " + channels.at(0));
     e.on_channels = [channels](effect_scope& m) {
         for (auto const& y : channels) m.delay_channel(y);
     };
     return e;
 }
+#endif
 
 } // namespace sivid::effects
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_MODEL_EXPRESSION_HPP
 #define SIVID_MODEL_EXPRESSION_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/model/graph.hpp>
 #include <sivid/number/decimal.hpp>
 
@@ -16,19 +17,15 @@ namespace sivid {
 class expression {
 public:
     expression() : expression(0.0) {}
-    expression(double exact) : literal_{interval(exact), exact} {}
+    expression(double exact);
     expression(int exact) : expression(static_cast<double>(exact)) {}
-    expression(decimal exact) : literal_{enclose(exact), nearest(exact)} {}
-    expression(interval const& enclosure) : literal_{enclosure, mid(enclosure)} {}
+    expression(decimal exact);
+    expression(interval const& enclosure);
     /// A node of a graph under construction, which must outlive the expression.
     expression(graph& owner, node_id id) : owner_(&owner), id_(id) {}
 
     /// The node in `g`; a literal is entered on first use.
-    [[nodiscard]] node_id in(graph& g) const {
-        if (owner_ == nullptr) return g.constant(literal_);
-        if (owner_ != &g) throw std::logic_error("expression: belongs to another recording");
-        return id_;
-    }
+    [[nodiscard]] node_id in(graph& g) const;
 
     friend expression operator+(expression const& a) { return a; }
     friend expression operator-(expression const& a) { return unary(operation::neg, a); }
@@ -73,12 +70,7 @@ public:
         return binary(operation::max, a, b);
     }
     /// \f$ a^n \f$ for an integer n.
-    friend expression pown(expression const& a, int n) {
-        graph* const g = a.owner_;
-        graph scratch;
-        graph& target = g != nullptr ? *g : scratch;
-        return finish(target, g != nullptr, target.pown(a.in(target), n));
-    }
+    friend expression pown(expression const& a, int n) { return power(a, n); }
     /// `a` clamped to [lo, hi].
     friend expression saturate(expression const& a, expression const& lo, expression const& hi) {
         return min(max(a, lo), hi);
@@ -89,38 +81,67 @@ public:
     }
 
 private:
-    static expression wrap(graph& g, bool owned, node_id id) {
-        if (owned) return expression(g, id);
-        expression result;
-        result.literal_ = g.value(g[id]);
-        return result;
-    }
-    static expression unary(operation op, expression const& a) {
-        graph scratch;
-        graph& g = a.owner_ != nullptr ? *a.owner_ : scratch;
-        return finish(g, a.owner_ != nullptr, g.unary(op, a.in(g)));
-    }
-    static expression binary(operation op, expression const& a, expression const& b) {
-        graph scratch;
-        graph* const owner = a.owner_ != nullptr ? a.owner_ : b.owner_;
-        graph& g = owner != nullptr ? *owner : scratch;
-        // In the order of writing, so that a recording is independent of the compiler.
-        auto const left = a.in(g);
-        auto const right = b.in(g);
-        return finish(g, owner != nullptr, g.binary(op, left, right));
-    }
-    static expression finish(graph& g, bool owned, node_id id) {
-        if (!owned && !g.is_literal(id)) {
-            throw std::domain_error("expression: a constant of the model is not defined (such as "
-                                    "the square root of a negative number)");
-        }
-        return wrap(g, owned, id);
-    }
+    static expression wrap(graph& g, bool owned, node_id id);
+    static expression unary(operation op, expression const& a);
+    static expression binary(operation op, expression const& a, expression const& b);
+    static expression power(expression const& a, int n);
+    static expression finish(graph& g, bool owned, node_id id);
 
     graph* owner_ = nullptr;
     node_id id_ = 0;
     literal literal_;
 };
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_EXPRESSION)
+SIVID_ENTRY expression::expression(double exact) : literal_{interval(exact), exact} {}
+SIVID_ENTRY expression::expression(decimal exact) : literal_{enclose(exact), nearest(exact)} {}
+SIVID_ENTRY expression::expression(interval const& enclosure)
+    : literal_{enclosure, mid(enclosure)} {}
+
+SIVID_ENTRY node_id expression::in(graph& g) const {
+    if (owner_ == nullptr) return g.constant(literal_);
+    if (owner_ != &g) throw std::logic_error("expression: belongs to another recording");
+    return id_;
+}
+
+SIVID_ENTRY expression expression::wrap(graph& g, bool owned, node_id id) {
+    if (owned) return expression(g, id);
+    expression result;
+    result.literal_ = g.value(g[id]);
+    return result;
+}
+
+SIVID_ENTRY expression expression::unary(operation op, expression const& a) {
+    graph scratch;
+    graph& g = a.owner_ != nullptr ? *a.owner_ : scratch;
+    return finish(g, a.owner_ != nullptr, g.unary(op, a.in(g)));
+}
+
+SIVID_ENTRY expression expression::binary(operation op, expression const& a, expression const& b) {
+    graph scratch;
+    graph* const owner = a.owner_ != nullptr ? a.owner_ : b.owner_;
+    graph& g = owner != nullptr ? *owner : scratch;
+    // In the order of writing, so that a recording is independent of the compiler.
+    auto const left = a.in(g);
+    auto const right = b.in(g);
+    return finish(g, owner != nullptr, g.binary(op, left, right));
+}
+
+SIVID_ENTRY expression expression::power(expression const& a, int n) {
+    graph* const g = a.owner_;
+    graph scratch;
+    graph& target = g != nullptr ? *g : scratch;
+    return finish(target, g != nullptr, target.pown(a.in(target), n));
+}
+
+SIVID_ENTRY expression expression::finish(graph& g, bool owned, node_id id) {
+    if (!owned && !g.is_literal(id)) {
+        throw std::domain_error("expression: a constant of the model is not defined (such as "
+                                "the square root of a negative number)");
+    }
+    return wrap(g, owned, id);
+}
+#endif
 
 } // namespace sivid
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_MODEL_GRAPH_HPP
 #define SIVID_MODEL_GRAPH_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/model/arithmetic.hpp>
 #include <sivid/model/operation.hpp>
 #include <sivid/number/interval_traits.hpp>
@@ -44,6 +45,13 @@ enum dependence : std::uint8_t {
 /// total.
 class graph {
 public:
+    graph();
+    graph(graph const&);
+    graph(graph&&) noexcept;
+    graph& operator=(graph const&);
+    graph& operator=(graph&&) noexcept;
+    ~graph();
+
     [[nodiscard]] std::vector<node> const& nodes() const { return nodes_; }
     [[nodiscard]] node const& operator[](node_id i) const { return nodes_[i]; }
     [[nodiscard]] std::size_t size() const { return nodes_.size(); }
@@ -64,39 +72,11 @@ public:
     /// A literal. Only points are shared: two uncertain constants with the same bounds are still
     /// two.
     /// @throws std::domain_error for NaN, infinite or empty values
-    node_id constant(literal const& l) {
-        if (!std::isfinite(l.nearest) || !std::isfinite(l.enclosure.lower()) ||
-            !std::isfinite(l.enclosure.upper()) || is_empty(l.enclosure)) {
-            throw std::domain_error("graph: a constant of a model must be finite");
-        }
-        if (!is_point(l.enclosure)) {
-            literals_.push_back(l);
-            node n;
-            n.index = static_cast<std::int32_t>(literals_.size() - 1);
-            return push(n, on_nothing);
-        }
-        auto const key = std::make_tuple(l.enclosure.lower(), l.enclosure.upper());
-        if (auto const found = literal_ids_.find(key); found != literal_ids_.end()) {
-            return found->second;
-        }
-        literals_.push_back(l);
-        node n;
-        n.index = static_cast<std::int32_t>(literals_.size() - 1);
-        return literal_ids_[key] = push(n, on_nothing);
-    }
+    node_id constant(literal const& l);
     node_id constant(double v) { return constant(literal{interval(v), v}); }
 
     /// A leaf: time, state, constant or input with its index.
-    node_id leaf(operation op, std::size_t index) {
-        node n;
-        n.op = op;
-        n.index = static_cast<std::int32_t>(index);
-        std::uint8_t const flags = op == operation::time       ? on_time
-                                   : op == operation::state    ? on_state
-                                   : op == operation::constant ? on_constant
-                                                               : on_input;
-        return shared(n, flags);
-    }
+    node_id leaf(operation op, std::size_t index);
 
     node_id unary(operation op, node_id a);
     node_id binary(operation op, node_id a, node_id b);
@@ -111,30 +91,9 @@ public:
 private:
     using node_key = std::tuple<operation, node_id, node_id, std::int32_t>;
 
-    node_id push(node const& n, std::uint8_t depends) {
-        nodes_.push_back(n);
-        depends_.push_back(depends);
-        bool total = is_total(n.op);
-        if (!is_leaf(n.op)) total = total && total_[n.a];
-        if (is_binary(n.op)) total = total && total_[n.b];
-        total_.push_back(total);
-        return static_cast<node_id>(nodes_.size() - 1);
-    }
-    node_id shared(node const& n, std::uint8_t depends) {
-        node_key const key{n.op, n.a, n.b, n.index};
-        if (auto const found = ids_.find(key); found != ids_.end()) return found->second;
-        return ids_[key] = push(n, depends);
-    }
-    node_id shared(operation op, node_id a, node_id b, std::int32_t index = 0) {
-        node n;
-        n.op = op;
-        n.a = a;
-        n.b = b;
-        n.index = index;
-        auto flags = depends_[a];
-        if (is_binary(op)) flags = static_cast<std::uint8_t>(flags | depends_[b]);
-        return shared(n, flags);
-    }
+    node_id push(node const& n, std::uint8_t depends);
+    node_id shared(node const& n, std::uint8_t depends);
+    node_id shared(operation op, node_id a, node_id b, std::int32_t index = 0);
     /// The literal op(a, b) when both are literals and the function is defined there.
     bool fold(operation op, node_id a, node_id b, int n, node_id& result);
     bool simplify(operation op, node_id& a, node_id& b, node_id& result);
@@ -200,7 +159,74 @@ typename A::value_type apply(operation op, typename A::value_type const& a,
     return a;
 }
 
-inline bool graph::fold(operation op, node_id a, node_id b, int n, node_id& result) {
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_GRAPH)
+SIVID_ENTRY graph::graph() = default;
+SIVID_ENTRY graph::graph(graph const&) = default;
+SIVID_ENTRY graph::graph(graph&&) noexcept = default;
+SIVID_ENTRY graph& graph::operator=(graph const&) = default;
+SIVID_ENTRY graph& graph::operator=(graph&&) noexcept = default;
+SIVID_ENTRY graph::~graph() = default;
+
+SIVID_ENTRY node_id graph::constant(literal const& l) {
+    if (!std::isfinite(l.nearest) || !std::isfinite(l.enclosure.lower()) ||
+        !std::isfinite(l.enclosure.upper()) || is_empty(l.enclosure)) {
+        throw std::domain_error("graph: a constant of a model must be finite");
+    }
+    if (!is_point(l.enclosure)) {
+        literals_.push_back(l);
+        node n;
+        n.index = static_cast<std::int32_t>(literals_.size() - 1);
+        return push(n, on_nothing);
+    }
+    auto const key = std::make_tuple(l.enclosure.lower(), l.enclosure.upper());
+    if (auto const found = literal_ids_.find(key); found != literal_ids_.end()) {
+        return found->second;
+    }
+    literals_.push_back(l);
+    node n;
+    n.index = static_cast<std::int32_t>(literals_.size() - 1);
+    return literal_ids_[key] = push(n, on_nothing);
+}
+
+SIVID_ENTRY node_id graph::leaf(operation op, std::size_t index) {
+    node n;
+    n.op = op;
+    n.index = static_cast<std::int32_t>(index);
+    std::uint8_t const flags = op == operation::time       ? on_time
+                               : op == operation::state    ? on_state
+                               : op == operation::constant ? on_constant
+                                                           : on_input;
+    return shared(n, flags);
+}
+
+SIVID_ENTRY node_id graph::push(node const& n, std::uint8_t depends) {
+    nodes_.push_back(n);
+    depends_.push_back(depends);
+    bool total = is_total(n.op);
+    if (!is_leaf(n.op)) total = total && total_[n.a];
+    if (is_binary(n.op)) total = total && total_[n.b];
+    total_.push_back(total);
+    return static_cast<node_id>(nodes_.size() - 1);
+}
+
+SIVID_ENTRY node_id graph::shared(node const& n, std::uint8_t depends) {
+    node_key const key{n.op, n.a, n.b, n.index};
+    if (auto const found = ids_.find(key); found != ids_.end()) return found->second;
+    return ids_[key] = push(n, depends);
+}
+
+SIVID_ENTRY node_id graph::shared(operation op, node_id a, node_id b, std::int32_t index) {
+    node n;
+    n.op = op;
+    n.a = a;
+    n.b = b;
+    n.index = index;
+    auto flags = depends_[a];
+    if (is_binary(op)) flags = static_cast<std::uint8_t>(flags | depends_[b]);
+    return shared(n, flags);
+}
+
+SIVID_ENTRY bool graph::fold(operation op, node_id a, node_id b, int n, node_id& result) {
     if (!is_literal(a) || (is_binary(op) && !is_literal(b))) return false;
     auto const x = value(nodes_[a]);
     auto const y = value(nodes_[b]);
@@ -217,7 +243,7 @@ inline bool graph::fold(operation op, node_id a, node_id b, int n, node_id& resu
     return true;
 }
 
-inline bool graph::simplify(operation op, node_id& a, node_id& b, node_id& result) {
+SIVID_ENTRY bool graph::simplify(operation op, node_id& a, node_id& b, node_id& result) {
     switch (op) {
     case operation::add:
         if (is(a, 0)) return result = b, true;
@@ -257,7 +283,7 @@ inline bool graph::simplify(operation op, node_id& a, node_id& b, node_id& resul
     return false;
 }
 
-inline node_id graph::binary(operation op, node_id a, node_id b) {
+SIVID_ENTRY node_id graph::binary(operation op, node_id a, node_id b) {
     node_id result = 0;
     if (fold(op, a, b, 0, result) || simplify(op, a, b, result)) return result;
     bool const commutes = op == operation::add || op == operation::mul || op == operation::min ||
@@ -266,7 +292,7 @@ inline node_id graph::binary(operation op, node_id a, node_id b) {
     return shared(op, a, b);
 }
 
-inline node_id graph::unary(operation op, node_id a) {
+SIVID_ENTRY node_id graph::unary(operation op, node_id a) {
     node_id result = 0;
     if (fold(op, a, a, 0, result)) return result;
     auto const inner = nodes_[a].op;
@@ -310,7 +336,7 @@ inline node_id graph::unary(operation op, node_id a) {
     }
 }
 
-inline node_id graph::pown(node_id a, int n) {
+SIVID_ENTRY node_id graph::pown(node_id a, int n) {
     if (n == 0) return total_[a] ? constant(1.0) : shared(operation::pown, a, a, 0);
     if (n == 1) return a;
     if (n == 2) return unary(operation::sqr, a);
@@ -322,6 +348,7 @@ inline node_id graph::pown(node_id a, int n) {
     nodes_[y].companion = lower;
     return y;
 }
+#endif
 
 } // namespace sivid
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_MODEL_MODEL_HPP
 #define SIVID_MODEL_MODEL_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/model/expression.hpp>
 #include <sivid/number/decimal.hpp>
 #include <sivid/space/vec.hpp>
@@ -9,6 +10,7 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -163,27 +165,22 @@ struct recorded_model {
     }
 };
 
+namespace model_detail {
+/// What a functor says of itself, as data.
+[[nodiscard]] SIVID_ENTRY model_description described(std::string_view name,
+                                                      std::span<state_quantity const> states,
+                                                      std::span<quantity const> inputs,
+                                                      std::span<quantity const> channels,
+                                                      std::span<constant_quantity const> constants);
+} // namespace model_detail
+
 /// Runs the functor once on the recording scalar.
 /// @guarantee evaluating the graph with a sound interval type encloses the functor's real value.
 template <dynamic_model M>
 [[nodiscard]] recorded_model record_model(M const& model = {}) {
     recorded_model result;
-    auto& about = result.about;
-    about.name = std::string(M::name);
-    for (auto const& s : M::states) {
-        about.states.push_back(
-            {std::string(s.name), std::string(s.unit), s.limit, std::string(s.equation)});
-    }
-    for (auto const& i : M::inputs) {
-        about.inputs.push_back({std::string(i.name), std::string(i.unit)});
-    }
-    for (auto const& y : M::channels) {
-        about.channels.push_back({std::string(y.name), std::string(y.unit)});
-    }
-    for (auto const& c : M::constants) {
-        about.constants.push_back({std::string(c.name), std::string(c.unit),
-                                   literal{enclose(c.nominal), nearest(c.nominal)}});
-    }
+    result.about = model_detail::described(std::string_view(M::name), M::states, M::inputs,
+                                           M::channels, M::constants);
     auto& g = result.g;
     auto const leaves = [&g]<std::size_t N>(operation op, std::array<expression, N>& out) {
         for (std::size_t i = 0; i < N; ++i) out[i] = expression(g, g.leaf(op, i));
@@ -199,6 +196,30 @@ template <dynamic_model M>
     for (auto const& e : model.observe(t, x, c, u)) result.observe.push_back(e.in(g));
     return result;
 }
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_MODEL)
+SIVID_ENTRY model_description model_detail::described(
+    std::string_view name, std::span<state_quantity const> states, std::span<quantity const> inputs,
+    std::span<quantity const> channels, std::span<constant_quantity const> constants) {
+    model_description about;
+    about.name = std::string(name);
+    for (auto const& s : states) {
+        about.states.push_back(
+            {std::string(s.name), std::string(s.unit), s.limit, std::string(s.equation)});
+    }
+    for (auto const& i : inputs) {
+        about.inputs.push_back({std::string(i.name), std::string(i.unit)});
+    }
+    for (auto const& y : channels) {
+        about.channels.push_back({std::string(y.name), std::string(y.unit)});
+    }
+    for (auto const& c : constants) {
+        about.constants.push_back({std::string(c.name), std::string(c.unit),
+                                   literal{enclose(c.nominal), nearest(c.nominal)}});
+    }
+    return about;
+}
+#endif
 
 } // namespace sivid
 

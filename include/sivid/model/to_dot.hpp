@@ -2,6 +2,7 @@
 #ifndef SIVID_MODEL_TO_DOT_HPP
 #define SIVID_MODEL_TO_DOT_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/model/graph_listing.hpp>
 #include <sivid/model/model.hpp>
 
@@ -11,10 +12,27 @@
 
 namespace sivid {
 
+/// The graph of a model in the DOT language of Graphviz: leaves as boxes, operations as ellipses,
+/// rates and channels as double frames; edges run from operands to results, the first operand
+/// first. What depends on parameters alone is green, on inputs and time alone blue, on both teal; a
+/// bold frame means that a value is used more than once, a dashed edge leads to what only the
+/// series of an operation need.
+/// @ref  https://graphviz.org/doc/info/lang.html
+[[nodiscard]] SIVID_ENTRY std::string to_dot(graph_listing const& listing);
+
+[[nodiscard]] SIVID_ENTRY std::string to_dot(recorded_model const& model);
+[[nodiscard]] SIVID_ENTRY std::string to_dot(bound_model const& model);
+/// `to_dot(model{})` of a functor: records it first.
+template <dynamic_model M>
+[[nodiscard]] std::string to_dot(M const& model) {
+    return to_dot(record_model(model));
+}
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_TO_DOT)
 namespace model_detail {
 
 /// A double-quoted string of the DOT language that shows `text` literally.
-[[nodiscard]] inline std::string dot_quoted(std::string_view text) {
+[[nodiscard]] SIVID_ENTRY std::string dot_quoted(std::string_view text) {
     std::string result(1, '"');
     for (char const c : text) {
         if (c == '"' || c == '\\') result += '\\';
@@ -41,13 +59,7 @@ namespace model_detail {
 
 } // namespace model_detail
 
-/// The graph of a model in the DOT language of Graphviz: leaves as boxes, operations as ellipses,
-/// rates and channels as double frames; edges run from operands to results, the first operand
-/// first. What depends on parameters alone is green, on inputs and time alone blue, on both teal; a
-/// bold frame means that a value is used more than once, a dashed edge leads to what only the
-/// series of an operation need.
-/// @ref  https://graphviz.org/doc/info/lang.html
-[[nodiscard]] inline std::string to_dot(graph_listing const& listing) {
+SIVID_ENTRY std::string to_dot(graph_listing const& listing) {
     using model_detail::dot_quoted;
     auto const& g = listing.nodes();
     auto const id = [](node_id i) { return "n" + std::to_string(i); };
@@ -81,17 +93,10 @@ namespace model_detail {
     return text + "}\n";
 }
 
-[[nodiscard]] inline std::string to_dot(recorded_model const& model) {
-    return to_dot(graph_listing(model));
-}
-[[nodiscard]] inline std::string to_dot(bound_model const& model) {
-    return to_dot(graph_listing(model));
-}
-/// `to_dot(model{})` of a functor: records it first.
-template <dynamic_model M>
-[[nodiscard]] std::string to_dot(M const& model) {
-    return to_dot(record_model(model));
-}
+SIVID_ENTRY std::string to_dot(recorded_model const& model) { return to_dot(graph_listing(model)); }
+
+SIVID_ENTRY std::string to_dot(bound_model const& model) { return to_dot(graph_listing(model)); }
+#endif
 
 } // namespace sivid
 

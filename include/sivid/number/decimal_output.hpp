@@ -6,6 +6,7 @@
 /// Numbers written outward: the text of a lower bound is never above the bound, that of an upper
 /// bound never below, and both are the shortest decimals less than one float away.
 
+#include <sivid/compiled.hpp>
 #include <sivid/number/decimal.hpp>
 #include <sivid/number/interval.hpp>
 #include <sivid/number/rounding.hpp>
@@ -28,7 +29,54 @@ struct digit_string {
 };
 
 /// All digits of a finite x > 0: at most 767 are significant.
-inline digit_string exact_digits(double x) {
+SIVID_ENTRY digit_string exact_digits(double x);
+
+/// Plain notation while it is not longer than about 21 characters, else d.ddde±x.
+SIVID_ENTRY std::string layout(digit_string d);
+
+/// The first `count` digits, the rest cut off or carried up.
+SIVID_ENTRY digit_string shortened(digit_string const& all, std::size_t count, bool up);
+
+/// The shortest decimal on one side of a finite x > 0, less than one float away from it.
+SIVID_ENTRY std::string shortest_magnitude(double x, bool up);
+
+SIVID_ENTRY std::string in_brackets(std::string const& lo, std::string const& hi);
+
+/// `digits` significant digits, or as many as the shortest text needs if that is 0.
+SIVID_ENTRY std::string to_decimal(double x, bool up, int digits = 0);
+
+} // namespace detail
+
+/// The shortest decimal t <= x with no double in [t, x) (none strictly between either): 0.1 gives
+/// "0.1" (the double is a little above). Infinities are "inf", "-inf".
+SIVID_ENTRY std::string to_decimal_lower(double x);
+
+/// The shortest decimal t >= x with no double in (x, t].
+SIVID_ENTRY std::string to_decimal_upper(double x);
+
+/// The greatest decimal <= x of at most `digits` significant digits, without trailing zeros.
+SIVID_ENTRY std::string to_decimal_lower(double x, int digits);
+
+/// The least decimal >= x of at most `digits` significant digits, without trailing zeros.
+SIVID_ENTRY std::string to_decimal_upper(double x, int digits);
+
+/// "[lo, hi]" with bounds rounded outward, or "[empty]".
+SIVID_ENTRY std::string to_string(interval const& x);
+
+/// The same with at most `digits` significant digits in each bound, rounded outward.
+SIVID_ENTRY std::string to_string(interval const& x, int digits);
+
+/// Exact hexadecimal text, for instance "-0x1.8p+1"; "inf", "-inf", "nan".
+SIVID_ENTRY std::string to_hex(double x);
+
+/// The double of which `text` is the exact hexadecimal text; nothing if it is malformed or no
+/// double has that value. Accepts "inf", "-inf" and "nan".
+SIVID_ENTRY std::optional<double> from_hex(std::string_view text);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_DECIMAL_OUTPUT)
+namespace detail {
+
+SIVID_ENTRY digit_string exact_digits(double x) {
     std::array<char, 800> buffer;
     auto const end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x,
                                    std::chars_format::scientific, 766);
@@ -44,8 +92,7 @@ inline digit_string exact_digits(double x) {
     return d;
 }
 
-/// Plain notation while it is not longer than about 21 characters, else d.ddde±x.
-inline std::string layout(digit_string d) {
+SIVID_ENTRY std::string layout(digit_string d) {
     while (d.digits.size() > 1 && d.digits.back() == '0') d.digits.pop_back();
     auto const n = static_cast<int>(d.digits.size());
     if (d.point > 0 && d.point <= 17) {
@@ -60,8 +107,7 @@ inline std::string layout(digit_string d) {
     return text + 'e' + std::to_string(d.point - 1);
 }
 
-/// The first `count` digits, the rest cut off or carried up.
-inline digit_string shortened(digit_string const& all, std::size_t count, bool up) {
+SIVID_ENTRY digit_string shortened(digit_string const& all, std::size_t count, bool up) {
     digit_string d{all.digits.substr(0, count), all.point};
     bool const rest = all.digits.find_first_not_of('0', count) != std::string::npos;
     if (!up || !rest) return d;
@@ -77,8 +123,7 @@ inline digit_string shortened(digit_string const& all, std::size_t count, bool u
     return d;
 }
 
-/// The shortest decimal on one side of a finite x > 0, less than one float away from it.
-inline std::string shortest_magnitude(double x, bool up) {
+SIVID_ENTRY std::string shortest_magnitude(double x, bool up) {
     digit_string const all = exact_digits(x);
     // 17 digits always suffice: their spacing is below the spacing of doubles.
     for (std::size_t count = 1; count < 17; ++count) {
@@ -90,13 +135,12 @@ inline std::string shortest_magnitude(double x, bool up) {
     return layout(shortened(all, 17, up));
 }
 
-inline std::string in_brackets(std::string const& lo, std::string const& hi) {
+SIVID_ENTRY std::string in_brackets(std::string const& lo, std::string const& hi) {
     std::string text(1, '[');
     return text.append(lo).append(", ").append(hi).append(1, ']');
 }
 
-/// `digits` significant digits, or as many as the shortest text needs if that is 0.
-inline std::string to_decimal(double x, bool up, int digits = 0) {
+SIVID_ENTRY std::string to_decimal(double x, bool up, int digits) {
     if (is_nan(x)) return "nan";
     if (is_infinite(x)) return x > 0.0 ? "inf" : "-inf";
     if (is_zero(x)) return "0";
@@ -112,38 +156,30 @@ inline std::string to_decimal(double x, bool up, int digits = 0) {
 
 } // namespace detail
 
-/// The shortest decimal t <= x with no double in [t, x) (none strictly between either): 0.1 gives
-/// "0.1" (the double is a little above). Infinities are "inf", "-inf".
-inline std::string to_decimal_lower(double x) { return detail::to_decimal(x, false); }
+SIVID_ENTRY std::string to_decimal_lower(double x) { return detail::to_decimal(x, false); }
 
-/// The shortest decimal t >= x with no double in (x, t].
-inline std::string to_decimal_upper(double x) { return detail::to_decimal(x, true); }
+SIVID_ENTRY std::string to_decimal_upper(double x) { return detail::to_decimal(x, true); }
 
-/// The greatest decimal <= x of at most `digits` significant digits, without trailing zeros.
-inline std::string to_decimal_lower(double x, int digits) {
+SIVID_ENTRY std::string to_decimal_lower(double x, int digits) {
     return detail::to_decimal(x, false, digits);
 }
 
-/// The least decimal >= x of at most `digits` significant digits, without trailing zeros.
-inline std::string to_decimal_upper(double x, int digits) {
+SIVID_ENTRY std::string to_decimal_upper(double x, int digits) {
     return detail::to_decimal(x, true, digits);
 }
 
-/// "[lo, hi]" with bounds rounded outward, or "[empty]".
-inline std::string to_string(interval const& x) {
+SIVID_ENTRY std::string to_string(interval const& x) {
     if (is_empty(x)) return "[empty]";
     return detail::in_brackets(to_decimal_lower(x.lower()), to_decimal_upper(x.upper()));
 }
 
-/// The same with at most `digits` significant digits in each bound, rounded outward.
-inline std::string to_string(interval const& x, int digits) {
+SIVID_ENTRY std::string to_string(interval const& x, int digits) {
     if (is_empty(x)) return "[empty]";
     return detail::in_brackets(to_decimal_lower(x.lower(), digits),
                                to_decimal_upper(x.upper(), digits));
 }
 
-/// Exact hexadecimal text, for instance "-0x1.8p+1"; "inf", "-inf", "nan".
-inline std::string to_hex(double x) {
+SIVID_ENTRY std::string to_hex(double x) {
     if (detail::is_nan(x)) return "nan";
     if (detail::is_infinite(x)) return x > 0.0 ? "inf" : "-inf";
     bool const negative = (detail::bits(x) & detail::sign_bit) != 0;
@@ -155,9 +191,7 @@ inline std::string to_hex(double x) {
     return text;
 }
 
-/// The double of which `text` is the exact hexadecimal text; nothing if it is malformed or no
-/// double has that value. Accepts "inf", "-inf" and "nan".
-inline std::optional<double> from_hex(std::string_view text) {
+SIVID_ENTRY std::optional<double> from_hex(std::string_view text) {
     if (text == "inf") return detail::infinity;
     if (text == "-inf") return -detail::infinity;
     if (text == "nan") return detail::not_a_number;
@@ -167,6 +201,7 @@ inline std::optional<double> from_hex(std::string_view text) {
     if (!r.exact) return std::nullopt;
     return n.negative ? -r.below : r.below;
 }
+#endif
 
 } // namespace sivid
 

@@ -2,6 +2,8 @@
 #ifndef SIVID_REPORT_ESCAPE_HPP
 #define SIVID_REPORT_ESCAPE_HPP
 
+#include <sivid/compiled.hpp>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -19,7 +21,22 @@ struct code_point {
 };
 
 /// Reads the code point at the front of a non-empty text. An invalid byte takes one byte.
-[[nodiscard]] inline code_point first_code_point(std::string_view text) {
+[[nodiscard]] SIVID_ENTRY code_point first_code_point(std::string_view text);
+
+/// Text made safe as XML or HTML content and inside a quoted attribute: markup characters become
+/// entities, everything that is not valid text becomes U+FFFD.
+/// @guarantee  the result has no '<', '>', '"', ''' and no '&' but that of an entity, and is valid
+///             UTF-8 without control characters.
+[[nodiscard]] SIVID_ENTRY std::string escape(std::string_view text);
+
+/// A rough width of the text in a sans-serif font of the given size, for laying out labels.
+[[nodiscard]] SIVID_ENTRY double approximate_text_width(std::string_view text, double size);
+
+/// The text cut to a number of code points, with an ellipsis when something was cut.
+[[nodiscard]] SIVID_ENTRY std::string shorten(std::string_view text, std::size_t longest);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_ESCAPE)
+SIVID_ENTRY code_point first_code_point(std::string_view text) {
     auto const byte = [&](std::size_t i) {
         return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i]));
     };
@@ -53,11 +70,7 @@ struct code_point {
     return {value, length, true};
 }
 
-/// Text made safe as XML or HTML content and inside a quoted attribute: markup characters become
-/// entities, everything that is not valid text becomes U+FFFD.
-/// @guarantee  the result has no '<', '>', '"', ''' and no '&' but that of an entity, and is valid
-///             UTF-8 without control characters.
-[[nodiscard]] inline std::string escape(std::string_view text) {
+SIVID_ENTRY std::string escape(std::string_view text) {
     std::string out;
     out.reserve(text.size() + text.size() / 8);
     while (!text.empty()) {
@@ -82,8 +95,7 @@ struct code_point {
     return out;
 }
 
-/// A rough width of the text in a sans-serif font of the given size, for laying out labels.
-[[nodiscard]] inline double approximate_text_width(std::string_view text, double size) {
+SIVID_ENTRY double approximate_text_width(std::string_view text, double size) {
     double em = 0;
     while (!text.empty()) {
         code_point const c = first_code_point(text);
@@ -98,8 +110,7 @@ struct code_point {
     return em * size;
 }
 
-/// The text cut to a number of code points, with an ellipsis when something was cut.
-[[nodiscard]] inline std::string shorten(std::string_view text, std::size_t longest) {
+SIVID_ENTRY std::string shorten(std::string_view text, std::size_t longest) {
     std::size_t end = 0;
     std::size_t count = 0;
     std::size_t end_before_ellipsis = 0;
@@ -115,6 +126,7 @@ struct code_point {
     }
     return std::string{text};
 }
+#endif
 
 } // namespace sivid::report
 

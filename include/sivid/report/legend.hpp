@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_LEGEND_HPP
 #define SIVID_REPORT_LEGEND_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/svg.hpp>
 
 #include <algorithm>
@@ -46,8 +47,40 @@ struct legend_entry {
     std::string label{};
 };
 
-inline void draw_measured(svg& out, double x, double low, double high, std::string_view colour,
-                          std::string_view tip = {}) {
+SIVID_ENTRY void draw_measured(svg& out, double x, double low, double high, std::string_view colour,
+                               std::string_view tip = {});
+
+SIVID_ENTRY void draw_forced_outlier(svg& out, double x, double y, std::string_view tip = {});
+
+SIVID_ENTRY void draw_suspect(svg& out, double x, double y, std::string_view tip = {});
+
+/// An arrowhead that points along `angle` [rad], counted against the clock.
+SIVID_ENTRY void add_arrowhead(path_data& d, double x, double y, double angle);
+
+/// Points at something beyond the frame.
+SIVID_ENTRY void draw_beyond(svg& out, double x, double y, bool upward, std::string_view colour);
+
+SIVID_ENTRY void draw_witness(svg& out, double x, double y, std::string_view tip = {});
+
+/// A number that is not proved.
+SIVID_ENTRY void draw_estimate(svg& out, double x, double y, std::string_view tip = {});
+
+/// The paint of a region of a paving; undecided is hatched, pending dotted.
+[[nodiscard]] SIVID_ENTRY std::string region_fill(svg& out, symbol region);
+
+/// One symbol in a cell of 26 x 14 whose upper left corner is (x, y).
+SIVID_ENTRY void draw_symbol(svg& out, symbol what, double x, double y);
+
+/// Draws a legend in rows no wider than `width`. @returns its height
+SIVID_ENTRY double draw_legend(svg& out, std::vector<legend_entry> const& entries, double x,
+                               double y, double width);
+
+/// A symbol alone, for a legend set in HTML.
+[[nodiscard]] SIVID_ENTRY svg symbol_picture(symbol what, std::string_view label);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_LEGEND)
+SIVID_ENTRY void draw_measured(svg& out, double x, double low, double high, std::string_view colour,
+                               std::string_view tip) {
     double const middle = (low + high) / 2;
     double const half = std::max(std::abs(low - high) / 2, 1.0);
     path_data d;
@@ -57,7 +90,7 @@ inline void draw_measured(svg& out, double x, double low, double high, std::stri
     out.path(d, {.stroke = colour, .width = 1.1}, tip);
 }
 
-inline void draw_forced_outlier(svg& out, double x, double y, std::string_view tip = {}) {
+SIVID_ENTRY void draw_forced_outlier(svg& out, double x, double y, std::string_view tip) {
     path_data cross;
     cross.move(x - 3, y - 3).line(x + 3, y + 3).move(x - 3, y + 3).line(x + 3, y - 3);
     out.group(tip);
@@ -67,30 +100,28 @@ inline void draw_forced_outlier(svg& out, double x, double y, std::string_view t
     out.close();
 }
 
-inline void draw_suspect(svg& out, double x, double y, std::string_view tip = {}) {
+SIVID_ENTRY void draw_suspect(svg& out, double x, double y, std::string_view tip) {
     path_data d;
     d.move(x, y - 6).line(x + 6, y).line(x, y + 6).line(x - 6, y).close();
     out.path(d, {.fill = palette::paper, .stroke = palette::suspect, .width = 1.6, .opacity = 0.92},
              tip);
 }
 
-/// An arrowhead that points along `angle` [rad], counted against the clock.
-inline void add_arrowhead(path_data& d, double x, double y, double angle) {
+SIVID_ENTRY void add_arrowhead(path_data& d, double x, double y, double angle) {
     double const c = std::cos(angle);
     double const n = -std::sin(angle);
     d.move(x + 9 * c, y + 9 * n).line(x - 6 * c - 4.5 * n, y - 6 * n + 4.5 * c);
     d.line(x - 3 * c, y - 3 * n).line(x - 6 * c + 4.5 * n, y - 6 * n - 4.5 * c).close();
 }
 
-/// Points at something beyond the frame.
-inline void draw_beyond(svg& out, double x, double y, bool upward, std::string_view colour) {
+SIVID_ENTRY void draw_beyond(svg& out, double x, double y, bool upward, std::string_view colour) {
     double const s = upward ? -1 : 1;
     path_data d;
     d.move(x - 4, y).line(x + 4, y).line(x, y + s * 6).close();
     out.path(d, {.fill = colour});
 }
 
-inline void draw_witness(svg& out, double x, double y, std::string_view tip = {}) {
+SIVID_ENTRY void draw_witness(svg& out, double x, double y, std::string_view tip) {
     path_data cross;
     cross.move(x - 6, y).line(x + 6, y).move(x, y - 6).line(x, y + 6);
     out.group(tip);
@@ -100,27 +131,11 @@ inline void draw_witness(svg& out, double x, double y, std::string_view tip = {}
     out.close();
 }
 
-/// A number that is not proved.
-inline void draw_estimate(svg& out, double x, double y, std::string_view tip = {}) {
+SIVID_ENTRY void draw_estimate(svg& out, double x, double y, std::string_view tip) {
     out.circle(x, y, 4.2, {.fill = palette::paper, .stroke = palette::ink, .width = 1.6}, tip);
 }
 
-/// The paint of a region of a paving; undecided is hatched, pending dotted.
-[[nodiscard]] inline std::string region_fill(svg& out, symbol region) {
-    switch (region) {
-    case symbol::inside:
-        return std::string{palette::inside};
-    case symbol::undecided:
-        return out.hatch(palette::undecided, "#c98a00");
-    case symbol::pending:
-        return out.dots(palette::pending, "#8d4a73");
-    default:
-        return std::string{palette::outside};
-    }
-}
-
-/// One symbol in a cell of 26 x 14 whose upper left corner is (x, y).
-inline void draw_symbol(svg& out, symbol what, double x, double y) {
+SIVID_ENTRY void draw_symbol(svg& out, symbol what, double x, double y) {
     double const mx = x + 13;
     double const my = y + 7;
     switch (what) {
@@ -197,9 +212,21 @@ inline void draw_symbol(svg& out, symbol what, double x, double y) {
     }
 }
 
-/// Draws a legend in rows no wider than `width`. @returns its height
-inline double draw_legend(svg& out, std::vector<legend_entry> const& entries, double x, double y,
-                          double width) {
+SIVID_ENTRY std::string region_fill(svg& out, symbol region) {
+    switch (region) {
+    case symbol::inside:
+        return std::string{palette::inside};
+    case symbol::undecided:
+        return out.hatch(palette::undecided, "#c98a00");
+    case symbol::pending:
+        return out.dots(palette::pending, "#8d4a73");
+    default:
+        return std::string{palette::outside};
+    }
+}
+
+SIVID_ENTRY double draw_legend(svg& out, std::vector<legend_entry> const& entries, double x,
+                               double y, double width) {
     double column = 0;
     double row = 0;
     for (legend_entry const& e : entries) {
@@ -215,12 +242,12 @@ inline double draw_legend(svg& out, std::vector<legend_entry> const& entries, do
     return entries.empty() ? 0 : row + 20;
 }
 
-/// A symbol alone, for a legend set in HTML.
-[[nodiscard]] inline svg symbol_picture(symbol what, std::string_view label) {
+SIVID_ENTRY svg symbol_picture(symbol what, std::string_view label) {
     svg out{26, 14, label};
     draw_symbol(out, what, 0, 0);
     return out;
 }
+#endif
 
 } // namespace sivid::report
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_NUMBER_TEXT_HPP
 #define SIVID_REPORT_NUMBER_TEXT_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/range.hpp>
 #include <sivid/report/rounded_decimal.hpp>
 
@@ -31,12 +32,67 @@ namespace detail {
 
 inline bool needs_power(int lead) { return lead < -4 || lead > 6; }
 
-inline std::string special_text(double x) {
+SIVID_ENTRY std::string special_text(double x);
+
+/// One number, rounded at 10^quantum and written relative to 10^power.
+SIVID_ENTRY std::string bound_text(double x, int quantum, int shift, int power, rounding way);
+
+} // namespace detail
+
+/// A number rounded in the given direction to some significant digits.
+[[nodiscard]] SIVID_ENTRY std::string rounded_text(double x, rounding way, number_format f = {});
+
+namespace detail {
+
+/// Ends of an interval that is not empty, each rounded its way.
+SIVID_ENTRY std::string interval_text(range const& r, number_format f, rounding low, rounding high);
+
+} // namespace detail
+
+/// An interval rounded outward: "[0.21820, 0.22181]", "[2.0, 2.1] x 10^-4".
+/// @guarantee  the printed interval contains [lo, hi].
+[[nodiscard]] SIVID_ENTRY std::string outward_text(range const& r, number_format f = {});
+
+/// An interval rounded inward: for what holds at all of its points.
+/// @guarantee  [lo, hi] contains the printed interval.
+/// @returns  nothing when the interval is too thin for sixteen digits
+[[nodiscard]] SIVID_ENTRY std::optional<std::string> inward_text(range const& r,
+                                                                 number_format f = {});
+
+/// The shortest decimal within two units in the last place: how a decimal that was read outward
+/// was written by the user. For given data only, never for a proven bound.
+[[nodiscard]] SIVID_ENTRY std::string given_text(double x);
+
+[[nodiscard]] SIVID_ENTRY std::string given_text(range const& r);
+
+/// The shortest decimal that reads back as the same double.
+[[nodiscard]] SIVID_ENTRY std::string exact_text(double x);
+
+/// A proven bound inside a given one, outward; an end that the proof did not move is printed as it
+/// was given.
+[[nodiscard]] SIVID_ENTRY std::string outward_text_within(range const& proven, range const& given,
+                                                          number_format f = {});
+
+/// A count with thin spaces between groups of three digits.
+[[nodiscard]] SIVID_ENTRY std::string count_text(std::uint64_t n);
+
+/// Seconds in a unit that reads well: "85 ms", "12.3 s", "4 min 5 s".
+[[nodiscard]] SIVID_ENTRY std::string duration_text(double seconds);
+
+/// A unit in typographic form: "kg m^2" gives "kg m" and a raised 2.
+[[nodiscard]] SIVID_ENTRY std::string unit_text(std::string_view unit);
+
+/// A unit to be put after a value, with a space that does not break; empty without a unit.
+[[nodiscard]] SIVID_ENTRY std::string unit_suffix(std::string_view unit);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_NUMBER_TEXT)
+namespace detail {
+
+SIVID_ENTRY std::string special_text(double x) {
     return std::isnan(x) ? "?" : x > 0 ? "\xE2\x88\x9E" : std::string{minus_sign} + "\xE2\x88\x9E";
 }
 
-/// One number, rounded at 10^quantum and written relative to 10^power.
-inline std::string bound_text(double x, int quantum, int shift, int power, rounding way) {
+SIVID_ENTRY std::string bound_text(double x, int quantum, int shift, int power, rounding way) {
     if (!std::isfinite(x)) {
         return special_text(x);
     }
@@ -45,23 +101,8 @@ inline std::string bound_text(double x, int quantum, int shift, int power, round
     return plain_text(d);
 }
 
-} // namespace detail
-
-/// A number rounded in the given direction to some significant digits.
-[[nodiscard]] inline std::string rounded_text(double x, rounding way, number_format f = {}) {
-    if (!std::isfinite(x) || x == 0) {
-        return x == 0 ? "0" : detail::special_text(x);
-    }
-    int const lead = detail::leading_exponent(x);
-    int const power = detail::needs_power(lead + f.shift) ? lead + f.shift : 0;
-    std::string const text = detail::bound_text(x, lead - f.significant + 1, f.shift, power, way);
-    return power == 0 ? text : text + power_text(power);
-}
-
-namespace detail {
-
-/// Ends of an interval that is not empty, each rounded its way.
-inline std::string interval_text(range const& r, number_format f, rounding low, rounding high) {
+SIVID_ENTRY std::string interval_text(range const& r, number_format f, rounding low,
+                                      rounding high) {
     double const largest = std::max(std::isfinite(r.lo) ? std::fabs(r.lo) : 0.0,
                                     std::isfinite(r.hi) ? std::fabs(r.hi) : 0.0);
     if (largest == 0 && is_finite(r)) {
@@ -81,19 +122,24 @@ inline std::string interval_text(range const& r, number_format f, rounding low, 
 
 } // namespace detail
 
-/// An interval rounded outward: "[0.21820, 0.22181]", "[2.0, 2.1] x 10^-4".
-/// @guarantee  the printed interval contains [lo, hi].
-[[nodiscard]] inline std::string outward_text(range const& r, number_format f = {}) {
+SIVID_ENTRY std::string rounded_text(double x, rounding way, number_format f) {
+    if (!std::isfinite(x) || x == 0) {
+        return x == 0 ? "0" : detail::special_text(x);
+    }
+    int const lead = detail::leading_exponent(x);
+    int const power = detail::needs_power(lead + f.shift) ? lead + f.shift : 0;
+    std::string const text = detail::bound_text(x, lead - f.significant + 1, f.shift, power, way);
+    return power == 0 ? text : text + power_text(power);
+}
+
+SIVID_ENTRY std::string outward_text(range const& r, number_format f) {
     if (is_empty(r)) {
         return "empty";
     }
     return detail::interval_text(r, f, rounding::down, rounding::up);
 }
 
-/// An interval rounded inward: for what holds at all of its points.
-/// @guarantee  [lo, hi] contains the printed interval.
-/// @returns  nothing when the interval is too thin for sixteen digits
-[[nodiscard]] inline std::optional<std::string> inward_text(range const& r, number_format f = {}) {
+SIVID_ENTRY std::optional<std::string> inward_text(range const& r, number_format f) {
     // Three units of the last digit that 16 digits leave: the ends cannot pass each other.
     double const size = std::max(std::fabs(r.lo), std::fabs(r.hi));
     if (is_empty(r) || !is_finite(r) || !(r.hi - r.lo > 3e-15 * size)) {
@@ -102,9 +148,7 @@ inline std::string interval_text(range const& r, number_format f, rounding low, 
     return detail::interval_text(r, f, rounding::up, rounding::down);
 }
 
-/// The shortest decimal within two units in the last place: how a decimal that was read outward
-/// was written by the user. For given data only, never for a proven bound.
-[[nodiscard]] inline std::string given_text(double x) {
+SIVID_ENTRY std::string given_text(double x) {
     if (!std::isfinite(x) || x == 0) {
         return x == 0 ? "0" : detail::special_text(x);
     }
@@ -123,13 +167,12 @@ inline std::string interval_text(range const& r, number_format f, rounding low, 
     return rounded_text(x, rounding::nearest, {.significant = 17, .shift = 0});
 }
 
-[[nodiscard]] inline std::string given_text(range const& r) {
+SIVID_ENTRY std::string given_text(range const& r) {
     return is_empty(r) ? "empty"
                        : std::string{"["} + given_text(r.lo) + ", " + given_text(r.hi) + "]";
 }
 
-/// The shortest decimal that reads back as the same double.
-[[nodiscard]] inline std::string exact_text(double x) {
+SIVID_ENTRY std::string exact_text(double x) {
     if (!std::isfinite(x) || x == 0) {
         return x == 0 ? "0" : detail::special_text(x);
     }
@@ -147,10 +190,8 @@ inline std::string interval_text(range const& r, number_format f, rounding low, 
     return rounded_text(x, rounding::nearest, {.significant = 17, .shift = 0});
 }
 
-/// A proven bound inside a given one, outward; an end that the proof did not move is printed as it
-/// was given.
-[[nodiscard]] inline std::string outward_text_within(range const& proven, range const& given,
-                                                     number_format f = {}) {
+SIVID_ENTRY std::string outward_text_within(range const& proven, range const& given,
+                                            number_format f) {
     std::string text = outward_text(proven, f);
     auto const comma = text.find(", ");
     if (!is_finite(proven) || comma == std::string::npos || text.back() != ']') {
@@ -164,8 +205,7 @@ inline std::string interval_text(range const& r, number_format f, rounding low, 
     return "[" + low + ", " + high + "]";
 }
 
-/// A count with thin spaces between groups of three digits.
-[[nodiscard]] inline std::string count_text(std::uint64_t n) {
+SIVID_ENTRY std::string count_text(std::uint64_t n) {
     std::string const digits = std::to_string(n);
     std::string out;
     for (std::size_t i = 0; i < digits.size(); ++i) {
@@ -177,8 +217,7 @@ inline std::string interval_text(range const& r, number_format f, rounding low, 
     return out;
 }
 
-/// Seconds in a unit that reads well: "85 ms", "12.3 s", "4 min 5 s".
-[[nodiscard]] inline std::string duration_text(double seconds) {
+SIVID_ENTRY std::string duration_text(double seconds) {
     if (!(seconds >= 0) || !std::isfinite(seconds)) {
         return "?";
     }
@@ -194,8 +233,7 @@ inline std::string interval_text(range const& r, number_format f, rounding low, 
                : count_text(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";
 }
 
-/// A unit in typographic form: "kg m^2" gives "kg m" and a raised 2.
-[[nodiscard]] inline std::string unit_text(std::string_view unit) {
+SIVID_ENTRY std::string unit_text(std::string_view unit) {
     std::string out;
     for (std::size_t i = 0; i < unit.size(); ++i) {
         if (unit[i] == '^') {
@@ -213,10 +251,10 @@ inline std::string interval_text(range const& r, number_format f, rounding low, 
     return out;
 }
 
-/// A unit to be put after a value, with a space that does not break; empty without a unit.
-[[nodiscard]] inline std::string unit_suffix(std::string_view unit) {
+SIVID_ENTRY std::string unit_suffix(std::string_view unit) {
     return unit.empty() ? std::string{} : std::string{"\xC2\xA0"} + unit_text(unit);
 }
+#endif
 
 } // namespace sivid::report
 

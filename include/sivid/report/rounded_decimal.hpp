@@ -2,6 +2,8 @@
 #ifndef SIVID_REPORT_ROUNDED_DECIMAL_HPP
 #define SIVID_REPORT_ROUNDED_DECIMAL_HPP
 
+#include <sivid/compiled.hpp>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -28,7 +30,26 @@ namespace detail {
 inline constexpr std::string_view minus_sign = "\xE2\x88\x92";
 
 /// Position of the leading digit: |x| = d.ddd * 10^result (0 for zero).
-inline int leading_exponent(double x) {
+SIVID_ENTRY int leading_exponent(double x);
+
+SIVID_ENTRY std::string superscript(int value);
+
+} // namespace detail
+
+/// " x 10^e" in typographic form.
+[[nodiscard]] SIVID_ENTRY std::string power_text(int exponent);
+
+/// Rounds a finite double to a multiple of 10^quantum in the given direction.
+/// @guarantee  down: result <= x, up: result >= x, as real numbers; the error is below 10^quantum.
+[[nodiscard]] SIVID_ENTRY scaled_decimal round_decimal(double x, int quantum, rounding way);
+
+/// Writes a scaled decimal without an exponent, e.g. "-0.0120".
+[[nodiscard]] SIVID_ENTRY std::string plain_text(scaled_decimal const& d);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_ROUNDED_DECIMAL)
+namespace detail {
+
+SIVID_ENTRY int leading_exponent(double x) {
     char text[32];
     auto const end =
         std::to_chars(text, text + sizeof text, std::fabs(x), std::chars_format::scientific, 16)
@@ -40,7 +61,7 @@ inline int leading_exponent(double x) {
     return x == 0 ? 0 : tail.front() == '-' ? -value : value;
 }
 
-inline std::string superscript(int value) {
+SIVID_ENTRY std::string superscript(int value) {
     static constexpr std::string_view glyph[10] = {
         "\xE2\x81\xB0", "\xC2\xB9",     "\xC2\xB2",     "\xC2\xB3",     "\xE2\x81\xB4",
         "\xE2\x81\xB5", "\xE2\x81\xB6", "\xE2\x81\xB7", "\xE2\x81\xB8", "\xE2\x81\xB9"};
@@ -53,14 +74,11 @@ inline std::string superscript(int value) {
 
 } // namespace detail
 
-/// " x 10^e" in typographic form.
-[[nodiscard]] inline std::string power_text(int exponent) {
+SIVID_ENTRY std::string power_text(int exponent) {
     return std::string{" \xC3\x97 10"} + detail::superscript(exponent);
 }
 
-/// Rounds a finite double to a multiple of 10^quantum in the given direction.
-/// @guarantee  down: result <= x, up: result >= x, as real numbers; the error is below 10^quantum.
-[[nodiscard]] inline scaled_decimal round_decimal(double x, int quantum, rounding way) {
+SIVID_ENTRY scaled_decimal round_decimal(double x, int quantum, rounding way) {
     // 767 significant digits write any double exactly.
     char text[800];
     auto const end =
@@ -105,8 +123,7 @@ inline std::string superscript(int value) {
     return out;
 }
 
-/// Writes a scaled decimal without an exponent, e.g. "-0.0120".
-[[nodiscard]] inline std::string plain_text(scaled_decimal const& d) {
+SIVID_ENTRY std::string plain_text(scaled_decimal const& d) {
     std::string digits = d.digits;
     if (d.exponent > 0 && digits != "0") {
         digits.append(static_cast<std::size_t>(d.exponent), '0');
@@ -123,6 +140,7 @@ inline std::string superscript(int value) {
     digits.erase(0, digits[first] == '.' ? first - 1 : first);
     return (d.negative && !zero ? std::string{detail::minus_sign} : std::string{}) + digits;
 }
+#endif
 
 } // namespace sivid::report
 

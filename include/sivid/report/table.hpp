@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_TABLE_HPP
 #define SIVID_REPORT_TABLE_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/escape.hpp>
 
 #include <algorithm>
@@ -33,7 +34,10 @@ struct table {
 };
 
 /// The table as HTML. A column without any entry is left out.
-[[nodiscard]] inline std::string table_html(table const& t) {
+[[nodiscard]] SIVID_ENTRY std::string table_html(table const& t);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_TABLE_HTML)
+SIVID_ENTRY std::string table_html(table const& t) {
     auto const name = [](column_kind k) {
         return k == column_kind::number   ? "number"
                : k == column_kind::symbol ? "symbol"
@@ -71,6 +75,7 @@ struct table {
     // Below the scrolling frame, so that it stays readable on a narrow screen.
     return t.caption.empty() ? out : out + "<p class=\"caption\">" + escape(t.caption) + "</p>\n";
 }
+#endif
 
 } // namespace sivid::report
 
