@@ -45,18 +45,22 @@ sivid_compiled_source(flags "\
 
 # Headers with functions that are compiled once; those of one floor share most of their code.
 set(entries_number decimal decimal_output decimal_text)
+set(entries_measurement signal)
 set(entries_model bound_model describe effect effects expression graph graph_listing model to_dot unit)
-set(entries_enclosure flow enclosed_motion simulate)
+set(entries_enclosure enclosed_motion failure flow simulate)
 set(entries_paving identify inflation holdout_inflation outlier_budget)
 set(entries_paving_further identifiability online_identification)   # apart: together they need 2 GB
 set(entries_diagnosis affected_problem diagnose diagnosis_run manoeuvre)
 set(entries_io checkpoint checkpoint_reader dataset dataset_digest dataset_writer diagnosis_json exact_decimal
-               explaining_motion identification_csv identification_json identification_reader json_document
-               model_names problem_digest problem_from_dataset same_problem text_file)
-set(entries_report bar_chart diagnosis_page diagnosis_plot_data diagnosis_report escape identifiability_words
-                   identification_page identification_report legend number_text page plane_plot rounded_decimal svg
-                   table time_plot)
-foreach(group IN ITEMS number model enclosure paving paving_further diagnosis io report)
+               explaining_motion identification_csv identification_json identification_reader input_error
+               json_document model_names problem_digest problem_from_dataset same_problem text_file)
+set(entries_report bar_chart candidate_chart channel_series comparison_plot diagnosis_figures diagnosis_page
+                   diagnosis_plot_data diagnosis_report diagnosis_tables diagnosis_words escape heat_map
+                   holdout_tables identifiability_words identification_page identification_parameters
+                   identification_report identification_words interval_chart legend missing_rate_plot number_text page
+                   paving_plot paving_projections paving_raster place_words plane_plot residual_plot rounded_decimal
+                   svg table ticks time_plot)
+foreach(group IN ITEMS number measurement model enclosure paving paving_further diagnosis io report)
     string(REGEX REPLACE "_.*" "" floor "${group}")
     if(floor MATCHES "^(io|report)$" AND NOT TARGET sivid::${floor})
         continue()

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// Table 2.2 of the report with proof: how much can each constant, moved through its prior, change
@@ -93,9 +94,14 @@ public:
                 equation.effects.push_back({about.constants[c].name, equation.unit, priors_[c],
                                             traits::mul(width, slope), high[i * m + c] > 0});
             }
-            std::stable_sort(
-                equation.effects.begin(), equation.effects.end(),
-                [](auto const& a, auto const& b) { return a.effect.upper() > b.effect.upper(); });
+            // By insertion, strongest first: few enough for that.
+            for (std::size_t k = 1; k < equation.effects.size(); ++k) {
+                for (auto at = k; at > 0; --at) {
+                    auto &before = equation.effects[at - 1], &here = equation.effects[at];
+                    if (!(here.effect.upper() > before.effect.upper())) break;
+                    std::swap(before, here);
+                }
+            }
             result.push_back(std::move(equation));
         }
         return result;

@@ -19,6 +19,20 @@
 
 namespace sivid {
 
+/// The state that a text holds.
+/// @param file     for messages
+/// @param problem  `problem_digest` of what is to be resumed
+/// @throws input_error  for a text that is damaged, of another format or version of sivid, or of
+///                      another problem
+[[nodiscard]] SIVID_ENTRY identification_state parse_checkpoint(std::string_view text,
+                                                                std::string const& file,
+                                                                std::string const& problem);
+
+/// @throws input_error  as above, or when there is no such file
+[[nodiscard]] SIVID_ENTRY identification_state read_checkpoint(std::filesystem::path const& file,
+                                                               std::string const& problem);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_READ_CHECKPOINT)
 namespace io_detail {
 
 /// Reads a checkpoint line by line, word by word.
@@ -178,7 +192,7 @@ inline search_state take_search(checkpoint_parser& in) {
         auto& w = s.waiting.emplace_back();
         auto const kind = in.open();
         if (kind == "knows") {
-            w.known.emplace();
+            w.known = search_state::origin{};
             w.known->lesson = in.count();
             w.known->place = in.count();
             w.known->bytes = in.count();
@@ -194,13 +208,8 @@ inline search_state take_search(checkpoint_parser& in) {
 
 } // namespace io_detail
 
-/// The state that a text holds.
-/// @param file     for messages
-/// @param problem  `problem_digest` of what is to be resumed
-/// @throws input_error  for a text that is damaged, of another format or version of sivid, or of
-///                      another problem
-[[nodiscard]] inline identification_state
-parse_checkpoint(std::string_view text, std::string const& file, std::string const& problem) {
+SIVID_ENTRY identification_state parse_checkpoint(std::string_view text, std::string const& file,
+                                                  std::string const& problem) {
     io_detail::checkpoint_parser in{file, text};
     in.header();
     std::string const writer{in.open("version").word()};
@@ -236,11 +245,6 @@ parse_checkpoint(std::string_view text, std::string const& file, std::string con
     return state;
 }
 
-/// @throws input_error  as above, or when there is no such file
-[[nodiscard]] SIVID_ENTRY identification_state read_checkpoint(std::filesystem::path const& file,
-                                                               std::string const& problem);
-
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_READ_CHECKPOINT)
 SIVID_ENTRY identification_state read_checkpoint(std::filesystem::path const& file,
                                                  std::string const& problem) {
     return parse_checkpoint(read_text(file), file.string(), problem);

@@ -2,6 +2,8 @@
 #ifndef SIVID_IO_INPUT_ERROR_HPP
 #define SIVID_IO_INPUT_ERROR_HPP
 
+#include <sivid/compiled.hpp>
+
 #include <concepts>
 #include <cstddef>
 #include <stdexcept>
@@ -48,24 +50,29 @@ public:
 
 private:
     static std::string message(input_place const& place, std::string const& problem,
-                               std::string const& remedy) {
-        std::string text = place.file;
-        if (place.is_json)
-            text += text_of(": ", place.pointer.empty() ? "(document)" : place.pointer);
-        if (place.line > 0) text += text_of(": line ", std::to_string(place.line));
-        if (place.column > 0) text += text_of(", column ", std::to_string(place.column));
-        if (!place.heading.empty()) text += " (" + place.heading + ")";
-        text += ": " + problem;
-        if (!remedy.empty()) text += "; " + remedy;
-        return text;
-    }
+                               std::string const& remedy);
 
     input_place place_;
     std::string problem_, remedy_;
 };
 
 /// "'text'" for messages: shortened, and with control characters made visible.
-[[nodiscard]] inline std::string in_quotes(std::string const& text) {
+[[nodiscard]] SIVID_ENTRY std::string in_quotes(std::string const& text);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_INPUT_ERROR)
+SIVID_ENTRY std::string input_error::message(input_place const& place, std::string const& problem,
+                                             std::string const& remedy) {
+    std::string text = place.file;
+    if (place.is_json) text += text_of(": ", place.pointer.empty() ? "(document)" : place.pointer);
+    if (place.line > 0) text += text_of(": line ", std::to_string(place.line));
+    if (place.column > 0) text += text_of(", column ", std::to_string(place.column));
+    if (!place.heading.empty()) text += " (" + place.heading + ")";
+    text += ": " + problem;
+    if (!remedy.empty()) text += "; " + remedy;
+    return text;
+}
+
+SIVID_ENTRY std::string in_quotes(std::string const& text) {
     constexpr std::size_t longest = 40;
     std::string result = "'";
     for (char c : text.substr(0, longest)) {
@@ -74,6 +81,7 @@ private:
     }
     return result + (text.size() > longest ? "...'" : "'");
 }
+#endif
 
 } // namespace sivid
 

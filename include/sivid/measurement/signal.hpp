@@ -2,6 +2,7 @@
 #ifndef SIVID_MEASUREMENT_SIGNAL_HPP
 #define SIVID_MEASUREMENT_SIGNAL_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/number/interval_traits.hpp>
 
 #include <algorithm>
@@ -29,38 +30,17 @@ enum class interpolation {
 /// \f$ e_k \f$. Before the first and after the last sample the nearest one's bound holds.
 class sampled_signal {
 public:
-    sampled_signal() = default;
+    sampled_signal();
+    sampled_signal(sampled_signal const&);
+    sampled_signal(sampled_signal&&) noexcept;
+    sampled_signal& operator=(sampled_signal const&);
+    sampled_signal& operator=(sampled_signal&&) noexcept;
+    ~sampled_signal();
 
     /// @param errors  a bound for each sample, 0 or more; none: the samples are exact
     /// @given  as many values as times, at least one, finite, times strictly increasing (checked).
     sampled_signal(std::vector<double> times, std::vector<double> values, interpolation kind,
-                   std::vector<double> errors = {})
-        : times_(std::move(times)),
-          values_(std::move(values)),
-          errors_(std::move(errors)),
-          kind_(kind) {
-        if (times_.empty() || times_.size() != values_.size()) {
-            throw std::invalid_argument(
-                "sampled_signal: needs as many values as times, at least one");
-        }
-        for (std::size_t i = 0; i < times_.size(); ++i) {
-            if (!std::isfinite(times_[i]) || !std::isfinite(values_[i])) {
-                throw std::invalid_argument("sampled_signal: times and values must be finite");
-            }
-            if (i > 0 && !(times_[i - 1] < times_[i])) {
-                throw std::invalid_argument("sampled_signal: times must increase strictly");
-            }
-        }
-        if (!errors_.empty() && errors_.size() != values_.size()) {
-            throw std::invalid_argument("sampled_signal: needs as many error bounds as values");
-        }
-        for (double const e : errors_) {
-            if (!(e >= 0) || !std::isfinite(e)) {
-                throw std::invalid_argument(
-                    "sampled_signal: error bounds must be finite and not negative");
-            }
-        }
-    }
+                   std::vector<double> errors = {});
 
     [[nodiscard]] std::vector<double> const& times() const { return times_; }
     [[nodiscard]] std::vector<double> const& values() const { return values_; }
@@ -139,6 +119,43 @@ private:
     std::vector<double> errors_;
     interpolation kind_ = interpolation::linear;
 };
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_SIGNAL)
+SIVID_ENTRY sampled_signal::sampled_signal() = default;
+SIVID_ENTRY sampled_signal::sampled_signal(sampled_signal const&) = default;
+SIVID_ENTRY sampled_signal::sampled_signal(sampled_signal&&) noexcept = default;
+SIVID_ENTRY sampled_signal& sampled_signal::operator=(sampled_signal const&) = default;
+SIVID_ENTRY sampled_signal& sampled_signal::operator=(sampled_signal&&) noexcept = default;
+SIVID_ENTRY sampled_signal::~sampled_signal() = default;
+
+SIVID_ENTRY sampled_signal::sampled_signal(std::vector<double> times, std::vector<double> values,
+                                           interpolation kind, std::vector<double> errors)
+    : times_(std::move(times)),
+      values_(std::move(values)),
+      errors_(std::move(errors)),
+      kind_(kind) {
+    if (times_.empty() || times_.size() != values_.size()) {
+        throw std::invalid_argument("sampled_signal: needs as many values as times, at least one");
+    }
+    for (std::size_t i = 0; i < times_.size(); ++i) {
+        if (!std::isfinite(times_[i]) || !std::isfinite(values_[i])) {
+            throw std::invalid_argument("sampled_signal: times and values must be finite");
+        }
+        if (i > 0 && !(times_[i - 1] < times_[i])) {
+            throw std::invalid_argument("sampled_signal: times must increase strictly");
+        }
+    }
+    if (!errors_.empty() && errors_.size() != values_.size()) {
+        throw std::invalid_argument("sampled_signal: needs as many error bounds as values");
+    }
+    for (double const e : errors_) {
+        if (!(e >= 0) || !std::isfinite(e)) {
+            throw std::invalid_argument(
+                "sampled_signal: error bounds must be finite and not negative");
+        }
+    }
+}
+#endif
 
 } // namespace sivid
 

@@ -112,6 +112,13 @@ concept dynamic_model = requires {
 
 /// Names and units of everything a model speaks of.
 struct model_description {
+    model_description();
+    model_description(model_description const&);
+    model_description(model_description&&) noexcept;
+    model_description& operator=(model_description const&);
+    model_description& operator=(model_description&&) noexcept;
+    ~model_description();
+
     struct state {
         std::string name, unit;
         double limit = 0;       ///< own range: |x| <= limit
@@ -198,6 +205,13 @@ template <dynamic_model M>
 }
 
 #if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_MODEL)
+SIVID_ENTRY model_description::model_description() = default;
+SIVID_ENTRY model_description::model_description(model_description const&) = default;
+SIVID_ENTRY model_description::model_description(model_description&&) noexcept = default;
+SIVID_ENTRY model_description& model_description::operator=(model_description const&) = default;
+SIVID_ENTRY model_description& model_description::operator=(model_description&&) noexcept = default;
+SIVID_ENTRY model_description::~model_description() = default;
+
 SIVID_ENTRY model_description model_detail::described(
     std::string_view name, std::span<state_quantity const> states, std::span<quantity const> inputs,
     std::span<quantity const> channels, std::span<constant_quantity const> constants) {

@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_CANDIDATE_CHART_HPP
 #define SIVID_REPORT_CANDIDATE_CHART_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/legend.hpp>
 #include <sivid/report/number_text.hpp>
 #include <sivid/report/ticks.hpp>
@@ -35,53 +36,22 @@ struct candidate_chart_options {
     std::string title{};
 };
 
-[[nodiscard]] inline std::string_view state_sign(candidate_state s) {
-    return s == candidate_state::explains   ? "\xE2\x9C\x93"
-           : s == candidate_state::excluded ? "\xE2\x9C\x95"
-                                            : "?";
-}
-[[nodiscard]] inline std::string_view state_words(candidate_state s) {
-    return s == candidate_state::explains   ? "explains (proved)"
-           : s == candidate_state::excluded ? "excluded (proved)"
-                                            : "open";
-}
+[[nodiscard]] SIVID_ENTRY std::string_view state_sign(candidate_state s);
+[[nodiscard]] SIVID_ENTRY std::string_view state_words(candidate_state s);
 
 /// True for a positive finite number: that of a fit.
-[[nodiscard]] inline bool is_fitted(double inflation) {
-    return std::isfinite(inflation) && inflation > 0;
-}
+[[nodiscard]] SIVID_ENTRY bool is_fitted(double inflation);
 /// True when a proved range of an inflation says anything.
-[[nodiscard]] inline bool says_something(range const& inflation) {
-    return !is_empty(inflation) && (inflation.lo > 0 || std::isfinite(inflation.hi));
-}
+[[nodiscard]] SIVID_ENTRY bool says_something(range const& inflation);
 
 /// Proved bounds as a reader sees them: three digits, outward; "at least 3.1", "at most 0.98".
-[[nodiscard]] inline std::string span_text(range const& r, int digits = 3) {
-    if (is_empty(r)) return "?";
-    number_format const f{.significant = digits, .shift = 0};
-    if (!std::isfinite(r.hi)) {
-        return std::isfinite(r.lo) ? "at least " + rounded_text(r.lo, rounding::down, f)
-                                   : "not bounded";
-    }
-    if (!std::isfinite(r.lo)) return "at most " + rounded_text(r.hi, rounding::up, f);
-    std::string const low = rounded_text(r.lo, rounding::down, f);
-    std::string const high = rounded_text(r.hi, rounding::up, f);
-    return low == high ? low : low + " to " + high;
-}
+[[nodiscard]] SIVID_ENTRY std::string span_text(range const& r, int digits = 3);
 
 /// Proved bounds of an inflation, with enough digits that a gap is not rounded away.
-[[nodiscard]] inline std::string inflation_text(range const& r) {
-    if (!(r.lo > 0) && std::isfinite(r.hi)) return span_text({-INFINITY, r.hi});
-    int digits = 3;
-    for (double left = 0.01; r.lo > 1 && r.lo < 1 + 1.001 * left && digits < 12; left /= 10)
-        ++digits;
-    return span_text(r, digits);
-}
+[[nodiscard]] SIVID_ENTRY std::string inflation_text(range const& r);
 
 /// A number that is not proved, three digits.
-[[nodiscard]] inline std::string estimate_text(double x) {
-    return std::isfinite(x) ? "\xE2\x89\x88\xE2\x80\xAF" + rounded_text(x, rounding::nearest) : "?";
-}
+[[nodiscard]] SIVID_ENTRY std::string estimate_text(double x);
 
 namespace detail {
 
@@ -136,7 +106,66 @@ private:
     double low_ = 0, high_ = 1;
 };
 
-inline std::string_view state_colour(candidate_state s) {
+SIVID_ENTRY std::string_view state_colour(candidate_state s);
+
+} // namespace detail
+
+[[nodiscard]] SIVID_ENTRY std::vector<legend_entry>
+candidate_legend(std::vector<candidate_bar> const& bars);
+
+/// For each candidate the inflation that is left: proved bounds as a bar, solid to the lower and
+/// hatched to the upper one, the best fit as an open circle; the threshold at 1; sign and words for
+/// what is proved.
+[[nodiscard]] SIVID_ENTRY svg draw_candidate_chart(std::vector<candidate_bar> const& bars,
+                                                   candidate_chart_options const& o = {});
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_CANDIDATE_CHART)
+SIVID_ENTRY std::string_view state_sign(candidate_state s) {
+    return s == candidate_state::explains   ? "\xE2\x9C\x93"
+           : s == candidate_state::excluded ? "\xE2\x9C\x95"
+                                            : "?";
+}
+
+SIVID_ENTRY std::string_view state_words(candidate_state s) {
+    return s == candidate_state::explains   ? "explains (proved)"
+           : s == candidate_state::excluded ? "excluded (proved)"
+                                            : "open";
+}
+
+SIVID_ENTRY bool is_fitted(double inflation) { return std::isfinite(inflation) && inflation > 0; }
+
+SIVID_ENTRY bool says_something(range const& inflation) {
+    return !is_empty(inflation) && (inflation.lo > 0 || std::isfinite(inflation.hi));
+}
+
+SIVID_ENTRY std::string span_text(range const& r, int digits) {
+    if (is_empty(r)) return "?";
+    number_format const f{.significant = digits, .shift = 0};
+    if (!std::isfinite(r.hi)) {
+        return std::isfinite(r.lo) ? "at least " + rounded_text(r.lo, rounding::down, f)
+                                   : "not bounded";
+    }
+    if (!std::isfinite(r.lo)) return "at most " + rounded_text(r.hi, rounding::up, f);
+    std::string const low = rounded_text(r.lo, rounding::down, f);
+    std::string const high = rounded_text(r.hi, rounding::up, f);
+    return low == high ? low : low + " to " + high;
+}
+
+SIVID_ENTRY std::string inflation_text(range const& r) {
+    if (!(r.lo > 0) && std::isfinite(r.hi)) return span_text({-INFINITY, r.hi});
+    int digits = 3;
+    for (double left = 0.01; r.lo > 1 && r.lo < 1 + 1.001 * left && digits < 12; left /= 10)
+        ++digits;
+    return span_text(r, digits);
+}
+
+SIVID_ENTRY std::string estimate_text(double x) {
+    return std::isfinite(x) ? "\xE2\x89\x88\xE2\x80\xAF" + rounded_text(x, rounding::nearest) : "?";
+}
+
+namespace detail {
+
+SIVID_ENTRY std::string_view state_colour(candidate_state s) {
     return s == candidate_state::explains   ? palette::inside
            : s == candidate_state::excluded ? palette::outlier
                                             : palette::frame;
@@ -144,8 +173,7 @@ inline std::string_view state_colour(candidate_state s) {
 
 } // namespace detail
 
-[[nodiscard]] inline std::vector<legend_entry>
-candidate_legend(std::vector<candidate_bar> const& bars) {
+SIVID_ENTRY std::vector<legend_entry> candidate_legend(std::vector<candidate_bar> const& bars) {
     bool proved = false, fitted = false;
     for (candidate_bar const& b : bars) {
         proved = proved || says_something(b.proved);
@@ -160,11 +188,8 @@ candidate_legend(std::vector<candidate_bar> const& bars) {
     return out;
 }
 
-/// For each candidate the inflation that is left: proved bounds as a bar, solid to the lower and
-/// hatched to the upper one, the best fit as an open circle; the threshold at 1; sign and words for
-/// what is proved.
-[[nodiscard]] inline svg draw_candidate_chart(std::vector<candidate_bar> const& bars,
-                                              candidate_chart_options const& o = {}) {
+SIVID_ENTRY svg draw_candidate_chart(std::vector<candidate_bar> const& bars,
+                                     candidate_chart_options const& o) {
     double const top = o.title.empty() ? 24 : 48;
     double const pitch = 27;
     double const bottom = top + pitch * static_cast<double>(std::max<std::size_t>(bars.size(), 1));
@@ -247,6 +272,7 @@ candidate_legend(std::vector<candidate_bar> const& bars) {
              {.size = 11.5, .align = anchor::middle});
     return out;
 }
+#endif
 
 } // namespace sivid::report
 

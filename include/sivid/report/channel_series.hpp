@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_CHANNEL_SERIES_HPP
 #define SIVID_REPORT_CHANNEL_SERIES_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/number_text.hpp>
 #include <sivid/report/range.hpp>
 #include <sivid/report/ticks.hpp>
@@ -48,7 +49,19 @@ namespace detail {
 
 /// The range worth showing: regular measurements and the reference decide, the tube and outliers
 /// may stretch it by at most twice its width, so that one wild value does not flatten the rest.
-inline range value_range(channel_series const& c) {
+SIVID_ENTRY range value_range(channel_series const& c);
+
+SIVID_ENTRY range time_range(channel_series const& c);
+
+SIVID_ENTRY std::string sample_tip(channel_series const& c, measured_sample const& m,
+                                   std::string_view time_unit);
+
+} // namespace detail
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_CHANNEL_SERIES)
+namespace detail {
+
+SIVID_ENTRY range value_range(channel_series const& c) {
     range core;
     range rest;
     for (measured_sample const& m : c.measured) {
@@ -78,7 +91,7 @@ inline range value_range(channel_series const& c) {
     return with_margin(axis_range(shown), 0.06);
 }
 
-inline range time_range(channel_series const& c) {
+SIVID_ENTRY range time_range(channel_series const& c) {
     range out;
     for (measured_sample const& m : c.measured) {
         out = hull(out, m.time);
@@ -92,8 +105,8 @@ inline range time_range(channel_series const& c) {
     return with_margin(axis_range(out), 0.015);
 }
 
-inline std::string sample_tip(channel_series const& c, measured_sample const& m,
-                              std::string_view time_unit) {
+SIVID_ENTRY std::string sample_tip(channel_series const& c, measured_sample const& m,
+                                   std::string_view time_unit) {
     std::string tip = std::string{"t = "} + given_text(m.time) + ' ' + std::string{time_unit} +
                       ": measured " + outward_text(m.value) + ' ' + unit_text(c.unit);
     if (!is_empty(m.enclosure)) {
@@ -105,6 +118,7 @@ inline std::string sample_tip(channel_series const& c, measured_sample const& m,
 }
 
 } // namespace detail
+#endif
 
 } // namespace sivid::report
 

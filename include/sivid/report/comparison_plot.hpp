@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_COMPARISON_PLOT_HPP
 #define SIVID_REPORT_COMPARISON_PLOT_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/heat_map.hpp>
 #include <sivid/report/time_plot.hpp>
 
@@ -29,7 +30,34 @@ namespace detail {
 
 /// The channel as a time plot sees it: data and the better line decide on the range shown, the
 /// worse line may stretch it a little.
-inline channel_series plain_series(comparison_series const& c) {
+SIVID_ENTRY channel_series plain_series(comparison_series const& c);
+
+SIVID_ENTRY double median_spacing(std::vector<point> const& all);
+
+} // namespace detail
+
+/// The legend of comparison plots, with what is in any of them.
+/// @param second  what the second model is
+[[nodiscard]] SIVID_ENTRY std::vector<legend_entry>
+comparison_legend(std::vector<comparison_series> const& all,
+                  std::string const& second = "with the effect");
+
+/// Measured intervals over time, with the model's line before and after an effect is joined.
+[[nodiscard]] SIVID_ENTRY svg draw_comparison_plot(comparison_series const& c,
+                                                   time_plot_options const& o = {});
+
+/// How far the channels miss their bounds, over time: each cell holds the largest misfit of the
+/// samples in it; a sample of a slow channel reaches half way to its neighbours.
+[[nodiscard]] SIVID_ENTRY heat_map misfit_map(std::vector<comparison_series> const& channels,
+                                              bool after, std::size_t most_columns = 60);
+
+/// The largest finite value of a map; 0 when there is none.
+[[nodiscard]] SIVID_ENTRY double largest_value(heat_map const& m);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_COMPARISON_PLOT)
+namespace detail {
+
+SIVID_ENTRY channel_series plain_series(comparison_series const& c) {
     channel_series out{c.name, c.unit, c.measured, c.tube, c.after};
     for (point const& p : c.before) {
         if (is_finite(p)) out.tube.push_back({p.x, p.x, {p.y, p.y}});
@@ -37,7 +65,7 @@ inline channel_series plain_series(comparison_series const& c) {
     return out;
 }
 
-inline double median_spacing(std::vector<point> const& all) {
+SIVID_ENTRY double median_spacing(std::vector<point> const& all) {
     std::vector<double> gaps;
     for (std::size_t k = 1; k < all.size(); ++k) {
         double const gap = all[k].x - all[k - 1].x;
@@ -51,11 +79,8 @@ inline double median_spacing(std::vector<point> const& all) {
 
 } // namespace detail
 
-/// The legend of comparison plots, with what is in any of them.
-/// @param second  what the second model is
-[[nodiscard]] inline std::vector<legend_entry>
-comparison_legend(std::vector<comparison_series> const& all,
-                  std::string const& second = "with the effect") {
+SIVID_ENTRY std::vector<legend_entry> comparison_legend(std::vector<comparison_series> const& all,
+                                                        std::string const& second) {
     bool measured = false, suspect = false, before = false, after = false, tube = false;
     for (comparison_series const& c : all) {
         before = before || !c.before.empty();
@@ -77,9 +102,7 @@ comparison_legend(std::vector<comparison_series> const& all,
     return out;
 }
 
-/// Measured intervals over time, with the model's line before and after an effect is joined.
-[[nodiscard]] inline svg draw_comparison_plot(comparison_series const& c,
-                                              time_plot_options const& o = {}) {
+SIVID_ENTRY svg draw_comparison_plot(comparison_series const& c, time_plot_options const& o) {
     auto const plain = detail::plain_series(c);
     svg out{o.width, o.height, (o.title.empty() ? c.name : o.title) + ", before and after"};
     axes const a{{"time", o.time_unit, is_empty(o.time) ? detail::time_range(plain) : o.time},
@@ -116,10 +139,8 @@ comparison_legend(std::vector<comparison_series> const& all,
     return out;
 }
 
-/// How far the channels miss their bounds, over time: each cell holds the largest misfit of the
-/// samples in it; a sample of a slow channel reaches half way to its neighbours.
-[[nodiscard]] inline heat_map misfit_map(std::vector<comparison_series> const& channels, bool after,
-                                         std::size_t most_columns = 60) {
+SIVID_ENTRY heat_map misfit_map(std::vector<comparison_series> const& channels, bool after,
+                                std::size_t most_columns) {
     heat_map out{.quantity = "|residual| / bound"};
     range span;
     std::size_t columns = 1;
@@ -158,14 +179,14 @@ comparison_legend(std::vector<comparison_series> const& all,
     return out;
 }
 
-/// The largest finite value of a map; 0 when there is none.
-[[nodiscard]] inline double largest_value(heat_map const& m) {
+SIVID_ENTRY double largest_value(heat_map const& m) {
     double largest = 0;
     for (auto const& row : m.values) {
         for (double const v : row) largest = std::isfinite(v) ? std::max(largest, v) : largest;
     }
     return largest;
 }
+#endif
 
 } // namespace sivid::report
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_DIAGNOSIS_FIGURES_HPP
 #define SIVID_REPORT_DIAGNOSIS_FIGURES_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/candidate_chart.hpp>
 #include <sivid/report/comparison_plot.hpp>
 #include <sivid/report/diagnosis_words.hpp>
@@ -19,7 +20,21 @@
 namespace sivid::report {
 
 /// One pair of maps for each scenario, all with the same colours.
-[[nodiscard]] inline figure misfit_figure(diagnosis_view const& v) {
+[[nodiscard]] SIVID_ENTRY figure misfit_figure(diagnosis_view const& v);
+
+/// One figure for each equation, with a panel for each scenario, all on one scale.
+/// @param still  how the title goes on, "with rudder_lag"
+[[nodiscard]] SIVID_ENTRY std::vector<figure>
+missing_rate_figures(std::vector<missing_rate_series> const& rates, std::string const& still = {});
+
+/// The channels of one scenario with both models' lines.
+[[nodiscard]] SIVID_ENTRY figure motion_figure(compared_scenario const& s);
+
+/// What is left of the gap with each of the foremost candidates.
+[[nodiscard]] SIVID_ENTRY figure candidate_figure(diagnosis_view const& v, std::size_t most = 25);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_DIAGNOSIS_FIGURES)
+SIVID_ENTRY figure misfit_figure(diagnosis_view const& v) {
     struct pair {
         std::string name;
         heat_map before, after;
@@ -52,10 +67,8 @@ namespace sivid::report {
     return f;
 }
 
-/// One figure for each equation, with a panel for each scenario, all on one scale.
-/// @param still  how the title goes on, "with rudder_lag"
-[[nodiscard]] inline std::vector<figure>
-missing_rate_figures(std::vector<missing_rate_series> const& rates, std::string const& still = {}) {
+SIVID_ENTRY std::vector<figure> missing_rate_figures(std::vector<missing_rate_series> const& rates,
+                                                     std::string const& still) {
     std::vector<figure> out;
     std::vector<std::string> equations;
     for (missing_rate_series const& s : rates) {
@@ -87,8 +100,7 @@ missing_rate_figures(std::vector<missing_rate_series> const& rates, std::string 
     return out;
 }
 
-/// The channels of one scenario with both models' lines.
-[[nodiscard]] inline figure motion_figure(compared_scenario const& s) {
+SIVID_ENTRY figure motion_figure(compared_scenario const& s) {
     range time;
     bool both = false;
     for (comparison_series const& c : s.channels) {
@@ -105,8 +117,7 @@ missing_rate_figures(std::vector<missing_rate_series> const& rates, std::string 
     return f;
 }
 
-/// What is left of the gap with each of the foremost candidates.
-[[nodiscard]] inline figure candidate_figure(diagnosis_view const& v, std::size_t most = 25) {
+SIVID_ENTRY figure candidate_figure(diagnosis_view const& v, std::size_t most) {
     auto const shown = foremost(v, most);
     std::vector<candidate_bar> bars;
     for (candidate_view const* c : shown) {
@@ -126,6 +137,7 @@ missing_rate_figures(std::vector<missing_rate_series> const& rates, std::string 
                             : ""),
             .layout = panel_layout::wide};
 }
+#endif
 
 } // namespace sivid::report
 

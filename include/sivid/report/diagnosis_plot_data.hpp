@@ -63,8 +63,24 @@ struct diagnosis_plot_data {
 namespace detail {
 
 /// Marks the q largest misfits beyond their bounds; none without an outlier budget.
-inline std::vector<bool> suspects(std::vector<double> const& residuals, std::size_t n,
-                                  std::size_t q) {
+SIVID_ENTRY std::vector<bool> suspects(std::vector<double> const& residuals, std::size_t n,
+                                       std::size_t q);
+
+} // namespace detail
+
+/// The measurements of every experiment with the outputs of two fits to them, at the samples. A fit
+/// without residuals is not drawn. Suspected outliers are the largest misfits of the second fit (of
+/// the first when there is no second), as many as the budget allows.
+/// @pre  both fits are of problems with these measurements, with whatever effects
+[[nodiscard]] SIVID_ENTRY std::vector<scenario_data>
+compared_scenarios(identification_problem const& problem, approximate_fit const& base,
+                   approximate_fit const& after = {}, bool holdout = false);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_COMPARED_SCENARIOS)
+namespace detail {
+
+SIVID_ENTRY std::vector<bool> suspects(std::vector<double> const& residuals, std::size_t n,
+                                       std::size_t q) {
     std::vector<std::size_t> beyond;
     for (std::size_t i = 0; i < std::min(n, residuals.size()); ++i) {
         if (std::fabs(residuals[i]) > 1) beyond.push_back(i);
@@ -80,15 +96,6 @@ inline std::vector<bool> suspects(std::vector<double> const& residuals, std::siz
 
 } // namespace detail
 
-/// The measurements of every experiment with the outputs of two fits to them, at the samples. A fit
-/// without residuals is not drawn. Suspected outliers are the largest misfits of the second fit (of
-/// the first when there is no second), as many as the budget allows.
-/// @pre  both fits are of problems with these measurements, with whatever effects
-[[nodiscard]] SIVID_ENTRY std::vector<scenario_data>
-compared_scenarios(identification_problem const& problem, approximate_fit const& base,
-                   approximate_fit const& after = {}, bool holdout = false);
-
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_COMPARED_SCENARIOS)
 SIVID_ENTRY std::vector<scenario_data> compared_scenarios(identification_problem const& problem,
                                                           approximate_fit const& base,
                                                           approximate_fit const& after,

@@ -34,6 +34,16 @@ struct diagnosis_report_options {
     std::string date{}, machine{}, command{};
 };
 
+/// Takes the meanings and priors of a catalogue of effects into the options.
+SIVID_ENTRY void describe(std::vector<effect> const& catalogue, diagnosis_report_options& options);
+
+/// What the page of a diagnosis shows.
+/// @cost  O(size of the plot data)
+[[nodiscard]] SIVID_ENTRY diagnosis_view view_of(diagnosis const& d,
+                                                 diagnosis_plot_data const& plots = {},
+                                                 diagnosis_report_options const& options = {});
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_VIEW_OF_DIAGNOSIS)
 namespace detail {
 
 inline range drawn(interval const& x) { return {x.lower(), x.upper()}; }
@@ -141,8 +151,7 @@ inline missing_rate_series drawn(missing_rate_data const& m) {
 
 } // namespace detail
 
-/// Takes the meanings and priors of a catalogue of effects into the options.
-inline void describe(std::vector<effect> const& catalogue, diagnosis_report_options& options) {
+SIVID_ENTRY void describe(std::vector<effect> const& catalogue, diagnosis_report_options& options) {
     for (effect const& e : catalogue) {
         options.meanings.emplace(e.name, e.about);
         for (effect_parameter const& p : e.parameters) {
@@ -151,13 +160,6 @@ inline void describe(std::vector<effect> const& catalogue, diagnosis_report_opti
     }
 }
 
-/// What the page of a diagnosis shows.
-/// @cost  O(size of the plot data)
-[[nodiscard]] SIVID_ENTRY diagnosis_view view_of(diagnosis const& d,
-                                                 diagnosis_plot_data const& plots = {},
-                                                 diagnosis_report_options const& options = {});
-
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_VIEW_OF_DIAGNOSIS)
 SIVID_ENTRY diagnosis_view view_of(diagnosis const& d, diagnosis_plot_data const& plots,
                                    diagnosis_report_options const& options) {
     diagnosis_view v{.dataset = options.dataset,

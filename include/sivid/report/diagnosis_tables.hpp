@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_DIAGNOSIS_TABLES_HPP
 #define SIVID_REPORT_DIAGNOSIS_TABLES_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/diagnosis_words.hpp>
 #include <sivid/report/page.hpp>
 
@@ -15,13 +16,31 @@
 namespace sivid::report {
 
 /// Candidates other than the model as it is.
-[[nodiscard]] inline std::size_t effects_tried(diagnosis_view const& v) {
+[[nodiscard]] SIVID_ENTRY std::size_t effects_tried(diagnosis_view const& v);
+
+[[nodiscard]] SIVID_ENTRY std::vector<card> diagnosis_cards(diagnosis_view const& v);
+
+/// The answer point by point, for the reader in a hurry.
+[[nodiscard]] SIVID_ENTRY table summary_table(diagnosis_view const& v);
+
+[[nodiscard]] SIVID_ENTRY table places_table(diagnosis_view const& v, std::size_t most = 20);
+
+[[nodiscard]] SIVID_ENTRY table gap_shares_table(diagnosis_view const& v);
+
+/// The text with spaces that do not break.
+[[nodiscard]] SIVID_ENTRY std::string kept_together(std::string const& text);
+
+/// Parameters of the foremost candidates.
+[[nodiscard]] SIVID_ENTRY table causes_table(diagnosis_view const& v, std::size_t most = 12);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_DIAGNOSIS_TABLES)
+SIVID_ENTRY std::size_t effects_tried(diagnosis_view const& v) {
     return static_cast<std::size_t>(
         std::count_if(v.candidates.begin(), v.candidates.end(),
                       [](candidate_view const& c) { return !c.effects.empty(); }));
 }
 
-[[nodiscard]] inline std::vector<card> diagnosis_cards(diagnosis_view const& v) {
+SIVID_ENTRY std::vector<card> diagnosis_cards(diagnosis_view const& v) {
     std::vector<card> out;
     if (says_something(v.inflation)) {
         out.push_back({"bounds must grow by", inflation_text(v.inflation) + " \xC3\x97",
@@ -65,8 +84,7 @@ namespace sivid::report {
     return out;
 }
 
-/// The answer point by point, for the reader in a hurry.
-[[nodiscard]] inline table summary_table(diagnosis_view const& v) {
+SIVID_ENTRY table summary_table(diagnosis_view const& v) {
     table t{.columns = {{"in short", column_kind::symbol}, {""}}, .rows = {}};
     auto const add = [&](char const* question, std::string const& text) {
         if (!text.empty()) {
@@ -101,7 +119,7 @@ namespace sivid::report {
     return t;
 }
 
-[[nodiscard]] inline table places_table(diagnosis_view const& v, std::size_t most = 20) {
+SIVID_ENTRY table places_table(diagnosis_view const& v, std::size_t most) {
     table t{.columns = {{"place", column_kind::symbol},
                         {"scenario"},
                         {"window [s]"},
@@ -127,7 +145,7 @@ namespace sivid::report {
     return t;
 }
 
-[[nodiscard]] inline table gap_shares_table(diagnosis_view const& v) {
+SIVID_ENTRY table gap_shares_table(diagnosis_view const& v) {
     table t{.columns = {{"", column_kind::symbol},
                         {"proved", column_kind::number},
                         {"best fit (estimate)", column_kind::number}},
@@ -143,15 +161,13 @@ namespace sivid::report {
     return t;
 }
 
-/// The text with spaces that do not break.
-[[nodiscard]] inline std::string kept_together(std::string const& text) {
+SIVID_ENTRY std::string kept_together(std::string const& text) {
     std::string out;
     for (char const c : text) out += c == ' ' ? std::string{"\xC2\xA0"} : std::string(1, c);
     return out;
 }
 
-/// Parameters of the foremost candidates.
-[[nodiscard]] inline table causes_table(diagnosis_view const& v, std::size_t most = 12) {
+SIVID_ENTRY table causes_table(diagnosis_view const& v, std::size_t most) {
     table t{.columns = {{"candidate"},
                         {"verdict"},
                         {"parameter"},
@@ -183,6 +199,7 @@ namespace sivid::report {
                                  "hull nothing is proved of the value.";
     return t;
 }
+#endif
 
 } // namespace sivid::report
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_DIAGNOSIS_WORDS_HPP
 #define SIVID_REPORT_DIAGNOSIS_WORDS_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/diagnosis_view.hpp>
 #include <sivid/report/number_text.hpp>
 #include <sivid/report/place_words.hpp>
@@ -18,15 +19,64 @@
 namespace sivid::report {
 
 /// "rudder_lag + wind"; without effects "the model as it is".
-[[nodiscard]] inline std::string names_of(std::vector<std::string> const& effects) {
+[[nodiscard]] SIVID_ENTRY std::string names_of(std::vector<std::string> const& effects);
+
+/// In words where there are any: "a first-order lag of the rudder and a steady wind".
+[[nodiscard]] SIVID_ENTRY std::string words_of(diagnosis_view const& v,
+                                               std::vector<std::string> const& effects);
+
+/// "98 to 100 %"; an upper end above 100 is impossible, a missing lower one is said.
+[[nodiscard]] SIVID_ENTRY std::string shrink_text(range const& share);
+
+/// "tau = 0.169 s (0.16 to 0.18, proved)"
+[[nodiscard]] SIVID_ENTRY std::string estimate_words(estimate_view const& e);
+
+/// What is drawn beside the model as it is: "with rudder_lag".
+[[nodiscard]] SIVID_ENTRY std::string after_words(diagnosis_view const& v);
+
+/// The inflation of the best fit of the model as it is; 0 when there is none.
+[[nodiscard]] SIVID_ENTRY double base_fitted(diagnosis_view const& v);
+
+/// The factor in the words of a sentence: "3.1 to 3.2 times the measurement bounds (proved)".
+[[nodiscard]] SIVID_ENTRY std::string gap_clause(diagnosis_view const& v);
+
+/// How the answer stands: "explains all data (proved)".
+[[nodiscard]] SIVID_ENTRY std::string answer_verdict(diagnosis_view const& v);
+
+/// "a first-order lag of the rudder, tau = 0.169 s (0.16 to 0.18, proved), explains all data"
+[[nodiscard]] SIVID_ENTRY std::string answer_clause(diagnosis_view const& v);
+
+/// What else it may be, and what would tell; empty when nothing is.
+[[nodiscard]] SIVID_ENTRY std::string alternatives_clause(diagnosis_view const& v);
+
+/// False for a range that says nothing: no lower bound, and an upper one of all of the gap.
+[[nodiscard]] SIVID_ENTRY bool says_shrink(range const& share);
+
+[[nodiscard]] SIVID_ENTRY std::string shrink_clause(range const& share, std::string_view data);
+
+/// "with overflow an unexplained remainder of 3.1 to 3.2 times the measurement bounds is left
+/// (proved)"; empty when nothing is said of one.
+[[nodiscard]] SIVID_ENTRY std::string remainder_clause(diagnosis_view const& v);
+
+[[nodiscard]] SIVID_ENTRY std::string headline(diagnosis_view const& v);
+
+/// The sign of the banner: proved and the only answer, or something is open, or nothing explains.
+[[nodiscard]] SIVID_ENTRY outcome banner_outcome(diagnosis_view const& v);
+
+/// The whole answer in one sentence.
+[[nodiscard]] SIVID_ENTRY std::string banner_sentence(diagnosis_view const& v);
+
+/// What to measure next, in one sentence; empty when nothing is proposed.
+[[nodiscard]] SIVID_ENTRY std::string next_words(diagnosis_view const& v);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_DIAGNOSIS_WORDS)
+SIVID_ENTRY std::string names_of(std::vector<std::string> const& effects) {
     std::string out;
     for (std::string const& e : effects) out += (out.empty() ? "" : " + ") + e;
     return out.empty() ? "the model as it is" : out;
 }
 
-/// In words where there are any: "a first-order lag of the rudder and a steady wind".
-[[nodiscard]] inline std::string words_of(diagnosis_view const& v,
-                                          std::vector<std::string> const& effects) {
+SIVID_ENTRY std::string words_of(diagnosis_view const& v, std::vector<std::string> const& effects) {
     std::vector<std::string> words;
     for (std::string const& e : effects) {
         auto const known = v.meanings.find(e);
@@ -35,8 +85,7 @@ namespace sivid::report {
     return enumeration(words);
 }
 
-/// "98 to 100 %"; an upper end above 100 is impossible, a missing lower one is said.
-[[nodiscard]] inline std::string shrink_text(range const& share) {
+SIVID_ENTRY std::string shrink_text(range const& share) {
     if (is_empty(share)) return "";
     number_format const f{.significant = 3, .shift = 2};
     std::string const high = rounded_text(share.hi, rounding::up, f);
@@ -45,8 +94,7 @@ namespace sivid::report {
     return (low == high ? low : low + " to " + high) + "\xC2\xA0%";
 }
 
-/// "tau = 0.169 s (0.16 to 0.18, proved)"
-[[nodiscard]] inline std::string estimate_words(estimate_view const& e) {
+SIVID_ENTRY std::string estimate_words(estimate_view const& e) {
     std::string const name =
         e.name.substr(e.name.rfind('.') == std::string::npos ? 0 : e.name.rfind('.') + 1);
     std::string out = name;
@@ -56,22 +104,19 @@ namespace sivid::report {
     return is_finite(e.hull) ? out + " (" + span_text(e.hull) + ", proved)" : out + " (estimate)";
 }
 
-/// What is drawn beside the model as it is: "with rudder_lag".
-[[nodiscard]] inline std::string after_words(diagnosis_view const& v) {
+SIVID_ENTRY std::string after_words(diagnosis_view const& v) {
     return !v.after.empty() ? v.after
            : v.answer == answer_state::effects && !v.effects.empty()
                ? "with " + names_of(v.effects)
                : std::string{"with the closest candidate"};
 }
 
-/// The inflation of the best fit of the model as it is; 0 when there is none.
-[[nodiscard]] inline double base_fitted(diagnosis_view const& v) {
+SIVID_ENTRY double base_fitted(diagnosis_view const& v) {
     candidate_view const* const base = find_candidate(v, {});
     return is_fitted(v.fitted) || base == nullptr ? v.fitted : base->fitted;
 }
 
-/// The factor in the words of a sentence: "3.1 to 3.2 times the measurement bounds (proved)".
-[[nodiscard]] inline std::string gap_clause(diagnosis_view const& v) {
+SIVID_ENTRY std::string gap_clause(diagnosis_view const& v) {
     double const fitted = base_fitted(v);
     std::string const estimate =
         is_fitted(fitted) ? ", " + estimate_text(fitted) + " in the best fit found (estimate)" : "";
@@ -102,8 +147,7 @@ namespace sivid::report {
     }
 }
 
-/// How the answer stands: "explains all data (proved)".
-[[nodiscard]] inline std::string answer_verdict(diagnosis_view const& v) {
+SIVID_ENTRY std::string answer_verdict(diagnosis_view const& v) {
     candidate_view const* const c = answer_of(v);
     bool const many = v.effects.size() > 1;
     std::string const explain = many ? "together explain" : "explains";
@@ -120,8 +164,7 @@ namespace sivid::report {
     return std::string{many ? "are" : "is"} + " the likeliest of what was tried (estimate)";
 }
 
-/// "a first-order lag of the rudder, tau = 0.169 s (0.16 to 0.18, proved), explains all data"
-[[nodiscard]] inline std::string answer_clause(diagnosis_view const& v) {
+SIVID_ENTRY std::string answer_clause(diagnosis_view const& v) {
     candidate_view const* const c = answer_of(v);
     std::vector<std::string> numbers;
     if (c != nullptr) {
@@ -131,8 +174,7 @@ namespace sivid::report {
            answer_verdict(v);
 }
 
-/// What else it may be, and what would tell; empty when nothing is.
-[[nodiscard]] inline std::string alternatives_clause(diagnosis_view const& v) {
+SIVID_ENTRY std::string alternatives_clause(diagnosis_view const& v) {
     std::vector<std::string> others;
     for (auto const& o : v.indistinguishable) {
         candidate_view const* const c = find_candidate(v, o);
@@ -145,21 +187,18 @@ namespace sivid::report {
                    : "");
 }
 
-/// False for a range that says nothing: no lower bound, and an upper one of all of the gap.
-[[nodiscard]] inline bool says_shrink(range const& share) {
+SIVID_ENTRY bool says_shrink(range const& share) {
     return !is_empty(share) && (std::isfinite(share.lo) || share.hi < 1);
 }
 
-[[nodiscard]] inline std::string shrink_clause(range const& share, std::string_view data) {
+SIVID_ENTRY std::string shrink_clause(range const& share, std::string_view data) {
     if (!says_shrink(share)) return "";
     std::string const on = "on " + std::string{data} + " it ";
     if (share.hi <= 0) return on + "does not shrink the gap (proved)";
     return on + "removes " + shrink_text(share) + " of the gap (proved)";
 }
 
-/// "with overflow an unexplained remainder of 3.1 to 3.2 times the measurement bounds is left
-/// (proved)"; empty when nothing is said of one.
-[[nodiscard]] inline std::string remainder_clause(diagnosis_view const& v) {
+SIVID_ENTRY std::string remainder_clause(diagnosis_view const& v) {
     if (!v.remainder) return "";
     remainder_view const& r = *v.remainder;
     std::string out = (r.effects.empty() ? "" : "with " + names_of(r.effects) + ", the closest, ") +
@@ -177,7 +216,7 @@ namespace sivid::report {
     return proved || fitted ? out + ")" : out + "unknown size is left";
 }
 
-[[nodiscard]] inline std::string headline(diagnosis_view const& v) {
+SIVID_ENTRY std::string headline(diagnosis_view const& v) {
     std::string const gap = v.gap == gap_state::absent    ? "No gap (proved)"
                             : v.gap == gap_state::present ? "Gap (proved)"
                                                           : "Gap not decided";
@@ -195,8 +234,7 @@ namespace sivid::report {
                      : ", but so may " + count_text(n) + " others");
 }
 
-/// The sign of the banner: proved and the only answer, or something is open, or nothing explains.
-[[nodiscard]] inline outcome banner_outcome(diagnosis_view const& v) {
+SIVID_ENTRY outcome banner_outcome(diagnosis_view const& v) {
     if (v.answer == answer_state::unexplained) {
         return v.gap == gap_state::present ? outcome::refuted : outcome::undecided;
     }
@@ -209,8 +247,7 @@ namespace sivid::report {
     return proved && v.indistinguishable.empty() ? outcome::proved : outcome::undecided;
 }
 
-/// The whole answer in one sentence.
-[[nodiscard]] inline std::string banner_sentence(diagnosis_view const& v) {
+SIVID_ENTRY std::string banner_sentence(diagnosis_view const& v) {
     std::vector<std::string> parts{gap_clause(v)};
     if (v.answer == answer_state::effects && !v.effects.empty()) {
         parts.push_back(answer_clause(v));
@@ -238,8 +275,7 @@ namespace sivid::report {
     return out + ".";
 }
 
-/// What to measure next, in one sentence; empty when nothing is proposed.
-[[nodiscard]] inline std::string next_words(diagnosis_view const& v) {
+SIVID_ENTRY std::string next_words(diagnosis_view const& v) {
     if (!v.next) return "";
     next_experiment_view const& n = *v.next;
     std::string out =
@@ -256,6 +292,7 @@ namespace sivid::report {
                             " measurement bounds (prediction, not proved)."
                       : ".");
 }
+#endif
 
 } // namespace sivid::report
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_HEAT_MAP_HPP
 #define SIVID_REPORT_HEAT_MAP_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/axes.hpp>
 
 #include <algorithm>
@@ -33,7 +34,18 @@ struct heat_map_options {
 namespace detail {
 
 /// Joins neighbouring columns, keeping the largest value, until at most `most` are left.
-inline heat_map joined(heat_map m, std::size_t most) {
+SIVID_ENTRY heat_map joined(heat_map m, std::size_t most);
+
+} // namespace detail
+
+/// Channels against time in colour: blue up to the threshold, orange with a cross above it, hatched
+/// where nothing is known; with a colour bar.
+[[nodiscard]] SIVID_ENTRY svg draw_heat_map(heat_map const& data, heat_map_options const& o = {});
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_HEAT_MAP)
+namespace detail {
+
+SIVID_ENTRY heat_map joined(heat_map m, std::size_t most) {
     while (m.times.size() > std::max<std::size_t>(most, 1) + 1) {
         std::vector<double> times;
         for (std::size_t i = 0; i < m.times.size(); i += 2) {
@@ -56,9 +68,7 @@ inline heat_map joined(heat_map m, std::size_t most) {
 
 } // namespace detail
 
-/// Channels against time in colour: blue up to the threshold, orange with a cross above it, hatched
-/// where nothing is known; with a colour bar.
-[[nodiscard]] inline svg draw_heat_map(heat_map const& data, heat_map_options const& o = {}) {
+SIVID_ENTRY svg draw_heat_map(heat_map const& data, heat_map_options const& o) {
     heat_map const m = detail::joined(data, o.most_columns);
     double const top = o.title.empty() ? 10 : 34;
     double const pitch = 26;
@@ -165,6 +175,7 @@ inline heat_map joined(heat_map m, std::size_t most) {
     out.text(left + bar_width + 12, bar_y + 9, m.quantity, {.size = 11.5});
     return out;
 }
+#endif
 
 } // namespace sivid::report
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_HOLDOUT_TABLES_HPP
 #define SIVID_REPORT_HOLDOUT_TABLES_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/diagnosis_words.hpp>
 #include <sivid/report/table.hpp>
 
@@ -12,7 +13,14 @@
 namespace sivid::report {
 
 /// How well data that chose nothing are met, before and after.
-[[nodiscard]] inline table holdout_table(holdout_view const& h, range const& shrink) {
+[[nodiscard]] SIVID_ENTRY table holdout_table(holdout_view const& h, range const& shrink);
+
+/// Candidates side by side on data that chose nothing; only when there are several.
+[[nodiscard]] SIVID_ENTRY table holdout_candidates_table(diagnosis_view const& v,
+                                                         std::size_t most = 8);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_HOLDOUT_TABLES)
+SIVID_ENTRY table holdout_table(holdout_view const& h, range const& shrink) {
     table t{.columns = {{"", column_kind::symbol},
                         {"model as it is", column_kind::number},
                         {"with the effect", column_kind::number},
@@ -49,8 +57,7 @@ namespace sivid::report {
     return t;
 }
 
-/// Candidates side by side on data that chose nothing; only when there are several.
-[[nodiscard]] inline table holdout_candidates_table(diagnosis_view const& v, std::size_t most = 8) {
+SIVID_ENTRY table holdout_candidates_table(diagnosis_view const& v, std::size_t most) {
     table t{.columns = {{"candidate"},
                         {"bounds must grow by (proved)", column_kind::number},
                         {"samples in its tube (estimate)", column_kind::number},
@@ -71,6 +78,7 @@ namespace sivid::report {
     }
     return t.rows.size() > 1 ? t : table{};
 }
+#endif
 
 } // namespace sivid::report
 

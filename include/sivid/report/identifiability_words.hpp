@@ -19,12 +19,35 @@ namespace sivid::report {
 
 namespace detail {
 
-inline std::string nearest_text(double x) {
+SIVID_ENTRY std::string nearest_text(double x);
+
+/// "L * k, Sg / k" or "a + s, b - 2 s": what may move together.
+SIVID_ENTRY std::string motion_text(free_motion const& m,
+                                    std::vector<unknown_quantity> const& names);
+
+/// The components that matter, largest first: "L +1, Sg -0.12".
+SIVID_ENTRY std::string direction_text(sensitive_direction const& d,
+                                       std::vector<unknown_quantity> const& names);
+
+SIVID_ENTRY std::string joined_formulas(std::vector<fixed_formula> const& list);
+
+} // namespace detail
+
+/// One sentence a line: the ranks, what is free, what acts through which combinations, and the
+/// directions that the data notice least.
+/// @param directions  so many at most
+[[nodiscard]] SIVID_ENTRY std::vector<std::string>
+identifiability_words(identifiability const& found, std::size_t directions = 3);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_IDENTIFIABILITY_WORDS)
+namespace detail {
+
+SIVID_ENTRY std::string nearest_text(double x) {
     return rounded_text(x, rounding::nearest, {.significant = 2});
 }
 
-/// "L * k, Sg / k" or "a + s, b - 2 s": what may move together.
-inline std::string motion_text(free_motion const& m, std::vector<unknown_quantity> const& names) {
+SIVID_ENTRY std::string motion_text(free_motion const& m,
+                                    std::vector<unknown_quantity> const& names) {
     bool const scales = m.kind == motion_kind::scaling;
     std::string text;
     for (std::size_t c = 0; c < m.weights.size(); ++c) {
@@ -39,9 +62,8 @@ inline std::string motion_text(free_motion const& m, std::vector<unknown_quantit
     return text;
 }
 
-/// The components that matter, largest first: "L +1, Sg -0.12".
-inline std::string direction_text(sensitive_direction const& d,
-                                  std::vector<unknown_quantity> const& names) {
+SIVID_ENTRY std::string direction_text(sensitive_direction const& d,
+                                       std::vector<unknown_quantity> const& names) {
     std::vector<std::size_t> order;
     for (std::size_t c = 0; c < d.components.size(); ++c) {
         if (std::abs(d.components[c]) >= 0.05) order.push_back(c);
@@ -58,7 +80,7 @@ inline std::string direction_text(sensitive_direction const& d,
     return text;
 }
 
-inline std::string joined_formulas(std::vector<fixed_formula> const& list) {
+SIVID_ENTRY std::string joined_formulas(std::vector<fixed_formula> const& list) {
     std::string text;
     for (auto const& f : list) text += (text.empty() ? "" : ", ") + f.formula;
     return text;
@@ -66,13 +88,6 @@ inline std::string joined_formulas(std::vector<fixed_formula> const& list) {
 
 } // namespace detail
 
-/// One sentence a line: the ranks, what is free, what acts through which combinations, and the
-/// directions that the data notice least.
-/// @param directions  so many at most
-[[nodiscard]] SIVID_ENTRY std::vector<std::string>
-identifiability_words(identifiability const& found, std::size_t directions = 3);
-
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_IDENTIFIABILITY_WORDS)
 SIVID_ENTRY std::vector<std::string> identifiability_words(identifiability const& found,
                                                            std::size_t directions) {
     auto const count = [](std::size_t n, std::string const& what) {

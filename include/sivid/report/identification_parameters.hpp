@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_IDENTIFICATION_PARAMETERS_HPP
 #define SIVID_REPORT_IDENTIFICATION_PARAMETERS_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/identification_view.hpp>
 #include <sivid/report/identification_words.hpp>
 #include <sivid/report/interval_chart.hpp>
@@ -15,7 +16,16 @@
 /// The part of an identification's page about the parameters: hulls, combinations, pavings.
 namespace sivid::report::detail {
 
-inline void add_parameters(page& out, identification_view const& v) {
+SIVID_ENTRY void add_parameters(page& out, identification_view const& v);
+
+/// The projections, each with a closer look where one is worth it.
+[[nodiscard]] SIVID_ENTRY figure paving_figure(std::vector<paving_projection> const& pavings,
+                                               std::string title, std::string caption);
+
+SIVID_ENTRY void add_pavings(page& out, identification_view const& v);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_IDENTIFICATION_PARAMETERS)
+SIVID_ENTRY void add_parameters(page& out, identification_view const& v) {
     if (v.parameters.empty()) {
         return;
     }
@@ -79,9 +89,8 @@ inline void add_parameters(page& out, identification_view const& v) {
     }
 }
 
-/// The projections, each with a closer look where one is worth it.
-[[nodiscard]] inline figure paving_figure(std::vector<paving_projection> const& pavings,
-                                          std::string title, std::string caption) {
+SIVID_ENTRY figure paving_figure(std::vector<paving_projection> const& pavings, std::string title,
+                                 std::string caption) {
     // The zoom stands beside or below its whole view in the same order, so panels go in pairs.
     figure f{.panels = {},
              .legend = paving_plot_legend(pavings),
@@ -104,7 +113,7 @@ inline void add_parameters(page& out, identification_view const& v) {
     return f;
 }
 
-inline void add_pavings(page& out, identification_view const& v) {
+SIVID_ENTRY void add_pavings(page& out, identification_view const& v) {
     if (v.pavings.empty()) {
         return;
     }
@@ -132,6 +141,7 @@ inline void add_pavings(page& out, identification_view const& v) {
                               "be seen: the better region may look larger than it is by that much, "
                               "the outside never does."));
 }
+#endif
 
 } // namespace sivid::report::detail
 

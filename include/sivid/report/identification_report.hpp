@@ -33,21 +33,9 @@ namespace detail {
 
 /// A share of the prior, widened a little where its bounds agree to many digits, so that it reads
 /// well; still an enclosure.
-inline range shown_share(interval const& volume) {
-    range const r = shown(share_of_whole(volume));
-    double const more = 5e-4 * r.hi;
-    return r.lo == r.hi || r.hi - r.lo > more
-               ? r
-               : range{std::max(0.0, r.lo - more), std::min(1.0, r.hi + more)};
-}
+SIVID_ENTRY range shown_share(interval const& volume);
 
-inline std::string joined(std::vector<std::string> const& all) {
-    std::string text;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        text += (i == 0 ? "" : i + 1 == all.size() ? " and " : ", ") + all[i];
-    }
-    return text;
-}
+SIVID_ENTRY std::string joined(std::vector<std::string> const& all);
 
 } // namespace detail
 
@@ -60,8 +48,37 @@ inline std::string joined(std::vector<std::string> const& all) {
                                                       identification_report_options const& options);
 
 /// A row for the table that compares ways to solve one problem.
-[[nodiscard]] inline comparison_row comparison_of(std::string name, identification const& found,
-                                                  bool chosen, std::string note = {}) {
+[[nodiscard]] SIVID_ENTRY comparison_row comparison_of(std::string name,
+                                                       identification const& found, bool chosen,
+                                                       std::string note = {});
+
+} // namespace sivid::report
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_VIEW_OF_IDENTIFICATION)
+namespace sivid::report {
+
+namespace detail {
+
+SIVID_ENTRY range shown_share(interval const& volume) {
+    range const r = shown(share_of_whole(volume));
+    double const more = 5e-4 * r.hi;
+    return r.lo == r.hi || r.hi - r.lo > more
+               ? r
+               : range{std::max(0.0, r.lo - more), std::min(1.0, r.hi + more)};
+}
+
+SIVID_ENTRY std::string joined(std::vector<std::string> const& all) {
+    std::string text;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        text += (i == 0 ? "" : i + 1 == all.size() ? " and " : ", ") + all[i];
+    }
+    return text;
+}
+
+} // namespace detail
+
+SIVID_ENTRY comparison_row comparison_of(std::string name, identification const& found, bool chosen,
+                                         std::string note) {
     return {std::move(name),
             found.seconds,
             found.boxes,
@@ -74,7 +91,6 @@ inline std::string joined(std::vector<std::string> const& all) {
 
 } // namespace sivid::report
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_VIEW_OF_IDENTIFICATION)
 #include <sivid/report/detail/report_filler.hpp>
 #endif
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_IDENTIFICATION_WORDS_HPP
 #define SIVID_REPORT_IDENTIFICATION_WORDS_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/identification_view.hpp>
 #include <sivid/report/number_text.hpp>
 
@@ -17,7 +18,37 @@ namespace sivid::report {
 
 /// "Sv = 0.22 m^2, L = 0.3 m"
 /// The values are exact: a witness can be checked again from the text.
-[[nodiscard]] inline std::string values_text(std::vector<named_value> const& all) {
+[[nodiscard]] SIVID_ENTRY std::string values_text(std::vector<named_value> const& all);
+
+/// A share of the prior rounded up, in percent.
+[[nodiscard]] SIVID_ENTRY std::string at_most_percent(double share);
+[[nodiscard]] SIVID_ENTRY std::string at_least_percent(double share);
+
+/// A volume relative to the prior as an interval in percent, outward.
+[[nodiscard]] SIVID_ENTRY std::string percent_interval(range const& share);
+
+/// Width of the hull over the width of the prior, rounded up; NaN when there is no such number.
+[[nodiscard]] SIVID_ENTRY double share_of_prior(parameter_view const& p);
+
+/// True when the proof left (nearly) all of the parameter's prior.
+[[nodiscard]] SIVID_ENTRY bool is_unresolved(parameter_view const& p);
+
+/// Formula text for a reader: a raised dot for '*'.
+[[nodiscard]] SIVID_ENTRY std::string formula_text(std::string const& formula);
+
+[[nodiscard]] SIVID_ENTRY std::string headline(identification_view const& v);
+
+[[nodiscard]] SIVID_ENTRY std::string verdict_sentence(identification_view const& v);
+
+/// How many outliers the data need; both numbers are proved.
+[[nodiscard]] SIVID_ENTRY std::string fewest_outliers_sentence(std::uint64_t least,
+                                                               std::uint64_t most);
+
+/// What was proved, sentence by sentence.
+[[nodiscard]] SIVID_ENTRY std::vector<std::string> plain_statements(identification_view const& v);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_IDENTIFICATION_WORDS)
+SIVID_ENTRY std::string values_text(std::vector<named_value> const& all) {
     std::string out;
     for (named_value const& v : all) {
         out += (out.empty() ? std::string{} : std::string{", "}) + v.name + " = " +
@@ -26,22 +57,20 @@ namespace sivid::report {
     return out;
 }
 
-/// A share of the prior rounded up, in percent.
-[[nodiscard]] inline std::string at_most_percent(double share) {
+SIVID_ENTRY std::string at_most_percent(double share) {
     return rounded_text(share, rounding::up, {.significant = 3, .shift = 2}) + " %";
 }
-[[nodiscard]] inline std::string at_least_percent(double share) {
+
+SIVID_ENTRY std::string at_least_percent(double share) {
     return rounded_text(share, rounding::down, {.significant = 3, .shift = 2}) + " %";
 }
 
-/// A volume relative to the prior as an interval in percent, outward.
-[[nodiscard]] inline std::string percent_interval(range const& share) {
+SIVID_ENTRY std::string percent_interval(range const& share) {
     return is_empty(share) ? std::string{}
                            : outward_text(share, {.significant = 2, .shift = 2}) + " %";
 }
 
-/// Width of the hull over the width of the prior, rounded up; NaN when there is no such number.
-[[nodiscard]] inline double share_of_prior(parameter_view const& p) {
+SIVID_ENTRY double share_of_prior(parameter_view const& p) {
     if (!is_finite(p.prior) || is_empty(p.hull) || !(p.prior.hi > p.prior.lo)) {
         return std::nan("");
     }
@@ -49,13 +78,9 @@ namespace sivid::report {
     return std::min(1.0, share * (1 + 1e-15));
 }
 
-/// True when the proof left (nearly) all of the parameter's prior.
-[[nodiscard]] inline bool is_unresolved(parameter_view const& p) {
-    return share_of_prior(p) > 0.99;
-}
+SIVID_ENTRY bool is_unresolved(parameter_view const& p) { return share_of_prior(p) > 0.99; }
 
-/// Formula text for a reader: a raised dot for '*'.
-[[nodiscard]] inline std::string formula_text(std::string const& formula) {
+SIVID_ENTRY std::string formula_text(std::string const& formula) {
     std::string out;
     for (char const c : formula) {
         out += c == '*' ? std::string{"\xE2\x80\x89\xC2\xB7\xE2\x80\x89"} : std::string(1, c);
@@ -63,7 +88,7 @@ namespace sivid::report {
     return out;
 }
 
-[[nodiscard]] inline std::string headline(identification_view const& v) {
+SIVID_ENTRY std::string headline(identification_view const& v) {
     switch (v.verdict) {
     case outcome::proved:
         return "Proved: the model can explain the data";
@@ -74,7 +99,7 @@ namespace sivid::report {
     }
 }
 
-[[nodiscard]] inline std::string verdict_sentence(identification_view const& v) {
+SIVID_ENTRY std::string verdict_sentence(identification_view const& v) {
     if (!v.sentence.empty()) {
         return v.sentence;
     }
@@ -90,8 +115,7 @@ namespace sivid::report {
     }
 }
 
-/// How many outliers the data need; both numbers are proved.
-[[nodiscard]] inline std::string fewest_outliers_sentence(std::uint64_t least, std::uint64_t most) {
+SIVID_ENTRY std::string fewest_outliers_sentence(std::uint64_t least, std::uint64_t most) {
     if (most == 0) return "No outlier is needed to explain the data.";
     auto const number = [](std::uint64_t n) {
         return count_text(n) + (n == 1 ? " measurement" : " measurements");
@@ -105,8 +129,7 @@ namespace sivid::report {
            "; " + number(most) + " as outliers suffice.";
 }
 
-/// What was proved, sentence by sentence.
-[[nodiscard]] inline std::vector<std::string> plain_statements(identification_view const& v) {
+SIVID_ENTRY std::vector<std::string> plain_statements(identification_view const& v) {
     std::vector<std::string> out;
     std::size_t budget = 0, samples = 0;
     for (scenario_view const& s : v.scenarios) {
@@ -185,6 +208,7 @@ namespace sivid::report {
     out.insert(out.end(), v.proved.begin(), v.proved.end());
     return out;
 }
+#endif
 
 } // namespace sivid::report
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_INTERVAL_CHART_HPP
 #define SIVID_REPORT_INTERVAL_CHART_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/legend.hpp>
 #include <sivid/report/number_text.hpp>
 #include <sivid/report/ticks.hpp>
@@ -29,8 +30,12 @@ struct interval_chart_options {
 
 /// For each parameter its prior as a grey bar and its hull as a coloured bar on it, each row on its
 /// own scale, with the numbers of both.
-[[nodiscard]] inline svg draw_interval_chart(std::vector<interval_row> const& rows,
-                                             interval_chart_options const& o = {}) {
+[[nodiscard]] SIVID_ENTRY svg draw_interval_chart(std::vector<interval_row> const& rows,
+                                                  interval_chart_options const& o = {});
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_INTERVAL_CHART)
+SIVID_ENTRY svg draw_interval_chart(std::vector<interval_row> const& rows,
+                                    interval_chart_options const& o) {
     double const top = o.title.empty() ? 6 : 30;
     double const pitch = 52;
     svg out{o.width, top + pitch * static_cast<double>(std::max<std::size_t>(rows.size(), 1)) + 4,
@@ -82,6 +87,7 @@ struct interval_chart_options {
     }
     return out;
 }
+#endif
 
 } // namespace sivid::report
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_MISSING_RATE_PLOT_HPP
 #define SIVID_REPORT_MISSING_RATE_PLOT_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/axes.hpp>
 #include <sivid/report/channel_series.hpp>
 #include <sivid/report/legend.hpp>
@@ -34,7 +35,25 @@ namespace detail {
 
 /// The range worth showing: the estimate and the boxes' nearest ends decide, the rest may stretch
 /// it by at most its own width on each side; always with zero.
-inline range rate_range(missing_rate_series const& s) {
+SIVID_ENTRY range rate_range(missing_rate_series const& s);
+
+SIVID_ENTRY range rate_times(missing_rate_series const& s);
+
+SIVID_ENTRY void draw_rate_band(svg& out, axes const& a, std::vector<rate_sample> const& all);
+
+} // namespace detail
+
+[[nodiscard]] SIVID_ENTRY std::vector<legend_entry>
+missing_rate_legend(std::vector<missing_rate_series> const& all);
+
+/// The estimated curve with its band, and certified windows as boxes [from, to] x [missing].
+[[nodiscard]] SIVID_ENTRY svg draw_missing_rate(missing_rate_series const& s,
+                                                time_plot_options const& o = {}, range values = {});
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_MISSING_RATE_PLOT)
+namespace detail {
+
+SIVID_ENTRY range rate_range(missing_rate_series const& s) {
     range core{0, 0};
     range rest{0, 0};
     for (rate_sample const& p : s.estimate) {
@@ -54,14 +73,14 @@ inline range rate_range(missing_rate_series const& s) {
     return with_margin(wanted, 0.06);
 }
 
-inline range rate_times(missing_rate_series const& s) {
+SIVID_ENTRY range rate_times(missing_rate_series const& s) {
     range out;
     for (rate_sample const& p : s.estimate) out = hull(out, p.time);
     for (tube_piece const& t : s.certified) out = hull(hull(out, t.from), t.to);
     return with_margin(axis_range(out), 0.015);
 }
 
-inline void draw_rate_band(svg& out, axes const& a, std::vector<rate_sample> const& all) {
+SIVID_ENTRY void draw_rate_band(svg& out, axes const& a, std::vector<rate_sample> const& all) {
     path_data band;
     std::vector<rate_sample const*> run;
     auto const flush = [&] {
@@ -88,7 +107,7 @@ inline void draw_rate_band(svg& out, axes const& a, std::vector<rate_sample> con
 
 } // namespace detail
 
-[[nodiscard]] inline std::vector<legend_entry>
+SIVID_ENTRY std::vector<legend_entry>
 missing_rate_legend(std::vector<missing_rate_series> const& all) {
     bool line = false, band = false, box = false, idle = false;
     for (missing_rate_series const& s : all) {
@@ -107,9 +126,8 @@ missing_rate_legend(std::vector<missing_rate_series> const& all) {
     return out;
 }
 
-/// The estimated curve with its band, and certified windows as boxes [from, to] x [missing].
-[[nodiscard]] inline svg draw_missing_rate(missing_rate_series const& s,
-                                           time_plot_options const& o = {}, range values = {}) {
+SIVID_ENTRY svg draw_missing_rate(missing_rate_series const& s, time_plot_options const& o,
+                                  range values) {
     svg out{o.width, o.height,
             "missing in " + s.equation + " over time" + (o.title.empty() ? "" : ", " + o.title)};
     axes const a{
@@ -146,6 +164,7 @@ missing_rate_legend(std::vector<missing_rate_series> const& all) {
     }
     return out;
 }
+#endif
 
 } // namespace sivid::report
 

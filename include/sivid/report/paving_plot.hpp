@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_PAVING_PLOT_HPP
 #define SIVID_REPORT_PAVING_PLOT_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/axes.hpp>
 #include <sivid/report/legend.hpp>
 #include <sivid/report/paving_raster.hpp>
@@ -42,8 +43,21 @@ struct plane_window {
 
 /// What is worth a closer look: the hull of inside and undecided boxes, or of the inside boxes
 /// when that is nearly all of the prior. Nothing when the whole view shows it well.
-[[nodiscard]] inline std::optional<plane_window> zoom_window(paving_projection const& p,
-                                                             double most_share = 0.55) {
+[[nodiscard]] SIVID_ENTRY std::optional<plane_window> zoom_window(paving_projection const& p,
+                                                                  double most_share = 0.55);
+
+/// The legend of paving plots, with the regions that occur.
+[[nodiscard]] SIVID_ENTRY std::vector<legend_entry>
+paving_plot_legend(std::vector<paving_projection> const& all);
+
+/// The projection of a paving within a window. However many boxes come in, the text stays within
+/// `most_bytes` and a small constant: cells of one region are joined, and coarser cells are taken
+/// until they fit.
+[[nodiscard]] SIVID_ENTRY svg draw_paving_plot(paving_projection const& p,
+                                               paving_plot_options const& o = {});
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_PAVING_PLOT)
+SIVID_ENTRY std::optional<plane_window> zoom_window(paving_projection const& p, double most_share) {
     range const whole_x = axis_range(p.x.bounds), whole_y = axis_range(p.y.bounds);
     for (region const least : {region::undecided, region::inside}) {
         plane_window w;
@@ -67,8 +81,7 @@ struct plane_window {
     return std::nullopt;
 }
 
-/// The legend of paving plots, with the regions that occur.
-[[nodiscard]] inline std::vector<legend_entry>
+SIVID_ENTRY std::vector<legend_entry>
 paving_plot_legend(std::vector<paving_projection> const& all) {
     bool used[4] = {true, false, false, false};
     bool witness = false, zoom = false;
@@ -94,11 +107,7 @@ paving_plot_legend(std::vector<paving_projection> const& all) {
     return out;
 }
 
-/// The projection of a paving within a window. However many boxes come in, the text stays within
-/// `most_bytes` and a small constant: cells of one region are joined, and coarser cells are taken
-/// until they fit.
-[[nodiscard]] inline svg draw_paving_plot(paving_projection const& p,
-                                          paving_plot_options const& o = {}) {
+SIVID_ENTRY svg draw_paving_plot(paving_projection const& p, paving_plot_options const& o) {
     auto const entries = o.legend ? paving_plot_legend({p}) : std::vector<legend_entry>{};
     svg measure{0, 0, ""};
     double const below = draw_legend(measure, entries, 0, 0, o.width - 60);
@@ -151,6 +160,7 @@ paving_plot_legend(std::vector<paving_projection> const& all) {
     draw_legend(out, entries, a.left(), o.height + 4, o.width - 60);
     return out;
 }
+#endif
 
 } // namespace sivid::report
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_PAVING_PROJECTIONS_HPP
 #define SIVID_REPORT_PAVING_PROJECTIONS_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/report/paving_plot.hpp>
 #include <sivid/space/box.hpp>
@@ -23,8 +24,18 @@ struct named_paving {
 };
 
 /// The projection of a paving on its sides a and b.
-[[nodiscard]] inline paving_projection projection(named_paving const& p, std::size_t a,
-                                                  std::size_t b) {
+[[nodiscard]] SIVID_ENTRY paving_projection projection(named_paving const& p, std::size_t a,
+                                                       std::size_t b);
+
+/// The projections worth a picture: on all pairs of sides when these are few, else of the four that
+/// the data narrow most.
+/// @param first  sides whose pairs come first
+/// @param most   so many projections
+[[nodiscard]] SIVID_ENTRY std::vector<paving_projection>
+projections(named_paving const& p, std::vector<std::size_t> const& first, std::size_t most);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_PAVING_PROJECTIONS)
+SIVID_ENTRY paving_projection projection(named_paving const& p, std::size_t a, std::size_t b) {
     paving_projection out{.x = p.sides[a], .y = p.sides[b]};
     auto const side = [](box const& set, std::size_t j) {
         return range{lower(set[j]), upper(set[j])};
@@ -44,11 +55,7 @@ struct named_paving {
     return out;
 }
 
-/// The projections worth a picture: on all pairs of sides when these are few, else of the four that
-/// the data narrow most.
-/// @param first  sides whose pairs come first
-/// @param most   so many projections
-[[nodiscard]] inline std::vector<paving_projection>
+SIVID_ENTRY std::vector<paving_projection>
 projections(named_paving const& p, std::vector<std::size_t> const& first, std::size_t most) {
     std::vector<std::size_t> order;
     for (std::size_t j = 0; j < p.sides.size(); ++j) {
@@ -82,6 +89,7 @@ projections(named_paving const& p, std::vector<std::size_t> const& first, std::s
     }
     return out;
 }
+#endif
 
 } // namespace sivid::report
 

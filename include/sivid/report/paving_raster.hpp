@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_PAVING_RASTER_HPP
 #define SIVID_REPORT_PAVING_RASTER_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/range.hpp>
 
 #include <algorithm>
@@ -57,16 +58,41 @@ struct region_rect {
 namespace detail {
 
 /// True when r has points inside the window, or is a single value on it.
-inline bool shows(range const& window, range const& r) {
-    return (r.lo < window.hi && r.hi > window.lo) ||
-           (r.lo == r.hi && r.lo >= window.lo && r.hi <= window.hi);
-}
+SIVID_ENTRY bool shows(range const& window, range const& r);
 
 /// Break points of one axis: the ends of the boxes when at most `most` cells result, else evenly
 /// spaced (also when a box has no width there, so that it cannot take a wide cell).
 /// @returns whether they are the ends
-inline bool axis_breaks(std::vector<projected_box> const& boxes, range projected_box::*side,
-                        range const& window, std::size_t most, std::vector<double>& out) {
+SIVID_ENTRY bool axis_breaks(std::vector<projected_box> const& boxes, range projected_box::*side,
+                             range const& window, std::size_t most, std::vector<double>& out);
+
+/// The cells that [r] touches, [first, last); at least one, so that thin pieces stay visible.
+SIVID_ENTRY std::array<std::size_t, 2> touched(std::vector<double> const& breaks, range const& r);
+
+} // namespace detail
+
+/// Projects boxes on a window of the plane, at most `most` cells a side. What no box covers is
+/// outside: contraction removes proven-outside parts without leaving a box.
+/// @given  window finite, of positive width
+/// @cost   O(boxes log(cells) + cells), whatever the overlap
+[[nodiscard]] SIVID_ENTRY region_raster project_paving(std::vector<projected_box> const& boxes,
+                                                       range const& x, range const& y,
+                                                       std::size_t most);
+
+/// Joins cells of one region to rectangles: runs along rows, equal runs over rows. The outside is
+/// left out (it is the ground).
+[[nodiscard]] SIVID_ENTRY std::vector<region_rect> merge_cells(region_raster const& raster);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_PAVING_RASTER)
+namespace detail {
+
+SIVID_ENTRY bool shows(range const& window, range const& r) {
+    return (r.lo < window.hi && r.hi > window.lo) ||
+           (r.lo == r.hi && r.lo >= window.lo && r.hi <= window.hi);
+}
+
+SIVID_ENTRY bool axis_breaks(std::vector<projected_box> const& boxes, range projected_box::*side,
+                             range const& window, std::size_t most, std::vector<double>& out) {
     out = {window.lo, window.hi};
     bool thin = false;
     for (projected_box const& b : boxes) {
@@ -93,8 +119,7 @@ inline bool axis_breaks(std::vector<projected_box> const& boxes, range projected
     return false;
 }
 
-/// The cells that [r] touches, [first, last); at least one, so that thin pieces stay visible.
-inline std::array<std::size_t, 2> touched(std::vector<double> const& breaks, range const& r) {
+SIVID_ENTRY std::array<std::size_t, 2> touched(std::vector<double> const& breaks, range const& r) {
     std::size_t const cells = breaks.size() - 1;
     auto const after = std::upper_bound(breaks.begin(), breaks.end(), r.lo) - breaks.begin();
     auto const first =
@@ -106,13 +131,8 @@ inline std::array<std::size_t, 2> touched(std::vector<double> const& breaks, ran
 
 } // namespace detail
 
-/// Projects boxes on a window of the plane, at most `most` cells a side. What no box covers is
-/// outside: contraction removes proven-outside parts without leaving a box.
-/// @given  window finite, of positive width
-/// @cost   O(boxes log(cells) + cells), whatever the overlap
-[[nodiscard]] inline region_raster project_paving(std::vector<projected_box> const& boxes,
-                                                  range const& x, range const& y,
-                                                  std::size_t most) {
+SIVID_ENTRY region_raster project_paving(std::vector<projected_box> const& boxes, range const& x,
+                                         range const& y, std::size_t most) {
     region_raster out;
     auto const seen = [&](projected_box const& b) {
         return b.verdict != region::outside && detail::shows(x, b.x) && detail::shows(y, b.y);
@@ -153,9 +173,7 @@ inline std::array<std::size_t, 2> touched(std::vector<double> const& breaks, ran
     return out;
 }
 
-/// Joins cells of one region to rectangles: runs along rows, equal runs over rows. The outside is
-/// left out (it is the ground).
-[[nodiscard]] inline std::vector<region_rect> merge_cells(region_raster const& raster) {
+SIVID_ENTRY std::vector<region_rect> merge_cells(region_raster const& raster) {
     std::vector<region_rect> done;
     std::vector<region_rect> open;
     std::vector<region_rect> row_runs;
@@ -188,6 +206,7 @@ inline std::array<std::size_t, 2> touched(std::vector<double> const& breaks, ran
     }
     return done;
 }
+#endif
 
 } // namespace sivid::report
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_PLACE_WORDS_HPP
 #define SIVID_REPORT_PLACE_WORDS_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/candidate_chart.hpp>
 #include <sivid/report/diagnosis_view.hpp>
 #include <sivid/report/identification_words.hpp>
@@ -22,8 +23,31 @@ inline constexpr std::string_view proved_mark = "\xE2\x9C\x93 proved";
 inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
 
 /// "a, b and c"
-[[nodiscard]] inline std::string enumeration(std::vector<std::string> const& all,
-                                             std::string_view last = " and ") {
+[[nodiscard]] SIVID_ENTRY std::string enumeration(std::vector<std::string> const& all,
+                                                  std::string_view last = " and ");
+
+[[nodiscard]] SIVID_ENTRY std::string capitalised(std::string text);
+
+/// "S4, 1.2 to 2 s"
+[[nodiscard]] SIVID_ENTRY std::string window_text(window_view const& w);
+
+/// "yaw equation", "sensor r", "input delta"
+[[nodiscard]] SIVID_ENTRY std::string place_name(place_view const& p);
+
+/// "-0.42 to -0.18 rad/s^2, proved"
+[[nodiscard]] SIVID_ENTRY std::string missing_text(place_view const& p);
+
+/// The formula of a law for a reader.
+[[nodiscard]] SIVID_ENTRY std::string law_text(std::string const& law);
+
+/// Where and how: "the yaw equation in S4, 1.2 to 2 s, lacks -0.42 to -0.18 rad/s^2 (proved)".
+[[nodiscard]] SIVID_ENTRY std::string place_clause(place_view const& p);
+
+/// One broken relation in plain words.
+[[nodiscard]] SIVID_ENTRY std::string relation_words(relation_view const& r);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_PLACE_WORDS)
+SIVID_ENTRY std::string enumeration(std::vector<std::string> const& all, std::string_view last) {
     std::string out;
     for (std::size_t i = 0; i < all.size(); ++i) {
         out += i == 0 ? "" : i + 1 == all.size() ? std::string{last} : ", ";
@@ -32,28 +56,25 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
     return out;
 }
 
-[[nodiscard]] inline std::string capitalised(std::string text) {
+SIVID_ENTRY std::string capitalised(std::string text) {
     if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') {
         text[0] = static_cast<char>(text[0] - 'a' + 'A');
     }
     return text;
 }
 
-/// "S4, 1.2 to 2 s"
-[[nodiscard]] inline std::string window_text(window_view const& w) {
+SIVID_ENTRY std::string window_text(window_view const& w) {
     std::string const times = given_text(w.from) + " to " + given_text(w.to) + "\xC2\xA0s";
     return !(w.from < w.to) ? w.scenario : w.scenario.empty() ? times : w.scenario + ", " + times;
 }
 
-/// "yaw equation", "sensor r", "input delta"
-[[nodiscard]] inline std::string place_name(place_view const& p) {
+SIVID_ENTRY std::string place_name(place_view const& p) {
     return p.kind == "equation" ? p.name + " equation"
            : p.kind.empty()     ? p.name
                                 : p.kind + ' ' + p.name;
 }
 
-/// "-0.42 to -0.18 rad/s^2, proved"
-[[nodiscard]] inline std::string missing_text(place_view const& p) {
+SIVID_ENTRY std::string missing_text(place_view const& p) {
     if (!is_empty(p.missing)) {
         return span_text(p.missing) + unit_suffix(p.unit) + " (proved)";
     }
@@ -62,8 +83,7 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
                : std::string{};
 }
 
-/// The formula of a law for a reader.
-[[nodiscard]] inline std::string law_text(std::string const& law) {
+SIVID_ENTRY std::string law_text(std::string const& law) {
     std::string out;
     for (std::size_t i = 0; i < law.size(); ++i) {
         bool const beside =
@@ -73,8 +93,7 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
     return formula_text(out);
 }
 
-/// Where and how: "the yaw equation in S4, 1.2 to 2 s, lacks -0.42 to -0.18 rad/s^2 (proved)".
-[[nodiscard]] inline std::string place_clause(place_view const& p) {
+SIVID_ENTRY std::string place_clause(place_view const& p) {
     std::string const missing = missing_text(p);
     std::string const where = window_text(p.where);
     std::string out = "the " + place_name(p) + (where.empty() ? "" : " (" + where + ")");
@@ -85,8 +104,7 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
     return p.regime.empty() ? out : out + ", where " + p.regime + " (estimate)";
 }
 
-/// One broken relation in plain words.
-[[nodiscard]] inline std::string relation_words(relation_view const& r) {
+SIVID_ENTRY std::string relation_words(relation_view const& r) {
     constexpr std::size_t most = 4;
     std::string out = "The " + r.equation + " equation";
     out += r.sensors.empty()       ? ""
@@ -111,6 +129,7 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
     if (!r.assumptions.empty()) out += " It rests on " + enumeration(r.assumptions) + ".";
     return out;
 }
+#endif
 
 } // namespace sivid::report
 

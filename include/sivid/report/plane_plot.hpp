@@ -46,7 +46,24 @@ struct plane_plot_options {
     std::size_t most_boxes = 4000; ///< more are joined two by two, which only enlarges them
 };
 
-[[nodiscard]] inline std::vector<legend_entry> plane_plot_legend(plane_series const& s) {
+[[nodiscard]] SIVID_ENTRY std::vector<legend_entry> plane_plot_legend(plane_series const& s);
+
+namespace detail {
+
+/// Joins neighbours by their hull until at most `most` boxes are left.
+SIVID_ENTRY std::vector<plane_box> joined(std::vector<plane_box> boxes, std::size_t most);
+
+SIVID_ENTRY void add_box(path_data& d, axes const& a, plane_box const& b, double least);
+
+} // namespace detail
+
+/// A motion seen from above: the proven boxes step by step, the measured positions and a
+/// reference line that is not validated; equal scales on both axes by default.
+[[nodiscard]] SIVID_ENTRY svg draw_plane_plot(plane_series const& s,
+                                              plane_plot_options const& o = {});
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_DRAW_PLANE_PLOT)
+SIVID_ENTRY std::vector<legend_entry> plane_plot_legend(plane_series const& s) {
     std::vector<legend_entry> out;
     if (!s.tube.empty()) {
         out.push_back({symbol::tube, "proven enclosure of the motion"});
@@ -65,8 +82,7 @@ struct plane_plot_options {
 
 namespace detail {
 
-/// Joins neighbours by their hull until at most `most` boxes are left.
-inline std::vector<plane_box> joined(std::vector<plane_box> boxes, std::size_t most) {
+SIVID_ENTRY std::vector<plane_box> joined(std::vector<plane_box> boxes, std::size_t most) {
     while (boxes.size() > std::max<std::size_t>(most, 1)) {
         std::size_t n = 0;
         for (std::size_t i = 0; i < boxes.size(); i += 2) {
@@ -78,7 +94,7 @@ inline std::vector<plane_box> joined(std::vector<plane_box> boxes, std::size_t m
     return boxes;
 }
 
-inline void add_box(path_data& d, axes const& a, plane_box const& b, double least) {
+SIVID_ENTRY void add_box(path_data& d, axes const& a, plane_box const& b, double least) {
     double const x = a.px(b.x.lo), y = a.py(b.y.hi);
     double const w = a.px(b.x.hi) - x, h = a.py(b.y.lo) - y;
     double const more_w = std::max(0.0, least - w), more_h = std::max(0.0, least - h);
@@ -87,12 +103,6 @@ inline void add_box(path_data& d, axes const& a, plane_box const& b, double leas
 
 } // namespace detail
 
-/// A motion seen from above: the proven boxes step by step, the measured positions and a
-/// reference line that is not validated; equal scales on both axes by default.
-[[nodiscard]] SIVID_ENTRY svg draw_plane_plot(plane_series const& s,
-                                              plane_plot_options const& o = {});
-
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_DRAW_PLANE_PLOT)
 SIVID_ENTRY svg draw_plane_plot(plane_series const& s, plane_plot_options const& o) {
     svg out{o.width, o.height, o.title.empty() ? s.y_name + " against " + s.x_name : o.title};
     range xs;

@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_RESIDUAL_PLOT_HPP
 #define SIVID_REPORT_RESIDUAL_PLOT_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/time_plot.hpp>
 
 #include <algorithm>
@@ -12,22 +13,29 @@
 namespace sivid::report {
 
 /// True when a sample can be compared with the model: both intervals finite, the bound above zero.
-[[nodiscard]] inline bool has_residual(measured_sample const& m) {
-    return is_finite(m.value) && is_finite(m.enclosure) && approximate_width(m.value) > 0;
-}
+[[nodiscard]] SIVID_ENTRY bool has_residual(measured_sample const& m);
 
 /// The model's enclosure in units of the measurement's own bound, for drawing:
 ///   \f$ (\text{enclosure} - \text{mid}) / \text{rad} \f$; inside [-1, 1] the sample is met.
-[[nodiscard]] inline range approximate_residual(measured_sample const& m) {
+[[nodiscard]] SIVID_ENTRY range approximate_residual(measured_sample const& m);
+
+/// Where the model's enclosure lies within each measured interval: 0 is its middle, +-1 its ends.
+/// What a time plot hides in a line as thin as a pixel is seen here.
+[[nodiscard]] SIVID_ENTRY svg draw_residual_plot(channel_series const& c,
+                                                 time_plot_options const& o = {});
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_RESIDUAL_PLOT)
+SIVID_ENTRY bool has_residual(measured_sample const& m) {
+    return is_finite(m.value) && is_finite(m.enclosure) && approximate_width(m.value) > 0;
+}
+
+SIVID_ENTRY range approximate_residual(measured_sample const& m) {
     double const middle = approximate_middle(m.value);
     double const half = approximate_width(m.value) / 2;
     return {(m.enclosure.lo - middle) / half, (m.enclosure.hi - middle) / half};
 }
 
-/// Where the model's enclosure lies within each measured interval: 0 is its middle, +-1 its ends.
-/// What a time plot hides in a line as thin as a pixel is seen here.
-[[nodiscard]] inline svg draw_residual_plot(channel_series const& c,
-                                            time_plot_options const& o = {}) {
+SIVID_ENTRY svg draw_residual_plot(channel_series const& c, time_plot_options const& o) {
     svg out{o.width, o.height, (o.title.empty() ? c.name : o.title) + " against its bounds"};
     range shown{-1.3, 1.3};
     for (measured_sample const& m : c.measured) {
@@ -80,6 +88,7 @@ namespace sivid::report {
     }
     return out;
 }
+#endif
 
 } // namespace sivid::report
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_TICKS_HPP
 #define SIVID_REPORT_TICKS_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/report/number_text.hpp>
 #include <sivid/report/range.hpp>
 
@@ -28,7 +29,18 @@ struct tick_set {
 /// A range that an axis can show, whatever comes in: finite, of positive width, and wide enough
 /// for doubles to tell its pixels apart. Empty and NaN give [0, 1]; an infinite end is replaced by
 /// the finite one; a single value gets room on both sides.
-[[nodiscard]] inline range axis_range(range const& data) {
+[[nodiscard]] SIVID_ENTRY range axis_range(range const& data);
+
+/// Steps 1, 2, 5 times a power of ten, about `wanted` of them, at exact decimals.
+/// @guarantee  every tick lies in axis_range(r) up to rounding; at most 3 wanted + 2 ticks
+[[nodiscard]] SIVID_ENTRY tick_set nice_ticks(range const& r, int wanted);
+
+/// What stands beside an axis: its name with the common power of ten and the unit in brackets.
+[[nodiscard]] SIVID_ENTRY std::string axis_text(std::string_view label, std::string_view unit,
+                                                int exponent);
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_TICKS)
+SIVID_ENTRY range axis_range(range const& data) {
     constexpr double largest = 1e300;
     if (is_empty(data) || (!std::isfinite(data.lo) && !std::isfinite(data.hi))) {
         return {0, 1};
@@ -45,9 +57,7 @@ struct tick_set {
     return {lo, hi};
 }
 
-/// Steps 1, 2, 5 times a power of ten, about `wanted` of them, at exact decimals.
-/// @guarantee  every tick lies in axis_range(r) up to rounding; at most 3 wanted + 2 ticks
-[[nodiscard]] inline tick_set nice_ticks(range const& r, int wanted) {
+SIVID_ENTRY tick_set nice_ticks(range const& r, int wanted) {
     range const shown = axis_range(r);
     double const rough = (shown.hi / 2 - shown.lo / 2) * 2 / std::max(wanted, 1);
     int power = static_cast<int>(std::floor(std::log10(rough)));
@@ -76,9 +86,7 @@ struct tick_set {
     return out;
 }
 
-/// What stands beside an axis: its name with the common power of ten and the unit in brackets.
-[[nodiscard]] inline std::string axis_text(std::string_view label, std::string_view unit,
-                                           int exponent) {
+SIVID_ENTRY std::string axis_text(std::string_view label, std::string_view unit, int exponent) {
     std::string inner;
     if (exponent != 0) {
         inner = "10";
@@ -96,6 +104,7 @@ struct tick_set {
     }
     return out;
 }
+#endif
 
 } // namespace sivid::report
 

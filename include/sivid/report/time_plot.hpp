@@ -25,8 +25,33 @@ struct time_plot_options {
 };
 
 /// The legend of time plots, with the symbols that the series use.
-[[nodiscard]] inline std::vector<legend_entry>
-time_plot_legend(std::vector<channel_series> const& all) {
+[[nodiscard]] SIVID_ENTRY std::vector<legend_entry>
+time_plot_legend(std::vector<channel_series> const& all);
+
+namespace detail {
+
+/// Draws the tube: one outline for each run without a gap; pieces thinner than half a unit of the
+/// drawing are joined by their hull, so the picture never shows less than the tube.
+SIVID_ENTRY void draw_tube(svg& out, axes const& a, std::vector<tube_piece> const& tube);
+
+SIVID_ENTRY void draw_reference(svg& out, axes const& a, std::vector<point> const& line,
+                                paint const& how = {
+                                    .stroke = palette::truth, .width = 1.2, .dash = "5 3"});
+
+/// Draws the symbol of a marked sample, or an arrow at the frame when it lies outside.
+SIVID_ENTRY void draw_outlier(svg& out, axes const& a, measured_sample const& m, double middle,
+                              std::string_view tip);
+
+} // namespace detail
+
+/// Measured intervals over time as bars, the proven tube as a band, outliers marked, and a
+/// reference line that is not validated: the report's Figure 4.1.
+/// @cost  O(samples + pieces); the text grows with neither beyond a few hundred marks
+[[nodiscard]] SIVID_ENTRY svg draw_time_plot(channel_series const& c,
+                                             time_plot_options const& o = {});
+
+#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_DRAW_TIME_PLOT)
+SIVID_ENTRY std::vector<legend_entry> time_plot_legend(std::vector<channel_series> const& all) {
     bool measured = false, forced = false, suspect = false, tube = false, reference = false;
     for (channel_series const& c : all) {
         tube = tube || !c.tube.empty();
@@ -53,9 +78,7 @@ time_plot_legend(std::vector<channel_series> const& all) {
 
 namespace detail {
 
-/// Draws the tube: one outline for each run without a gap; pieces thinner than half a unit of the
-/// drawing are joined by their hull, so the picture never shows less than the tube.
-inline void draw_tube(svg& out, axes const& a, std::vector<tube_piece> const& tube) {
+SIVID_ENTRY void draw_tube(svg& out, axes const& a, std::vector<tube_piece> const& tube) {
     struct column {
         double left, right, top, bottom;
     };
@@ -103,9 +126,8 @@ inline void draw_tube(svg& out, axes const& a, std::vector<tube_piece> const& tu
     out.path(edge, {.stroke = palette::tube_edge, .width = 0.8});
 }
 
-inline void draw_reference(svg& out, axes const& a, std::vector<point> const& line,
-                           paint const& how = {
-                               .stroke = palette::truth, .width = 1.2, .dash = "5 3"}) {
+SIVID_ENTRY void draw_reference(svg& out, axes const& a, std::vector<point> const& line,
+                                paint const& how) {
     path_data d;
     bool pen_down = false;
     double last_x = 0, last_y = 0;
@@ -126,9 +148,8 @@ inline void draw_reference(svg& out, axes const& a, std::vector<point> const& li
     out.path(d, how);
 }
 
-/// Draws the symbol of a marked sample, or an arrow at the frame when it lies outside.
-inline void draw_outlier(svg& out, axes const& a, measured_sample const& m, double middle,
-                         std::string_view tip) {
+SIVID_ENTRY void draw_outlier(svg& out, axes const& a, measured_sample const& m, double middle,
+                              std::string_view tip) {
     double const y = a.py(middle);
     bool const above = y < a.top() + 6;
     bool const below = y > a.bottom() - 6;
@@ -143,13 +164,6 @@ inline void draw_outlier(svg& out, axes const& a, measured_sample const& m, doub
 
 } // namespace detail
 
-/// Measured intervals over time as bars, the proven tube as a band, outliers marked, and a
-/// reference line that is not validated: the report's Figure 4.1.
-/// @cost  O(samples + pieces); the text grows with neither beyond a few hundred marks
-[[nodiscard]] SIVID_ENTRY svg draw_time_plot(channel_series const& c,
-                                             time_plot_options const& o = {});
-
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_DRAW_TIME_PLOT)
 SIVID_ENTRY svg draw_time_plot(channel_series const& c, time_plot_options const& o) {
     auto const entries = o.legend ? time_plot_legend({c}) : std::vector<legend_entry>{};
     svg measure{0, 0, ""};
