@@ -14,6 +14,7 @@
 #include <sivid/paving/identify.hpp>
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
+#include <sivid/report/identification_words.hpp>
 
 #include <CLI/CLI.hpp>
 

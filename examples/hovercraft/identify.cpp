@@ -18,6 +18,7 @@
 #include <sivid/report/identifiability_words.hpp>
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
+#include <sivid/report/identification_words.hpp>
 
 #include <algorithm>
 #include <chrono>

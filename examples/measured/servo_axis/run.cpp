@@ -8,6 +8,7 @@
 #include <sivid/io/identification_json.hpp>
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
+#include <sivid/report/identification_words.hpp>
 #include <sivid/report/residual_plot.hpp>
 
 #include <algorithm>
