@@ -129,8 +129,7 @@ TEST_CASE("docs/importing.md quotes what the examples give") {
     CHECK(quoted > 10);
     // The table's mapping stands there in full.
     auto const from = page.find("```json\n") + 8;
-    auto const in_page =
-        parse_json("page", page.substr(from, page.find("```\n", from) - from));
+    auto const in_page = parse_json("page", page.substr(from, page.find("```\n", from) - from));
     auto const in_file = read_json(root + "/examples/import/german_logger/mapping.json");
     CHECK(in_page.at("scenarios").elements().size() == in_file.at("scenarios").elements().size());
     CHECK(in_page.at("id").string() == in_file.at("id").string());

@@ -2,7 +2,7 @@
 #ifndef SIVID_IO_DETAIL_JSON_BUILDER_HPP
 #define SIVID_IO_DETAIL_JSON_BUILDER_HPP
 
-#include <sivid/io/json_document.hpp>
+// Included at the end of io/json_document.hpp.
 
 #include <nlohmann/json.hpp>
 

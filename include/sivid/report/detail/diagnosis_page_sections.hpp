@@ -2,9 +2,10 @@
 #ifndef SIVID_REPORT_DETAIL_DIAGNOSIS_PAGE_SECTIONS_HPP
 #define SIVID_REPORT_DETAIL_DIAGNOSIS_PAGE_SECTIONS_HPP
 
+// Included at the end of report/diagnosis_page.hpp.
+
 #include <sivid/compiled.hpp>
 #include <sivid/report/diagnosis_figures.hpp>
-#include <sivid/report/diagnosis_page.hpp>
 #include <sivid/report/diagnosis_tables.hpp>
 #include <sivid/report/diagnosis_view.hpp>
 #include <sivid/report/diagnosis_words.hpp>

@@ -2,8 +2,9 @@
 #ifndef SIVID_REPORT_DETAIL_IDENTIFICATION_PAGE_SECTIONS_HPP
 #define SIVID_REPORT_DETAIL_IDENTIFICATION_PAGE_SECTIONS_HPP
 
+// Included at the end of report/identification_page.hpp.
+
 #include <sivid/compiled.hpp>
-#include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_parameters.hpp>
 #include <sivid/report/identification_view.hpp>
 #include <sivid/report/identification_words.hpp>
