@@ -4,29 +4,19 @@
 # they include therefore stands first, outside of it. Sources that define macros or specialise templates are left alone.
 
 option(SIVID_BATCHES "Compile tests in batches: a third of the time; off, each source is an object of its own" ON)
-# What the batches of a target include is parsed once for all of them. ccache caches nothing of such sources, unless it
-# is told to be sloppy; so it is one or the other.
-set(precompile ON)
-if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache")
-    set(precompile OFF)
-endif()
-set(CMAKE_PCH_PROLOGUE "")   # CMake's own makes system headers of them, without warnings
-option(SIVID_PRECOMPILE "Precompile what the batches of a target include" ${precompile})
 
 function(sivid_compile_in_batches target)
     if(NOT SIVID_BATCHES)
         return()
     endif()
-    set(batched 0)
     set(prelude "// What the sources of ${target} include, under their conditions.\n#pragma once\n")
     foreach(source IN LISTS ARGN)
         get_filename_component(source "${source}" ABSOLUTE)
         file(STRINGS "${source}" alone REGEX "^#define|^#if.*[\\]$|^template ?<>|^(inline )?namespace [a-z_:]+ {" LIMIT_COUNT 1)
         if(alone)
-            set_source_files_properties("${source}" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
+            set_source_files_properties("${source}" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
             continue()
         endif()
-        math(EXPR batched "${batched} + 1")
         get_filename_component(folder "${source}" DIRECTORY)
         # Brackets and semicolons are special in lists: lines are taken one by one from the text.
         file(READ "${source}" text)
@@ -48,7 +38,4 @@ function(sivid_compile_in_batches target)
         UNITY_BUILD_UNIQUE_ID sivid_source
         UNITY_BUILD_CODE_BEFORE_INCLUDE "#include \"${header}\"\nnamespace sivid_source {"
         UNITY_BUILD_CODE_AFTER_INCLUDE "}")
-    if(SIVID_PRECOMPILE AND batched GREATER 12)   # more than one batch
-        target_precompile_headers(${target} PRIVATE "${header}")
-    endif()
 endfunction()
