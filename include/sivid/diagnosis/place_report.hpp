@@ -6,6 +6,7 @@
 #include <sivid/diagnosis/place_estimate.hpp>
 #include <sivid/diagnosis/relation_finding.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -18,8 +19,20 @@ namespace sivid {
     return r;
 }
 
+/// Whether a proof about an equation and its sensors is one about the equation: none of these
+/// sensors, nor an input, is suspected itself.
+[[nodiscard]] inline bool is_about_equation(relation_finding const& f,
+                                            std::vector<estimated_place> const& suspected) {
+    return std::none_of(suspected.begin(), suspected.end(), [&f](estimated_place const& p) {
+        bool const read =
+            std::find(f.channels.begin(), f.channels.end(), p.name) != f.channels.end();
+        return p.kind == place_kind::input || (p.kind == place_kind::sensor && read);
+    });
+}
+
 /// An estimated place; where its equation is proved broken, with the proof's window and missing
 /// rate.
+/// @param findings  the broken relations that are about an equation
 [[nodiscard]] inline suspected_place reported(estimated_place const& p,
                                               std::vector<relation_finding> const& findings = {}) {
     // Sums of sampling periods lose their last digits.
@@ -48,8 +61,12 @@ namespace sivid {
 /// Where the model departs from the data, most important first; the first one has the alternatives.
 [[nodiscard]] inline std::vector<suspected_place>
 reported(place_estimate const& estimate, std::vector<relation_finding> const& findings = {}) {
+    std::vector<relation_finding> about_equations;
+    for (auto const& f : findings) {
+        if (is_about_equation(f, estimate.places)) about_equations.push_back(f);
+    }
     std::vector<suspected_place> result;
-    for (auto const& p : estimate.places) result.push_back(reported(p, findings));
+    for (auto const& p : estimate.places) result.push_back(reported(p, about_equations));
     if (result.empty()) return result;
     for (auto const& set : estimate.alternatives) {
         std::string text;

@@ -241,7 +241,9 @@ private:
             }
         }
         auto found = descend(from);
-        return found.inflation < best.inflation ? found : best;
+        if (found.inflation < best.inflation) return found;
+        best.squares = found.squares; // the descent's, whose least inflation is no better
+        return best;
     }
     [[nodiscard]] static bool alike(std::vector<std::vector<double>> const& a,
                                     std::vector<std::vector<double>> const& b) {
