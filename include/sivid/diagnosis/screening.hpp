@@ -82,8 +82,9 @@ public:
             if (!known && find(effects) == nullptr) open.push_back(effects);
         }
         std::vector<std::optional<screened>> fitted(open.size());
+        std::mutex asking;
         options_.workers(open.size(), [&](std::size_t k) {
-            if (may_try(open[k])) fitted[k] = fit(open[k]);
+            if (may_try(open[k], asking)) fitted[k] = fit(open[k]);
         });
         for (auto& s : fitted) {
             if (s) tried_.push_back(std::move(*s));
@@ -161,8 +162,8 @@ private:
         for (auto const e : effects) name += (name.empty() ? "" : " + ") + catalogue_[e].name;
         return name.empty() ? "the model itself" : name;
     }
-    [[nodiscard]] bool may_try(std::vector<std::size_t> const& effects) {
-        std::lock_guard const alone(asking_);
+    [[nodiscard]] bool may_try(std::vector<std::size_t> const& effects, std::mutex& asking) {
+        std::lock_guard const alone(asking);
         stopped_ = stopped_ || seconds() > options_.seconds ||
                    (options_.progress && !options_.progress(name_of(effects)));
         return !stopped_;
@@ -288,7 +289,6 @@ private:
     screening_options options_;
     std::vector<screened> tried_;
     std::size_t measurements_ = 0;
-    std::mutex asking_;
     bool stopped_ = false;
     clock::time_point begin_ = clock::now();
 };
