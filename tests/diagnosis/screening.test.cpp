@@ -4,6 +4,8 @@
 #include "diagnosis/small_catalogue.hpp"
 #include "support/catch.hpp"
 
+#include <cmath>
+
 using namespace sivid;
 
 namespace {
@@ -11,6 +13,8 @@ namespace {
 screening screened_campaign(small_campaign::truth const& real, screening_options options = {}) {
     screening s(small_campaign::problem(real), small_campaign::catalogue(), std::move(options));
     s.run();
+    // What is ranked by its score has one, also where no descent beat the grid it started from.
+    for (auto const& f : s.figures()) CHECK(std::isfinite(f.score(s.measurements())));
     return s;
 }
 std::vector<std::size_t> answer(screening const& s) {

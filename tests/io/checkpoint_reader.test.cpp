@@ -60,7 +60,7 @@ void check_same(identification const& a, identification const& b) {
 
 identify_options options_of(bool reduced) {
     identify_options o;
-    o.search.accuracy = 1.0 / 256;
+    o.search.accuracy = 1.0 / 4096;
     o.search.sufficient_ratio = 0.97;
     o.search.boxes = 150;
     o.search.seconds = 1e9;

@@ -23,7 +23,7 @@ struct inflation_options {
     double relative_width = 0.05; ///< stop when upper - lower is at most this share of upper
     double seconds = 3;
     /// Stop after so many integrations of an experiment over a box and boxes bounded, together:
-    /// unlike the time, the same on every machine.
+    /// unlike the time, the same on every machine. A step that was begun is ended.
     std::size_t work = std::numeric_limits<std::size_t>::max();
     /// So many in all where it is open then whether the inflation is above 1, or where the bounds
     /// have come near each other but are more than a tenth apart.

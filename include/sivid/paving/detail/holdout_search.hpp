@@ -74,9 +74,11 @@ public:
         boxes_.push_back(explorer_.unknown<holdout_box>(start));
     }
 
+    /// @param work     boxes looked at and integrations; a step that was begun is ended
+    /// @param in_time  false ends it between two experiments
     template <class InTime>
-    void narrow(InTime const& in_time) {
-        while (!boxes_.empty() && in_time()) {
+    void narrow(std::size_t work, InTime const& in_time) {
+        while (!boxes_.empty() && tested() + integrations() < work && in_time()) {
             auto low = end([](auto const& a, auto const& b) { return a.least < b.least; });
             auto high = end([](auto const& a, auto const& b) { return a.most > b.most; });
             if (low->settled && high->settled) return;
@@ -257,9 +259,8 @@ SIVID_ENTRY holdout_bound holdout_inflation(identification_problem const& fit,
     paving_detail::holdout_range search(map ? map->problem() : both, fit.experiments.size(),
                                         fitted.value.upper(), map ? map->forward(start) : start,
                                         options);
-    search.narrow([&] {
-        return search.tested() + search.integrations() < options.work &&
-               elapsed() < options.seconds && (!options.keep_going || options.keep_going());
+    search.narrow(options.work, [&] {
+        return elapsed() < options.seconds && (!options.keep_going || options.keep_going());
     });
     result.over_fits = search.range();
     if (is_empty(result.over_fits)) result.over_fits = result.at_witness;

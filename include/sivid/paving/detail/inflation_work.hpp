@@ -49,7 +49,7 @@ public:
         };
         while (!search_.exhausted() && !finished()) {
             search_.aim_at(target());
-            search_.step(propose, [this] { return within_limits(); });
+            search_.step(propose, [this] { return within_time(); });
             if (promise_) {
                 improve(promise_->point, promise_->starts);
                 promise_.reset();
@@ -69,10 +69,12 @@ private:
     [[nodiscard]] std::size_t work() const {
         return search_.integrations() + search_.tested() + points_.integrations();
     }
-    [[nodiscard]] bool within_limits() const {
-        return work() < most_work_ && elapsed() < options_->seconds &&
-               (!options_->keep_going || options_->keep_going());
+    [[nodiscard]] bool within_time() const {
+        return elapsed() < options_->seconds && (!options_->keep_going || options_->keep_going());
     }
+    /// Asked between steps: a step that work cut short would have worked in vain, and where it was
+    /// cut would depend on the threads.
+    [[nodiscard]] bool within_limits() const { return work() < most_work_ && within_time(); }
     [[nodiscard]] bool finished() {
         double const lower = search_.lower(); // meaningless within a step
         most_work_ = options_->work;
@@ -100,7 +102,7 @@ private:
     /// Descends from a point of the working problem and verifies where that leads.
     void improve(std::vector<double> const& point, std::vector<std::vector<double>> const& starts) {
         ++descents_;
-        auto const better = fit_(point, starts, [this] { return within_limits(); });
+        auto const better = fit_(point, starts, [this] { return within_time(); });
         if (better.parameters.empty()) {
             verify(point, starts);
         } else if (better.inflation < upper_) {
