@@ -59,12 +59,14 @@ inline std::string percent(sivid::interval const& share) {
     return low == high ? low + " %" : low + " to " + high + " %";
 }
 
-/// All parameters of the answer that were verified to explain the data.
+/// All parameters of the answer where a validated run has verified them.
 inline void print_witness(sivid::diagnosis const& d) {
     if (d.causes.empty() || d.answer == sivid::answer_kind::unexplained) return;
-    auto const& found = d.causes.front().witness;
+    auto const& answer = d.causes.front();
+    auto const& found = answer.witness;
     if (!found) return;
-    std::cout << "  verified to explain the data:";
+    bool const verified = answer.verdict == sivid::cause_verdict::explains;
+    std::cout << (verified ? "  verified to explain the data:" : "  closest that was verified:");
     for (auto const& p : found->parameters) {
         std::cout << " " << p.name << " = "
                   << sivid::report::rounded_text(p.value, sivid::report::rounding::nearest) << " "

@@ -37,6 +37,19 @@ TEST_CASE("what does not explain is not verified") {
     CHECK(verify_at(p, {}).range.upper() == std::numeric_limits<double>::infinity());
 }
 
+TEST_CASE("where no validated run gets to the end there is no witness") {
+    auto const p = affected(small_campaign::problem(), {});
+    approximate_fit guess;
+    guess.parameters = {1.0};
+    for (auto const& x : p.experiments) guess.starts.push_back(mid(x.initial));
+    CHECK(verify_at(p, guess).witness);
+    data_test_options coarse;
+    coarse.witness.enclosure.minimum_step = 1e3;
+    auto const v = verify_at(p, guess, coarse);
+    CHECK(v.range.upper() == std::numeric_limits<double>::infinity());
+    CHECK_FALSE(v.witness);
+}
+
 TEST_CASE("a problem in which only the delay is unknown can be verified") {
     auto base = small_campaign::problem(small_campaign::with_delay(0.25));
     auto p = affected(base, {small_campaign::catalogue()[3]});

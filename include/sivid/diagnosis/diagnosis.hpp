@@ -146,7 +146,7 @@ struct cause {
     double fitted_inflation = 0; ///< of the best fit found; not proved
     double score = 0;            ///< 3 sum of squares + k ln N of the fit: less is likelier
     std::vector<named_estimate> parameters; ///< of the effects
-    std::optional<named_witness> witness;
+    std::optional<named_witness> witness;   ///< a validated run proves `inflation.upper()` there
     std::vector<std::string> assumptions;
     std::optional<holdout_figures> holdout;
 };

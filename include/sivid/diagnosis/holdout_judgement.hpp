@@ -77,7 +77,7 @@ inline void add_tube(identification_problem const& judged, box const& parameters
         result.at_witness = interval_traits<interval>::bounds(0, result.at_witness.upper());
     }
     bool const delayed = judged.model.has_delays();
-    if (!delayed && bound.witness && bound.range.upper() < detail::infinity) {
+    if (!delayed && bound.witness) {
         inflation_bound fit{bound.range, bound.witness, bound.hull, 0, 0, 0};
         auto proved = holdout_inflation(fitted.problem, fit, judged, search);
         if (starts_follow_parameters(judged)) {

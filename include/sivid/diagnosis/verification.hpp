@@ -61,7 +61,7 @@ namespace sivid {
     result.range = inflation_at(runs, resolved.problem, resolved.problem.prior, starts, witness);
     if (uncertain) result.range = interval_traits<interval>::bounds(0, result.range.upper());
     witness.parameters = p;
-    result.witness = std::move(witness);
+    if (result.range.upper() < detail::infinity) result.witness = std::move(witness);
     if (delayed) result.assumptions.push_back("delayed times are rounded to the nearest double");
     return result;
 }

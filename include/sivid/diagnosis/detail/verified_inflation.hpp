@@ -15,7 +15,7 @@ namespace sivid {
 /// What was proved about one problem, perhaps one whose model has delays.
 struct verified_inflation {
     inflation_range range = unknown_inflation();
-    std::optional<verified_witness> witness; ///< attains range.upper()
+    std::optional<verified_witness> witness; ///< attains range.upper(), if finite
     std::vector<std::string> assumptions;
     box hull; ///< contains every parameter of inflation <= range.upper(); empty if not known
 };
