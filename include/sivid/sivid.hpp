@@ -70,6 +70,7 @@
 #include <sivid/model/rewrite.hpp>
 #include <sivid/model/series.hpp>
 #include <sivid/model/series_tail.hpp>
+#include <sivid/model/smoothed.hpp>
 #include <sivid/model/substitution.hpp>
 #include <sivid/model/symmetry.hpp>
 #include <sivid/model/tape.hpp>

@@ -90,3 +90,50 @@ TEST_CASE("a point is run without generators where nothing stops it, and means t
     auto const far = both.run_finely(0, rests.experiments[0].initial, parameters);
     CHECK(far->outputs() >= one.run_finely(0, rests.experiments[0].initial, parameters)->outputs());
 }
+
+namespace {
+
+/// x' = -a (1 + |x - 1|), which crosses its kink, beside r' = -r |r| - v and v' = r, which rest at
+/// one.
+struct bent {
+    static constexpr auto name = "bent";
+    static constexpr auto states = sivid::states({{"x", "m", 10}, {"r", "1", 1}, {"v", "1", 1}});
+    static constexpr auto inputs = sivid::no_inputs;
+    static constexpr auto channels = sivid::channels({{"x", "m"}, {"|r|", "1"}});
+    static constexpr auto constants = plain_problem::decay::constants;
+    template <class T>
+    vec<T, 3> rate(T const&, vec<T, 3> const& x, vec<T, 1> const& c, vec<T, 0> const&) const {
+        using std::abs;
+        return {-c[0] * (1 + abs(x[0] - 1)) + x[1], -(x[1] * abs(x[1])) - x[2], x[1]};
+    }
+    template <class T>
+    vec<T, 2> observe(T const&, vec<T, 3> const& x, vec<T, 1> const&, vec<T, 0> const&) const {
+        using std::abs;
+        return {x[0], abs(x[1])};
+    }
+};
+
+} // namespace
+
+TEST_CASE("kinks that are crossed, and those that a trajectory rests at, take few steps") {
+    auto problem = plain_problem::make();
+    problem.model = record_model<bent>();
+    auto& run = problem.experiments[0];
+    run.initial = {interval(2.0), interval(0.0), interval(0.0)};
+    run.outliers = 12; // misfits end nothing
+    auto const half = run.measurements;
+    for (auto m : half) run.measurements.push_back({m.time, 1, interval(-0.05, 0.05)});
+    data_test_options options;
+    options.witness_steps = 400;
+    data_test test(problem, options);
+    box const a{interval(0.5)};
+    auto const found = test.run_finely(0, run.initial, a);
+    REQUIRE(found->outputs() == 12);
+    auto const values = output_ranges(*found, a);
+    for (std::size_t y = 0; y < values.size(); ++y) {
+        auto const t = 0.5 * static_cast<double>(y / 2 + 1);
+        auto const x = t < 2 * std::log(2) ? 2 * std::exp(-0.5 * t) : 2 - std::exp(0.5 * t) / 2;
+        CHECK(contains(values[y], y % 2 == 0 ? x : 0));
+        CHECK(width(values[y]) < 1e-5); // a tenth of a thousandth of the bounds
+    }
+}

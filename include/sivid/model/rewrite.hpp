@@ -44,13 +44,24 @@ namespace sivid {
     return needed;
 }
 
+/// An operation as it is, on other operands.
+struct same_operation {
+    [[nodiscard]] node_id operator()(node const& n, node_id a, node_id b, graph& to) const {
+        if (n.op == operation::pown) return to.pown(a, n.index);
+        return is_binary(n.op) ? to.binary(n.op, a, b) : to.unary(n.op, a);
+    }
+};
+
 /// Copies what `outputs` need from `from` into `to`, in which the rules of `graph` apply anew.
 /// @param leaf  called for each needed leaf but literals with (node, to); the node that replaces it
+/// @param make  called for each needed operation with (node, its operands in `to`, to); the node
+///              that replaces it
 /// @returns the images of `outputs`
 /// @cost  O(size of `from`)
-template <class Leaf>
+template <class Leaf, class Make = same_operation>
 [[nodiscard]] std::vector<node_id> copy_into(graph& to, graph const& from,
-                                             std::vector<node_id> const& outputs, Leaf&& leaf) {
+                                             std::vector<node_id> const& outputs, Leaf&& leaf,
+                                             Make&& make = {}) {
     // Companions are made again by the operation that needs them.
     auto const needed = operands_of(from, outputs);
     std::vector<node_id> image(from.size(), 0);
@@ -61,12 +72,8 @@ template <class Leaf>
             image[k] = to.constant(from.value(n));
         } else if (is_leaf(n.op)) {
             image[k] = leaf(n, to);
-        } else if (n.op == operation::pown) {
-            image[k] = to.pown(image[n.a], n.index);
-        } else if (is_binary(n.op)) {
-            image[k] = to.binary(n.op, image[n.a], image[n.b]);
         } else {
-            image[k] = to.unary(n.op, image[n.a]);
+            image[k] = make(n, image[n.a], is_binary(n.op) ? image[n.b] : node_id{}, to);
         }
     }
     std::vector<node_id> result;

@@ -2,6 +2,7 @@
 #ifndef SIVID_PAVING_DATA_TEST_HPP
 #define SIVID_PAVING_DATA_TEST_HPP
 
+#include <sivid/model/smoothed.hpp>
 #include <sivid/paving/data_test_options.hpp>
 #include <sivid/paving/detail/response_judgement.hpp>
 #include <sivid/paving/detail/run_pool.hpp>
@@ -201,27 +202,33 @@ public:
     }
 
     /// One experiment over next to nothing with the recorded inputs, by the options for witnesses.
-    /// A trajectory that is stiff, or chatters at a kink, would take a million steps of the
-    /// shortest length: it ends after `data_test_options::witness_steps` and some for each knot and
-    /// measurement.
+    /// Where a kink stops or blurs a point, it is rounded off (`smoothed`) by little against the
+    /// narrowest measurement. A trajectory that is stiff, or chatters at a kink, would take a
+    /// million steps of the shortest length: it ends after `data_test_options::witness_steps` and
+    /// some for each knot and measurement.
     [[nodiscard]] std::shared_ptr<response const> run_finely(std::size_t e, box const& initial,
                                                              box const& parameters) {
         pool_->count(1);
         auto options = options_.witness;
         auto& most = options.enclosure.maximum_steps;
         most = std::min(most, options_.witness_steps + 4 * stops(e));
-        auto const run = [&](carried_set set) {
+        auto const run = [&](flow const& f, carried_set set) {
             options.set = set;
-            return (*make_run(*recorded_[e], problem_->experiments[e], records_[e], initial,
-                              parameters, options))(initial, parameters);
+            return (*make_run(f, problem_->experiments[e], records_[e], initial, parameters,
+                              options))(initial, parameters);
         };
         bool const point = paving_detail::unknown_count(initial, parameters) == 0;
         if (point && options.set == carried_set::taylor_model) {
-            auto quick = run(carried_set::taylor_model);
-            bool const whole = quick->outputs() == quick->measurements;
-            if (auto rest = parameters; whole || assess(*quick, rest).refuted) return quick;
+            auto best = run(*recorded_[e], carried_set::taylor_model);
+            bool const fine = blur_of(*best) < 0.01;
+            if (auto rest = parameters; fine || assess(*best, rest).refuted) return best;
+            if (auto const f = smooth_flow(e)) {
+                auto smooth = run(*f, carried_set::taylor_model);
+                if (blur_of(*smooth) < blur_of(*best)) best = std::move(smooth);
+            }
+            if (blur_of(*best) < detail::infinity) return best;
         }
-        return run(carried_set::doubleton);
+        return run(*recorded_[e], carried_set::doubleton);
     }
     /// One experiment over boxes of starts and parameters, for all possible inputs.
     [[nodiscard]] std::vector<std::shared_ptr<response const>>
@@ -234,6 +241,30 @@ public:
     }
 
 private:
+    /// The largest share of a measurement's width that a point's radii take; infinite where outputs
+    /// are missing.
+    [[nodiscard]] static double blur_of(response const& r) {
+        if (r.outputs() < r.measurements) return detail::infinity;
+        double most = 0;
+        for (std::size_t y = 0; y < r.outputs(); ++y) {
+            most = std::max(most, r.radius[y] / width(r.bounds[y]));
+        }
+        return most;
+    }
+    /// The recorded flow without kinks; none where it has none.
+    [[nodiscard]] std::unique_ptr<flow const> smooth_flow(std::size_t e) const {
+        constexpr double share = 1e-5; // of a measurement's width
+        double narrowest = detail::infinity;
+        for (auto const& m : records_[e]) narrowest = std::min(narrowest, width(m.bound));
+        if (!(narrowest > 0 && narrowest < detail::infinity)) return nullptr;
+        auto const smooth = smoothed(problem_->model, share * narrowest);
+        if (smooth.rounded == 0) return nullptr;
+        auto inputs = nominal(problem_->experiments[e].inputs);
+        inputs.resize(inputs.size() + smooth.rounded,
+                      sampled_signal({problem_->experiments[e].begin}, {0.0}, interpolation::hold,
+                                     {smooth.bound}));
+        return std::make_unique<flow const>(smooth.model, problem_->choice, inputs);
+    }
     /// Knots of the inputs and measurements until the last of them: each ends a step.
     [[nodiscard]] std::size_t stops(std::size_t e) const {
         std::size_t count = records_[e].size();

@@ -12,8 +12,8 @@ namespace sivid {
 /// How boxes of parameters are tested against the data.
 struct data_test_options {
     run_options run;
-    /// How a guessed point is verified: a point without unknowns by a Taylor model of degree 0;
-    /// otherwise, and where a kink stops that, by first-order sets with fine steps.
+    /// How a guessed point is verified: a point without unknowns by a Taylor model of degree 0, its
+    /// kinks rounded off where they stop it; otherwise by first-order sets with fine steps.
     run_options witness{.enclosure = {.order = 14,
                                       .tolerance = 1e-11,
                                       .relative_tolerance = 1e-5,
