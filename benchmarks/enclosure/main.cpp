@@ -198,8 +198,8 @@ int main(int argc, char** argv) {
         return autonomous<problems::laub_loomis>("Laub-Loomis W=" + std::to_string(w).substr(0, 4),
                                                  x, 20);
     };
-    measure<7, 2, double>(loomis(0.01), {8, 1e-6, 1e-4}, "2 ms, 1.06");
-    measure<7, 3, double>(loomis(0.05), {8, 1e-6, 1e-4}, "8 ms, 1.055");
+    measure<7, 2, double>(loomis(0.01), {12, 1.5e-6, 3e-4}, "2 ms, 1.06");
+    measure<7, 3, double>(loomis(0.05), {12, 1.5e-6, 3e-4}, "8 ms, 1.06");
     measure<7, 4, double>(loomis(0.1), {8, 1e-5, 1e-4}, "15 ms, 1.19");
 
     for (double const end : {10.0, 20.0}) {
