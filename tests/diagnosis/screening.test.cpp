@@ -4,6 +4,7 @@
 #include "diagnosis/small_catalogue.hpp"
 #include "support/catch.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 using namespace sivid;
@@ -64,6 +65,23 @@ TEST_CASE("an effect that the channels cannot show is silent") {
     CHECK(s.find({2})->silent); // the scale of a sensor that was not recorded
     CHECK_FALSE(s.find({0})->silent);
     CHECK_FALSE(s.find({3})->silent);
+}
+
+TEST_CASE("a saturation is found though its prior is mostly never reached") {
+    using namespace sivid::literals;
+    for (double const limit : {0.9, 1.2, 1.6}) {
+        INFO("limit " << limit);
+        small_campaign::truth real;
+        real.missing = [limit](double, double, double u) {
+            return std::clamp(u, -limit, limit) - u;
+        };
+        screening s(small_campaign::problem(real),
+                    {effects::input_saturation("limit", "u", "N", {0.5_dec, 10_dec})});
+        s.run();
+        auto const& found = s.find({0})->fit;
+        CHECK(found.inflation < 1);
+        CHECK(std::abs(found.parameters[1] - limit) < 0.01);
+    }
 }
 
 TEST_CASE("screening can be stopped and keeps what it has") {

@@ -179,8 +179,9 @@ private:
         return s;
     }
     /// Fits a problem from the best of a grid over the parameters of its last effect, the others as
-    /// a part of the candidate was fitted: an effect that sleeps (a saturation that is never
-    /// reached, say) has no slope to follow.
+    /// a part of the candidate was fitted. An effect that sleeps (a saturation that is never
+    /// reached, say) has no slope to follow: where the best of the grid sleeps, which it may while
+    /// the others have not yielded, the best that does not is descended from, too.
     [[nodiscard]] approximate_fit fit(identification_problem const& problem,
                                       std::vector<std::size_t> const& effects, bool& silent) const {
         auto narrowed = problem;
@@ -197,7 +198,9 @@ private:
         std::vector<std::vector<double>> starts = known->fit.starts;
         auto const first = base_.prior.size();
         approximate_fit best;
-        std::vector<double> from;
+        std::vector<double> from, awake;
+        bool asleep = false;
+        double least_awake = detail::infinity;
         std::vector<double> parameters(narrowed.prior.size());
         std::copy(known->fit.parameters.begin(),
                   known->fit.parameters.begin() + static_cast<std::ptrdiff_t>(first),
@@ -235,13 +238,23 @@ private:
                 parameters[j] = side.lower() + share * (side.upper() - side.lower());
             }
             auto const here = descend.at(parameters, starts);
-            silent = (n == 0 || silent) && alike(here.residuals, known->fit.residuals);
+            bool const sleeps = alike(here.residuals, known->fit.residuals);
+            silent = (n == 0 || silent) && sleeps;
+            if (!sleeps && here.inflation < least_awake) {
+                least_awake = here.inflation;
+                awake = parameters;
+            }
             if (from.empty() || here.inflation < best.inflation) {
                 best = here;
                 from = parameters;
+                asleep = sleeps;
             }
         }
         auto found = descend(from);
+        if (asleep && !awake.empty()) {
+            auto other = descend(awake);
+            if (other.inflation < found.inflation) found = std::move(other);
+        }
         if (found.inflation < best.inflation) return found;
         best.squares = found.squares; // the descent's, whose least inflation is no better
         return best;
