@@ -48,7 +48,7 @@ struct smooth_model : kinked {
 
 /// Rates and channels at a point, by folding; further inputs are `w`.
 std::vector<interval> values(recorded_model const& m, std::vector<double> const& x,
-                             interval const& u, interval const& w) {
+                             interval const& u, std::vector<interval> const& w) {
     auto outputs = m.rate;
     outputs.insert(outputs.end(), m.observe.begin(), m.observe.end());
     graph g;
@@ -57,7 +57,7 @@ std::vector<interval> values(recorded_model const& m, std::vector<double> const&
         if (n.op == operation::state) return to.constant(x[k]);
         if (n.op == operation::constant) return to.constant(-0.5);
         REQUIRE(n.op == operation::input);
-        auto const& value = k == 0 ? u : w;
+        auto const& value = k == 0 ? u : w[k - 1];
         return to.constant(literal{value, mid(value)});
     });
     std::vector<interval> result;
@@ -73,8 +73,10 @@ std::vector<interval> values(recorded_model const& m, std::vector<double> const&
 TEST_CASE("a smoothed model holds the model it came from, and no kink") {
     auto const original = record_model<kinked>();
     auto const smooth = smoothed(original, 0.01);
-    CHECK(smooth.rounded == 4);
-    CHECK(smooth.bound == 0.00390625); // 2^-7 is the nearest power of two
+    double const of_state = 0.00390625, of_input = of_state * 0x1p-20; // 2^-7 is nearest to 0.01
+    REQUIRE(smooth.bounds.size() == 4);
+    CHECK(std::count(smooth.bounds.begin(), smooth.bounds.end(), of_state) == 3);
+    CHECK(std::count(smooth.bounds.begin(), smooth.bounds.end(), of_input) == 1);
     CHECK(smooth.model.about.inputs.size() == 5);
     auto outputs = smooth.model.rate;
     outputs.push_back(smooth.model.observe[0]);
@@ -89,7 +91,8 @@ TEST_CASE("a smoothed model holds the model it came from, and no kink") {
     }
     CHECK(kinks == 1);
 
-    interval const any(-smooth.bound, smooth.bound);
+    std::vector<interval> any, none(4, interval(0.0));
+    for (double const b : smooth.bounds) any.emplace_back(-b, b);
     support::draws random(11);
     for (int k = 0; k < 2000; ++k) {
         // Mostly near the kinks, often at one.
@@ -101,17 +104,17 @@ TEST_CASE("a smoothed model holds the model it came from, and no kink") {
         interval const u(draw() + (k % 2 == 0 ? x[0] : -0.5));
         auto const exact = values(original, x, u, {});
         auto const whole = values(smooth.model, x, u, any);
-        auto const middle = values(smooth.model, x, u, interval(0.0));
+        auto const middle = values(smooth.model, x, u, none);
         for (std::size_t i = 0; i < exact.size(); ++i) {
             CHECK(subset(exact[i], whole[i]));
             CHECK(width(whole[i]) < 0.02); // at most two kinks, and |v| < 2 beside one
-            CHECK(std::abs(mid(middle[i]) - mid(exact[i])) <= 2.001 * smooth.bound);
+            CHECK(std::abs(mid(middle[i]) - mid(exact[i])) <= 2.001 * of_state);
         }
     }
 }
 
 TEST_CASE("a model without moving kinks has nothing to smooth") {
     auto const smooth = smoothed(record_model<smooth_model>(), 1e-6);
-    CHECK(smooth.rounded == 0);
+    CHECK(smooth.bounds.empty());
     CHECK(smooth.model.about.inputs.size() == 1);
 }

@@ -15,9 +15,8 @@ namespace sivid {
 
 /// A model without kinks, and what that leaves out as inputs of which only a bound is known.
 struct smoothed_model {
-    recorded_model model;    ///< its further inputs stand behind those of the original
-    std::size_t rounded = 0; ///< how many there are, one for each kink
-    double bound = 0;        ///< of the modulus of each, at all times
+    recorded_model model;       ///< its further inputs stand behind those of the original
+    std::vector<double> bounds; ///< of the modulus of each of these at all times; one for each kink
 };
 
 /// Rounds the kinks of a model off. For every x
@@ -26,16 +25,21 @@ struct smoothed_model {
 /// those of the result for all measurable inputs w within the bound, and so are its outputs; but
 /// the result can be expanded to high orders: near a kink in steps of its distance, and where the
 /// argument rests at the kink in long ones. Jumps (`sign`) stay what they are.
-/// @param width  \f$ \epsilon > 0 \f$, rounded to a power of two, whose multiples are exact
+/// @param width  \f$ \epsilon > 0 \f$, rounded to a power of two, whose multiples are exact; a
+///               millionth of it where no state enters: such an argument is a function of time, not
+///               a set, and what its kink leaves open must not make the sets of other kinks wide
 /// @cost  O(nodes)
 [[nodiscard]] inline smoothed_model smoothed(recorded_model const& model, double width) {
-    double const epsilon = std::exp2(std::round(std::log2(width)));
-    smoothed_model result{model, 0, epsilon / 2};
+    double const of_states = std::exp2(std::round(std::log2(width)));
+    smoothed_model result{model, {}};
     auto& made = result.model;
     made.g = graph();
     auto const modulus = [&](node_id x, graph& to) {
+        bool const of_time = (to.depends(x) & on_state) == 0;
+        double const epsilon = of_time ? of_states * 0x1p-20 : of_states;
         auto const w = to.leaf(operation::input, made.about.inputs.size());
-        made.about.inputs.push_back({"kink " + std::to_string(++result.rounded), ""});
+        result.bounds.push_back(epsilon / 2);
+        made.about.inputs.push_back({"kink " + std::to_string(result.bounds.size()), ""});
         auto const inner = to.add(to.unary(operation::sqr, x), to.constant(epsilon * epsilon));
         auto const low = to.sub(to.unary(operation::sqrt, inner), to.constant(epsilon / 2));
         return to.add(low, w);

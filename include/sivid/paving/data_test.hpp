@@ -212,10 +212,12 @@ public:
         auto options = options_.witness;
         auto& most = options.enclosure.maximum_steps;
         most = std::min(most, options_.witness_steps + 4 * stops(e));
-        auto const run = [&](flow const& f, carried_set set) {
-            options.set = set;
-            return (*make_run(f, problem_->experiments[e], records_[e], initial, parameters,
-                              options))(initial, parameters);
+        auto const run = [&](flow const& f, carried_set set, double shortest = 1) {
+            auto own = options;
+            own.set = set;
+            own.enclosure.minimum_step *= shortest;
+            return (*make_run(f, problem_->experiments[e], records_[e], initial, parameters, own))(
+                initial, parameters);
         };
         bool const point = paving_detail::unknown_count(initial, parameters) == 0;
         if (point && options.set == carried_set::taylor_model) {
@@ -223,7 +225,8 @@ public:
             bool const fine = blur_of(*best) < 0.01;
             if (auto rest = parameters; fine || assess(*best, rest).refuted) return best;
             if (auto const f = smooth_flow(e)) {
-                auto smooth = run(*f, carried_set::taylor_model);
+                // In steps as short as kinks of inputs are narrow.
+                auto smooth = run(*f, carried_set::taylor_model, 1e-8);
                 if (blur_of(*smooth) < blur_of(*best)) best = std::move(smooth);
             }
             if (blur_of(*best) < detail::infinity) return best;
@@ -258,11 +261,12 @@ private:
         for (auto const& m : records_[e]) narrowest = std::min(narrowest, width(m.bound));
         if (!(narrowest > 0 && narrowest < detail::infinity)) return nullptr;
         auto const smooth = smoothed(problem_->model, share * narrowest);
-        if (smooth.rounded == 0) return nullptr;
+        if (smooth.bounds.empty()) return nullptr;
         auto inputs = nominal(problem_->experiments[e].inputs);
-        inputs.resize(inputs.size() + smooth.rounded,
-                      sampled_signal({problem_->experiments[e].begin}, {0.0}, interpolation::hold,
-                                     {smooth.bound}));
+        for (double const bound : smooth.bounds) {
+            inputs.emplace_back(sampled_signal({problem_->experiments[e].begin}, {0.0},
+                                               interpolation::hold, {bound}));
+        }
         return std::make_unique<flow const>(smooth.model, problem_->choice, inputs);
     }
     /// Knots of the inputs and measurements until the last of them: each ends a step.
