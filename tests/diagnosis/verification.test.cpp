@@ -43,9 +43,9 @@ TEST_CASE("where no validated run gets to the end there is no witness") {
     guess.parameters = {1.0};
     for (auto const& x : p.experiments) guess.starts.push_back(mid(x.initial));
     CHECK(verify_at(p, guess).witness);
-    data_test_options coarse;
-    coarse.witness.enclosure.minimum_step = 1e3;
-    auto const v = verify_at(p, guess, coarse);
+    data_test_options brief;
+    brief.witness.enclosure.maximum_steps = 1;
+    auto const v = verify_at(p, guess, brief);
     CHECK(v.range.upper() == std::numeric_limits<double>::infinity());
     CHECK_FALSE(v.witness);
 }
