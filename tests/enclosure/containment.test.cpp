@@ -65,7 +65,8 @@ std::vector<any_system> all_systems() {
     return all;
 }
 
-/// Relative to 1 + |x|: the reference's error, and a kink's crossing by its own steps.
+/// Relative to 1 + |x|: the reference's error at the looser tolerances of a `plan`, which 1e5 draws
+/// can afford, and across kinks.
 constexpr double smooth_error = 1e-13, rough_error = 1e-8;
 
 struct tally {

@@ -181,7 +181,7 @@ tally sweep(std::uint64_t first, std::uint64_t count, bool wide_starts) {
     CHECK(t.inside_points > t.problems);
     CHECK(t.feasible_points > t.problems);
     CHECK(10 * t.forced > t.problems);
-    CHECK(20 * t.combinations > t.problems);
+    CHECK(20 * t.combinations > t.problems); // a tenth in the mean; of 500, 40 to 70 have some
     return t;
 }
 

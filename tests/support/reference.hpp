@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace support {
@@ -25,6 +26,9 @@ using extended = long double;
 using extended_state = std::vector<extended>;
 
 inline constexpr double reference_error = 1e-14;
+/// The same across kinks by `dormand_prince` to 1e-14 a step: its steps end beside a kink, not at
+/// it, and the error of the crossing stays.
+inline constexpr double kinked_reference_error = 1e-10;
 
 /// x within the interval, allowing for the error of the reference.
 inline bool encloses_reference(sivid::interval const& e, extended x,
@@ -55,6 +59,10 @@ using fehlberg78 = boost::numeric::odeint::runge_kutta_fehlberg78<extended_state
 using dormand_prince =
     boost::numeric::odeint::runge_kutta_dopri5<extended_state, extended, extended_state, extended>;
 
+/// A trajectory that leaves this is lost: it blows up, or nobody asks where it goes. Its states
+/// from then on are infinite.
+inline constexpr extended lost = 1e9L;
+
 /// States at the `times` (increasing, none before `from`).
 /// @param rate     (t, x, p, u) -> vector
 /// @param longest  step, for kinks in x that the error estimate must not pass over
@@ -71,19 +79,31 @@ std::vector<extended_state> reference_states(Rate const& rate, extended_state x,
         for (auto const& s : inputs) u.push_back(sampled(s, t, start));
         dxdt = rate(t, state, p, u);
     };
+    struct gone {};
+    auto const watch = [](extended_state const& state, extended) {
+        for (auto const value : state) {
+            if (!(std::fabs(value) < lost)) throw gone();
+        }
+    };
     std::vector<extended_state> result;
     double t = from;
-    for (double const target : times) {
-        while (t < target) {
-            double to = std::min(target, t + longest);
-            for (auto const& s : inputs) to = std::min(to, s.next_knot(t));
-            start = t;
-            odeint::integrate_adaptive(odeint::make_controlled(tolerance, tolerance, Method{}), rhs,
-                                       x, static_cast<extended>(t), static_cast<extended>(to),
-                                       static_cast<extended>((to - t) / 16));
-            t = to;
+    try {
+        for (double const target : times) {
+            while (t < target) {
+                double to = std::min(target, t + longest);
+                for (auto const& s : inputs) to = std::min(to, s.next_knot(t));
+                start = t;
+                odeint::integrate_adaptive(odeint::make_controlled(tolerance, tolerance, Method{}),
+                                           rhs, x, static_cast<extended>(t),
+                                           static_cast<extended>(to),
+                                           static_cast<extended>((to - t) / 16), watch);
+                t = to;
+            }
+            result.push_back(x);
         }
-        result.push_back(x);
+    } catch (gone const&) {
+        constexpr auto far = std::numeric_limits<extended>::infinity();
+        result.resize(times.size(), extended_state(x.size(), far));
     }
     return result;
 }

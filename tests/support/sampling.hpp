@@ -21,7 +21,7 @@ namespace support {
 template <class System>
 void check_tube(System const& system, sivid::tube<interval> const& tube, draws& d, int members,
                 int instants = 12, bool rough = false) {
-    double const error = rough ? 1e-10 : reference_error;
+    double const error = rough ? kinked_reference_error : reference_error;
     double const begin = tube.begin_time();
     double const end = tube.end_time();
     for (int member = 0; member < members; ++member) {
