@@ -144,31 +144,28 @@ void check_members(std::uint64_t seed, int trials) {
     }
 }
 
-/// All members at the ends of their radii, with the same signs: nothing may be missing.
 template <std::size_t N, std::size_t D>
 void check_radii() {
     using model = taylor_model<N, D>;
-    for (std::size_t const k : {0U, 1U, 3U, 4U, 7U, 8U, 15U, 23U}) {
-        coefficient_columns<N, D> v(2, 9, orders);
-        column_factor<N, D> a(orders);
-        rational most = 0;
+    auto const convolve = [](std::vector<model> const& a, std::vector<model> const& b,
+                             std::size_t k) {
+        constexpr std::size_t columns = 9;
+        coefficient_columns<N, D> v(2, columns, orders);
+        column_factor<N, D> factor(orders);
         for (std::size_t j = 0; j <= k; ++j) {
-            auto x = model::constant(1.0 + static_cast<double>(j)), y = model::constant(2.0);
-            x.r = 0.5;
-            y.r = 0.25;
-            a.put(j, x);
-            for (std::size_t c = 0; c < 9; ++c) v.put(0, c, j, y);
-            most += rational(1.5 + static_cast<double>(j)) * rational(2.25);
+            factor.put(j, a[j]);
+            for (std::size_t c = 0; c < columns; ++c) v.put(0, c, j, b[j]);
         }
         column_sum<N, D> sum(v.groups());
         sum.start(k + 1, 1);
-        sum.add_convolution(a, v, 0, k, k);
+        sum.add_convolution(factor, v, 0, k, k);
         sum.divide_into(v, 1, k, 1);
-        for (std::size_t c = 0; c < 9; ++c) {
-            auto const result = v.get(1, c, k);
-            REQUIRE(rational(result.c[0]) + rational(result.r) >= most);
-            REQUIRE(rational(result.c[0]) + rational(result.r) <= most * rational(1 + 1e-12));
-        }
+        std::vector<model> result;
+        for (std::size_t c = 0; c < columns; ++c) result.push_back(v.get(1, c, k));
+        return result;
+    };
+    for (std::size_t const k : {0U, 1U, 3U, 4U, 7U, 8U, 15U, 23U}) {
+        support::check_radii_of_orders<N, D>(k, convolve);
     }
 }
 

@@ -122,29 +122,22 @@ void check_members(std::uint64_t seed, int trials) {
     }
 }
 
-/// All members at the ends of their radii, with the same signs: nothing may be missing.
 template <std::size_t N, std::size_t D>
-void check_radii(std::uint64_t seed) {
-    draws d(seed);
-    for (std::size_t const k : {0U, 3U, 7U, 8U, 15U, 16U, 23U}) {
-        two_series<N, D> s(d, k + 1, 0, false);
+void check_radii() {
+    using model = taylor_model<N, D>;
+    auto const convolve = [](std::vector<model> const& a, std::vector<model> const& b,
+                             std::size_t k) {
+        coefficient_rows<N, D> rows(2, k + 1);
         for (std::size_t j = 0; j <= k; ++j) {
-            s.a[j] = taylor_model<N, D>::constant(1.0 + static_cast<double>(j));
-            s.b[j] = taylor_model<N, D>::constant(2.0);
-            s.a[j].r = 0.5;
-            s.b[j].r = 0.25;
-            s.rows.put(0, j, s.a[j]);
-            s.rows.put(1, j, s.b[j]);
+            rows.put(0, j, a[j]);
+            rows.put(1, j, b[j]);
         }
         product_sum<N, D> sum;
-        sum.add_convolution(s.rows, 0, s.rows, 1, k, 0, k);
-        auto const result = sum.result();
-        rational most = 0;
-        for (std::size_t j = 0; j <= k; ++j) {
-            most += rational(1.5 + static_cast<double>(j)) * rational(2.25);
-        }
-        REQUIRE(rational(result.c[0]) + rational(result.r) >= most);
-        REQUIRE(rational(result.c[0]) + rational(result.r) <= most * rational(1 + 1e-12));
+        sum.add_convolution(rows, 0, rows, 1, k, 0, k);
+        return std::vector<model>{sum.result()};
+    };
+    for (std::size_t const k : {0U, 3U, 7U, 8U, 15U, 16U, 23U}) {
+        support::check_radii_of_orders<N, D>(k, convolve);
     }
 }
 
@@ -165,8 +158,8 @@ TEST_CASE("Coefficient rows: a convolution contains all products of members") {
 }
 
 TEST_CASE("Coefficient rows: every order's radius counts") {
-    check_radii<1, 0>(21);
-    check_radii<2, 1>(22);
+    check_radii<1, 0>();
+    check_radii<2, 1>();
 }
 
 TEST_CASE("Coefficient rows: a radius that is not finite stays so") {

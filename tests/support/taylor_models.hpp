@@ -3,6 +3,7 @@
 #ifndef SIVID_TESTS_SUPPORT_TAYLOR_MODELS_HPP
 #define SIVID_TESTS_SUPPORT_TAYLOR_MODELS_HPP
 
+#include "support/catch.hpp"
 #include "support/power_series.hpp"
 #include "support/random.hpp"
 
@@ -122,6 +123,27 @@ template <class T, std::size_t N, std::size_t D>
 T member(draws& d, sivid::taylor_model<N, D> const& a, std::vector<double> const& q) {
     static constexpr double parts[] = {-1, 1, -1, 1, 0.5, 0};
     return value<T>(a, q) + T(parts[d.below(6)]) * T(a.r);
+}
+
+/// A convolution of orders 0 to k with all members at the ends of their radii, with the same signs:
+/// nothing may be missing from the radius, and no more than roundings added.
+/// @param convolve  (a, b, k) -> models, each the sum of a[j] b[k - j]
+template <std::size_t N, std::size_t D, class Convolve>
+void check_radii_of_orders(std::size_t k, Convolve const& convolve) {
+    using model = sivid::taylor_model<N, D>;
+    std::vector<model> a, b;
+    rational most = 0;
+    for (std::size_t j = 0; j <= k; ++j) {
+        a.push_back(model::constant(1.0 + static_cast<double>(j)));
+        b.push_back(model::constant(2.0));
+        a.back().r = 0.5;
+        b.back().r = 0.25;
+        most += rational(1.5 + static_cast<double>(j)) * rational(2.25);
+    }
+    for (model const& result : convolve(a, b, k)) {
+        REQUIRE(rational(result.c[0]) + rational(result.r) >= most);
+        REQUIRE(rational(result.c[0]) + rational(result.r) <= most * rational(1 + 1e-12));
+    }
 }
 
 } // namespace support
