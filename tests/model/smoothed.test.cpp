@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 using namespace sivid;
 
@@ -117,4 +118,16 @@ TEST_CASE("a model without moving kinks has nothing to smooth") {
     auto const smooth = smoothed(record_model<smooth_model>(), 1e-6);
     CHECK(smooth.bounds.empty());
     CHECK(smooth.model.about.inputs.size() == 1);
+}
+
+TEST_CASE("a kink is rounded off over a width whose square is exact") {
+    auto const model = record_model<kinked>();
+    for (double const width : {0.0, -1.0, 1e-101, 1e101, std::nan("")}) {
+        CHECK_THROWS_AS(smoothed(model, width), std::invalid_argument);
+    }
+    for (double const width : {1e-100, 1e100}) {
+        auto const smooth = smoothed(model, width);
+        REQUIRE(smooth.bounds.size() == 4);
+        for (double const b : smooth.bounds) CHECK(b > 0);
+    }
 }

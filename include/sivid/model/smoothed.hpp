@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -25,11 +26,18 @@ struct smoothed_model {
 /// those of the result for all measurable inputs w within the bound, and so are its outputs; but
 /// the result can be expanded to high orders: near a kink in steps of its distance, and where the
 /// argument rests at the kink in long ones. Jumps (`sign`) stay what they are.
-/// @param width  \f$ \epsilon > 0 \f$, rounded to a power of two, whose multiples are exact; a
-///               millionth of it where no state enters: such an argument is a function of time, not
-///               a set, and what its kink leaves open must not make the sets of other kinks wide
+/// @param width  \f$ \epsilon \f$ in [1e-100, 1e100], rounded to a power of two, whose multiples
+/// are
+///               exact; a millionth of it where no state enters: such an argument is a function of
+///               time, not a set, and what its kink leaves open must not make the sets of other
+///               kinks wide
+/// @throws std::invalid_argument  for another width, whose square may not be exact
 /// @cost  O(nodes)
 [[nodiscard]] inline smoothed_model smoothed(recorded_model const& model, double width) {
+    if (!(width >= 1e-100 && width <= 1e100)) {
+        throw std::invalid_argument("kinks are rounded off over a width between 1e-100 and 1e100, "
+                                    "in the units of their arguments");
+    }
     double const of_states = std::exp2(std::round(std::log2(width)));
     smoothed_model result{model, {}};
     auto& made = result.model;

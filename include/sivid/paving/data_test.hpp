@@ -259,7 +259,7 @@ private:
         constexpr double share = 1e-5; // of a measurement's width
         double narrowest = detail::infinity;
         for (auto const& m : records_[e]) narrowest = std::min(narrowest, width(m.bound));
-        if (!(narrowest > 0 && narrowest < detail::infinity)) return nullptr;
+        if (!(narrowest > 1e-90 && narrowest < 1e90)) return nullptr; // or what is no number
         auto const smooth = smoothed(problem_->model, share * narrowest);
         if (smooth.bounds.empty()) return nullptr;
         auto inputs = nominal(problem_->experiments[e].inputs);
