@@ -199,7 +199,6 @@ private:
         auto const first = base_.prior.size();
         approximate_fit best;
         std::vector<double> from, awake;
-        bool asleep = false;
         double least_awake = detail::infinity;
         std::vector<double> parameters(narrowed.prior.size());
         std::copy(known->fit.parameters.begin(),
@@ -247,11 +246,10 @@ private:
             if (from.empty() || here.inflation < best.inflation) {
                 best = here;
                 from = parameters;
-                asleep = sleeps;
             }
         }
         auto found = descend(from);
-        if (asleep && !awake.empty()) {
+        if (!awake.empty() && awake != from) {
             auto other = descend(awake);
             if (other.inflation < found.inflation) found = std::move(other);
         }
