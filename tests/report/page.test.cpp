@@ -41,7 +41,7 @@ TEST_CASE("page: every element, well-formed, in order, with ids that do not clas
     p.banner(outcome::undecided, "Not decided", "yet")
         .banner(outcome::refuted, "Refuted", "now")
         .banner(outcome::proved, "Proved", "then");
-    p.cards({{"a", "1"}, {"b", "2", "note"}})
+    p.cards({{"a", "1"}, {"b", "2", "note"}, {"c", "rudder_lag & more"}})
         .section("S & T")
         .subsection("sub")
         .prose("text")
@@ -74,6 +74,7 @@ TEST_CASE("page: every element, well-formed, in order, with ids that do not clas
     CHECK(occurrences(text, "Figure 2.") == 1);
     CHECK(occurrences(text, "<figure>") == 2);
     CHECK(occurrences(text, "class=\"box warning\"") == 1);
+    CHECK(occurrences(text, "rudder_<wbr/>lag &amp; more") == 1);
     CHECK(text.find("Figure 3.") == std::string::npos);
     CHECK(text.find("one</li>") < text.find("two</li>"));
     CHECK(text.find("<footer>") > text.find("four</li>"));

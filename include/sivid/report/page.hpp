@@ -82,6 +82,8 @@ public:
 
 private:
     page& element(std::string const& name, std::string_view text);
+    /// Escaped; lines may end behind an underscore, which names have instead of spaces.
+    static std::string breakable(std::string_view text);
     static std::string list(std::vector<std::string> const& lines);
     page& boxed(std::string const& style, std::string_view title,
                 std::vector<std::string> const& lines);
@@ -116,11 +118,20 @@ SIVID_ENTRY page& page::banner(outcome how, std::string_view headline, std::stri
     return *this;
 }
 
+SIVID_ENTRY std::string page::breakable(std::string_view text) {
+    std::string result;
+    for (char const c : escape(text)) {
+        result += c;
+        if (c == '_') result += "<wbr/>";
+    }
+    return result;
+}
+
 SIVID_ENTRY page& page::cards(std::vector<card> const& all) {
     body_ += "<div class=\"cards\">";
     for (card const& c : all) {
         body_ += std::string{"<div class=\"card\"><div class=\"name\">"} + escape(c.name) +
-                 "</div><div class=\"value\">" + escape(c.value) + "</div>";
+                 "</div><div class=\"value\">" + breakable(c.value) + "</div>";
         body_ += c.note.empty()
                      ? "</div>"
                      : std::string{"<div class=\"note\">"} + escape(c.note) + "</div></div>";
