@@ -94,14 +94,10 @@ public:
                 equation.effects.push_back({about.constants[c].name, equation.unit, priors_[c],
                                             traits::mul(width, slope), high[i * m + c] > 0});
             }
-            // By insertion, strongest first: few enough for that.
-            for (std::size_t k = 1; k < equation.effects.size(); ++k) {
-                for (auto at = k; at > 0; --at) {
-                    auto &before = equation.effects[at - 1], &here = equation.effects[at];
-                    if (!(here.effect.upper() > before.effect.upper())) break;
-                    std::swap(before, here);
-                }
-            }
+            std::stable_sort(equation.effects.begin(), equation.effects.end(),
+                             [](partial_effect const& a, partial_effect const& b) {
+                                 return a.effect.upper() > b.effect.upper();
+                             });
             result.push_back(std::move(equation));
         }
         return result;
