@@ -22,7 +22,7 @@ if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
         add_compile_options(-Werror)
     endif()
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-        # No garbage collection below 1 GB: 7 to 10 % of the compile time for a fifth more memory.
+        # No garbage collection below 1 GB: less time for more memory.
         add_compile_options(--param=ggc-min-heapsize=1048576)
     endif()
     if(SIVID_NATIVE)
