@@ -18,7 +18,8 @@ string(REGEX MATCHALL "[0-9]+, [0-9]+" kernels "${kernels}")
 foreach(kernel IN LISTS kernels)
     string(REPLACE ", " "_" name "${kernel}")
     sivid_compiled_source(kernel_${name} "\
-#include <sivid/paving/continued_run.hpp>
+#include <sivid/paving/detail/taylor_continuation.hpp>
+#include <sivid/paving/detail/taylor_run.hpp>
 namespace sivid::paving_detail {
 template std::unique_ptr<experiment_run> make_taylor_run<${kernel}>(
     flow const&, experiment const&, record const&, run_options const&);
@@ -48,7 +49,8 @@ set(entries_number decimal decimal_output decimal_text)
 set(entries_measurement signal)
 set(entries_model bound_model describe effect effects expression graph graph_listing model to_dot unit)
 set(entries_enclosure enclosed_motion failure flow simulate)
-set(entries_paving identify inflation holdout_inflation outlier_budget)
+set(entries_paving continued_run detail/response_judgement experiment_run fit holdout_inflation identify inflation
+                   minimax_fit outlier_budget)
 set(entries_paving_further identifiability online_identification)   # apart: together they need 2 GB
 set(entries_diagnosis affected_problem diagnose diagnosis_run manoeuvre)
 set(entries_io checkpoint checkpoint_reader dataset dataset_digest dataset_writer diagnosis_json exact_decimal

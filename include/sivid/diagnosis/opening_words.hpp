@@ -4,8 +4,9 @@
 
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/measurement/record.hpp>
-#include <sivid/paving/fit.hpp>
+#include <sivid/paving/approximate_fit.hpp>
 #include <sivid/paving/problem.hpp>
+#include <sivid/paving/residuals.hpp>
 
 #include <cmath>
 #include <cstddef>

@@ -9,14 +9,10 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <memory>
 #include <utility>
 #include <vector>
 
 namespace sivid {
-
-/// The responses of several experiments to boxes of the same parameters.
-using response_list = std::vector<std::shared_ptr<response const>>;
 
 /// The unknowns of several experiments over a part of their boxes, \f$ d \in [-1,1]^n \f$: first
 /// the parameters, which all share, then the starts of each.

@@ -98,6 +98,9 @@ struct response {
     }
 };
 
+/// The responses of several experiments to boxes of the same parameters.
+using response_list = std::vector<std::shared_ptr<response const>>;
+
 /// Collects the outputs of a run, one by one, and lays them out for a response.
 class response_builder {
 public:

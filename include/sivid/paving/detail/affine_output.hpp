@@ -4,6 +4,7 @@
 
 #include <sivid/enclosure/observation.hpp>
 #include <sivid/enclosure/parametric_set.hpp>
+#include <sivid/paving/detail/output_polynomial.hpp>
 #include <sivid/paving/response.hpp>
 #include <sivid/space/box.hpp>
 
@@ -14,20 +15,6 @@
 #include <vector>
 
 namespace sivid {
-
-/// An output of a family of trajectories at one time as a polynomial in the family's normalised
-/// unknowns, \f$ y \in \sum_\alpha c_\alpha q^\alpha \pm radius \f$, by the monomials of a table.
-struct output_polynomial {
-    std::vector<double> coefficients;
-    double radius = 0;
-
-    /// The size of all that is not constant.
-    [[nodiscard]] double spread() const {
-        double sum = 0;
-        for (std::size_t m = 1; m < coefficients.size(); ++m) sum += std::abs(coefficients[m]);
-        return sum;
-    }
-};
 
 /// The table of 1 and the unknowns themselves.
 [[nodiscard]] inline std::shared_ptr<monomial_table const> linear_table(std::size_t variables) {

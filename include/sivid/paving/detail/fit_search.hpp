@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_DETAIL_FIT_SEARCH_HPP
+#define SIVID_PAVING_DETAIL_FIT_SEARCH_HPP
+
+#include <sivid/compiled.hpp>
+#include <sivid/paving/campaign.hpp>
+#include <sivid/paving/descent.hpp>
+#include <sivid/paving/detail/fit_at.hpp>
+#include <sivid/paving/fit.hpp>
+#include <sivid/paving/minimax.hpp>
+#include <sivid/paving/suspect_samples.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+namespace paving_detail {
+
+/// The work of a `fitter`.
+class fit_search {
+public:
+    explicit fit_search(identification_problem const& problem) : campaign_(problem) {}
+
+    [[nodiscard]] approximate_fit operator()() {
+        descent_point best;
+        int agreeing = 0;
+        for (std::size_t k = 0; k < 8 && best.inflation > 0.98 && agreeing < 1; ++k) {
+            // Two descents that end far away from an explanation say that there is none.
+            if (k >= 2 && best.inflation > hopeless_inflation) break;
+            auto const found = from(start_point(k));
+            // Two descents that end at the same height have found the bottom.
+            if (std::abs(found.inflation - best.inflation) < 0.02 * best.inflation) ++agreeing;
+            if (found.inflation < best.inflation) best = found;
+        }
+        return finished(std::move(best));
+    }
+
+    [[nodiscard]] approximate_fit operator()(std::vector<double> const& parameters) {
+        auto z = start_point(0);
+        auto const& free = campaign_.free_parameters();
+        for (std::size_t k = 0; k < free.size(); ++k) {
+            if (free[k] < parameters.size()) {
+                z.global[static_cast<Eigen::Index>(k)] = parameters[free[k]];
+            }
+        }
+        return finished(from(std::move(z)));
+    }
+
+    [[nodiscard]] approximate_fit least_squares(std::vector<double> const& parameters) {
+        auto z = start_point(0);
+        auto const& free = campaign_.free_parameters();
+        for (std::size_t k = 0; k < free.size(); ++k) {
+            if (free[k] < parameters.size()) {
+                z.global[static_cast<Eigen::Index>(k)] = parameters[free[k]];
+            }
+        }
+        descent down(campaign_);
+        descent_point here;
+        if (!down.evaluate(std::move(z), here)) return {};
+        down.run(here, 2, {}, {40, 1e-6});
+        squares_ = squares_of(here);
+        return finished(std::move(here));
+    }
+
+    [[nodiscard]] approximate_fit at(std::vector<double> const& parameters,
+                                     std::vector<std::vector<double>> const& starts) {
+        descent_point here;
+        if (!descent(campaign_).evaluate(campaign_.variables(parameters, starts), here)) {
+            return {};
+        }
+        return finished(std::move(here));
+    }
+
+private:
+    static constexpr double hopeless_inflation = 4;
+
+    /// The centre, then points of a low-discrepancy sequence.
+    [[nodiscard]] arrow_vector start_point(std::size_t k) const {
+        auto z = campaign_.lower();
+        std::size_t i = 0;
+        z.for_each(
+            [&](double& v, double hi) {
+                double const golden = std::fmod(
+                    0.5 + static_cast<double>(k) * std::sqrt(static_cast<double>(2 + 3 * i++)),
+                    1.0);
+                v += golden * (hi - v);
+            },
+            campaign_.upper());
+        return z;
+    }
+
+    [[nodiscard]] descent_point from(arrow_vector z) {
+        descent down(campaign_);
+        descent_point here;
+        if (!down.evaluate(std::move(z), here)) return here;
+        auto best = here;
+        auto const& outliers = campaign_.outliers();
+        if (std::any_of(outliers.begin(), outliers.end(), [](auto q) { return q > 0; })) {
+            auto const kept = without_suspects(campaign_);
+            down.run(here, 1.2, kept, {12, 1e-3}, &best);
+        }
+        down.run(here, 2, {}, {20, 1e-3}, &best);
+        squares_ = std::min(squares_, squares_of(here));
+        if (best.inflation < 0.7) return best;
+        down.run(here, 8, {}, {6, 1e-2}, &best);
+        auto unit = campaign_.upper();
+        unit.for_each([](double& u, double lo) { u = std::max(u - lo, 1e-12); }, campaign_.lower());
+        minimax(campaign_).run(best, unit);
+        return best;
+    }
+
+    /// Once more, with care.
+    [[nodiscard]] double squares_of(descent_point const& here) const {
+        auto const kept = kept_of(here.residuals, campaign_.outliers());
+        double sum = 0;
+        for (std::size_t e = 0; e < kept.size(); ++e) {
+            for (std::size_t k = 0; k < kept[e].size(); ++k) {
+                sum += kept[e][k] * here.residuals[e][k] * here.residuals[e][k];
+            }
+        }
+        return sum;
+    }
+
+    [[nodiscard]] approximate_fit finished(descent_point here) {
+        auto result = fit_at(campaign_, std::move(here));
+        result.squares = squares_;
+        return result;
+    }
+
+    campaign campaign_;
+    double squares_ = std::numeric_limits<double>::infinity();
+};
+
+} // namespace paving_detail
+
+SIVID_ENTRY fitter::fitter(identification_problem const& problem)
+    : work_(std::make_unique<paving_detail::fit_search>(problem)) {}
+SIVID_ENTRY fitter::fitter(fitter&&) noexcept = default;
+SIVID_ENTRY fitter& fitter::operator=(fitter&&) noexcept = default;
+SIVID_ENTRY fitter::~fitter() = default;
+SIVID_ENTRY approximate_fit fitter::operator()() { return (*work_)(); }
+SIVID_ENTRY approximate_fit fitter::operator()(std::vector<double> const& parameters) {
+    return (*work_)(parameters);
+}
+SIVID_ENTRY approximate_fit fitter::least_squares(std::vector<double> const& parameters) {
+    return work_->least_squares(parameters);
+}
+SIVID_ENTRY approximate_fit fitter::at(std::vector<double> const& parameters,
+                                       std::vector<std::vector<double>> const& starts) {
+    return work_->at(parameters, starts);
+}
+
+} // namespace sivid
+
+#endif
