@@ -4,6 +4,7 @@
 
 #include <sivid/paving/continued_run.hpp>
 #include <sivid/paving/data_test.hpp>
+#include <sivid/paving/detail/doubleton_continuation.hpp>
 #include <sivid/paving/fit.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/problem.hpp>
