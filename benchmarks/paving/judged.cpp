@@ -9,6 +9,7 @@
 
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
+#include <sivid/paving/fit.hpp>
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/minimax_fit.hpp>
 
