@@ -18,6 +18,7 @@ string(REGEX MATCHALL "[0-9]+, [0-9]+" kernels "${kernels}")
 foreach(kernel IN LISTS kernels)
     string(REPLACE ", " "_" name "${kernel}")
     sivid_compiled_source(kernel_${name} "\
+#include <sivid/paving/continued_run.hpp>
 #include <sivid/paving/detail/taylor_continuation.hpp>
 #include <sivid/paving/detail/taylor_run.hpp>
 namespace sivid::paving_detail {

@@ -6,7 +6,6 @@
 #include <sivid/paving/campaign.hpp>
 #include <sivid/paving/descent.hpp>
 #include <sivid/paving/detail/fit_at.hpp>
-#include <sivid/paving/fit.hpp>
 #include <sivid/paving/minimax.hpp>
 #include <sivid/paving/suspect_samples.hpp>
 

@@ -4,7 +4,6 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/paving/cut_contraction.hpp>
-#include <sivid/paving/detail/response_judgement.hpp>
 #include <sivid/paving/explaining_starts.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/verdict.hpp>

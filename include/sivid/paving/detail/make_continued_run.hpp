@@ -3,7 +3,6 @@
 #define SIVID_PAVING_DETAIL_MAKE_CONTINUED_RUN_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/paving/continued_run.hpp>
 #include <sivid/paving/detail/doubleton_continuation.hpp>
 #include <sivid/paving/detail/taylor_continuation.hpp>
 #include <sivid/paving/taylor_kernels.hpp>

@@ -5,7 +5,6 @@
 #include <sivid/compiled.hpp>
 #include <sivid/paving/detail/doubleton_run.hpp>
 #include <sivid/paving/detail/taylor_run.hpp>
-#include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/taylor_kernels.hpp>
 
 #include <cstddef>
