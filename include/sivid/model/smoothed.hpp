@@ -26,10 +26,9 @@ struct smoothed_model {
 /// those of the result for all measurable inputs w within the bound, and so are its outputs; but
 /// the result can be expanded to high orders: near a kink in steps of its distance, and where the
 /// argument rests at the kink in long ones. Jumps (`sign`) stay what they are.
-/// @param width  \f$ \epsilon \f$ in [1e-100, 1e100], rounded to a power of two, whose multiples
-/// are
-///               exact; a millionth of it where no state enters: such an argument is a function of
-///               time, not a set, and what its kink leaves open must not make the sets of other
+/// @param width  \f$ \epsilon \f$ in [1e-100, 1e100], rounded to a power of two: multiples of it
+///               are exact; a millionth of it where no state enters: such an argument is a function
+///               of time, not a set, and what its kink leaves open must not make the sets of other
 ///               kinks wide
 /// @throws std::invalid_argument  for another width, whose square may not be exact
 /// @cost  O(nodes)

@@ -41,27 +41,13 @@ public:
     }
 
     [[nodiscard]] approximate_fit operator()(std::vector<double> const& parameters) {
-        auto z = start_point(0);
-        auto const& free = campaign_.free_parameters();
-        for (std::size_t k = 0; k < free.size(); ++k) {
-            if (free[k] < parameters.size()) {
-                z.global[static_cast<Eigen::Index>(k)] = parameters[free[k]];
-            }
-        }
-        return finished(from(std::move(z)));
+        return finished(from(middle_at(parameters)));
     }
 
     [[nodiscard]] approximate_fit least_squares(std::vector<double> const& parameters) {
-        auto z = start_point(0);
-        auto const& free = campaign_.free_parameters();
-        for (std::size_t k = 0; k < free.size(); ++k) {
-            if (free[k] < parameters.size()) {
-                z.global[static_cast<Eigen::Index>(k)] = parameters[free[k]];
-            }
-        }
         descent down(campaign_);
         descent_point here;
-        if (!down.evaluate(std::move(z), here)) return {};
+        if (!down.evaluate(middle_at(parameters), here)) return {};
         down.run(here, 2, {}, {40, 1e-6});
         squares_ = squares_of(here);
         return finished(std::move(here));
@@ -94,6 +80,18 @@ private:
         return z;
     }
 
+    /// The centre, but for the parameters that are given.
+    [[nodiscard]] arrow_vector middle_at(std::vector<double> const& parameters) const {
+        auto z = start_point(0);
+        auto const& free = campaign_.free_parameters();
+        for (std::size_t k = 0; k < free.size(); ++k) {
+            if (free[k] < parameters.size()) {
+                z.global[static_cast<Eigen::Index>(k)] = parameters[free[k]];
+            }
+        }
+        return z;
+    }
+
     [[nodiscard]] descent_point from(arrow_vector z) {
         descent down(campaign_);
         descent_point here;
@@ -114,7 +112,6 @@ private:
         return best;
     }
 
-    /// Once more, with care.
     [[nodiscard]] double squares_of(descent_point const& here) const {
         auto const kept = kept_of(here.residuals, campaign_.outliers());
         double sum = 0;
