@@ -5,6 +5,12 @@
 #include "support/catch.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <ctime>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace sivid;
 
@@ -90,7 +96,7 @@ TEST_CASE("whether there is a gap, and where, is said before anything that takes
     std::vector<std::string> steps;
     diagnosis_options options;
     options.progress = [&](std::string const& what) {
-        steps.push_back(what);
+        if (steps.empty() || steps.back() != what) steps.push_back(what); // asked again within it
         return true;
     };
     options.first_sentence = [&](std::string const& text) { steps.push_back("says: " + text); };
@@ -152,6 +158,9 @@ TEST_CASE("what no catalogue has stays unexplained") {
     auto const d = run(gust).result;
     CHECK(d.gap == gap_verdict::certified);
     CHECK(d.answer == answer_kind::unexplained);
+    CHECK(d.tried.complete());
+    CHECK(d.tried.singles.tried == 4);
+    CHECK(d.tried.pairs.planned == 6);
     REQUIRE(d.remainder);
     CHECK(d.remainder->inflation.upper() > 1);
     CHECK_FALSE(d.remainder->where.empty());
@@ -172,4 +181,137 @@ TEST_CASE("a diagnosis can be stopped at any moment and says so") {
     auto const d = run(small_campaign::with_drag(0.3), {.seconds = 0}).result;
     CHECK(d.interrupted);
     CHECK(d.gap == gap_verdict::undecided);
+}
+
+namespace {
+
+small_campaign::truth gust() {
+    small_campaign::truth real;
+    real.missing = [](double t, double, double) { return t > 1 && t < 1.6 ? 1.5 : 0.0; };
+    return real;
+}
+
+/// Two channels, so many samples each, a sample a millisecond.
+identification_problem long_record(std::size_t samples, small_campaign::truth const& real) {
+    auto problem = small_campaign::problem();
+    auto& e = problem.experiments[0];
+    problem.experiments.resize(1);
+    std::vector<double> times, values;
+    double const h = 1e-3;
+    double const end = h * static_cast<double>(samples);
+    for (double t = 0; t < end + 0.05; t += 0.05) {
+        times.push_back(t);
+        values.push_back(std::cos(2 * t));
+    }
+    sampled_signal const u(times, values, interpolation::linear);
+    e.inputs = {u};
+    e.measurements.clear();
+    double p = 0, v = 0;
+    for (std::size_t k = 1; k <= samples; ++k) {
+        double const t = h * static_cast<double>(k - 1);
+        auto const rate = [&](double s, double w) {
+            return u.approximate(s) - w / 4 + real.missing(s, w, 0);
+        };
+        double const middle = v + h / 2 * rate(t, v);
+        p += h * middle;
+        v += h * rate(t + h / 2, middle);
+        double const wave = 0.6 * std::sin(12.9898 * static_cast<double>(k));
+        auto const add = [&](std::size_t channel, double y, double size) {
+            double const seen = y + size * wave;
+            e.measurements.push_back(
+                {h * static_cast<double>(k), channel, interval(seen - size, seen + size)});
+        };
+        add(0, p, 0.02);
+        add(1, v, 0.03);
+    }
+    return problem;
+}
+
+} // namespace
+
+TEST_CASE("an answer is open while candidates of the plan are left to try") {
+    for (std::string const untried : {"trying scale", " + "}) { // a single effect, the first pair
+        bool reached = false;
+        diagnosis_options options;
+        options.progress = [&](std::string const& what) {
+            reached = reached || what.find(untried) != std::string::npos;
+            return !reached;
+        };
+        auto const d = run(gust(), options).result;
+        CHECK(reached);
+        CHECK(d.answer == answer_kind::open);
+        CHECK_FALSE(d.tried.complete());
+        CHECK(d.tried.singles.planned == 4);
+        CHECK(d.tried.pairs.planned == 6);
+        CHECK(d.tried.singles.tried == (untried == " + " ? 4 : 2));
+        CHECK(d.tried.pairs.tried == 0);
+        CHECK(d.effects.empty());
+        CHECK_FALSE(d.remainder);
+        CHECK(d.interrupted);
+    }
+}
+
+TEST_CASE("all candidates are tried before any is excluded") {
+    std::vector<std::string> steps;
+    diagnosis_options options;
+    options.progress = [&](std::string const& what) {
+        steps.push_back(what);
+        return true;
+    };
+    (void)run(gust(), options);
+    auto const is = [](char const* begin) {
+        return [begin](std::string const& s) { return s.starts_with(begin); };
+    };
+    auto const last = std::find_if(steps.rbegin(), steps.rend(), is("trying "));
+    REQUIRE(last != steps.rend());
+    for (auto const* later : {"excluding", "looking for what is left", "measuring"}) {
+        CHECK(std::none_of(last, steps.rend(), is(later)));
+    }
+}
+
+TEST_CASE("a long record does not outlast its budget") {
+    auto const problem = long_record(10'000, gust());
+    for (double const budget : {0.5, 3.0}) {
+        auto const begin = std::clock(); // of this thread's work: the machine may be busy
+        auto const d = diagnose(problem, small_campaign::catalogue(), {.seconds = budget}).result;
+        auto const spent = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+        CHECK(spent < budget + 1);
+        CHECK(d.gap != gap_verdict::none);
+        CHECK(d.answer != answer_kind::none);
+        CHECK((d.answer != answer_kind::unexplained || d.tried.complete()));
+    }
+}
+
+TEST_CASE("a constant at the end of its prior is named, of the model and of the answer") {
+    auto problem = small_campaign::problem(small_campaign::with_slope(0.3));
+    problem.prior[0] = interval(1.2, 1.5); // the truth is 1
+    auto const d = diagnose(std::move(problem), small_campaign::catalogue(), {}).result;
+    REQUIRE_FALSE(d.at_ends.empty());
+    auto const& a = d.at_ends.front();
+    CHECK(a.constant.name == "k");
+    CHECK(a.end == prior_end::lower);
+    REQUIRE_FALSE(d.constants.empty());
+    CHECK(d.constants.front().name == "k");
+    REQUIRE(d.constants.front().prior);
+    CHECK(d.constants.front().prior->lower() == 1.2);
+}
+
+TEST_CASE("the constants stated are those of the witness, and all assumptions are in one list") {
+    auto const d = run(small_campaign::with_delay(0.2)).result;
+    REQUIRE(d.causes.front().witness);
+    CHECK(d.constants_verified);
+    auto const& verified = d.causes.front().witness->parameters;
+    REQUIRE(d.constants.size() == verified.size());
+    for (std::size_t j = 0; j < verified.size(); ++j) {
+        CHECK(d.constants[j].value == verified[j].value);
+    }
+    auto const listed = [&d](std::string const& text) {
+        return std::count(d.assumptions.begin(), d.assumptions.end(), text) == 1;
+    };
+    for (auto const& r : d.relations) {
+        for (auto const& a : r.assumptions) CHECK(listed(a));
+    }
+    for (auto const& c : d.causes) {
+        for (auto const& a : c.assumptions) CHECK(listed(a));
+    }
 }

@@ -37,3 +37,12 @@ TEST_CASE("what is asked whether to go on can stop a diagnosis for good") {
     CHECK(none.left() == 0);
     CHECK_FALSE(none.go_on("a step"));
 }
+
+TEST_CASE("runs have the clock of the diagnosis, and what was asked before") {
+    diagnosis_effort none(0, {}, {});
+    CHECK_FALSE(none.test().witness.enclosure.keep_going());
+    diagnosis_effort effort(100, {}, {});
+    CHECK(effort.test().run.enclosure.keep_going());
+    diagnosis_effort stopped(100, limited({}, [] { return false; }), {});
+    CHECK_FALSE(stopped.test().run.enclosure.keep_going());
+}

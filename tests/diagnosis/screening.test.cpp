@@ -91,9 +91,22 @@ TEST_CASE("screening can be stopped and keeps what it has") {
         CHECK_FALSE(what.empty());
         return ++calls < 3;
     };
-    auto const s = screened_campaign(small_campaign::with_drag(0.3), options);
+    auto s = screened_campaign(small_campaign::with_drag(0.3), options);
     CHECK(s.stopped());
     CHECK(s.candidates().size() == 2);
+    CHECK(s.counts().singles.tried == 1);
+    CHECK(s.counts().pairs.planned == 6);
+    // Called again it goes on, and comes to what an uninterrupted one does.
+    calls = -1000;
+    s.run();
+    CHECK_FALSE(s.stopped());
+    CHECK(s.counts().complete());
+    auto const whole = screened_campaign(small_campaign::with_drag(0.3));
+    REQUIRE(s.candidates().size() == whole.candidates().size());
+    for (std::size_t k = 0; k < whole.candidates().size(); ++k) {
+        CHECK(s.candidates()[k].figures.effects == whole.candidates()[k].figures.effects);
+        CHECK(s.candidates()[k].figures.inflation == whole.candidates()[k].figures.inflation);
+    }
     CHECK(screened_campaign({}, {.seconds = 0}).candidates().empty());
 }
 

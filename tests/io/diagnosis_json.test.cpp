@@ -69,3 +69,25 @@ TEST_CASE("all that a diagnosis says is written, bounds outward and names quoted
         CHECK_THAT(text, ContainsSubstring(part));
     }
 }
+
+TEST_CASE("what was tried, and every constant with its prior, is written") {
+    diagnosis d;
+    d.answer = answer_kind::open;
+    d.tried.singles = {8, 8};
+    d.tried.pairs = {0, 27};
+    d.constants = {{"k", "1/s", 3, std::nullopt, interval(3, 4)},
+                   {"b", "1", 2, interval(1.5, 2.5), interval(1, 3)}};
+    d.at_ends = {{{"wind"}, d.constants[0], prior_end::lower}};
+    auto const answer = nlohmann::json::parse(diagnosis_json(d, "x"))["answer"];
+    CHECK(answer["kind"] == "open");
+    CHECK(answer["tried"]["singles"]["tried"] == 8);
+    CHECK(answer["tried"]["pairs"]["planned"] == 27);
+    CHECK(answer["tried"]["pairs"]["tried"] == 0);
+    CHECK(answer["constants"]["k"]["end"] == "lower");
+    CHECK(answer["constants"]["k"]["hull"].is_null());
+    CHECK(answer["constants"]["b"]["end"].is_null());
+    CHECK(answer["constants"]["b"]["hull"][1] == 2.5);
+    CHECK(answer["verified"] == false);
+    CHECK(answer["at_ends"][0]["constant"] == "k");
+    CHECK(answer["at_ends"][0]["effects"][0] == "wind");
+}

@@ -83,7 +83,8 @@ private:
     }
 
     void attempt(std::size_t i, window_way way, std::vector<window_row> const& list,
-                 relation_finding& result) const {
+                 relation_finding& result) {
+        if (windows_.stopped()) return;
         auto const system = system_of(windows_.row(i), list);
         auto const relaxed = least_relaxation(system);
         result.margin = proved_margin(system, relaxed.multipliers);

@@ -27,7 +27,14 @@ public:
         : run_(&run), order_(&order), effort_(&effort), options_(&options) {}
 
     void operator()() {
-        if (!verify_witnesses()) return;
+        if (verify()) refute();
+    }
+
+    /// Witnesses of what seems to explain the data, and bounds of the answer.
+    /// @returns false when it was stopped
+    bool verify() { return verify_witnesses(); }
+    /// The proofs that a candidate does not explain them; afterwards.
+    void refute() {
         exclude_by_relations();
         exclude();
     }
@@ -84,11 +91,14 @@ private:
         options.test = effort_->test();
         options.search.seconds = effort_->seconds_of(options_->hulls);
         options.search.boxes = options_->hulls.boxes;
+        options.search.keep_going = [this] { return effort_->go_on(); };
+        options.search.progress = [this](paving_progress const&) { return effort_->go_on(); };
         auto const found = identify(s.problem, options);
         auto const own = run_->base.prior.size();
         for (std::size_t k = 0; k < c.parameters.size(); ++k) {
             c.parameters[k].hull = found.hull[own + k];
         }
+        run_->answer_hull = found.hull;
     }
 
     /// Candidates that leave a refuted relation as it is. A relation that stands in one that

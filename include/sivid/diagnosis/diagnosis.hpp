@@ -83,7 +83,7 @@ struct broken_relation_report {
     std::vector<time_window> windows;
 };
 
-/// A place where model and robot part.
+/// A place where model and robot disagree.
 struct suspected_place {
     std::string kind; ///< equation, sensor or input
     std::string name;
@@ -112,8 +112,32 @@ enum class cause_verdict {
 struct named_estimate {
     std::string name;
     std::string unit;
-    double value = 0;             ///< of the fit
-    std::optional<interval> hull; ///< proved to contain every value that explains the data
+    double value = 0;                ///< of the fit, or of the witness in a `named_witness`
+    std::optional<interval> hull{};  ///< proved to contain every value that explains the data
+    std::optional<interval> prior{}; ///< what was allowed
+};
+
+/// The end of its prior that a value sits on.
+enum class prior_end { none, lower, upper };
+[[nodiscard]] constexpr std::string_view to_string(prior_end e) {
+    return e == prior_end::none ? "none" : e == prior_end::lower ? "lower" : "upper";
+}
+
+/// Which end of its prior a value lies at, within a thousandth of the prior's width. An end of 0 is
+/// none: there a quantity that is positive by its nature, or an effect, vanishes.
+[[nodiscard]] inline prior_end end_of_prior(double value, interval const& prior) {
+    double const near = 1e-3 * (prior.upper() - prior.lower());
+    if (!(near > 0)) return prior_end::none;
+    if (prior.lower() != 0 && value - prior.lower() <= near) return prior_end::lower;
+    if (prior.upper() != 0 && prior.upper() - value <= near) return prior_end::upper;
+    return prior_end::none;
+}
+
+/// A constant at the end of its prior: what lies beyond was not looked at.
+struct constant_at_end {
+    std::vector<std::string> effects; ///< of the model whose constant it is; none: as it is
+    named_estimate constant;          ///< with its prior
+    prior_end end = prior_end::none;
 };
 
 /// What parameters and starts were verified.
@@ -126,7 +150,7 @@ struct named_witness {
     std::vector<start> starts;
 };
 
-/// How well data that chose nothing are met, before and after an effect is joined.
+/// How well hold-out data are met, before and after an effect is joined.
 struct holdout_figures {
     inflation_range inflation_before = unknown_inflation();
     inflation_range inflation_after = unknown_inflation();
@@ -151,10 +175,32 @@ struct cause {
     std::optional<holdout_figures> holdout;
 };
 
-enum class answer_kind { none, effects, unexplained };
+enum class answer_kind {
+    none,        ///< the model needs no effect
+    effects,     ///< these effects explain the data
+    unexplained, ///< every candidate of the plan was tried and none explains them
+    open         ///< none of those that were tried explains them; some of the plan were not
+};
 [[nodiscard]] constexpr std::string_view to_string(answer_kind k) {
-    return k == answer_kind::none ? "none" : k == answer_kind::effects ? "effects" : "unexplained";
+    return k == answer_kind::none          ? "none"
+           : k == answer_kind::effects     ? "effects"
+           : k == answer_kind::unexplained ? "unexplained"
+                                           : "open";
 }
+
+/// How many sets of effects were tried, of those that were to be.
+struct tried_candidates {
+    struct count {
+        std::size_t tried = 0, planned = 0;
+    };
+    count singles, pairs, larger;
+
+    [[nodiscard]] std::size_t tried() const { return singles.tried + pairs.tried + larger.tried; }
+    [[nodiscard]] std::size_t planned() const {
+        return singles.planned + pairs.planned + larger.planned;
+    }
+    [[nodiscard]] bool complete() const { return tried() >= planned(); }
+};
 
 /// What is left of a gap with the candidate that comes closest, when none explains the data.
 struct unexplained_remainder {
@@ -171,7 +217,7 @@ struct next_experiment {
     bool recorded = false; ///< one of the manoeuvres at hand, made again with finer bounds
 };
 
-/// Where model and robot part, which effect it is, and how far the gap shrinks.
+/// Where model and robot disagree, which effect it is, and how far the gap shrinks.
 /// Everything that is called proved, certified, excluded or explained is a theorem under the
 /// assumptions listed; the rest is an estimate.
 struct diagnosis {
@@ -182,7 +228,13 @@ struct diagnosis {
     std::vector<suspected_place> where; ///< most important first
     std::vector<cause> causes;          ///< best first
     answer_kind answer = answer_kind::none;
+    tried_candidates tried;
     std::vector<std::string> effects; ///< the answer
+    /// Every constant of the model with the answer's effects (of the closest candidate where none
+    /// explains the data): the values of the verified witness where there is one, else of the fit.
+    std::vector<named_estimate> constants;
+    bool constants_verified = false;      ///< they are a witness that explains the data (proved)
+    std::vector<constant_at_end> at_ends; ///< of the answer, and of the model as it is
     std::vector<std::vector<std::string>> indistinguishable;
     std::vector<std::string> unobservable; ///< effects that these channels and scenarios never show
     std::optional<interval> shrink_fit, shrink_holdout;

@@ -6,9 +6,11 @@
 #include <sivid/paving/inflation.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -29,23 +31,37 @@ public:
     /// @param progress  called with what is being done; false ends the diagnosis; may be empty
     diagnosis_effort(double seconds, data_test_options test,
                      std::function<bool(std::string const&)> progress)
-        : all_(seconds), test_(std::move(test)), progress_(std::move(progress)) {}
+        : all_(seconds), test_(std::move(test)), progress_(std::move(progress)) {
+        auto const asked = test_.run.enclosure.keep_going;
+        test_ = limited(std::move(test_), [this, asked] { return (!asked || asked()) && go_on(); });
+    }
+    diagnosis_effort(diagnosis_effort const&) = delete;
+    diagnosis_effort& operator=(diagnosis_effort const&) = delete;
 
     [[nodiscard]] double seconds() const {
         return std::chrono::duration<double>(clock::now() - begin_).count();
     }
     [[nodiscard]] double left() const { return std::max(0.0, all_ - seconds()); }
     [[nodiscard]] bool stopped() const { return stopped_; }
+    /// With the clock of the diagnosis, so that no run outlasts it.
     [[nodiscard]] data_test_options const& test() const { return test_; }
 
     /// Whether there is time for a step.
     bool go_on(std::string const& what) {
+        std::lock_guard const alone(asking_);
         doing_ = what;
-        return go_on();
+        ask();
+        return !stopped_;
     }
-    /// The same in the midst of it.
+    /// The same in the midst of it, from any thread and as often as one likes.
     bool go_on() {
-        if (left() <= 0 || (progress_ && !progress_(doing_))) stopped_ = true;
+        if (stopped_) return false;
+        if (left() <= 0) {
+            stopped_ = true;
+        } else if (progress_ && seconds() - asked_ > pause) {
+            std::unique_lock const alone(asking_, std::try_to_lock);
+            if (alone.owns_lock() && seconds() - asked_ > pause) ask();
+        }
         return !stopped_;
     }
 
@@ -74,12 +90,20 @@ public:
 
 private:
     using clock = std::chrono::steady_clock;
+    static constexpr double pause = 0.1; ///< between two questions whether to go on [s]
+
+    void ask() {
+        if (left() <= 0 || (progress_ && !progress_(doing_))) stopped_ = true;
+        asked_ = seconds();
+    }
 
     double all_;
     data_test_options test_;
     std::function<bool(std::string const&)> progress_;
     std::string doing_;
-    bool stopped_ = false;
+    std::mutex asking_;
+    std::atomic<double> asked_ = 0; ///< when
+    std::atomic<bool> stopped_ = false;
     clock::time_point begin_ = clock::now();
 };
 

@@ -35,9 +35,12 @@ struct diagnosis_options {
     step_effort exclusions{36, 0.08}; ///< ... and all of them
     step_effort part{2, 0.01};        ///< the inflation of one scenario or channel ...
     double parts_share = 0.05;        ///< ... and of all of them, see `step_effort::share`
+    double first_fit_share = 0.4;     ///< of the model itself
+    double relations_share = 0.1;     ///< which equations cannot hold
+    double verdict_share = 0.15;      ///< kept from the candidates for the proofs about them
     double places_share = 0.25; ///< where the model, and then where the closest candidate departs
     std::size_t remaining_sets = 30; ///< of places that the closest candidate may have wrong
-    screening_options screening{};
+    screening_options screening{};   ///< but for its time: it gets all that the others leave
     choice_options choice{};
     /// How boxes of parameters are enclosed. Its workers run candidates and scenarios at once; the
     /// result is that of one thread, but for what a limit of time cuts off.
@@ -59,6 +62,7 @@ struct diagnosis_run {
     std::vector<screened> candidates; ///< the model itself first
     std::size_t answer = 0;           ///< index of the candidate that is the answer
     verified_inflation base_bound, answer_bound;
+    box answer_hull; ///< of every parameter of the answer that explains the data; empty: not known
     std::vector<relation_finding> findings; ///< the broken relations
     place_estimate places;
     place_estimate remaining_places; ///< of the closest candidate, when none explains the data
@@ -67,7 +71,7 @@ struct diagnosis_run {
 
 /// Judges the model and the answer of a diagnosis by hold-out data and adds the figures: the only
 /// place where such data are read, after everything is chosen.
-/// @param seconds, boxes  what the bounds of both may spend, see `step_effort`
+/// @param seconds, boxes  what all of it may spend, see `step_effort`
 SIVID_ENTRY void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds = 6,
                                   data_test_options const& test = {}, std::size_t boxes = 24);
 

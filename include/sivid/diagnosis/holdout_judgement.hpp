@@ -26,9 +26,9 @@ namespace diagnosis_detail {
 /// Share of samples whose bound meets the outputs of the box of parameters, and the mean width of
 /// these outputs over that of the bounds.
 inline void add_tube(identification_problem const& judged, box const& parameters,
-                     holdout_judgement& result) {
+                     data_test_options const& test, holdout_judgement& result) {
     auto const everything = box_explorer::without_limit(judged);
-    data_test runs(everything, {});
+    data_test runs(everything, test);
     std::size_t samples = 0;
     std::size_t met = 0;
     double width_sum = 0;
@@ -66,13 +66,13 @@ inline void add_tube(identification_problem const& judged, box const& parameters
     auto there = judged;
     for (std::size_t j = 0; j < p.size(); ++j) there.prior[j] = interval(p[j]);
     start_added_states(there);
-    result.run = fitter(there)(p);
+    result.run = fitter(there, search.test.run.enclosure.keep_going)(p);
     bool const known_starts =
         std::all_of(there.experiments.begin(), there.experiments.end(), [](experiment const& e) {
             return std::all_of(e.initial.begin(), e.initial.end(),
                                [](interval const& x) { return width(x) < 1e-9; });
         });
-    result.at_witness = verify_at(there, result.run).range;
+    result.at_witness = verify_at(there, result.run, search.test).range;
     if (!known_starts) { // another start may do better
         result.at_witness = interval_traits<interval>::bounds(0, result.at_witness.upper());
     }
@@ -107,7 +107,7 @@ inline void add_tube(identification_problem const& judged, box const& parameters
         result.rmse.push_back(std::sqrt(squares[y] / count[y]));
     }
     if (!delayed && bound.hull.size() == p.size()) {
-        diagnosis_detail::add_tube(judged, bound.hull, result);
+        diagnosis_detail::add_tube(judged, bound.hull, search.test, result);
     }
     return result;
 }

@@ -7,6 +7,7 @@
 #include <sivid/diagnosis/detail/screened.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -16,10 +17,13 @@ namespace sivid {
 /// Predicted at the candidates' fits, which a further fit may partly make up for; not a proof.
 /// @param errors  bound of each channel; 0: not measured
 /// @param period  of the measurements [s]
+/// @param go_on   asked before and within simulations; false ends with the best found by then; may
+///                be empty
 /// @returns nothing when there are fewer than two candidates or no manoeuvre can be simulated
 [[nodiscard]] SIVID_ENTRY std::optional<next_experiment>
 propose_experiment(std::vector<screened const*> candidates, std::vector<manoeuvre> const& menu,
-                   std::vector<double> errors, double period);
+                   std::vector<double> errors, double period,
+                   std::function<bool()> const& go_on = {});
 
 } // namespace sivid
 

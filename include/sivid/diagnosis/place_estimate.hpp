@@ -41,7 +41,7 @@ public:
     [[nodiscard]] place_estimate operator()() {
         auto const begin = std::chrono::steady_clock::now();
         place_estimate result;
-        result.base = base_ != nullptr ? *base_ : fitter(*problem_)();
+        result.base = base_ != nullptr ? *base_ : fitter(*problem_, options_.search.go_on)();
         result.inflation = result.base.inflation;
         if (!(result.base.inflation <= 1) && !result.base.parameters.empty()) search(result);
         result.seconds =
@@ -99,6 +99,7 @@ private:
         }
         place_fitter fit(*problem_, places_of(problem_->model, measured, sampled));
         fit.simulations().set_workers(options_.workers);
+        fit.simulations().set_keep_going(options_.search.go_on);
         auto const base = fit.plain(result.base.parameters, result.base.starts);
         fit.release({});
         fit.set_scales(missing_rate_scales(fit.simulations(), fit.vector_of(base)));

@@ -70,6 +70,7 @@ public:
     [[nodiscard]] place_fit operator()(std::vector<std::size_t> set, place_state const& from) {
         place_fit result;
         result.set = std::move(set);
+        result.state = from; // where no simulation succeeds
         release(result.set);
         for (auto const p : result.set) result.cost += places_[p].cost;
         descent down(campaign_, prior());

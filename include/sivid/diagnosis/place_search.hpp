@@ -18,8 +18,8 @@ struct place_search_options {
     std::size_t most_sets = 80; ///< no new set is begun after so many
     double equal_score = 12;    ///< sets whose scores differ by less are equal alternatives
     double much_better = 30;    ///< by what a superset's score must be better to start from it
-    /// Asked before every fit but the first; false ends the search with what was tried. May be
-    /// empty.
+    /// Asked before and within every fit, by any thread; false ends the search with what was tried.
+    /// May be empty.
     std::function<bool()> go_on{};
 };
 
@@ -118,6 +118,7 @@ private:
             from = &known->state;
         }
         auto result = (*fit_)(set, *from);
+        if (!tried_.empty() && stopped()) return; // in its midst
         // A start that did not lead anywhere: the base once more.
         if (result.inflation > 1 && from != &base_ && result.score > 0.9 * score &&
             set.size() > 1 && !stopped()) {

@@ -5,6 +5,7 @@
 #include <sivid/number/interval.hpp>
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -56,6 +57,8 @@ struct relation_options {
     double least_margin = 0.02;
     std::size_t cells_per_gap = 6;    ///< cells between two samples
     std::size_t most_windows = 20000; ///< for one equation
+    /// Asked now and then; from false on no equation is proved broken any more. May be empty.
+    std::function<bool()> go_on{};
 };
 
 } // namespace sivid

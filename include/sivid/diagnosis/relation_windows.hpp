@@ -65,6 +65,7 @@ public:
         }
         auto const laws = declare_variations(model_, scales, options.rate_variation);
         for (std::size_t e = 0; e < trusted.size(); ++e) {
+            if (stopped()) return;
             motions_.push_back(observe_motion(model_, problem.prior, *trusted[e], channels_,
                                               laws[e], options.cells_per_gap));
         }
@@ -88,6 +89,7 @@ public:
 
     /// Why equation i cannot be examined; empty if it can.
     [[nodiscard]] std::string obstacle(std::size_t i) {
+        if (stopped()) return "there was no time";
         if (!obstacle_.empty()) return obstacle_;
         auto const& e = prepared(i);
         if (!e.row.bounded) return "a coefficient is unbounded over the prior";
@@ -154,6 +156,11 @@ public:
         for (auto const s : tubes) result.channels.push_back(about().channels[*channels_[s]].name);
     }
 
+    [[nodiscard]] bool stopped() {
+        stopped_ = stopped_ || (options_.go_on && !options_.go_on());
+        return stopped_;
+    }
+
 private:
     struct prepared_equation {
         relation_row row;
@@ -203,7 +210,7 @@ private:
         if (way == window_way::weak) {
             auto const weak = weak_windows::of(e.set, *weak_pair(i));
             for (std::size_t m = 0; weak && m < motions_.size(); ++m) {
-                auto more = weak->over(motions_[m], m, shortest, longest);
+                auto more = weak->over(motions_[m], m, shortest, longest, options_.go_on);
                 std::move(more.begin(), more.end(), std::back_inserter(result));
             }
             return result;
@@ -218,7 +225,7 @@ private:
             for (std::size_t m = 0; m < motions_.size(); ++m) {
                 if (!own_tube(e.row, motions_[m])) continue;
                 auto const& times = own_tube(e.row, motions_[m])->times();
-                for (std::size_t b = 1; b < times.size(); ++b) {
+                for (std::size_t b = 1; b < times.size() && !stopped(); ++b) {
                     for (std::size_t a = b; a-- > 0;) {
                         double const length = times[b] - times[a];
                         if (length > longest * (1 + 1e-9)) break;
@@ -268,6 +275,7 @@ private:
     identification_problem const* problem_;
     relation_options options_;
     std::string obstacle_;
+    bool stopped_ = false;
     bound_model model_;
     std::vector<std::optional<std::size_t>> channels_;
     std::vector<observed_motion> motions_;

@@ -5,6 +5,7 @@
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/candidate.hpp>
 #include <sivid/diagnosis/detail/screened.hpp>
+#include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/paving/fit.hpp>
 #include <sivid/paving/minimax_fit.hpp>
 
@@ -42,12 +43,41 @@ public:
         return result;
     }
 
+    /// How much of the plan is done. What pairs are planned depends on the single effects: before
+    /// all of them are tried, as many as there will be where none explains alone.
+    [[nodiscard]] tried_candidates counts() const {
+        tried_candidates result;
+        result.singles = count(singles());
+        if (result.singles.tried < result.singles.planned) {
+            auto const n = catalogue_.size();
+            auto const k = std::min(n, options_.partners);
+            result.pairs.planned = k * (n - k) + k * (k - std::min<std::size_t>(k, 1)) / 2;
+        } else {
+            result.pairs = count(pairs());
+        }
+        for (std::size_t size = 3; size <= options_.most_effects; ++size) {
+            if (explained(size - 1)) break;
+            auto const planned = catalogue_.size() + 1 - std::min(size, catalogue_.size() + 1);
+            auto const found = std::count_if(tried_.begin(), tried_.end(), [size](auto const& s) {
+                return s.figures.effects.size() == size;
+            });
+            result.larger.planned += planned;
+            result.larger.tried += std::min(planned, static_cast<std::size_t>(found));
+        }
+        return result;
+    }
+
     /// The model itself, every single effect, then pairs, then larger sets where they are asked
-    /// for.
+    /// for. Called again, it goes on where it was stopped.
     /// @cost  21 effects: 22 fits, about 20 to 100 for pairs, about 20 for each further effect
     void run() {
-        singles_and_pairs();
-        for (std::size_t size = 3; size <= options_.most_effects && !explained(); ++size) {
+        stopped_ = false;
+        try_one({});
+        try_all(singles());
+        polish();
+        if (!stopped_) try_all(pairs());
+        for (std::size_t size = 3; size <= options_.most_effects && !stopped_; ++size) {
+            if (explained(size - 1)) break;
             join_one_more(size);
         }
         polish();
@@ -60,9 +90,9 @@ public:
         options_.workers(tried_.size(), [this](std::size_t k) {
             auto& s = tried_[k];
             double const before = s.figures.inflation;
-            if (!(before > 1 && before < close) || seconds() > options_.seconds) return;
+            if (!(before > 1 && before < close) || !in_time()) return;
             auto better = minimax_fitter(s.problem)(s.fit.parameters, s.fit.starts,
-                                                    [this] { return !stopped_; });
+                                                    [this] { return in_time(); });
             if (!(better.inflation < before)) return;
             better.squares = s.fit.squares;
             s.fit = std::move(better);
@@ -84,7 +114,11 @@ public:
         std::vector<std::optional<screened>> fitted(open.size());
         std::mutex asking;
         options_.workers(open.size(), [&](std::size_t k) {
-            if (may_try(open[k], asking)) fitted[k] = fit(open[k]);
+            if (!may_try(open[k], asking)) return;
+            auto s = fit(open[k]);
+            // Cut short, it says nothing of a candidate, but the model itself is needed.
+            bool const first = open[k].empty() && !s.fit.parameters.empty();
+            if (in_time() || s.figures.explains() || first) fitted[k] = std::move(s);
         });
         for (auto& s : fitted) {
             if (s) tried_.push_back(std::move(*s));
@@ -101,23 +135,31 @@ public:
 private:
     using clock = std::chrono::steady_clock;
 
-    void singles_and_pairs() {
-        try_one({});
+    [[nodiscard]] effect_sets singles() const {
         effect_sets wanted;
         for (std::size_t e = 0; e < catalogue_.size(); ++e) wanted.push_back({e});
-        try_all(wanted);
-        polish();
-        auto singles = ranked_singles();
-        bool const alone = explained();
-        if (alone && !options_.always_pairs) return;
-        singles.resize(std::min(singles.size(), alone ? 1 : options_.partners));
-        wanted.clear();
-        for (auto const a : singles) {
+        return wanted;
+    }
+    /// @given  all single effects were tried
+    [[nodiscard]] effect_sets pairs() const {
+        effect_sets wanted;
+        bool const alone = explained(1);
+        if (alone && !options_.always_pairs) return wanted;
+        auto partners = ranked_singles();
+        partners.resize(std::min(partners.size(), alone ? 1 : options_.partners));
+        for (auto const a : partners) {
             for (std::size_t b = 0; b < catalogue_.size(); ++b) {
-                if (b != a) wanted.push_back({std::min(a, b), std::max(a, b)});
+                std::vector<std::size_t> pair{std::min(a, b), std::max(a, b)};
+                bool const known = std::find(wanted.begin(), wanted.end(), pair) != wanted.end();
+                if (b != a && !known) wanted.push_back(std::move(pair));
             }
         }
-        try_all(wanted);
+        return wanted;
+    }
+    [[nodiscard]] tried_candidates::count count(effect_sets const& planned) const {
+        auto const known = [this](auto const& set) { return find(set) != nullptr; };
+        return {static_cast<std::size_t>(std::count_if(planned.begin(), planned.end(), known)),
+                planned.size()};
     }
     /// Joins every other effect to the likeliest candidate of size - 1 effects. What explains must
     /// then do without each of its effects, or a smaller candidate is the answer.
@@ -152,9 +194,11 @@ private:
         effects.insert(std::upper_bound(effects.begin(), effects.end(), one), one);
         return effects;
     }
-    [[nodiscard]] bool explained() const {
-        return std::any_of(tried_.begin(), tried_.end(),
-                           [](screened const& s) { return s.figures.explains(); });
+    /// By at most so many effects.
+    [[nodiscard]] bool explained(std::size_t effects) const {
+        return std::any_of(tried_.begin(), tried_.end(), [effects](screened const& s) {
+            return s.figures.effects.size() <= effects && s.figures.explains();
+        });
     }
 
     [[nodiscard]] std::string name_of(std::vector<std::size_t> const& effects) const {
@@ -164,9 +208,13 @@ private:
     }
     [[nodiscard]] bool may_try(std::vector<std::size_t> const& effects, std::mutex& asking) {
         std::lock_guard const alone(asking);
-        stopped_ = stopped_ || seconds() > options_.seconds ||
-                   (options_.progress && !options_.progress(name_of(effects)));
+        stopped_ =
+            stopped_ || !in_time() || (options_.progress && !options_.progress(name_of(effects)));
         return !stopped_;
+    }
+    /// For any thread.
+    [[nodiscard]] bool in_time() const {
+        return seconds() < options_.seconds && (!options_.go_on || options_.go_on());
     }
     [[nodiscard]] screened fit(std::vector<std::size_t> const& effects) const {
         std::vector<effect> chosen;
@@ -192,7 +240,7 @@ private:
                 side = interval_traits<interval>::bounds(0.005 * side.upper(), side.upper());
             }
         }
-        fitter descend(narrowed);
+        fitter descend(narrowed, options_.go_on);
         auto const* known = best_part_of(effects);
         if (known == nullptr) return descend();
         std::vector<std::vector<double>> starts = known->fit.starts;
@@ -253,9 +301,27 @@ private:
             auto other = descend(awake);
             if (other.inflation < found.inflation) found = std::move(other);
         }
+        constexpr double promising = 3; // of more effects than one
+        if (found.inflation > 1 && (effects.size() == 1 || found.inflation < promising)) {
+            // What sits at the end of its prior may be stuck there.
+            auto const freed = away_from_ends(problem, found.parameters);
+            if (freed != found.parameters) {
+                auto other = descend(freed);
+                if (other.inflation < found.inflation) found = std::move(other);
+            }
+        }
         if (found.inflation < best.inflation) return found;
         best.squares = found.squares; // the descent's, whose least inflation is no better
         return best;
+    }
+    /// The parameters, those at the end of their prior moved to its middle.
+    [[nodiscard]] static std::vector<double> away_from_ends(identification_problem const& problem,
+                                                            std::vector<double> parameters) {
+        for (std::size_t j = 0; j < parameters.size(); ++j) {
+            auto const& side = problem.prior[j];
+            if (end_of_prior(parameters[j], side) != prior_end::none) parameters[j] = mid(side);
+        }
+        return parameters;
     }
     [[nodiscard]] static bool alike(std::vector<std::vector<double>> const& a,
                                     std::vector<std::vector<double>> const& b) {
@@ -300,7 +366,7 @@ private:
     screening_options options_;
     std::vector<screened> tried_;
     std::size_t measurements_ = 0;
-    bool stopped_ = false;
+    bool stopped_ = false; ///< changed by one thread at a time
     clock::time_point begin_ = clock::now();
 };
 

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -66,9 +67,11 @@ public:
     }
 
     /// All windows of some lengths between `shortest` and `longest` on a grid of starts.
+    /// @param go_on  false ends with those found by then; may be empty
     /// @cost  O(cells) for each window
     [[nodiscard]] std::vector<window_row> over(observed_motion const& motion, std::size_t index,
-                                               double shortest, double longest) const {
+                                               double shortest, double longest,
+                                               std::function<bool()> const& go_on = {}) const {
         std::vector<window_row> result;
         auto const& tube = motion.sensed[pair_.q];
         if (!tube || motion.cells.empty()) return result;
@@ -80,6 +83,7 @@ public:
             double next = times.front();
             for (std::size_t a = 0; a < times.size(); ++a) {
                 if (times[a] < next) continue;
+                if (go_on && !go_on()) return result;
                 auto const at =
                     std::lower_bound(times.begin(), times.end(), times[a] + length * (1 - 1e-9));
                 if (at == times.end()) break;

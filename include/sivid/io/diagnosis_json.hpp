@@ -176,10 +176,45 @@ private:
         }
         json_.end_array();
     }
+    void tried(char const* key, tried_candidates::count const& c) {
+        json_.key(key).begin_object(one_line);
+        json_.key("tried").integer(c.tried).key("planned").integer(c.planned).end_object();
+    }
+    /// {"name": {"value": v, "prior": [lower, upper], "hull": null, "end": null}, ...}
+    void constants() {
+        json_.key("constants").begin_object();
+        for (auto const& c : d_->constants) {
+            json_.key(c.name).begin_object(one_line).key("value").nearest(c.value);
+            maybe("prior", c.prior);
+            maybe("hull", c.hull);
+            auto const end = c.prior ? end_of_prior(c.value, *c.prior) : prior_end::none;
+            json_.key("end");
+            end == prior_end::none ? (void)json_.null() : (void)json_.string(to_string(end));
+            json_.end_object();
+        }
+        json_.end_object();
+    }
     void answer() {
         json_.key("answer").begin_object();
         json_.key("kind").string(to_string(d_->answer));
         strings("effects", d_->effects);
+        json_.key("tried").begin_object();
+        tried("singles", d_->tried.singles);
+        tried("pairs", d_->tried.pairs);
+        tried("larger", d_->tried.larger);
+        json_.end_object();
+        constants();
+        json_.key("verified").boolean(d_->constants_verified);
+        json_.key("at_ends").begin_array();
+        for (auto const& a : d_->at_ends) {
+            json_.begin_object(one_line);
+            strings("effects", a.effects);
+            json_.key("constant").string(a.constant.name).key("end").string(to_string(a.end));
+            json_.key("value").nearest(a.constant.value);
+            maybe("prior", a.constant.prior);
+            json_.end_object();
+        }
+        json_.end_array();
         json_.key("indistinguishable").begin_array();
         for (auto const& other : d_->indistinguishable) {
             json_.begin_array(one_line);

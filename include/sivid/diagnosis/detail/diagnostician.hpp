@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,26 +37,29 @@ public:
         run_.catalogue = std::move(catalogue);
         run_.base.require_valid();
         options_.screening.progress = [this](std::string const& what) {
-            return effort_.go_on("trying " + what);
+            return effort_.left() > kept_ && effort_.go_on("trying " + what);
         };
+        options_.screening.go_on = [this] { return effort_.left() > kept_ && effort_.go_on(); };
         options_.screening.workers = options_.test.workers;
-        options_.screening.seconds = std::min(options_.screening.seconds, 0.7 * options_.seconds);
+        options_.screening.seconds = std::numeric_limits<double>::infinity();
     }
 
     [[nodiscard]] diagnosis_run operator()() {
         auto& d = run_.result;
         d.assumptions.push_back(input_assumption(run_.base.experiments));
         screening tried(run_.base, run_.catalogue, options_.screening);
+        kept_ = (1 - options_.first_fit_share) * options_.seconds;
         tried.try_one({});
         run_.candidates = tried.candidates();
         if (!run_.candidates.empty()) look_first();
-        if (d.gap != gap_verdict::none && !effort_.stopped()) {
-            tried.run();
-            run_.candidates = tried.candidates();
-            explain(tried.measurements());
-            measure_parts();
+        if (d.gap != gap_verdict::none) {
+            d.answer = answer_kind::open;
+            d.tried = tried.counts();
+            if (!run_.candidates.empty() && !effort_.stopped()) find_causes(tried);
         }
-        d.interrupted = effort_.stopped();
+        state_constants();
+        gather_assumptions();
+        d.interrupted = effort_.stopped() || !d.tried.complete();
         d.seconds = effort_.seconds();
         return std::move(run_);
     }
@@ -65,7 +69,7 @@ private:
     void look_first() {
         auto const base = run_.candidates.front();
         auto& bound = run_.base_bound;
-        bound = verify_fit(base, options_.test);
+        bound = verify_fit(base, effort_.test());
         know_gap();
         bool const explained = run_.result.gap == gap_verdict::none;
         if (!explained) {
@@ -94,22 +98,24 @@ private:
     }
     void find_relations() {
         if (!effort_.go_on("proving which equations cannot hold")) return;
-        run_.findings = find_broken_relations(run_.base);
+        relation_options options;
+        double const end = effort_.left() - effort_.seconds_of({0, options_.relations_share});
+        options.go_on = [this, end] { return effort_.left() >= end && effort_.go_on(); };
+        run_.findings = find_broken_relations(run_.base, options);
         for (auto const& f : run_.findings) run_.result.relations.push_back(reported(f));
     }
     void find_places() {
-        auto options = place_effort("looking where the model departs from the data");
-        if (!options.search.go_on()) return;
+        std::string const looking = "looking where the model departs from the data";
+        auto options = place_effort();
+        if (!effort_.go_on(looking)) return;
         run_.places = estimate_places(run_.base, std::move(options), &run_.candidates.front().fit);
         run_.result.where = reported(run_.places, run_.findings);
     }
-    [[nodiscard]] place_options place_effort(std::string what) {
+    [[nodiscard]] place_options place_effort() {
         place_options result;
         result.workers = effort_.test().workers;
         double const end = effort_.left() - effort_.seconds_of({0, options_.places_share});
-        result.search.go_on = [this, end, what = std::move(what)] {
-            return effort_.left() >= end && effort_.go_on(what);
-        };
+        result.search.go_on = [this, end] { return effort_.left() >= end && effort_.go_on(); };
         return result;
     }
     void announce() {
@@ -120,33 +126,91 @@ private:
         options_.first_sentence(said_);
     }
 
-    /// Which effects, and what of that can be proved.
-    void explain(std::size_t measurements) {
+    /// Which effects, and what of that can be proved: all candidates before anything that only
+    /// tells more of the answer.
+    void find_causes(screening& tried) {
         auto& d = run_.result;
+        auto order = try_candidates(tried, options_.verdict_share);
+        bool going = candidate_verdicts(run_, order, effort_, options_).verify();
+        if (!d.tried.complete() && going) { // what is left is for the next ones
+            order = try_candidates(tried, 0.2 * options_.verdict_share);
+            going = candidate_verdicts(run_, order, effort_, options_).verify();
+        }
+        if (going) candidate_verdicts(run_, order, effort_, options_).refute();
+        describe_remainder();
+        propose(order);
+        measure_parts();
+    }
+
+    /// Tries what is left of the plan and decides what the answer is by then.
+    /// @param share  of all time that is kept
+    [[nodiscard]] candidate_order try_candidates(screening& tried, double share) {
+        kept_ = share * options_.seconds;
+        tried.run();
+        run_.candidates = tried.candidates();
+        auto& d = run_.result;
+        d.tried = tried.counts();
         std::vector<candidate> figures;
         for (auto const& c : run_.candidates) figures.push_back(c.figures);
-        candidate_order const order(figures, measurements, options_.choice);
+        candidate_order order(figures, tried.measurements(), options_.choice);
         run_.answer = order.answer();
-        if (!order.explained()) {
-            d.answer = answer_kind::unexplained;
-        } else {
+        run_.answer_bound = {};
+        run_.answer_hull = {};
+        d.shrink_fit.reset();
+        d.effects.clear();
+        if (order.explained()) {
             d.effects = names_of(figures[order.answer()], run_.catalogue);
             d.answer = d.effects.empty() ? answer_kind::none : answer_kind::effects;
+        } else {
+            d.answer = d.tried.complete() ? answer_kind::unexplained : answer_kind::open;
         }
+        d.indistinguishable.clear();
         for (auto const o : order.others()) {
             d.indistinguishable.push_back(names_of(figures[o], run_.catalogue));
         }
+        d.unobservable.clear();
         for (auto const& c : run_.candidates) {
             if (!c.silent || c.figures.effects.size() != 1) continue;
             d.unobservable.push_back(run_.catalogue[c.figures.effects.front()].name);
         }
+        d.causes.clear();
         for (auto const i : order.order()) {
-            d.causes.push_back(
-                cause_of(run_.candidates[i], run_.catalogue, run_.base.prior.size(), measurements));
+            d.causes.push_back(cause_of(run_.candidates[i], run_.catalogue, run_.base.prior.size(),
+                                        tried.measurements()));
         }
-        candidate_verdicts(run_, order, effort_, options_)();
-        describe_remainder();
-        propose(order);
+        return order;
+    }
+
+    /// Every constant of the model that is the answer, and which sit at the end of their prior.
+    void state_constants() {
+        auto& d = run_.result;
+        if (run_.candidates.empty()) return;
+        auto const& s = run_.candidates[run_.answer];
+        auto const& bound = run_.answer == 0 ? run_.base_bound : run_.answer_bound;
+        d.constants = named_parameters(s.problem, bound.witness ? bound.witness->parameters
+                                                                : s.fit.parameters);
+        d.constants_verified = bound.witness && bound.range.upper() <= 1;
+        for (std::size_t j = 0; j < std::min(d.constants.size(), run_.answer_hull.size()); ++j) {
+            d.constants[j].hull = run_.answer_hull[j];
+        }
+        add_constants_at_ends(names_of(s.figures, run_.catalogue), d.constants, d.at_ends);
+        if (d.constants_verified) return;
+        auto const& base = run_.candidates.front();
+        add_constants_at_ends({}, named_parameters(base.problem, base.fit.parameters), d.at_ends);
+    }
+
+    /// Adds what the proofs shown rest on to the list of all assumptions.
+    void gather_assumptions() {
+        auto& all = run_.result.assumptions;
+        auto const add = [&all](std::vector<std::string> const& more) {
+            for (auto const& a : more) {
+                if (std::find(all.begin(), all.end(), a) == all.end()) all.push_back(a);
+            }
+        };
+        for (auto const& r : run_.result.relations) {
+            if (r.proved) add(r.assumptions);
+        }
+        for (auto const& c : run_.result.causes) add(c.assumptions);
     }
 
     /// The inflation of each scenario and each channel alone.
@@ -169,11 +233,11 @@ private:
         auto const& nearest = run_.candidates[run_.answer];
         unexplained_remainder rest{
             names_of(nearest.figures, run_.catalogue), run_.answer_bound.range, {}};
-        auto options = place_effort("looking for what is left");
+        auto options = place_effort();
         if (run_.answer == 0) {
             rest.inflation = d.inflation;
             rest.where = d.where;
-        } else if (options.search.go_on()) {
+        } else if (effort_.go_on("looking for what is left")) {
             options.search.most_sets = options_.remaining_sets;
             run_.remaining_places =
                 estimate_places(nearest.problem, std::move(options), &nearest.fit);
@@ -196,13 +260,14 @@ private:
             if (!e.measurements.empty()) period = e.measurements.front().time - e.begin;
         }
         d.next = propose_experiment(std::move(rivals), options_.menu, std::move(errors),
-                                    period > 0 ? period : 0.1);
+                                    period > 0 ? period : 0.1, [this] { return effort_.go_on(); });
     }
 
     diagnosis_options options_;
     diagnosis_effort effort_;
     diagnosis_run run_;
     std::string said_;
+    double kept_ = 0; ///< what trying candidates leaves of the time [s]
 };
 
 SIVID_ENTRY diagnosis_run diagnose(identification_problem problem, std::vector<effect> catalogue,

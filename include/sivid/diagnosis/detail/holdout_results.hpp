@@ -11,7 +11,7 @@
 
 namespace sivid {
 
-/// How a fitted candidate does on data that chose nothing.
+/// How a fitted candidate does on hold-out data.
 struct holdout_judgement {
     inflation_range at_witness = unknown_inflation(); ///< of the fit's witness
     /// Over all parameters whose fit inflation is at most the proved upper bound.

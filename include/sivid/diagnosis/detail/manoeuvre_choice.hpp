@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -28,10 +29,15 @@ public:
     /// @param candidates  at their best fits
     /// @param errors      bound of each channel; 0: not measured
     /// @param period      of the measurements [s]
-    separation(std::vector<screened const*> candidates, std::vector<double> errors, double period)
-        : candidates_(std::move(candidates)), errors_(std::move(errors)), period_(period) {}
+    separation(std::vector<screened const*> candidates, std::vector<double> errors, double period,
+               std::function<bool()> go_on)
+        : candidates_(std::move(candidates)),
+          errors_(std::move(errors)),
+          period_(period),
+          go_on_(std::move(go_on)) {}
 
     [[nodiscard]] double operator()(manoeuvre const& m, std::vector<double> const& settings) const {
+        if (go_on_ && !go_on_()) return -1;
         std::vector<std::vector<double>> outputs;
         for (auto const* c : candidates_) {
             auto run = outputs_of(*c, m, settings);
@@ -73,13 +79,14 @@ private:
         }
         start_added_states(problem);
         auto const fit =
-            fitter(problem).at(c.fit.parameters, {mid(problem.experiments[0].initial)});
+            fitter(problem, go_on_).at(c.fit.parameters, {mid(problem.experiments[0].initial)});
         return fit.residuals.empty() ? std::vector<double>{} : fit.residuals.front();
     }
 
     std::vector<screened const*> candidates_;
     std::vector<double> errors_;
     double period_;
+    std::function<bool()> go_on_;
 };
 
 /// Compass search from the best of a few spread points: the settings are few and a run is cheap.
@@ -123,9 +130,10 @@ inline std::pair<std::vector<double>, double> best_settings(separation const& pa
 
 SIVID_ENTRY std::optional<next_experiment>
 propose_experiment(std::vector<screened const*> candidates, std::vector<manoeuvre> const& menu,
-                   std::vector<double> errors, double period) {
+                   std::vector<double> errors, double period, std::function<bool()> const& go_on) {
     if (candidates.size() < 2) return std::nullopt;
-    diagnosis_detail::separation const parts(std::move(candidates), std::move(errors), period);
+    diagnosis_detail::separation const parts(std::move(candidates), std::move(errors), period,
+                                             go_on);
     std::optional<next_experiment> best;
     for (auto const& m : menu) {
         auto const [settings, value] = diagnosis_detail::best_settings(parts, m);

@@ -6,6 +6,7 @@
 #include <sivid/diagnosis/holdout.hpp>
 #include <sivid/diagnosis/holdout_judgement.hpp>
 
+#include <chrono>
 #include <cstddef>
 #include <utility>
 
@@ -14,20 +15,28 @@ namespace sivid {
 SIVID_ENTRY void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds,
                                   data_test_options const& test, std::size_t boxes) {
     if (data.empty() || run.candidates.empty()) return;
-    auto const judge = [&](screened const& candidate, verified_inflation const& bound) {
+    auto const begin = std::chrono::steady_clock::now();
+    bool const answered = !run.result.causes.empty();
+    bool const one_by_one = test.workers.threads <= 1;
+    auto const judge = [&](screened const& candidate, verified_inflation const& bound,
+                           double share) {
         auto const judged = data.judged_by(candidate, run.base, run.catalogue);
         inflation_options search;
         search.seconds = seconds / 2;
         search.work = boxes / 2 * (run.base.experiments.size() + judged.experiments.size() + 1);
-        search.test = test;
+        search.test = limited(test, [&test, begin, end = share * seconds] {
+            auto const now = std::chrono::steady_clock::now();
+            return std::chrono::duration<double>(now - begin).count() < end &&
+                   !test.run.enclosure.cancelled();
+        });
         return judge_by_holdout(candidate, bound, judged, search);
     };
-    bool const answered = !run.result.causes.empty();
     test.workers(answered ? 2 : 1, [&](std::size_t k) {
         if (k == 0) {
-            run.holdout_before = judge(run.candidates.front(), run.base_bound);
+            double const share = answered && one_by_one ? 0.5 : 1;
+            run.holdout_before = judge(run.candidates.front(), run.base_bound, share);
         } else {
-            run.holdout_after = judge(run.candidates[run.answer], run.answer_bound);
+            run.holdout_after = judge(run.candidates[run.answer], run.answer_bound, 1);
         }
     });
     if (!answered) return;

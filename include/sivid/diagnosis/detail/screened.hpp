@@ -33,6 +33,9 @@ struct screening_options {
     /// Called before each fit with what is tried, by one thread at a time; false ends the
     /// screening.
     std::function<bool(std::string const&)> progress{};
+    /// Asked within the fits, by any thread; false ends the screening, and a fit that it ends
+    /// counts only if it explains the data. May be empty.
+    std::function<bool()> go_on{};
     executor workers{}; ///< for candidates that do not build on each other
 };
 
