@@ -4,12 +4,14 @@
 #define EXAMPLES_CONSOLE_DIAGNOSIS_OUTPUT_HPP
 
 #include "console.hpp"
+#include "program.hpp"
 
 #include <sivid/diagnosis/diagnose.hpp>
 #include <sivid/io/diagnosis_json.hpp>
 #include <sivid/io/text_file.hpp>
 #include <sivid/report/diagnosis_page.hpp>
 #include <sivid/report/diagnosis_report.hpp>
+#include <sivid/report/diagnosis_words.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +23,12 @@
 #include <vector>
 
 namespace console {
+
+inline std::string joined(std::vector<std::string> const& all) {
+    std::string text;
+    for (auto const& s : all) text += (text.empty() ? "" : " + ") + s;
+    return text;
+}
 
 namespace detail {
 
@@ -48,43 +56,55 @@ missing_rates(sivid::place_estimate const& places,
 
 inline sivid::report::range range_of(sivid::interval const& x) { return {x.lower(), x.upper()}; }
 
-/// A share in percent, as a range where its bounds differ to the eye.
-inline std::string percent(sivid::interval const& share) {
+/// A value with its unit.
+inline std::string value_words(sivid::named_estimate const& e) {
     namespace report = sivid::report;
-    auto const text = [](double v) {
-        return report::rounded_text(100 * v, report::rounding::nearest);
-    };
-    auto const low = text(share.lower());
-    auto const high = text(share.upper());
-    return low == high ? low + " %" : low + " to " + high + " %";
+    return e.name + " = " + report::rounded_text(e.value, report::rounding::nearest) +
+           (e.unit.empty() || e.unit == "1" ? "" : " " + e.unit);
 }
 
-/// All parameters of the answer where a validated run has verified them.
-inline void print_witness(sivid::diagnosis const& d) {
-    if (d.causes.empty() || d.answer == sivid::answer_kind::unexplained) return;
-    auto const& answer = d.causes.front();
-    auto const& found = answer.witness;
-    if (!found) return;
-    bool const verified = answer.verdict == sivid::cause_verdict::explains;
-    std::cout << (verified ? "  verified to explain the data:" : "  closest that was verified:");
-    for (auto const& p : found->parameters) {
-        std::cout << " " << p.name << " = "
-                  << sivid::report::rounded_text(p.value, sivid::report::rounding::nearest) << " "
-                  << p.unit;
+/// The effects' parameters of a cause: at the witness where it explains the data.
+inline std::vector<sivid::named_estimate> stated_parameters(sivid::cause const& c) {
+    auto result = c.parameters;
+    if (c.verdict != sivid::cause_verdict::explains || !c.witness) return result;
+    for (auto& p : result) {
+        for (auto const& w : c.witness->parameters) {
+            if (w.name == p.name) p.value = w.value;
+        }
     }
+    return result;
+}
+
+/// All constants of the model of the answer.
+inline void print_constants(sivid::diagnosis const& d) {
+    if (d.constants.empty()) return;
+    bool const answered =
+        d.answer == sivid::answer_kind::effects || d.answer == sivid::answer_kind::none;
+    std::cout << (d.constants_verified ? "  verified to explain the data:"
+                  : answered           ? "  best fit (not proved):"
+                                       : "  closest by now (not proved to be):");
+    for (auto const& c : d.constants) std::cout << " " << value_words(c);
     std::cout << "\n";
 }
 
 inline void print_holdout(sivid::diagnosis const& d) {
     namespace report = sivid::report;
-    if (d.causes.empty() || !d.causes.front().holdout) return;
+    if (d.answer != sivid::answer_kind::effects || d.causes.empty() || !d.causes.front().holdout)
+        return;
     auto const& h = *d.causes.front().holdout;
-    std::cout << "  inflation on data that chose nothing: "
+    std::cout << "  inflation on the hold-out data: "
               << report::inflation_text(range_of(h.inflation_before)) << " without it, "
               << report::inflation_text(range_of(h.inflation_after)) << " with it";
     if (d.shrink_holdout && std::isfinite(d.shrink_holdout->lower()))
-        std::cout << ": the gap shrinks by " << percent(*d.shrink_holdout);
+        std::cout << ": the gap shrinks by " << report::shrink_text(range_of(*d.shrink_holdout));
     std::cout << "\n";
+}
+
+/// "open: 8 of 36 candidates tried, no pair"
+inline std::string answer_words(sivid::diagnosis const& d) {
+    if (d.answer == sivid::answer_kind::effects) return joined(d.effects);
+    auto const tried = sivid::report::tried_text(sivid::report::view_of(d));
+    return std::string{to_string(d.answer)} + (tried.empty() ? "" : ": " + tried);
 }
 
 } // namespace detail
@@ -159,52 +179,50 @@ inline std::string inflation_words(sivid::diagnosis_run const& run,
     return sivid::report::outward_text(detail::range_of(known));
 }
 
-inline std::string joined(std::vector<std::string> const& all) {
-    std::string text;
-    for (auto const& s : all) text += (text.empty() ? "" : " + ") + s;
-    return text;
-}
-
 /// "as it is" or "+ overflow + offset"
 inline std::string model_words(std::vector<std::string> const& effects) {
     return effects.empty() ? "as it is" : "+ " + joined(effects);
+}
+
+/// What a program ends with: undecided where candidates were left untried, or it was ended early.
+inline exit_code exit_code_of(sivid::diagnosis const& d) {
+    bool const early = d.interrupted || interrupted() || d.answer == sivid::answer_kind::open;
+    return early ? undecided : done;
 }
 
 inline void print_summary(sivid::diagnosis const& d, std::string const& id,
                           std::filesystem::path const& out) {
     namespace report = sivid::report;
     std::cout << id << ": gap " << to_string(d.gap) << ", inflation "
-              << report::outward_text(detail::range_of(d.inflation)) << "\n";
+              << report::inflation_text(detail::range_of(d.inflation)) << "\n";
     for (auto const& p : d.where) {
         std::cout << "  where: " << p.kind << " " << p.name << (p.proved ? " (proved)" : "")
                   << (p.law.empty() ? "" : ", like ") << p.law << "\n";
     }
-    bool const untried = d.gap != sivid::gap_verdict::none && d.causes.empty();
-    std::cout << "  answer: "
-              << (untried                                   ? "open, no effect was tried"
-                  : d.answer == sivid::answer_kind::effects ? joined(d.effects)
-                                                            : std::string{to_string(d.answer)});
+    std::cout << "  answer: " << detail::answer_words(d);
     if (!d.causes.empty() && d.answer == sivid::answer_kind::effects) {
         std::cout << " (" << to_string(d.causes.front().verdict) << ")";
-        for (auto const& p : d.causes.front().parameters) {
-            std::cout << " " << p.name << " = "
-                      << report::rounded_text(p.value, report::rounding::nearest) << " " << p.unit;
+        for (auto const& p : detail::stated_parameters(d.causes.front())) {
+            std::cout << " " << detail::value_words(p);
         }
     }
     std::cout << "\n";
-    detail::print_witness(d);
+    detail::print_constants(d);
+    for (auto const& e : sivid::report::view_of(d).at_ends) {
+        std::cout << "  " << report::end_words(e) << "\n";
+    }
     if (d.remainder) {
         std::cout << "  unexplained remainder: "
                   << (d.remainder->effects.empty() ? std::string{"the model as it is"}
                                                    : "with " + joined(d.remainder->effects))
                   << ", inflation "
-                  << report::outward_text(detail::range_of(d.remainder->inflation)) << "\n";
+                  << report::inflation_text(detail::range_of(d.remainder->inflation)) << "\n";
     }
     for (auto const& other : d.indistinguishable) {
         std::cout << "  not told apart from it: " << joined(other) << "\n";
     }
     detail::print_holdout(d);
-    if (d.interrupted || untried)
+    if (exit_code_of(d) == undecided)
         std::cout << "  ended early: what is open may be known with more time (--budget)\n";
     std::cout << "  " << report::duration_text(d.seconds)
               << "; written: " << (out / "report.html").string()
@@ -214,6 +232,7 @@ inline void print_summary(sivid::diagnosis const& d, std::string const& id,
 /// Progress and Ctrl-C for a diagnosis. The line outlives it.
 inline void watch(sivid::diagnosis_options& options, progress_line& progress) {
     watch_interrupts();
+    options.test = sivid::limited(options.test, [] { return !interrupted(); });
     options.progress = [&progress](std::string const& what) {
         progress.show(what);
         return !interrupted();

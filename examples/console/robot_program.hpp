@@ -18,6 +18,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <string>
@@ -54,7 +55,7 @@ inline void write_identified_model(sivid::identification_problem const& problem,
     for (auto const& p : view.parameters) {
         if (report::is_empty(p.hull)) continue;
         std::cout << "    " << p.name << " in " << report::outward_text_within(p.hull, p.prior)
-                  << " " << p.unit
+                  << (p.unit == "1" ? "" : " " + p.unit)
                   << (report::share_of_prior(p) > 0.999 ? "  (nothing excluded)" : "") << "\n";
     }
     sivid::write_atomically(out / "model.html", report::identification_page(view).str());
@@ -67,42 +68,45 @@ inline void write_identified_model(sivid::identification_problem const& problem,
 /// which parameters the model that explains it may have. Writes report.html, diagnosis.json and,
 /// where something explains the data, model.html and model.json.
 ///   A quarter of the budget is for the ranges of the parameters, a tenth for the hold-out data.
-/// @return an exit code: done where something explains the data, inconsistent where nothing does
-///         and a gap is proved, else undecided
+/// @return an exit code: undecided where candidates were left untried or it was ended early, else
+///         done, whatever was found
 /// @throws sivid::input_error, sivid::output_error, std::invalid_argument
 inline int diagnose_folder(sivid::recorded_model const& model,
                            std::vector<sivid::effect> const& catalogue,
                            std::filesystem::path const& folder, std::filesystem::path const& out,
                            double budget, std::string const& command, bool quiet = false) {
+    progress_line progress(quiet); // its clock is that of the budget
+    auto const left = [&] { return std::max(0.0, budget - progress.elapsed()); };
     auto const data = sivid::read_dataset(folder, sivid::names_of(model.about));
     auto const problem = sivid::problem_from_dataset(data, model);
     prepare_folder(out);
-    progress_line progress(quiet);
-    auto options = thorough_diagnosis(0.65 * budget);
+    auto options = thorough_diagnosis(0.65 * left());
     watch(options, progress);
     auto run = sivid::diagnose(problem, catalogue, options);
     auto const kept = sivid::holdout_from_dataset(data, model.about);
-    if (!kept.empty() && !interrupted()) {
-        progress.note("judging by the hold-out data");
-        sivid::judge_by_holdout(run, kept, 0.1 * budget, options.test, 120);
-    }
-    progress.finish();
-    write_diagnosis(run.result, data.id, plot_data(run, kept), page_options(run, data.id, command),
-                    out, [](auto&) {});
-    print_summary(run.result, data.id, out);
+    auto const write = [&] {
+        write_diagnosis(run.result, data.id, plot_data(run, kept),
+                        page_options(run, data.id, command), out, [](auto&) {});
+    };
+    write();                                                // whatever happens to what follows
     for (auto const* name : {"model.html", "model.json"}) { // of an earlier result
         std::error_code none;
         std::filesystem::remove(out / name, none);
     }
-    if (run.result.gap != sivid::gap_verdict::none && run.result.causes.empty()) return undecided;
-    if (run.result.answer == sivid::answer_kind::unexplained) {
-        return run.result.gap == sivid::gap_verdict::certified ? inconsistent : undecided;
+    if (!kept.empty() && left() > 0 && !interrupted()) {
+        progress.note("judging by the hold-out data");
+        sivid::judge_by_holdout(run, kept, std::min(left(), 0.1 * budget), options.test, 120);
+        write();
     }
-    if (!interrupted()) {
-        write_identified_model(run.candidates[run.answer].problem, data.id, out, 0.25 * budget,
-                               command, progress);
+    progress.finish();
+    print_summary(run.result, data.id, out);
+    bool const explained = run.result.answer == sivid::answer_kind::none ||
+                           run.result.answer == sivid::answer_kind::effects;
+    if (explained && left() > 0 && !interrupted()) {
+        write_identified_model(run.candidates[run.answer].problem, data.id, out,
+                               std::min(left(), 0.25 * budget), command, progress);
     }
-    return done;
+    return exit_code_of(run.result);
 }
 
 /// `main` of such a program.

@@ -25,7 +25,6 @@ inline sivid::diagnosis_options thorough_diagnosis(double seconds) {
     options.exclusion = {60, 0.04};
     options.exclusions = {600, 0.37};
     options.part = {20, 0.02};
-    options.screening.seconds = 0.5 * seconds;
     options.screening.most_effects = 3;
     return options;
 }

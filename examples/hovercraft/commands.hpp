@@ -58,7 +58,7 @@ struct diagnose_command {
     bool quiet = false;
     std::string command_line; ///< for the report's footer
 };
-/// Ends with 0 whatever it finds.
+/// Ends with 0 whatever it finds, with `undecided` when the answer is open or it ended early.
 [[nodiscard]] int run(diagnose_command const& command);
 
 struct generate_command {

@@ -9,32 +9,42 @@
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
 
+#include <algorithm>
+#include <utility>
+
 namespace hovercraft_example {
 
 int run(diagnose_command const& c) {
+    console::progress_line progress(c.quiet); // its clock is that of the budget
+    auto const left = [&] { return std::max(0.0, c.budget - progress.elapsed()); };
     auto const model = sivid::record_model(c.craft);
     auto const data = sivid::read_dataset(c.dataset, sivid::names_of(model.about));
     auto const problem = sivid::problem_from_dataset(data, model);
     console::prepare_folder(c.out);
 
-    console::progress_line progress(c.quiet);
     sivid::diagnosis_options options;
-    options.seconds = c.budget;
+    options.seconds = 0.85 * left();
     options.test.workers = console::threads_for(c.threads);
     options.menu = recorded_manoeuvres(problem);
     for (auto& m : new_manoeuvres()) options.menu.push_back(std::move(m));
     console::watch(options, progress);
     auto run = sivid::diagnose(problem, catalogue(), options);
     progress.finish();
-    progress.note("judging by data that chose nothing");
     auto const kept = sivid::holdout_from_dataset(data, model.about);
-    sivid::judge_by_holdout(run, kept, 6, options.test);
-    auto& d = run.result;
-    console::write_diagnosis(d, data.id, console::plot_data(run, kept),
-                             console::page_options(run, data.id, c.command_line), c.out,
-                             [](auto const&) {});
-    console::print_summary(d, data.id, c.out);
-    return 0;
+    auto const write = [&] {
+        console::write_diagnosis(run.result, data.id, console::plot_data(run, kept),
+                                 console::page_options(run, data.id, c.command_line), c.out,
+                                 [](auto const&) {});
+    };
+    write(); // whatever happens to what follows
+    if (!kept.empty() && left() > 0 && !console::interrupted()) {
+        progress.note("judging by the hold-out data");
+        sivid::judge_by_holdout(run, kept, std::min(left(), std::max(6.0, 0.1 * c.budget)),
+                                options.test);
+        write();
+    }
+    console::print_summary(run.result, data.id, c.out);
+    return console::exit_code_of(run.result);
 }
 
 } // namespace hovercraft_example

@@ -223,11 +223,12 @@ private:
 
     void add_diagnose() {
         auto* const s = app_.add_subcommand(
-            "diagnose", "where model and robot part, which effect it is, how far the gap shrinks");
+            "diagnose",
+            "where model and robot disagree, which effect it is, how far the gap shrinks");
         auto& c = diagnose_;
         s->add_option("dataset", c.dataset, "folder with dataset.json")->required();
         s->add_option("--out", c.out, "folder for report.html and diagnosis.json")->required();
-        s->add_option("--budget", c.budget, "seconds")
+        s->add_option("--budget", c.budget, "seconds; it ends earlier when nothing is left to do")
             ->check(console::number_between(0.0, 1e9))
             ->capture_default_str();
         s->add_option("--threads", c.threads, "threads (0: all); the result does not depend on it")

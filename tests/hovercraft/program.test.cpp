@@ -263,7 +263,8 @@ TEST_CASE("check verifies what identify wrote, and refutes what was changed sinc
     CHECK(check({"--dataset", (folder.path() / "none").string()}).code == 2);
 }
 
-TEST_CASE("diagnose says where, which and how far, and ends with 0 whatever it finds") {
+TEST_CASE("diagnose says where, which and how far; it ends with 0 whatever it finds and with 3 "
+          "when open") {
     temporary_folder const folder;
     auto const out = folder.path() / "out";
     auto r = run({"diagnose", lagging, "--out", out.string()});
@@ -281,6 +282,12 @@ TEST_CASE("diagnose says where, which and how far, and ends with 0 whatever it f
     CHECK(cause["verdict"] == "explains");
     CHECK(std::abs(cause["estimates"]["rudder_lag.tau"].get<double>() - 0.111461) < 0.005);
     CHECK(cause["witness"]["initial"]["S3"]["u"] == 2.0);
+    auto const& constants = found["answer"]["constants"];
+    CHECK(constants.size() == cause["witness"]["parameters"].size());
+    CHECK(constants["rudder_lag.tau"]["value"] == cause["witness"]["parameters"]["rudder_lag.tau"]);
+    auto const& tried = found["answer"]["tried"];
+    CHECK(tried["singles"]["tried"] == 21);
+    CHECK(tried["pairs"]["tried"] == tried["pairs"]["planned"]);
     CHECK(found["shrink"]["holdout"][0].get<double>() > 0.95);
     REQUIRE_FALSE(found["where"].empty());
     std::string const place = found["where"][0]["name"];
@@ -296,9 +303,11 @@ TEST_CASE("diagnose says where, which and how far, and ends with 0 whatever it f
     CHECK_THAT(r.out, ContainsSubstring("answer: rudder_lag (explains)"));
 
     r = run({"diagnose", lagging, "--out", out.string(), "--budget", "0", "--quiet"});
-    CHECK(r.code == 0);
+    CHECK(r.code == 3);
     CHECK(r.err.empty());
     auto const stopped = json_of(out / "diagnosis.json");
+    CHECK(stopped["answer"]["kind"] == "open");
+    CHECK(stopped["answer"]["tried"]["singles"]["planned"] == 21);
     CHECK(stopped["interrupted"] == true);
     CHECK(stopped["gap"]["verdict"] != "none");
 

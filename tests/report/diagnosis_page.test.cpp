@@ -4,6 +4,7 @@
 #include "support/catch.hpp"
 
 #include <sivid/report/diagnosis_page.hpp>
+#include <sivid/report/diagnosis_tables.hpp>
 
 #include <fstream>
 #include <limits>
@@ -37,11 +38,11 @@ TEST_CASE("diagnosis page: a full page says everything once it is known") {
     CHECK(page.size() < 2'000'000);
     for (auto const* const part :
          {"Gap (proved); rudder_lag explains the data (proved), but so may another",
-          "The model and the robot part by 3.10 to 3.20 times the measurement bounds (proved)",
+          "The model and the robot disagree by 3.10 to 3.20 times the measurement bounds (proved)",
           "a first-order lag of the rudder, tau = 0.169\xC2\xA0s (0.160 to 0.180, proved), "
           "explains "
           "all data (proved)",
-          "on data that chose nothing it removes 98.2 to 100\xC2\xA0% of the gap (proved)",
+          "on the hold-out data it removes 98.2 to 100\xC2\xA0% of the gap (proved)",
           "yaw equation", "The yaw equation and the sensors r and psi cannot hold together",
           "S1: model as it is", "H1 (hold-out): with rudder_lag", "Missing in the sway equation",
           "explains (proved)", "excluded (proved)", "RMSE of psi", "samples in the predicted tube",
@@ -173,5 +174,31 @@ TEST_CASE("diagnosis page: a gap that nothing explains") {
     CHECK_THAT(page, ContainsSubstring("Gap (proved); no candidate explains it"));
     CHECK_THAT(page, ContainsSubstring("12 are excluded (proved)"));
     CHECK(page.find("with the closest candidate, best fit") == std::string::npos);
-    CHECK(page.find("on data that chose nothing it removes") == std::string::npos);
+    CHECK(page.find("of the gap (proved)") == std::string::npos);
+}
+
+TEST_CASE("diagnosis page: where no effect is found nothing removes a part of the gap") {
+    for (auto const kind : {answer_state::unexplained, answer_state::open}) {
+        diagnosis_view v = hovercraft_diagnosis().view();
+        v.answer = kind;
+        v.effects.clear();
+        v.indistinguishable.clear();
+        v.shrink_fit = {0.493, 0.494};
+        v.shrink_holdout = {0.262, 0.538};
+        auto const cards = diagnosis_cards(v);
+        for (auto const& c : cards) CHECK_THAT(c.name, !ContainsSubstring("gap removed"));
+        CHECK(diagnosis_page(v).str().find("of the gap (proved)") == std::string::npos);
+    }
+}
+
+TEST_CASE("diagnosis page: every constant, and those at the end of their prior") {
+    diagnosis_view v = hovercraft_diagnosis().view();
+    v.constants = {{"Sv", "m^2", 0.25, {}, {0.2, 0.25}, true},
+                   {"rudder_lag.tau", "s", 0.169, {0.16, 0.18}, {0, 1}, true}};
+    v.at_ends = {{{"rudder_lag"}, v.constants[0], true}};
+    std::string const page = written(v, "diagnosis_page_constants.html");
+    check_contained(page);
+    CHECK_THAT(page, ContainsSubstring("All constants of the model with rudder_lag"));
+    CHECK_THAT(page, ContainsSubstring("at the upper end of its prior: widen it"));
+    CHECK_THAT(page, ContainsSubstring("upper end of its prior [0.2, 0.25] (with rudder_lag)"));
 }

@@ -21,6 +21,9 @@ TEST_CASE("diagnosis report: the view says what the diagnosis says") {
     CHECK(v.candidates[1].state == candidate_state::open);
     CHECK(v.candidates[3].state == candidate_state::excluded);
     CHECK(v.candidates[0].parameters[0].prior == range{0, 1});
+    CHECK(v.candidates[0].parameters[0].value == 0.1690125); // the witness's, not the fit's 0.169
+    CHECK(v.candidates[0].parameters[0].verified);
+    CHECK_FALSE(v.candidates[1].parameters[0].verified);
     CHECK(is_empty(v.candidates[1].parameters[0].hull));
     CHECK(is_empty(v.candidates[3].parameters[0].prior));
     REQUIRE(v.candidates[0].witness);

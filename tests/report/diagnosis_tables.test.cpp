@@ -40,7 +40,8 @@ TEST_CASE("diagnosis tables: parameters with hull and prior") {
     auto const t = causes_table(hovercraft_diagnosis().view());
     REQUIRE(t.rows.size() == 7);
     CHECK(t.chosen_row == 0u);
-    CHECK(t.rows[0][4] == "[0.1603, 0.1792]");
+    CHECK(t.rows[0][3] == "0.169 \xE2\x9C\x93"); // of the witness
+    CHECK(t.rows[0][4] == "0.160 to 0.180");
     CHECK(t.rows[0][5] == "[0, 1]");
     CHECK(t.rows[1][4] == "");
     CHECK(t.rows[3][0] == ""); // the second parameter of a pair

@@ -22,9 +22,9 @@ TEST_CASE("diagnosis words: the whole answer in one sentence") {
     CHECK(headline(v) == "Gap (proved); rudder_lag explains the data (proved)");
     CHECK(banner_outcome(v) == outcome::proved);
     CHECK(banner_sentence(v) ==
-          "The model and the robot part by 3.10 to 3.20 times the measurement bounds (proved); "
+          "The model and the robot disagree by 3.10 to 3.20 times the measurement bounds (proved); "
           "a first-order lag of the rudder, tau = 0.169\xC2\xA0s (0.160 to 0.180, proved), "
-          "explains all data (proved); on data that chose nothing it removes "
+          "explains all data (proved); on the hold-out data it removes "
           "98.2 to 100\xC2\xA0% of the gap (proved).");
 }
 
@@ -48,6 +48,7 @@ TEST_CASE("diagnosis words: what is not proved is called an estimate") {
     v.indistinguishable.clear();
     v.candidates[0].state = candidate_state::open;
     v.candidates[0].parameters[0].hull = {};
+    v.candidates[0].parameters[0].verified = false;
     v.shrink_holdout = {};
     CHECK(banner_outcome(v) == outcome::undecided);
     CHECK(headline(v) == "Gap (proved); rudder_lag explains the data (estimate)");
@@ -61,10 +62,11 @@ TEST_CASE("diagnosis words: what is not proved is called an estimate") {
     CHECK_THAT(banner_sentence(v), EndsWith("but cannot explain all data (proved)."));
     v.gap = gap_state::open;
     v.inflation = {0, infinity};
-    CHECK_THAT(banner_sentence(v),
-               StartsWith("It is open whether the model explains the data: it parts from the robot "
-                          "by \xE2\x89\x88\xE2\x80\xAF"
-                          "3.15 times the bounds in the best fit found (estimate)"));
+    CHECK_THAT(
+        banner_sentence(v),
+        StartsWith("It is open whether the model explains the data: until it does, the bounds "
+                   "must grow by a factor of \xE2\x89\x88\xE2\x80\xAF"
+                   "3.15 in the best fit found (estimate)"));
 }
 
 TEST_CASE("diagnosis words: pairs, no gap, absorbed effects") {
@@ -102,6 +104,9 @@ TEST_CASE("diagnosis words: unexplained says place and law") {
     CHECK_THAT(banner_sentence(v),
                ContainsSubstring("no candidate was found that explains it, 2 "
                                  "are excluded (proved); the yaw equation (S4"));
+    v.singles = {6, 6};
+    v.pairs = {15, 15};
+    CHECK_THAT(banner_sentence(v), ContainsSubstring("(all 21 candidates tried)"));
     CHECK_THAT(banner_sentence(v), ContainsSubstring("in the shape of F_u"));
 }
 
@@ -131,4 +136,52 @@ TEST_CASE("diagnosis words: bounds are printed outward and open ends are said") 
     CHECK(shrink_clause({-infinity, 1}, "x") == ""); // says nothing
     CHECK_THAT(shrink_clause({-0.5, -0.1}, "x"), ContainsSubstring("does not shrink the gap"));
     CHECK(shrink_clause({}, "x") == "");
+}
+
+TEST_CASE("diagnosis words: an answer is open while something is left to try") {
+    diagnosis_view v = hovercraft_diagnosis().view();
+    v.answer = answer_state::open;
+    v.effects.clear();
+    v.indistinguishable.clear();
+    v.singles = {8, 8};
+    v.pairs = {0, 28};
+    CHECK(tried_text(v) == "8 of 36 candidates tried, no pair");
+    CHECK(headline(v) == "Gap (proved); open: 8 of 36 candidates tried, no pair");
+    CHECK(banner_outcome(v) == outcome::undecided);
+    CHECK_THAT(banner_sentence(v), !ContainsSubstring("no candidate"));
+    CHECK_THAT(banner_sentence(v), ContainsSubstring("comes closest by now"));
+    v.pairs.tried = 3;
+    CHECK(tried_text(v) == "11 of 36 candidates tried, 3 of the 28 pairs");
+    v.pairs.tried = 28;
+    CHECK(tried_text(v) == "all 36 candidates tried");
+    v.singles = v.pairs = {};
+    CHECK(tried_text(v).empty());
+    v.singles = {0, 5};
+    CHECK(tried_text(v) == "none of the 5 candidates was tried");
+}
+
+TEST_CASE("diagnosis words: what is proved of a number, and where it sits") {
+    estimate_view e{"k.k3", "1", 0.0299, {-2, 2}, {-2, 2}, true};
+    CHECK(hull_text(e) == "not narrowed");
+    CHECK(estimate_words(e) == "k3 = 0.0299 (verified; prior not narrowed)");
+    e.hull = {-2, 0.04001};
+    CHECK(hull_text(e) == "\xE2\x88\x92"
+                          "2 to 0.0401"); // not beyond the prior by rounding
+    CHECK_THAT(estimate_words(e), EndsWith("proved)"));
+    e.hull = {};
+    CHECK(hull_text(e).empty());
+    CHECK(estimate_words(e) == "k3 = 0.0299 (verified)");
+    CHECK(end_words({{"wind"}, {"k", "1/s", 3, {}, {3, 4}}, false}) ==
+          "k = 3.00\xC2\xA0"
+          "1/s sits at the lower end of its prior [3, 4] (with wind): widen it if it may lie "
+          "beyond");
+    CHECK_THAT(end_words({{}, {"k", "1/s", 4, {}, {3, 4}}, true}),
+               ContainsSubstring("upper end of its prior [3, 4] (the model as it is)"));
+}
+
+TEST_CASE("diagnosis words: shares no finer than a reader wants") {
+    CHECK(shrink_text({-7.86e-8, 7.86e-8}) == "\xE2\x88\x92"
+                                              "0.1 to 0.1\xC2\xA0%");
+    CHECK(shrink_text({0, 0.0004}) == "0 to 0.1\xC2\xA0%");
+    CHECK(shrink_text({0.493, 0.494}) == "49.3 to 49.4\xC2\xA0%");
 }

@@ -339,14 +339,21 @@ int run(diagnose_command const& c) {
     console::watch(options, progress);
     auto run = sivid::diagnose(problem, axis_catalogue(), options);
     progress.finish();
-    progress.note("judging by the validation record");
-    sivid::judge_by_holdout(run, kept, 0.1 * c.budget, options.test, 120);
-    std::signal(SIGINT, SIG_DFL);
     for (auto const& a : assumptions_of(c, windows.size())) run.result.assumptions.push_back(a);
-
-    std::vector<chain_link> chain;
-    if (run.candidates.size() > 1) chain = chain_of(run, window_study(c, file, kept_file));
     auto const id = "EMPS servo axis, " + c.file;
+    // Whatever happens to what follows, which only adds to it.
+    console::write_diagnosis(run.result, id, {}, console::page_options(run, id, c.command_line),
+                             c.out, [](report::page&) {});
+    auto const left = [&] { return std::max(0.0, c.budget - progress.elapsed()); };
+    if (!console::interrupted()) {
+        progress.note("judging by the validation record");
+        sivid::judge_by_holdout(run, kept, std::min(left(), 0.1 * c.budget), options.test, 120);
+    }
+    std::vector<chain_link> chain;
+    if (run.candidates.size() > 1 && left() > 0 && !console::interrupted()) {
+        chain = chain_of(run, window_study(c, file, kept_file));
+    }
+    std::signal(SIGINT, SIG_DFL);
     auto plots = console::plot_data(run, kept);
     merge_windows(plots);
     console::stated_bound const bound{1e3 * *nearest(c.bounds.model_error), "mm"};
@@ -372,7 +379,7 @@ int run(diagnose_command const& c) {
         }
         std::cout << "\n";
     }
-    return 0;
+    return console::exit_code_of(run.result);
 }
 
 } // namespace servo

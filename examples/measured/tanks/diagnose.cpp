@@ -196,23 +196,31 @@ int run(diagnose_command const& c) {
     options.answer = {10, 0.1};
     options.exclusion = {8000, 0.1};
     options.exclusions = {16000, 0.2};
-    options.screening.seconds = 0.5 * c.budget;
     options.screening.most_effects = 3;
     console::watch(options, progress);
     auto run = sivid::diagnose(problem, catalogue(), options);
     progress.finish();
-    progress.note("judging by the validation record");
-    sivid::judge_by_holdout(run, kept, 0.08 * c.budget, options.test, 20);
     for (auto const& a : assumptions_of(c)) run.result.assumptions.push_back(a);
+    auto const id = "cascaded tanks, " + c.file;
+    // Whatever happens to what follows, which only adds to it.
+    console::write_diagnosis(run.result, id, {}, console::page_options(run, id, c.command_line),
+                             c.out, [](report::page&) {});
+    auto const left = [&] { return std::max(0.0, c.budget - progress.elapsed()); };
+    if (!console::interrupted()) {
+        progress.note("judging by the validation record");
+        sivid::judge_by_holdout(run, kept, std::min(left(), 0.08 * c.budget), options.test, 20);
+    }
     std::optional<validity> valid;
-    if (!run.result.interrupted && run.result.gap != sivid::gap_verdict::none) {
+    if (left() > 0 && !console::interrupted() && !run.result.interrupted &&
+        run.result.gap != sivid::gap_verdict::none) {
         progress.note("looking until when the model as it is holds");
         valid = validity_of(problem, 0.08 * c.budget);
     }
+    std::vector<chain_link> chain;
+    if (run.candidates.size() > 1 && left() > 0 && !console::interrupted()) {
+        chain = chain_of(run, kept);
+    }
     std::signal(SIGINT, SIG_DFL);
-
-    auto const chain = run.candidates.size() > 1 ? chain_of(run, kept) : std::vector<chain_link>{};
-    auto const id = "cascaded tanks, " + c.file;
     console::stated_bound const bound{*nearest(c.bound), "V"};
     auto const meaning = "The level's bound of " + c.bound.text() +
                          " V covers the sensor's noise, which stays below 0.17 V; what lies above "
@@ -234,7 +242,7 @@ int run(diagnose_command const& c) {
                   << text_of("%.3f", link.estimation) << " V, validation "
                   << text_of("%.3f", link.validation) << " V\n";
     }
-    return console::done;
+    return console::exit_code_of(run.result);
 }
 
 } // namespace tanks

@@ -110,7 +110,9 @@ SIVID_ENTRY figure motion_figure(compared_scenario const& s) {
     figure f{.panels = {},
              .title = "Scenario " + s.name + (both ? ", before and after." : "."),
              .caption =
-                 s.holdout ? "These data chose nothing: neither effect nor parameters." : ""};
+                 s.holdout
+                     ? "Hold-out data: neither the effect nor the parameters were chosen by them."
+                     : ""};
     for (comparison_series const& c : s.channels) {
         f.panels.push_back(draw_comparison_plot(c, {.title = c.name, .time = time}));
     }

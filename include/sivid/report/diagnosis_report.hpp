@@ -52,7 +52,7 @@ inline range drawn(std::optional<interval> const& x) { return x ? drawn(*x) : ra
 inline estimate_view drawn(named_estimate const& e, std::map<std::string, interval> const& priors) {
     auto const prior = priors.find(e.name);
     return {e.name, e.unit, e.value, drawn(e.hull),
-            prior == priors.end() ? range{} : drawn(prior->second)};
+            prior == priors.end() ? drawn(e.prior) : drawn(prior->second)};
 }
 
 inline std::vector<named_value> drawn(std::vector<named_estimate> const& all) {
@@ -97,6 +97,14 @@ inline candidate_view drawn(cause const& c, std::map<std::string, interval> cons
                        .fitted = c.fitted_inflation,
                        .assumptions = c.assumptions};
     for (named_estimate const& e : c.parameters) out.parameters.push_back(drawn(e, priors));
+    if (c.witness && c.verdict == cause_verdict::explains) {
+        // What is called proved of the effect is so at the witness, wherever the fit lies.
+        for (estimate_view& e : out.parameters) {
+            for (named_estimate const& w : c.witness->parameters) {
+                if (w.name == e.name) e.value = w.value, e.verified = true;
+            }
+        }
+    }
     if (c.witness) {
         witness_view w{.parameters = drawn(c.witness->parameters)};
         for (auto const& s : c.witness->starts) w.initial.push_back({s.scenario, drawn(s.states)});
@@ -174,7 +182,11 @@ SIVID_ENTRY diagnosis_view view_of(diagnosis const& d, diagnosis_plot_data const
                      .channel_gaps = detail::drawn_shares(d.channel_inflation),
                      .answer = d.answer == answer_kind::none      ? answer_state::nothing
                                : d.answer == answer_kind::effects ? answer_state::effects
+                               : d.answer == answer_kind::open    ? answer_state::open
                                                                   : answer_state::unexplained,
+                     .singles = {d.tried.singles.tried, d.tried.singles.planned},
+                     .pairs = {d.tried.pairs.tried, d.tried.pairs.planned},
+                     .larger = {d.tried.larger.tried, d.tried.larger.planned},
                      .effects = d.effects,
                      .indistinguishable = d.indistinguishable,
                      .unobservable = d.unobservable,
@@ -200,6 +212,14 @@ SIVID_ENTRY diagnosis_view view_of(diagnosis const& d, diagnosis_plot_data const
         relation_view out{r.equation, r.sensors, r.proved, {}, r.assumptions};
         for (time_window const& w : r.windows) out.windows.push_back(window(w));
         v.relations.push_back(std::move(out));
+    }
+    for (named_estimate const& c : d.constants) {
+        v.constants.push_back(detail::drawn(c, options.priors));
+        v.constants.back().verified = d.constants_verified;
+    }
+    for (constant_at_end const& a : d.at_ends) {
+        v.at_ends.push_back(
+            {a.effects, detail::drawn(a.constant, options.priors), a.end == prior_end::upper});
     }
     for (cause const& c : d.causes) v.candidates.push_back(detail::drawn(c, options.priors));
     if (!v.candidates.empty() && find_candidate(v, {}) == nullptr) {

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// The key figures and tables of a diagnosis's page.
@@ -32,6 +33,18 @@ namespace sivid::report {
 
 /// Parameters of the foremost candidates.
 [[nodiscard]] SIVID_ENTRY table causes_table(diagnosis_view const& v, std::size_t most = 12);
+
+/// What marks the values of constants mean.
+inline constexpr std::string_view value_note =
+    "\xE2\x9C\x93: of the witness, one point that is verified to explain the data; "
+    "\xE2\x89\x88: of the best fit, an estimate. The proved range contains every value that "
+    "explains the data; not narrowed: it is the prior itself.";
+
+/// A value with its mark.
+[[nodiscard]] SIVID_ENTRY std::string value_text(estimate_view const& e);
+
+/// Every constant of the model of the answer, its own and those of the effects.
+[[nodiscard]] SIVID_ENTRY table constants_table(diagnosis_view const& v);
 
 #if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_DIAGNOSIS_TABLES)
 SIVID_ENTRY std::size_t effects_tried(diagnosis_view const& v) {
@@ -70,11 +83,15 @@ SIVID_ENTRY std::vector<card> diagnosis_cards(diagnosis_view const& v) {
             {proved ? "effect (\xE2\x9C\x93 proved to explain)" : "effect (\xE2\x89\x88 likeliest)",
              names_of(v.effects), numbers});
     } else if (v.answer == answer_state::unexplained) {
-        out.push_back({"effect", "none found", count_text(effects_tried(v)) + " candidates tried"});
+        out.push_back({"effect", "none found", tried_text(v)});
+    } else if (v.answer == answer_state::open) {
+        out.push_back({"effect", "open", tried_text(v)});
     }
-    if (says_shrink(v.shrink_holdout)) {
+    if (v.answer != answer_state::effects) {
+        // There is no effect that would remove anything.
+    } else if (says_shrink(v.shrink_holdout)) {
         out.push_back({"gap removed, hold-out data", shrink_text(v.shrink_holdout),
-                       "\xE2\x9C\x93 proved; these data chose nothing"});
+                       "\xE2\x9C\x93 proved at the witness"});
     } else if (says_shrink(v.shrink_fit)) {
         out.push_back({"gap removed, fit data", shrink_text(v.shrink_fit), "\xE2\x9C\x93 proved"});
     }
@@ -98,23 +115,29 @@ SIVID_ENTRY table summary_table(diagnosis_view const& v) {
     for (candidate_view const& c : v.candidates) {
         excluded += !c.effects.empty() && c.state == candidate_state::excluded ? 1 : 0;
     }
+    std::string const all = tried_text(v);
     std::string const count = tried == 0
                                   ? ""
                                   : "; " + count_text(excluded) + " of the " + count_text(tried) +
                                         " candidates tried are excluded (proved)";
     if (v.answer == answer_state::effects && !v.effects.empty()) {
-        add("Effect", answer_clause(v) + count);
+        add("Effect", answer_clause(v) + count + (v.interrupted && !all.empty() ? "; " + all : ""));
     } else if (v.answer == answer_state::unexplained) {
-        add("Effect",
-            "no candidate was found that explains the data; nothing is forced to fit" + count);
+        add("Effect", "no candidate was found that explains the data" +
+                          (all.empty() ? "" : " (" + all + ")") + "; nothing is forced to fit" +
+                          count);
+    } else if (v.answer == answer_state::open) {
+        add("Effect", open_clause(v) + count);
     }
     add("Or else", alternatives_clause(v));
     if (!v.absorbed.empty()) {
         add("Hidden", "the priors are wide enough to take up " + words_of(v, v.absorbed));
     }
-    std::string const fit = shrink_clause(v.shrink_fit, "the data used for fitting");
-    std::string const holdout = shrink_clause(v.shrink_holdout, "data that chose nothing");
-    add("Shrink", fit + (fit.empty() || holdout.empty() ? "" : "; ") + holdout);
+    if (v.answer == answer_state::effects) {
+        std::string const fit = shrink_clause(v.shrink_fit, "the data used for fitting");
+        std::string const holdout = shrink_clause(v.shrink_holdout, "the hold-out data");
+        add("Shrink", fit + (fit.empty() || holdout.empty() ? "" : "; ") + holdout);
+    }
     add("Next", next_words(v));
     return t;
 }
@@ -125,7 +148,7 @@ SIVID_ENTRY table places_table(diagnosis_view const& v, std::size_t most) {
                         {"window [s]"},
                         {"missing"},
                         {"its shape (estimate)"},
-                        {"known how"},
+                        {"known by"},
                         {"explains as much", column_kind::note}},
             .rows = {}};
     for (place_view const& p : v.places) {
@@ -171,8 +194,8 @@ SIVID_ENTRY table causes_table(diagnosis_view const& v, std::size_t most) {
     table t{.columns = {{"candidate"},
                         {"verdict"},
                         {"parameter"},
-                        {"best fit (estimate)", column_kind::number},
-                        {"proved hull", column_kind::number},
+                        {"value", column_kind::number},
+                        {"proved range", column_kind::number},
                         {"prior", column_kind::number},
                         {"unit"}},
             .rows = {}};
@@ -181,22 +204,46 @@ SIVID_ENTRY table causes_table(diagnosis_view const& v, std::size_t most) {
         bool first = true;
         for (estimate_view const& e : c->parameters) {
             if (c == answer && first) t.chosen_row = t.rows.size();
-            t.rows.push_back(
-                {first ? names_of(c->effects) : "",
-                 first ? kept_together(std::string{state_sign(c->state)} + ' ' +
-                                       std::string{state_words(c->state)})
-                       : "",
-                 e.name, std::isfinite(e.value) ? rounded_text(e.value, rounding::nearest) : "?",
-                 is_empty(e.hull) || !(std::isfinite(e.hull.lo) || std::isfinite(e.hull.hi)) ? ""
-                 : is_empty(e.prior) ? outward_text(e.hull)
-                                     : outward_text_within(e.hull, e.prior),
-                 is_empty(e.prior) ? "" : given_text(e.prior), kept_together(unit_text(e.unit))});
+            t.rows.push_back({first ? names_of(c->effects) : "",
+                              first ? kept_together(std::string{state_sign(c->state)} + ' ' +
+                                                    std::string{state_words(c->state)})
+                                    : "",
+                              e.name, value_text(e), hull_text(e),
+                              is_empty(e.prior) ? "" : given_text(e.prior),
+                              kept_together(unit_text(e.unit))});
             first = false;
         }
     }
-    t.caption = t.rows.empty() ? ""
-                               : "The hull contains every value that explains the data; without a "
-                                 "hull nothing is proved of the value.";
+    t.caption = t.rows.empty() ? "" : std::string{value_note};
+    return t;
+}
+
+SIVID_ENTRY std::string value_text(estimate_view const& e) {
+    if (!std::isfinite(e.value)) return "?";
+    return e.verified ? rounded_text(e.value, rounding::nearest) + " \xE2\x9C\x93"
+                      : estimate_text(e.value);
+}
+
+SIVID_ENTRY table constants_table(diagnosis_view const& v) {
+    table t{.columns = {{"constant", column_kind::symbol},
+                        {"value", column_kind::number},
+                        {"proved range", column_kind::number},
+                        {"prior", column_kind::number},
+                        {"unit"},
+                        {"", column_kind::note}},
+            .rows = {}};
+    for (estimate_view const& e : v.constants) {
+        auto const end = std::find_if(v.at_ends.begin(), v.at_ends.end(), [&](end_view const& a) {
+            return a.constant.name == e.name && a.constant.value == e.value;
+        });
+        t.rows.push_back(
+            {e.name, value_text(e), hull_text(e), is_empty(e.prior) ? "" : given_text(e.prior),
+             kept_together(unit_text(e.unit)),
+             end == v.at_ends.end() ? ""
+                                    : std::string{"at the "} + (end->upper ? "upper" : "lower") +
+                                          " end of its prior: widen it"});
+    }
+    t.caption = t.rows.empty() ? "" : std::string{value_note};
     return t;
 }
 #endif

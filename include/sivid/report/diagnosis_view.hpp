@@ -27,15 +27,33 @@ enum class gap_state {
     open
 };
 
-enum class answer_state { nothing, effects, unexplained };
+enum class answer_state {
+    nothing,
+    effects,
+    unexplained, ///< everything planned was tried
+    open         ///< some of it was not, and nothing that was explains the data
+};
 
-/// A number with a name: its best fit, what is proved of it, what was allowed.
+/// A number with a name: its value, what is proved of it, what was allowed.
 struct estimate_view {
     std::string name{};
     std::string unit{};
     double value = std::numeric_limits<double>::quiet_NaN();
     range hull{};  ///< proved to contain every value that explains the data; empty: nothing proved
     range prior{}; ///< empty: not stated
+    bool verified = false; ///< the value is that of a witness that explains the data; else a fit's
+};
+
+/// A constant at the end of its prior.
+struct end_view {
+    std::vector<std::string> effects{}; ///< of the model whose constant it is
+    estimate_view constant{};
+    bool upper = false;
+};
+
+/// How many candidates of a kind were tried, of those planned.
+struct tried_view {
+    std::size_t tried = 0, planned = 0;
 };
 
 struct window_view {
@@ -44,7 +62,7 @@ struct window_view {
     double to = 0;
 };
 
-/// A place where model and robot part.
+/// A place where model and robot disagree.
 struct place_view {
     std::string kind{}; ///< equation, sensor or input
     std::string name{};
@@ -67,7 +85,7 @@ struct relation_view {
     std::vector<std::string> assumptions{};
 };
 
-/// How well data that chose nothing are met, before and after.
+/// How well the hold-out data are met, before and after.
 struct holdout_view {
     range inflation_before{};
     range inflation_after{};
@@ -101,7 +119,7 @@ struct candidate_view {
 /// One scenario: the data, the model's best fit, and that with the effect.
 struct compared_scenario {
     std::string name{};
-    bool holdout = false; ///< its data chose nothing
+    bool holdout = false; ///< its data are used neither for fits nor for choices
     std::vector<comparison_series> channels{};
 };
 
@@ -142,9 +160,12 @@ struct diagnosis_view {
     std::vector<relation_view> relations{};
 
     answer_state answer = answer_state::nothing;
+    tried_view singles{}, pairs{}, larger{};
     std::vector<std::string> effects{}; ///< the answer
     std::vector<std::vector<std::string>> indistinguishable{};
     std::vector<candidate_view> candidates{}; ///< best first
+    std::vector<estimate_view> constants{};   ///< of the model of the answer, all of them
+    std::vector<end_view> at_ends{};
     std::vector<std::string> unobservable{};
     std::vector<std::string> absorbed{};  ///< effects that the priors are wide enough to take up
     range shrink_fit{}, shrink_holdout{}; ///< proved shares of the gap; empty: not applicable

@@ -28,6 +28,19 @@ namespace sivid::report {
 /// "98 to 100 %"; an upper end above 100 is impossible, a missing lower one is said.
 [[nodiscard]] SIVID_ENTRY std::string shrink_text(range const& share);
 
+/// Whether what is proved of a number is less than what was allowed.
+[[nodiscard]] SIVID_ENTRY bool is_narrowed(estimate_view const& e);
+
+/// Proved bounds of a number, outward, but not beyond what was allowed: "0.16 to 0.18"; "not
+/// narrowed" where they are the prior; empty where nothing is known.
+[[nodiscard]] SIVID_ENTRY std::string hull_text(estimate_view const& e);
+
+/// "8 of 36 candidates tried, no pair"; empty when none was planned.
+[[nodiscard]] SIVID_ENTRY std::string tried_text(diagnosis_view const& v);
+
+/// "k sits at the upper end of its prior [1, 2] (with wind): widen it"
+[[nodiscard]] SIVID_ENTRY std::string end_words(end_view const& e);
+
 /// "tau = 0.169 s (0.16 to 0.18, proved)"
 [[nodiscard]] SIVID_ENTRY std::string estimate_words(estimate_view const& e);
 
@@ -58,6 +71,9 @@ namespace sivid::report {
 /// (proved)"; empty when nothing is said of one.
 [[nodiscard]] SIVID_ENTRY std::string remainder_clause(diagnosis_view const& v);
 
+/// What was tried in vain, and what comes closest by now; of an answer that is open.
+[[nodiscard]] SIVID_ENTRY std::string open_clause(diagnosis_view const& v);
+
 [[nodiscard]] SIVID_ENTRY std::string headline(diagnosis_view const& v);
 
 /// The sign of the banner: proved and the only answer, or something is open, or nothing explains.
@@ -87,11 +103,61 @@ SIVID_ENTRY std::string words_of(diagnosis_view const& v, std::vector<std::strin
 
 SIVID_ENTRY std::string shrink_text(range const& share) {
     if (is_empty(share)) return "";
-    number_format const f{.significant = 3, .shift = 2};
-    std::string const high = rounded_text(share.hi, rounding::up, f);
+    // Three digits, but no finer than a tenth of a percent.
+    auto const text = [](double x, rounding way) {
+        if (std::fabs(x) >= 0.1) return rounded_text(x, way, {.significant = 3, .shift = 2});
+        auto d = round_decimal(x, -3, way);
+        d.exponent += 2;
+        auto const digits = plain_text(d);
+        bool const whole = digits.size() > 2 && digits.substr(digits.size() - 2) == ".0";
+        return whole ? digits.substr(0, digits.size() - 2) : digits;
+    };
+    std::string const high = text(share.hi, rounding::up);
     if (!std::isfinite(share.lo)) return "at most " + high + "\xC2\xA0%";
-    std::string const low = rounded_text(share.lo, rounding::down, f);
+    std::string const low = text(share.lo, rounding::down);
     return (low == high ? low : low + " to " + high) + "\xC2\xA0%";
+}
+
+SIVID_ENTRY bool is_narrowed(estimate_view const& e) {
+    if (is_empty(e.hull) || !is_finite(e.hull)) return false;
+    if (is_empty(e.prior) || !is_finite(e.prior)) return true;
+    return e.hull.hi - e.hull.lo < 0.999 * (e.prior.hi - e.prior.lo);
+}
+
+SIVID_ENTRY std::string hull_text(estimate_view const& e) {
+    if (is_empty(e.hull)) return "";
+    if (!is_narrowed(e)) return "not narrowed";
+    bool const known = !is_empty(e.prior);
+    std::string const low = known && e.hull.lo <= e.prior.lo
+                                ? given_text(e.prior.lo)
+                                : rounded_text(e.hull.lo, rounding::down);
+    std::string const high = known && e.hull.hi >= e.prior.hi
+                                 ? given_text(e.prior.hi)
+                                 : rounded_text(e.hull.hi, rounding::up);
+    return low == high ? low : low + " to " + high;
+}
+
+SIVID_ENTRY std::string tried_text(diagnosis_view const& v) {
+    std::size_t const planned = v.singles.planned + v.pairs.planned + v.larger.planned;
+    if (planned == 0) return "";
+    std::size_t const tried = v.singles.tried + v.pairs.tried + v.larger.tried;
+    std::string out = tried == 0 ? "none of the " + count_text(planned) + " candidates was tried"
+                      : tried >= planned
+                          ? "all " + count_text(planned) + " candidates tried"
+                          : count_text(tried) + " of " + count_text(planned) + " candidates tried";
+    if (tried == 0 || tried >= planned) return out;
+    if (v.pairs.planned > 0 && v.pairs.tried == 0) return out + ", no pair";
+    return v.pairs.tried < v.pairs.planned ? out + ", " + count_text(v.pairs.tried) + " of the " +
+                                                 count_text(v.pairs.planned) + " pairs"
+                                           : out;
+}
+
+SIVID_ENTRY std::string end_words(end_view const& e) {
+    return e.constant.name + " = " + rounded_text(e.constant.value, rounding::nearest) +
+           unit_suffix(e.constant.unit) + " sits at the " + (e.upper ? "upper" : "lower") +
+           " end of its prior " + given_text(e.constant.prior) + " (" +
+           (e.effects.empty() ? std::string{} : "with ") + names_of(e.effects) +
+           "): widen it if it may lie beyond";
 }
 
 SIVID_ENTRY std::string estimate_words(estimate_view const& e) {
@@ -101,7 +167,9 @@ SIVID_ENTRY std::string estimate_words(estimate_view const& e) {
     out += std::isfinite(e.value)
                ? " = " + rounded_text(e.value, rounding::nearest) + unit_suffix(e.unit)
                : "";
-    return is_finite(e.hull) ? out + " (" + span_text(e.hull) + ", proved)" : out + " (estimate)";
+    if (is_narrowed(e)) return out + " (" + hull_text(e) + ", proved)";
+    std::string const known = e.verified ? "verified" : "estimate";
+    return out + " (" + known + (is_finite(e.hull) ? "; prior not narrowed)" : ")");
 }
 
 SIVID_ENTRY std::string after_words(diagnosis_view const& v) {
@@ -123,7 +191,7 @@ SIVID_ENTRY std::string gap_clause(diagnosis_view const& v) {
     switch (v.gap) {
     case gap_state::present:
         return says_something(v.inflation)
-                   ? "The model and the robot part by " + inflation_text(v.inflation) +
+                   ? "The model and the robot disagree by " + inflation_text(v.inflation) +
                          " times the measurement bounds (proved" +
                          (std::isfinite(v.inflation.hi) ? ")"
                           : estimate.empty()            ? ")"
@@ -138,12 +206,14 @@ SIVID_ENTRY std::string gap_clause(diagnosis_view const& v) {
                                : ""} +
                ")";
     default:
-        return "It is open whether the model explains the data: it parts from the robot by " +
+        return "It is open whether the model explains the data: " +
                (says_something(v.inflation)
-                    ? inflation_text(v.inflation) + " times the bounds (proved)" + estimate
+                    ? "until it does, the bounds must grow by a factor of " +
+                          inflation_text(v.inflation) + " (proved)" + estimate
                 : !estimate.empty()
-                    ? estimate_text(fitted) + " times the bounds in the best fit found (estimate)"
-                    : "a factor of which nothing is known");
+                    ? "until it does, the bounds must grow by a factor of " +
+                          estimate_text(fitted) + " in the best fit found (estimate)"
+                    : std::string{"nothing is known of it yet"});
     }
 }
 
@@ -216,11 +286,30 @@ SIVID_ENTRY std::string remainder_clause(diagnosis_view const& v) {
     return proved || fitted ? out + ")" : out + "unknown size is left";
 }
 
+SIVID_ENTRY std::string open_clause(diagnosis_view const& v) {
+    std::string const tried = tried_text(v);
+    candidate_view const* closest = nullptr;
+    for (candidate_view const& c : v.candidates) {
+        if (c.effects.empty() || !is_fitted(c.fitted)) continue;
+        if (closest == nullptr || c.fitted < closest->fitted) closest = &c;
+    }
+    return "whether an effect explains the data is open" + (tried.empty() ? "" : ": " + tried) +
+           (closest == nullptr
+                ? ""
+                : ", " + names_of(closest->effects) + " comes closest by now with " +
+                      estimate_text(closest->fitted) + " times the bounds (estimate)") +
+           "; a larger --budget tries the rest";
+}
+
 SIVID_ENTRY std::string headline(diagnosis_view const& v) {
     std::string const gap = v.gap == gap_state::absent    ? "No gap (proved)"
                             : v.gap == gap_state::present ? "Gap (proved)"
                                                           : "Gap not decided";
     if (v.answer == answer_state::unexplained) return gap + "; no candidate explains it";
+    if (v.answer == answer_state::open) {
+        std::string const tried = tried_text(v);
+        return gap + "; open" + (tried.empty() ? "" : ": " + tried);
+    }
     if (v.answer == answer_state::nothing || v.effects.empty()) return gap;
     candidate_view const* const c = answer_of(v);
     std::string const how =
@@ -238,6 +327,7 @@ SIVID_ENTRY outcome banner_outcome(diagnosis_view const& v) {
     if (v.answer == answer_state::unexplained) {
         return v.gap == gap_state::present ? outcome::refuted : outcome::undecided;
     }
+    if (v.answer == answer_state::open) return outcome::undecided;
     if (v.gap == gap_state::open) return outcome::undecided;
     if (v.answer == answer_state::nothing) {
         return v.gap == gap_state::absent ? outcome::proved : outcome::undecided;
@@ -252,16 +342,21 @@ SIVID_ENTRY std::string banner_sentence(diagnosis_view const& v) {
     if (v.answer == answer_state::effects && !v.effects.empty()) {
         parts.push_back(answer_clause(v));
         parts.push_back(alternatives_clause(v));
-        parts.push_back(shrink_clause(v.shrink_holdout, "data that chose nothing"));
+        parts.push_back(shrink_clause(v.shrink_holdout, "the hold-out data"));
+    } else if (v.answer == answer_state::open) {
+        parts.push_back(open_clause(v));
+        if (!v.places.empty()) parts.push_back(place_clause(v.places.front()));
     } else if (v.answer == answer_state::unexplained) {
         auto const excluded =
             std::count_if(v.candidates.begin(), v.candidates.end(), [](candidate_view const& c) {
                 return !c.effects.empty() && c.state == candidate_state::excluded;
             });
-        parts.push_back("no candidate was found that explains it" +
-                        (excluded > 0 ? ", " + count_text(static_cast<std::size_t>(excluded)) +
-                                            " are excluded (proved)"
-                                      : std::string{}));
+        std::string const tried = tried_text(v);
+        parts.push_back(
+            "no candidate was found that explains it" + (tried.empty() ? "" : " (" + tried + ")") +
+            (excluded > 0
+                 ? ", " + count_text(static_cast<std::size_t>(excluded)) + " are excluded (proved)"
+                 : std::string{}));
         parts.push_back(remainder_clause(v));
         if (!v.places.empty()) parts.push_back(place_clause(v.places.front()));
     } else if (v.gap != gap_state::absent && !v.places.empty()) {

@@ -12,10 +12,10 @@
 
 namespace sivid::report {
 
-/// How well data that chose nothing are met, before and after.
+/// How well the hold-out data are met, before and after.
 [[nodiscard]] SIVID_ENTRY table holdout_table(holdout_view const& h, range const& shrink);
 
-/// Candidates side by side on data that chose nothing; only when there are several.
+/// Candidates side by side on the hold-out data; only when there are several.
 [[nodiscard]] SIVID_ENTRY table holdout_candidates_table(diagnosis_view const& v,
                                                          std::size_t most = 8);
 
@@ -24,7 +24,7 @@ SIVID_ENTRY table holdout_table(holdout_view const& h, range const& shrink) {
     table t{.columns = {{"", column_kind::symbol},
                         {"model as it is", column_kind::number},
                         {"with the effect", column_kind::number},
-                        {"known how"}},
+                        {"known by"}},
             .rows = {}};
     auto const inflation = [](range const& r) {
         return says_something(r) ? inflation_text(r) : std::string{"not bounded"};
@@ -35,8 +35,8 @@ SIVID_ENTRY table holdout_table(holdout_view const& h, range const& shrink) {
                           inflation(h.inflation_after), proved});
     }
     if (says_something(h.over_fits_before) || says_something(h.over_fits_after)) {
-        t.rows.push_back({"the same, over all fits as good", inflation(h.over_fits_before),
-                          inflation(h.over_fits_after), proved});
+        t.rows.push_back({"the same, for every parameter that fits as well",
+                          inflation(h.over_fits_before), inflation(h.over_fits_after), proved});
     }
     if (says_shrink(shrink)) t.rows.push_back({"gap removed", "", shrink_text(shrink), proved});
     auto const number = [](double x) {

@@ -52,7 +52,7 @@ SIVID_ENTRY std::string values_text(std::vector<named_value> const& all) {
     std::string out;
     for (named_value const& v : all) {
         out += (out.empty() ? std::string{} : std::string{", "}) + v.name + " = " +
-               exact_text(v.value) + unit_suffix(v.unit);
+               given_text(v.value) + unit_suffix(v.unit);
     }
     return out;
 }

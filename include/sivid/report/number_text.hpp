@@ -82,7 +82,8 @@ SIVID_ENTRY std::string interval_text(range const& r, number_format f, rounding 
 /// A unit in typographic form: "kg m^2" gives "kg m" and a raised 2.
 [[nodiscard]] SIVID_ENTRY std::string unit_text(std::string_view unit);
 
-/// A unit to be put after a value, with a space that does not break; empty without a unit.
+/// A unit to be put after a value, with a space that does not break; empty without a unit, and for
+/// 1, which would read as a digit.
 [[nodiscard]] SIVID_ENTRY std::string unit_suffix(std::string_view unit);
 
 #if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_NUMBER_TEXT)
@@ -252,7 +253,7 @@ SIVID_ENTRY std::string unit_text(std::string_view unit) {
 }
 
 SIVID_ENTRY std::string unit_suffix(std::string_view unit) {
-    return unit.empty() ? std::string{} : std::string{"\xC2\xA0"} + unit_text(unit);
+    return unit.empty() || unit == "1" ? std::string{} : std::string{"\xC2\xA0"} + unit_text(unit);
 }
 #endif
 

@@ -111,10 +111,13 @@ SIVID_ENTRY std::string relation_words(relation_view const& r) {
            : r.sensors.size() == 1 ? " and the sensor " + r.sensors[0]
                                    : " and the sensors " + enumeration(r.sensors);
     char const* const together = r.sensors.empty() ? "" : " together";
-    out += r.proved ? std::string{" cannot hold"} + together +
-                          ", whatever the parameters of the prior (proved)."
-           : r.sensors.empty() ? std::string{" seems not to hold (estimate)."}
-                               : std::string{" seem not to hold together (estimate)."};
+    out +=
+        r.proved
+            ? std::string{" cannot hold"} + together + ", whatever the parameters of the prior (" +
+                  (r.assumptions.empty() ? "proved" : "proved if " + enumeration(r.assumptions)) +
+                  ")."
+        : r.sensors.empty() ? std::string{" seems not to hold (estimate)."}
+                            : std::string{" seem not to hold together (estimate)."};
     std::vector<std::string> windows;
     for (std::size_t i = 0; i < std::min(most, r.windows.size()); ++i) {
         windows.push_back(window_text(r.windows[i]));
@@ -126,7 +129,9 @@ SIVID_ENTRY std::string relation_words(relation_view const& r) {
         out += r.windows.size() > most ? " and " + count_text(r.windows.size() - most) + " more."
                                        : ".";
     }
-    if (!r.assumptions.empty()) out += " It rests on " + enumeration(r.assumptions) + ".";
+    if (!r.proved && !r.assumptions.empty()) {
+        out += " It rests on " + enumeration(r.assumptions) + ".";
+    }
     return out;
 }
 #endif

@@ -27,7 +27,7 @@ inline void add_places(page& out, diagnosis_view const& v) {
         v.channel_gaps.empty()) {
         return;
     }
-    out.section("Where model and robot part");
+    out.section("Where model and robot disagree");
     out.add(places_table(v));
     if (!v.relations.empty()) {
         out.subsection("What cannot hold together");
@@ -59,6 +59,15 @@ inline void add_candidates(page& out, diagnosis_view const& v) {
         out.prose("These channels and scenarios never show " + enumeration(v.unobservable, " or ") +
                   ": nothing is said about " + (v.unobservable.size() == 1 ? "it." : "them."));
     }
+}
+
+inline void add_constants(page& out, diagnosis_view const& v) {
+    table const t = constants_table(v);
+    if (t.rows.empty()) return;
+    candidate_view const* const c = answer_of(v);
+    out.section("All constants of the model" +
+                (c != nullptr ? " with " + names_of(c->effects) : std::string{}));
+    out.add(t);
 }
 
 inline void add_remainder(page& out, diagnosis_view const& v) {
@@ -101,7 +110,7 @@ inline void add_comparison(page& out, diagnosis_view const& v) {
     table const t =
         c != nullptr && c->holdout ? holdout_table(*c->holdout, v.shrink_holdout) : table{};
     if (any(true) || !t.rows.empty()) {
-        out.section("On data that chose nothing");
+        out.section("On the hold-out data");
         out.add(t);
         table const rivals = holdout_candidates_table(v);
         if (!rivals.rows.empty()) out.subsection("Candidates side by side");
@@ -110,7 +119,7 @@ inline void add_comparison(page& out, diagnosis_view const& v) {
     }
     if (any(false)) {
         out.section("On the data used for fitting");
-        if (says_shrink(v.shrink_fit)) {
+        if (v.answer == answer_state::effects && says_shrink(v.shrink_fit)) {
             out.prose(capitalised(shrink_clause(v.shrink_fit, "these data")) + ".");
         }
         add_motions(out, v, false);
@@ -154,13 +163,14 @@ inline void add_basis(page& out, diagnosis_view const& v) {
 } // namespace detail
 
 SIVID_ENTRY page diagnosis_page(diagnosis_view const& v) {
-    page out{{.kind = "Diagnosis of the gap between model and robot",
-              .title = v.dataset,
-              .lead = v.model.empty()
-                          ? ""
-                          : "Where the model \xE2\x80\x9C" + v.model +
-                                "\xE2\x80\x9D and the robot part, which effect it is, and how far "
-                                "the gap shrinks once it is added."}};
+    page out{
+        {.kind = "Diagnosis of the gap between model and robot",
+         .title = v.dataset,
+         .lead = v.model.empty()
+                     ? ""
+                     : "Where the model \xE2\x80\x9C" + v.model +
+                           "\xE2\x80\x9D and the robot disagree, which effect it is, and how far "
+                           "the gap shrinks once it is added."}};
     out.banner(banner_outcome(v), headline(v), banner_sentence(v));
     out.cards(diagnosis_cards(v));
     auto warnings = v.warnings;
@@ -169,6 +179,7 @@ SIVID_ENTRY page diagnosis_page(diagnosis_view const& v) {
                         "The run was stopped early. What is called proved stands; "
                         "the rest may be incomplete.");
     }
+    for (end_view const& e : v.at_ends) warnings.push_back(end_words(e) + ".");
     out.warnings(warnings);
     out.add(summary_table(v));
     detail::add_places(out, v);
@@ -179,6 +190,7 @@ SIVID_ENTRY page diagnosis_page(diagnosis_view const& v) {
     if (!missing.empty()) out.section("What is missing, over time");
     for (figure const& f : missing) out.add(f);
     detail::add_candidates(out, v);
+    detail::add_constants(out, v);
     detail::add_remainder(out, v);
     detail::add_comparison(out, v);
     detail::add_basis(out, v);
