@@ -144,6 +144,26 @@ TEST_CASE("planted breaches are found") {
     }
 }
 
+TEST_CASE("names of test cases that would be taken apart are found") {
+    planted_tree const tree;
+    auto const with_case = [&](std::string const& macro_and_name) {
+        tree.write("tests/space/high.test.cpp",
+                   "#include <sivid/space/high.hpp>\n" + macro_and_name + ", \"[.long]\") {}\n");
+        return tree.findings();
+    };
+    std::string const macro = "TEST_"
+                              "CASE(\"";
+    CHECK(with_case(macro + "plain, with a comma: x' = a x (1e-8) <2>\"") == "");
+    for (auto name : {"this; that", "within [0, 1]", " led", "trailing ", "*all", "all*", "~not",
+                      "a \\\"word\\\"", "back\\\\slash", "#1", "exclude: it"}) {
+        CAPTURE(name);
+        CHECK_THAT(with_case(macro + name + "\""),
+                   ContainsSubstring("test name: tests/space/high.test.cpp"));
+    }
+    CHECK_THAT(with_case("TEMPLATE_" + macro + "one\"\n    \"; two\", \"\", int"),
+               ContainsSubstring("'one; two'"));
+}
+
 TEST_CASE("packages are kept to the floors that may use them") {
     using architecture::package_allowed;
     for (auto name : {"nlohmann/json.hpp", "fmt/format.h", "CLI/CLI.hpp", "tbb/parallel_for.h",

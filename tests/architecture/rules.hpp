@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -102,6 +103,59 @@ inline bool package_allowed(std::string_view name, std::string_view floor, std::
     return processor.count(name) > 0;
 }
 
+/// Whether ctest and Catch2 take a name of a test case as it stands. A semicolon ends it in CMake's
+/// lists, brackets hold lists together there and are tags to Catch2, which also has a wildcard at
+/// either end, a negation in front, an escape, and quotes. (Commas are escaped on the way.)
+inline bool plain_test_name(std::string_view name) {
+    return !name.empty() && name.find_first_of(";[]\\\"") == std::string_view::npos &&
+           std::string_view{" *~#"}.find(name.front()) == std::string_view::npos &&
+           std::string_view{" *"}.find(name.back()) == std::string_view::npos &&
+           !starts_with(name, "exclude:");
+}
+
+/// The names of the test cases in a source, as written between the quotes.
+inline std::vector<std::string> test_names(std::string_view source) {
+    std::vector<std::string> names;
+    auto const skip_space = [&](std::size_t i) {
+        while (i < source.size() && std::isspace(static_cast<unsigned char>(source[i])) != 0) ++i;
+        return i;
+    };
+    for (std::string_view macro : {"TEST_CASE", "SCENARIO"})
+        for (auto at = source.find(macro); at != std::string_view::npos;
+             at = source.find(macro, at + 1)) {
+            auto i = at + macro.size();
+            while (i < source.size() &&
+                   (std::isupper(static_cast<unsigned char>(source[i])) != 0 || source[i] == '_'))
+                ++i; // TEMPLATE_TEST_CASE_SIG and the like
+            i = skip_space(i);
+            if (i >= source.size() || source[i] != '(') continue;
+            i = skip_space(i + 1);
+            std::string name;
+            bool named = false;
+            for (; i < source.size() && source[i] == '"'; i = skip_space(i + 1), named = true)
+                for (++i; i < source.size() && source[i] != '"'; ++i) {
+                    name += source[i];
+                    if (source[i] == '\\' && i + 1 < source.size()) name += source[++i];
+                }
+            if (named) names.push_back(name);
+        }
+    return names;
+}
+
+/// Test cases that would not run under their name, or not at all.
+inline void check_test_names(fs::path const& tree, std::vector<finding>& findings) {
+    for (auto const& entry : fs::recursive_directory_iterator{tree / "tests"}) {
+        auto const extension = entry.path().extension();
+        if (!entry.is_regular_file() || (extension != ".cpp" && extension != ".hpp")) continue;
+        std::ifstream in{entry.path()};
+        std::string const source{std::istreambuf_iterator<char>{in}, {}};
+        for (auto const& name : test_names(source))
+            if (!plain_test_name(name))
+                findings.push_back({"test name", fs::relative(entry.path(), tree).generic_string(),
+                                    "ctest or Catch2 read '" + name + "' as syntax"});
+    }
+}
+
 /// All breaches of the rules in the tree that holds include/sivid and tests.
 inline std::vector<finding> check(fs::path const& tree) {
     std::vector<finding> findings;
@@ -193,6 +247,8 @@ inline std::vector<finding> check(fs::path const& tree) {
         if (!umbrella_members.empty() && umbrella_members.count(header) == 0)
             findings.push_back(
                 {"umbrella", "include/" + header, "not in sivid.hpp (scripts/update-umbrella)"});
+
+    check_test_names(tree, findings);
 
     // Cycles, which the guards would hide: depth-first search with the usual three colours.
     std::map<std::string, int> colour;

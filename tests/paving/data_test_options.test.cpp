@@ -3,7 +3,7 @@
 
 #include "support/catch.hpp"
 
-TEST_CASE("boxes are contracted; witnesses are verified by finer runs than boxes") {
+TEST_CASE("boxes are contracted, and witnesses are verified by finer runs than boxes") {
     sivid::data_test_options const o;
     CHECK((o.contract && o.cut));
     CHECK((0 < o.sharp_enough && o.sharp_enough < 1));
