@@ -118,6 +118,23 @@ TEST_CASE("planted breaches are found") {
         tree.remove("tests/space/detail/inner.test.cpp");
         CHECK(tree.findings() == "");
     }
+    SECTION("options that run nothing need no test") {
+        std::string const body = "struct o {\n    int a = 1; // (one)\n"
+                                 "    std::function<void(int)> f = nullptr;\n};\n";
+        tree.header("space/high.hpp", "#include <sivid/space/high_options.hpp>\n");
+        tree.write("include/sivid/sivid.hpp",
+                   planted_tree::wrapped("sivid/sivid.hpp",
+                                         "#include <sivid/number/low.hpp>\n"
+                                         "#include <sivid/space/high.hpp>\n"
+                                         "#include <sivid/space/high_options.hpp>\n"));
+        tree.header("space/high_options.hpp", body);
+        tree.remove("tests/space/high_options.test.cpp");
+        CHECK(tree.findings() == "");
+        tree.header("space/high_options.hpp", body + "inline int f() { return 1; }\n");
+        tree.remove("tests/space/high_options.test.cpp");
+        CHECK_THAT(tree.findings(),
+                   ContainsSubstring("test: include/sivid/space/high_options.hpp: no tests"));
+    }
     SECTION("licence line") {
         tree.write("include/sivid/number/low.hpp",
                    std::string{"\n"}.append(planted_tree::wrapped("sivid/number/low.hpp", "")));

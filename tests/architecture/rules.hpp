@@ -103,6 +103,18 @@ inline bool package_allowed(std::string_view name, std::string_view floor, std::
     return processor.count(name) > 0;
 }
 
+/// Whether a header declares options and nothing that runs: a test could but repeat its defaults.
+/// What they do is tested where they are used.
+inline bool only_options(std::string const& stem, std::vector<std::string> const& lines) {
+    if (stem != "options" && !(stem.size() > 8 && stem.substr(stem.size() - 8) == "_options"))
+        return false;
+    return std::none_of(lines.begin(), lines.end(), [](std::string const& line) {
+        auto const code = line.substr(0, line.find("//"));
+        auto const call = code.find('('); // within a default it is no function of its own
+        return call != code.npos && code.find('=') > call && code.find("std::function<") > call;
+    });
+}
+
 /// Whether ctest and Catch2 take a name of a test case as it stands. A semicolon ends it in CMake's
 /// lists, brackets hold lists together there and are tags to Catch2, which also has a wildcard at
 /// either end, a negation in front, an escape, and quotes. (Commas are escaped on the way.)
@@ -231,8 +243,9 @@ inline std::vector<finding> check(fs::path const& tree) {
         if (!internal) {
             auto const test = tree / "tests" / floor / (path.stem().string() + ".test.cpp");
             if (!fs::exists(test)) {
-                report("test",
-                       std::string{"no "}.append(fs::relative(test, tree).generic_string()));
+                if (!only_options(path.stem().string(), lines))
+                    report("test",
+                           std::string{"no "}.append(fs::relative(test, tree).generic_string()));
             } else {
                 auto const text = lines_of(test);
                 bool const named = std::any_of(text.begin(), text.end(), [&](auto const& line) {
