@@ -60,11 +60,13 @@
 #include <sivid/model/effects.hpp>
 #include <sivid/model/expression.hpp>
 #include <sivid/model/find_combinations.hpp>
+#include <sivid/model/formula_text.hpp>
 #include <sivid/model/graph.hpp>
 #include <sivid/model/graph_listing.hpp>
 #include <sivid/model/homogeneity.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/model/operation.hpp>
+#include <sivid/model/parameter_choice.hpp>
 #include <sivid/model/plain_program.hpp>
 #include <sivid/model/recorded_map.hpp>
 #include <sivid/model/rewrite.hpp>
