@@ -21,6 +21,7 @@
 #include <sivid/number/interval.hpp>
 #include <sivid/number/interval_traits.hpp>
 #include <sivid/number/inverse_trigonometric.hpp>
+#include <sivid/number/kernel_trial.hpp>
 #include <sivid/number/lanes.hpp>
 #include <sivid/number/monomials.hpp>
 #include <sivid/number/nearest_text.hpp>
