@@ -134,6 +134,30 @@ TEST_CASE("two gross outliers: Algorithm 1 says inconsistent, a tolerance of 3 c
     }
 }
 
+TEST_CASE("Algorithm 2 decides as the report prints it, for every count of misfits") {
+    campaign c;
+    auto made = c.make("S1");
+    auto& measurements = made.data.scenarios[0].measurements;
+    auto const n = measurements.size();
+    for (std::size_t failing = 0; failing <= 8; ++failing) {
+        for (std::size_t const h : {1u, 2u, 5u, 7u, 10u, 12u, 15u}) { // per cent
+            INFO(failing << " of " << n << " fail, threshold " << h << " %");
+            sivid::identify_options o;
+            o.algorithm = algorithm::report_2;
+            auto const threshold = sivid::outlier_rule::threshold(dec("0.01").times(h));
+            auto const found =
+                sivid::identify(sivid::problem_from_dataset(made.data, c.model, threshold), o);
+            bool const inside = 100 * (n - failing) > n * (100 - h);
+            bool const outside = 100 * failing >= n * h;
+            CHECK(inside != outside);
+            CHECK(found.verdict == (inside ? verdict::consistent : verdict::inconsistent));
+        }
+        // One more that certainly fails.
+        auto& bound = measurements[7 * failing].bound;
+        bound = sivid::interval(bound.lower() + 9, bound.upper() + 9);
+    }
+}
+
 TEST_CASE("scenario 3 by Algorithm 2 on the prior of the report takes 11 000 boxes and more",
           "[.long]") {
     report_campaign const c("S3");

@@ -74,8 +74,8 @@ struct parameter_choice {
     for (auto const& d : model.derived) {
         auto const& c = constants[d.constant];
         if (choice.states(c.name)) {
-            words.push_back(c.name + " is what the data set says of it, whatever the model's " +
-                            c.name + " = " + c.formula + ".");
+            words.push_back(c.name + " is taken as it is stated, whatever the model's " + c.name +
+                            " = " + c.formula + ".");
         } else if (std::any_of(in_force.begin(), in_force.end(), [&](derived_constant const& f) {
                        return f.constant == d.constant;
                    })) {
