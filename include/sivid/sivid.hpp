@@ -202,10 +202,12 @@
 #include <sivid/diagnosis/candidate_order.hpp>
 #include <sivid/diagnosis/candidate_verdicts.hpp>
 #include <sivid/diagnosis/channel_tube.hpp>
+#include <sivid/diagnosis/claim_review.hpp>
 #include <sivid/diagnosis/declared_variation.hpp>
 #include <sivid/diagnosis/describe_candidate.hpp>
 #include <sivid/diagnosis/diagnose.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/diagnosis/diagnosis_consistency.hpp>
 #include <sivid/diagnosis/diagnosis_effort.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/diagnosis/estimated_place.hpp>
@@ -214,6 +216,7 @@
 #include <sivid/diagnosis/hardest_experiments.hpp>
 #include <sivid/diagnosis/holdout.hpp>
 #include <sivid/diagnosis/holdout_judgement.hpp>
+#include <sivid/diagnosis/input_range.hpp>
 #include <sivid/diagnosis/integrand_set.hpp>
 #include <sivid/diagnosis/knot_trace.hpp>
 #include <sivid/diagnosis/law.hpp>
@@ -222,6 +225,7 @@
 #include <sivid/diagnosis/manoeuvre.hpp>
 #include <sivid/diagnosis/missing_rate.hpp>
 #include <sivid/diagnosis/missing_rate_scales.hpp>
+#include <sivid/diagnosis/model_variation.hpp>
 #include <sivid/diagnosis/observed_motion.hpp>
 #include <sivid/diagnosis/opening_words.hpp>
 #include <sivid/diagnosis/part_inflation.hpp>
@@ -230,6 +234,7 @@
 #include <sivid/diagnosis/place_fit.hpp>
 #include <sivid/diagnosis/place_report.hpp>
 #include <sivid/diagnosis/place_search.hpp>
+#include <sivid/diagnosis/rate_stretch.hpp>
 #include <sivid/diagnosis/relation_finding.hpp>
 #include <sivid/diagnosis/relation_row.hpp>
 #include <sivid/diagnosis/relation_windows.hpp>
@@ -240,6 +245,7 @@
 #include <sivid/diagnosis/separation.hpp>
 #include <sivid/diagnosis/state_samples.hpp>
 #include <sivid/diagnosis/time_cell.hpp>
+#include <sivid/diagnosis/time_grid.hpp>
 #include <sivid/diagnosis/untouched_relation.hpp>
 #include <sivid/diagnosis/verification.hpp>
 #include <sivid/diagnosis/weak_windows.hpp>
