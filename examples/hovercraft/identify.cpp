@@ -86,7 +86,18 @@ void print_summary(sivid::identification_problem const& problem, sivid::identifi
                       << report::exact_text(found.witness->parameters[j]);
         std::cout << "\n";
     }
-    if (!found.forced.empty()) std::cout << "  proved outliers: " << found.forced.size() << "\n";
+    if (!found.forced.empty()) {
+        std::cout << "  proved outliers: " << found.forced.size();
+        std::size_t const most = 6;
+        for (std::size_t k = 0; k < std::min(most, found.forced.size()); ++k) {
+            auto const& e = problem.experiments[found.forced[k].experiment];
+            auto const m = sorted(e.measurements)[found.forced[k].measurement];
+            std::cout << (k == 0 ? ": " : ", ") << e.name << " "
+                      << problem.model.about.channels[m.channel].name << " at "
+                      << report::given_text(m.time) << " s";
+        }
+        std::cout << (found.forced.size() > most ? ", ...\n" : "\n");
+    }
     if (found.fewest) {
         std::cout << "  outliers needed: " << report::count_text(found.fewest->total.most);
         if (found.fewest->total.exact()) {

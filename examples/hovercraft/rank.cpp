@@ -88,11 +88,13 @@ int run(rank_command const& c) {
                        .lead = "How much can each constant, moved through its prior, change each "
                                "state equation?"}};
     page.section("What is bounded");
-    page.prose("The effect of a constant c on an equation is the width of its prior times the "
-               "largest size of the equation's partial derivative by c, over all states and inputs "
-               "in the ranges below and all constants in their priors. The bar is full up to a "
-               "lower bound and hatched up to an upper bound, both proved: from below by interval "
-               "evaluation at points, from above by interval evaluation over boxes.");
+    page.prose(
+        "The effect of a constant c on an equation is the width of its prior times the "
+        "largest size of the equation's partial derivative by c, over all states and inputs "
+        "in the ranges below and all constants in their priors. The bar is full up to a "
+        "lower bound and hatched up to an upper bound, both proved: from below by interval "
+        "evaluation at points, from above by interval evaluation over boxes, which shrink to "
+        "the ends of the priors in which the equation is affine.");
     std::vector<std::string> stated;
     for (std::size_t i = 0; i < ranges.states.size(); ++i)
         stated.push_back(model.about.states[i].name + " in " +
