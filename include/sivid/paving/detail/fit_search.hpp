@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -24,12 +25,16 @@ namespace paving_detail {
 /// The work of a `fitter`.
 class fit_search {
 public:
-    explicit fit_search(identification_problem const& problem) : campaign_(problem) {}
+    fit_search(identification_problem const& problem, std::function<bool()> keep_going)
+        : campaign_(problem) {
+        campaign_.set_keep_going(std::move(keep_going));
+    }
 
     [[nodiscard]] approximate_fit operator()() {
         descent_point best;
         int agreeing = 0;
-        for (std::size_t k = 0; k < 8 && best.inflation > 0.98 && agreeing < 1; ++k) {
+        for (std::size_t k = 0;
+             k < 8 && best.inflation > 0.98 && agreeing < 1 && !campaign_.cancelled(); ++k) {
             // Two descents that end far away from an explanation say that there is none.
             if (k >= 2 && best.inflation > hopeless_inflation) break;
             auto const found = from(start_point(k));
@@ -135,8 +140,8 @@ private:
 
 } // namespace paving_detail
 
-SIVID_ENTRY fitter::fitter(identification_problem const& problem)
-    : work_(std::make_unique<paving_detail::fit_search>(problem)) {}
+SIVID_ENTRY fitter::fitter(identification_problem const& problem, std::function<bool()> keep_going)
+    : work_(std::make_unique<paving_detail::fit_search>(problem, std::move(keep_going))) {}
 SIVID_ENTRY fitter::fitter(fitter&&) noexcept = default;
 SIVID_ENTRY fitter& fitter::operator=(fitter&&) noexcept = default;
 SIVID_ENTRY fitter::~fitter() = default;
