@@ -186,6 +186,17 @@ sivid::identification nothing_known(sivid::identification_problem const& problem
 
 /// How long what completes a result may take where the budget is spent.
 constexpr double completing = 0.2; // [s]
+/// What each box of a result takes after the search: decimals, lines of a table.
+constexpr double writing_a_box = 1.5e-5; // [s]
+/// What the tables of measurements take, with and without the motion; at most half of a budget.
+double seconds_of_tables(sivid::identification_problem const& problem, double budget) {
+    constexpr double writing_a_sample = 2.2e-5;
+    double seconds = 0;
+    for (auto const& e : problem.experiments) {
+        seconds += writing_a_sample * static_cast<double>(e.measurements.size());
+    }
+    return std::min(seconds, 0.5 * budget);
+}
 
 /// @throws bad_request  where as many outliers are allowed as there are
 ///         measurements: then nothing would have to be explained
@@ -229,24 +240,28 @@ int run(identify_command const& c) {
     // From here on the first Ctrl-C ends whatever is going on, and what is proved is written.
     console::watch_interrupts();
     auto const wanted = [] { return !console::interrupted(); };
-    sivid::work_limit limit(c.budget, wanted);
+    double const budget = c.budget - seconds_of_tables(problem, c.budget);
+    sivid::work_limit limit(budget, wanted);
     console::progress_line progress(c.quiet);
     sivid::identify_options options;
     options.algorithm = algorithm_of(c.algorithm);
     options.search.accuracy = c.accuracy.value_or(0.003);
     if (c.accuracy) options.search.sufficient_ratio = 1;
     if (c.boxes) options.search.boxes = *c.boxes;
-    options.search.seconds = c.compare ? 0.6 * c.budget : c.budget;
+    options.search.seconds = c.compare ? 0.6 * budget : budget;
     options.search.keep_going = wanted;
+    bool full = false; // as many boxes as can be written in what is left of the budget
     options.search.progress = [&](sivid::paving_progress const& p) {
         progress.show(console::paving_words(p));
-        return true;
+        auto const rows = static_cast<double>(p.pending) + static_cast<double>(p.tested) / 3;
+        full = limit.seconds() < writing_a_box * rows;
+        return !full;
     };
     std::optional<sivid::smallest_budget> fewest;
     if (c.fewest_outliers) {
         progress.note(data.id + ": how many outliers are needed");
         sivid::outlier_search_options least;
-        least.seconds = 0.5 * c.budget;
+        least.seconds = 0.5 * budget;
         least.keep_going = wanted;
         fewest = sivid::smallest_outlier_budget(problem, least);
         for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
@@ -281,6 +296,11 @@ int run(identify_command const& c) {
                                                               console::interrupted, std::cout)
                                             : sivid::identify(problem, options);
     progress.finish();
+    auto const name_reason = [&full](sivid::identification& of) {
+        if (full && of.reason == sivid::stop_reason::cancelled && !console::interrupted())
+            of.reason = sivid::stop_reason::time_budget;
+    };
+    name_reason(found);
 
     if (fewest) {
         found.fewest = *fewest;
@@ -299,6 +319,7 @@ int run(identify_command const& c) {
         other.resume = nullptr;
         progress.note("the same by Algorithm 1 of the report, for comparison");
         baseline = sivid::identify(problem, other);
+        name_reason(*baseline);
         progress.finish();
     }
     limit.allow(completing);
@@ -351,11 +372,14 @@ int run(identify_command const& c) {
     limit.allow(completing);
     if (auto const motion = sivid::find_explaining_motion(problem, found, 240, limit)) {
         view = viewed(&*motion);
+        auto const replace = [&c](char const* name, std::string const& text) {
+            sivid::file_set file(c.out);
+            file.add(name, text);
+            file.commit();
+        };
         try {
-            sivid::file_set files(c.out);
-            files.add("outputs.csv", sivid::outputs_csv(problem, found, &*motion));
-            files.add("report.html", report::identification_page(view).str());
-            files.commit();
+            replace("outputs.csv", sivid::outputs_csv(problem, found, &*motion));
+            replace("report.html", report::identification_page(view).str());
         } catch (sivid::output_error const& e) {
             std::cerr << "warning: no pictures of the motion in the report: "
                       << sivid::printable_text(e.what(), 1000) << "\n";

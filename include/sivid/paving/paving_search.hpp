@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -97,7 +98,7 @@ public:
     /// Takes the next box, or the next boxes to learn about, and settles what is found. A test that
     /// was interrupted meanwhile settles nothing: then all is as it was before the step.
     void step() {
-        step_mark const before{waiting_.pushed(), waiting_.running_volume(), whole_, measured_at_};
+        step_mark const before{waiting_.pushed(), waiting_.running_volume()};
         if constexpr (in_batches) {
             auto next = batches_.take();
             if (cut_short()) {
@@ -211,8 +212,6 @@ private:
     struct step_mark {
         std::size_t pushed;
         double volume;
-        box whole;
-        std::size_t measured_at;
     };
     /// Undoes a step that has settled nothing.
     /// @param taken  the items that it took
@@ -224,8 +223,6 @@ private:
             taken.push_back(std::move(i));
         }
         waiting_.restore(std::move(taken), before.pushed, before.volume);
-        whole_ = before.whole;
-        measured_at_ = before.measured_at;
     }
     [[nodiscard]] bool cut_short() const {
         if constexpr (interruptible_set_test<Test>) {
@@ -339,6 +336,7 @@ private:
         auto [sets, moved] = batches_.gather(std::move(first), options_.batches);
         std::vector<item> taken;
         for (auto const& set : sets) taken.insert(taken.end(), set.begin(), set.end());
+        auto const measure = std::pair(whole_, measured_at_);
         // While there are few the search has just begun: halves are more use than wholes.
         while (options_.order == search_order::largest_first &&
                2 * sets[0].size() <= test_->at_once() && halve(sets[0])) {
@@ -346,6 +344,7 @@ private:
         auto found = batches_.learn(sets);
         if (cut_short()) {
             put_back(before, std::move(taken), moved);
+            std::tie(whole_, measured_at_) = measure;
             return;
         }
         for (std::size_t k = 0; k < sets.size(); ++k) {
