@@ -20,8 +20,10 @@ struct identify_command {
     hovercraft craft;
     std::filesystem::path dataset, out;
     std::string algorithm = "contracting"; ///< or report-1, report-2
-    double accuracy = 0.003; ///< least width of a box that is split, as a share of the prior
-    double budget = 50;      ///< [s]
+    /// Least width of a box that is split, as a share of what is left, and then the only thing
+    /// beside budgets that ends the search. Without it 0.003, and so much being proved inside.
+    std::optional<double> accuracy;
+    double budget = 50; ///< [s]
     std::optional<std::size_t> boxes;
     std::optional<sivid::outlier_rule> outliers; ///< instead of the data set's own fraction
     bool fewest_outliers = false;                ///< the smallest budgets that explain the data

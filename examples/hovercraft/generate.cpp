@@ -289,8 +289,10 @@ int run(generate_command const& c) {
     auto const names = sivid::names_of(model.about);
     auto const made = generate(model, find_scenarios(c.scenario, names), c.options);
     console::prepare_folder(c.out);
-    sivid::write_atomically(c.out / "truth.json", truth_json(made, c));
-    sivid::write_dataset(made.data, names, c.out);
+    sivid::file_set files(c.out);
+    files.add("truth.json", truth_json(made, c));
+    sivid::add_dataset(files, made.data, names);
+    files.commit();
     for (auto const& s : made.data.scenarios)
         std::cout << s.name << ": " << s.measurements.size() << " measurements over " << s.duration
                   << " s\n";

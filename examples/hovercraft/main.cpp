@@ -84,6 +84,10 @@ std::vector<unknown_parameter> unknown_from(std::vector<std::string> const& list
                               ": write the prior as lower:upper");
         result.push_back({name, decimal(range.substr(0, colon), std::string{"--unknown "} + name),
                           decimal(range.substr(colon + 1), std::string{"--unknown "} + name)});
+        for (auto const& end : {result.back().lower, result.back().upper})
+            if (mag(*sivid::enclose(end)) > sivid::farthest_range)
+                throw bad_request(std::string{"--unknown "} + name + ": " + end.text() +
+                                  " is beyond 1e100; state what is physically possible");
     }
     return result;
 }
@@ -143,11 +147,13 @@ private:
         s->add_option("--algorithm", c.algorithm, "contracting, or the report's Algorithm 1 or 2")
             ->check(CLI::IsMember({"contracting", "report-1", "report-2"}))
             ->capture_default_str();
-        s->add_option("--accuracy", c.accuracy,
-                      "leave boxes undecided when no side is wider than this share of the prior")
-            ->check(console::number_between(1e-15, 1.0))
-            ->capture_default_str();
-        s->add_option("--budget", c.budget, "seconds")
+        s->add_option("--accuracy", accuracy_,
+                      "leave boxes undecided when no side is wider than this share of what is left "
+                      "(report-1, report-2: of the prior). When given, nothing but a budget ends "
+                      "the search before; without it (0.003), half of what is left being proved "
+                      "inside does, too")
+            ->check(console::number_between(1e-15, 1.0));
+        s->add_option("--budget", c.budget, "seconds, from when the data are read")
             ->check(console::number_between(0.0, 1e9))
             ->capture_default_str();
         s->add_option("--boxes", c.boxes, "test at most so many boxes");
@@ -184,6 +190,7 @@ private:
             action_ = [this] {
                 identify_.craft = shared_.craft();
                 read_outliers();
+                identify_.accuracy = accuracy_;
                 identify_.command_line = line_;
                 return run(identify_);
             };
@@ -389,6 +396,7 @@ private:
     rank_command rank_;
     describe_command describe_;
     std::string relative_, outliers_, threshold_;
+    std::optional<double> accuracy_;
     std::vector<std::string> absolute_, unknown_{"Sv", "Sg", "L"};
     bool combined_ = false, hold_ = false;
     std::function<int()> action_;

@@ -4,7 +4,7 @@
 #include "console/console.hpp"
 #include "console/program.hpp"
 
-#include <sivid/io/text_file.hpp>
+#include <sivid/io/file_set.hpp>
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/report/bar_chart.hpp>
 #include <sivid/report/page.hpp>
@@ -157,8 +157,10 @@ int run(rank_command const& c) {
         if (row[3].find("does not occur") == 0 || row[3].find("is no constant") == 0)
             std::cout << "the report calls " << row[1] << " " << row[2] << " for " << row[0]
                       << ", but it " << row[3] << "\n";
-    sivid::write_atomically(c.out / "ranking.csv", ranking_csv(ranking));
-    sivid::write_atomically(c.out / "ranking.html", page.str());
+    sivid::file_set files(c.out);
+    files.add("ranking.csv", ranking_csv(ranking));
+    files.add("ranking.html", page.str());
+    files.commit();
     std::cout << "written: " << (c.out / "ranking.html").string() << "\n";
     return 0;
 }

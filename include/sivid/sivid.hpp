@@ -196,6 +196,7 @@
 #include <sivid/paving/taylor_kernels.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/paving/witness.hpp>
+#include <sivid/paving/work_limit.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/broken_relation.hpp>
 #include <sivid/diagnosis/candidate.hpp>

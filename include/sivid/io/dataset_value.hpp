@@ -56,6 +56,10 @@ struct dataset_input {
 /// fit: used for identification. holdout: not used before the final figures are taken.
 enum class scenario_role { fit, holdout };
 
+/// Constants and states beyond this are refused: computing with their squares and products would
+/// leave the doubles.
+inline constexpr double farthest_range = 1e100;
+
 /// One recorded manoeuvre.
 struct scenario {
     std::string name;

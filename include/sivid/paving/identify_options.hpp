@@ -28,6 +28,9 @@ struct identify_options {
     bool only_hulls = false;
     /// Boxes tested to draw the paving of the prior, when the search ran in products of parameters.
     std::size_t drawn_boxes = 1500;
+    /// What may be added to `search.seconds`, at most, to complete a result: the box about the
+    /// witness, the drawing of the prior, the measurements that fail in every case.
+    double completing_seconds = 0.3;
     /// Called with the state every `search.checkpoint_seconds` of the search and when a budget ends
     /// it (in place of `search.checkpoint`).
     std::function<void(identification_state const&)> checkpoint = nullptr;

@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -71,10 +72,13 @@ public:
         double const inner = paving_.inner_volume().upper();
         double const outer = paving_.outer_volume().upper() + waiting_.volume();
         std::optional<stop_reason> stop;
-        if (options_.progress &&
-            !options_.progress({seconds(), tested_, waiting_.size(), inner, outer})) {
+        bool const refused =
+            (options_.progress &&
+             !options_.progress({seconds(), tested_, waiting_.size(), inner, outer})) ||
+            (options_.keep_going && !options_.keep_going());
+        if (refused) {
             stop = stop_reason::cancelled;
-        } else if (seconds() > options_.seconds) {
+        } else if (seconds() > options_.seconds || cut_short()) {
             stop = stop_reason::time_budget;
         } else if (tested_ >= options_.boxes) {
             stop = stop_reason::box_budget;
@@ -82,20 +86,25 @@ public:
             stop = stop_reason::memory_budget;
         }
         if (options_.checkpoint && (stop || checkpoint_due())) write_checkpoint();
-        if (!stop && (hull_rests() || (inner > 0 && inner >= options_.sufficient_ratio * outer &&
-                                       options_.sufficient_ratio < 1))) {
-            stop = stop_reason::accuracy_reached;
+        if (!stop && hull_rests()) stop = stop_reason::hulls_rest;
+        if (!stop && inner > 0 && inner >= options_.sufficient_ratio * outer &&
+            options_.sufficient_ratio < 1) {
+            stop = stop_reason::inside_share;
         }
         if (stop) reason_ = *stop;
         return stop.has_value();
     }
 
-    /// Takes the next box, or the next boxes to learn about, and settles what is found.
+    /// Takes the next box, or the next boxes to learn about, and settles what is found. A test that
+    /// was interrupted meanwhile settles nothing: then all is as it was before the step.
     void step() {
+        step_mark const before{waiting_.pushed(), waiting_.running_volume()};
         if constexpr (in_batches) {
             auto next = batches_.take();
-            if (next.load.judged->blind) {
-                learn(std::move(next));
+            if (cut_short()) {
+                put_back(before, {std::move(next)});
+            } else if (next.load.judged->blind) {
+                learn(before, std::move(next));
             } else {
                 settle_judged(std::move(next));
             }
@@ -103,6 +112,10 @@ public:
             auto next = waiting_.pop();
             auto const known = next.load.known;
             auto found = ask(next.set, known);
+            if (cut_short()) {
+                put_back(before, {std::move(next)});
+                return;
+            }
             ++tested_;
             settle(std::move(next), found, hand_on(found.knowledge, known));
         }
@@ -192,6 +205,30 @@ private:
             writing_ = written_at_ - before;
         } else {
             throw std::invalid_argument("invert: this kind of test cannot be resumed");
+        }
+    }
+
+    /// Where a step began.
+    struct step_mark {
+        std::size_t pushed;
+        double volume;
+    };
+    /// Undoes a step that has settled nothing.
+    /// @param taken  the items that it took
+    /// @param moved  numbers that items had which it put back in vain, in the order of putting back
+    void put_back(step_mark const& before, std::vector<item> taken,
+                  std::vector<std::size_t> const& moved = {}) {
+        for (auto i : waiting_.items()) {
+            if (i.number >= before.pushed) i.number = moved[i.number - before.pushed];
+            taken.push_back(std::move(i));
+        }
+        waiting_.restore(std::move(taken), before.pushed, before.volume);
+    }
+    [[nodiscard]] bool cut_short() const {
+        if constexpr (interruptible_set_test<Test>) {
+            return test_->cancelled();
+        } else {
+            return false;
         }
     }
 
@@ -295,13 +332,21 @@ private:
     }
 
     /// Boxes that are blind too are learnt about together.
-    void learn(item first) {
-        auto sets = batches_.gather(std::move(first), options_.batches);
+    void learn(step_mark const& before, item first) {
+        auto [sets, moved] = batches_.gather(std::move(first), options_.batches);
+        std::vector<item> taken;
+        for (auto const& set : sets) taken.insert(taken.end(), set.begin(), set.end());
+        auto const measure = std::pair(whole_, measured_at_);
         // While there are few the search has just begun: halves are more use than wholes.
         while (options_.order == search_order::largest_first &&
                2 * sets[0].size() <= test_->at_once() && halve(sets[0])) {
         }
         auto found = batches_.learn(sets);
+        if (cut_short()) {
+            put_back(before, std::move(taken), moved);
+            std::tie(whole_, measured_at_) = measure;
+            return;
+        }
         for (std::size_t k = 0; k < sets.size(); ++k) {
             for (std::size_t n = 0; n < sets[k].size(); ++n) {
                 ++tested_;

@@ -25,11 +25,19 @@ enum class verdict {
 enum class stop_reason {
     decided,          ///< every box is proved inside or outside
     accuracy_reached, ///< what is undecided is smaller than asked for
+    inside_share,     ///< so much of what is not excluded is proved inside as was asked for
+    hulls_rest,       ///< the hull of what is left shrinks no more
     time_budget,
     box_budget,
     memory_budget,
     cancelled
 };
+
+/// Whether a search came to an end by itself: with a larger budget it would have found the same.
+[[nodiscard]] constexpr bool is_complete(stop_reason r) {
+    return r == stop_reason::decided || r == stop_reason::accuracy_reached ||
+           r == stop_reason::inside_share || r == stop_reason::hulls_rest;
+}
 
 [[nodiscard]] constexpr std::string_view to_string(box_verdict v) {
     switch (v) {
@@ -61,6 +69,10 @@ enum class stop_reason {
         return "every box decided";
     case stop_reason::accuracy_reached:
         return "accuracy reached";
+    case stop_reason::inside_share:
+        return "enough of what is left is proved inside";
+    case stop_reason::hulls_rest:
+        return "hulls shrink no more";
     case stop_reason::time_budget:
         return "time budget spent";
     case stop_reason::box_budget:

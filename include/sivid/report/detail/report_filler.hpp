@@ -37,7 +37,8 @@ public:
         add_witness();
         for (std::size_t e = 0; e < problem_.experiments.size(); ++e) {
             view_.scenarios.push_back(
-                scenario_filler(problem_, found_, motion_, options_.plane, e).view());
+                scenario_filler(problem_, found_, motion_, options_.plane, e, options_.keep_going)
+                    .view());
         }
         add_marked();
         add_meanings();
