@@ -70,7 +70,7 @@ TEST_CASE("a kinematic rate varies no more than its state's rate brings about") 
     CHECK(law[0].variation < 0.2); // its own secants would allow 2.7
 }
 
-TEST_CASE("what the user declares is taken as it is; what nobody measured is open") {
+TEST_CASE("what the user declares is taken as it is, and what nobody measured is open") {
     draws d(10);
     auto const m = pendulum();
     auto const model = bound_pendulum(m);

@@ -10,7 +10,7 @@
 
 using namespace sivid;
 
-TEST_CASE("whatever decides a search changes the digest; budgets and threads do not") {
+TEST_CASE("whatever decides a search changes the digest, budgets and threads do not") {
     auto const problem = io_support::two_rates_problem(true);
     identify_options const options;
     auto const digest = problem_digest(problem, options);

@@ -124,7 +124,7 @@ TEST_CASE("a campaign depends on the seed and its number alone") {
     CHECK(text_of(a.path() / first) != text_of(c.path() / first));
 }
 
-TEST_CASE("one family, all effects in turn; labels stay outside of the data") {
+TEST_CASE("one family, all effects in turn, and labels stay outside of the data") {
     std::map<std::string, int> seen;
     for (std::size_t i = 0; i < 42; ++i) ++seen[draw_campaign(9, i, family::single).effects.at(0)];
     CHECK(seen.size() == 21);
