@@ -164,7 +164,7 @@ private:
     [[nodiscard]] check_finding contradicted(std::string what,
                                              std::vector<double> const& at) const {
         return {std::move(what), outcome::refuted,
-                "a fit found, and a validated run proves, the contrary at" + words_of(at)};
+                "found by a fit, proved by a validated run: the contrary holds at" + words_of(at)};
     }
 
     /// Inside rows are printed inward: a few floats between neighbours are in none, and nothing is
@@ -244,7 +244,6 @@ private:
         bool const whole = options_->all && rim.proved == 0 && rim.thin == 0;
         check_finding result{std::move(what), whole ? outcome::verified : outcome::sampled, ""};
         if (proved + rim.thin < claims.size()) result.found = outcome::undecided;
-        if (proved == 0 && rim.thin == claims.size()) result.found = outcome::nothing;
         if (refuted > 0) result.found = outcome::refuted;
         result.detail = std::to_string(proved - rim.proved) + " of " +
                         std::to_string(claims.size()) + " proved";

@@ -6,7 +6,6 @@
 #include <sivid/paving/detail/doubleton_run.hpp>
 #include <sivid/paving/detail/taylor_run.hpp>
 #include <sivid/paving/scalar_run.hpp>
-#include <sivid/paving/taylor_kernels.hpp>
 
 #include <cstddef>
 #include <memory>
@@ -14,6 +13,10 @@
 namespace sivid {
 
 namespace paving_detail {
+
+/// Fewer kernels than the search has: what runs one by one may carry monomials that it does not
+/// use.
+#define SIVID_SCALAR_KERNELS(X) X(3, 4) X(6, 2) X(12, 2)
 
 /// Not inline, as `make_taylor_run`.
 template <std::size_t N, std::size_t D>
@@ -27,7 +30,7 @@ std::unique_ptr<experiment_run> make_scalar_taylor_run(flow const& f, experiment
 #define SIVID_KERNEL(N, D)                                                                         \
     extern template std::unique_ptr<experiment_run> make_scalar_taylor_run<N, D>(                  \
         flow const&, experiment const&, record const&, run_options const&);
-SIVID_TAYLOR_KERNELS(SIVID_KERNEL)
+SIVID_SCALAR_KERNELS(SIVID_KERNEL)
 #undef SIVID_KERNEL
 #endif
 
@@ -41,10 +44,10 @@ SIVID_ENTRY std::unique_ptr<experiment_run> make_scalar_run(flow const& f, exper
     options.enclosure.minimum_step = minimum_step_for(e, options.enclosure.minimum_step);
     if (f.uncertain()) options.hopeless = 1e300;
     auto const unknowns = unknown_count(initial, prior);
-    auto run = with_taylor_kernel(unknowns, [&]<std::size_t N, std::size_t D>() {
-        return make_scalar_taylor_run<N, D>(f, e, samples, options);
-    });
-    if (run) return run;
+#define SIVID_KERNEL(N, D)                                                                         \
+    if (unknowns <= N) return make_scalar_taylor_run<N, D>(f, e, samples, options);
+    SIVID_SCALAR_KERNELS(SIVID_KERNEL)
+#undef SIVID_KERNEL
     return std::make_unique<doubleton_run>(f, e, samples, options);
 }
 
