@@ -262,7 +262,7 @@ private:
             allowed = 0;
         }
         // With so many outliers left, one of so many groups and one more holds none.
-        for (std::size_t group = 0; group <= allowed; ++group) {
+        for (std::size_t k = 0; k <= allowed; ++k) {
             auto const cut = cut_program(unknowns, blocks)(0, true);
             if (!cut.empty || cut.weights.empty()) return false;
             std::vector<measurement_weight> weights;
