@@ -336,8 +336,9 @@ int run(identify_command const& c) {
                                             : sivid::identify(problem, options);
     progress.finish();
     auto const name_reason = [&full](sivid::identification& of) {
-        if (full && of.reason == sivid::stop_reason::cancelled && !console::interrupted())
-            of.reason = sivid::stop_reason::time_budget;
+        if (!full || of.reason != sivid::stop_reason::cancelled || console::interrupted()) return;
+        of.reason = sivid::stop_reason::time_budget;
+        if (of.effort) of.effort->most_seconds = of.effort->seconds; // the rest is for writing
     };
     name_reason(found);
 
