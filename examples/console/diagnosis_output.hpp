@@ -8,7 +8,7 @@
 
 #include <sivid/diagnosis/diagnose.hpp>
 #include <sivid/io/diagnosis_json.hpp>
-#include <sivid/io/text_file.hpp>
+#include <sivid/io/file_set.hpp>
 #include <sivid/report/diagnosis_page.hpp>
 #include <sivid/report/diagnosis_report.hpp>
 #include <sivid/report/diagnosis_words.hpp>
@@ -42,11 +42,10 @@ missing_rates(sivid::place_estimate const& places,
             sivid::report::missing_rate_data d{p.name,   r.scenario,   p.unit, r.times,
                                                r.values, r.deviations, {}};
             for (auto const& f : findings) {
-                if (f.name != p.name || !f.missing || f.missing->window.scenario != r.scenario) {
-                    continue;
-                }
-                d.windows.push_back(
-                    {f.missing->window.from, f.missing->window.to, f.missing->value});
+                if (f.name != p.name || !f.place || !f.place->missing) continue;
+                auto const& [window, value, unit] = *f.place->missing;
+                if (window.scenario != r.scenario) continue;
+                d.windows.push_back({window.from, window.to, value});
             }
             result.push_back(std::move(d));
         }
@@ -194,7 +193,10 @@ inline void print_summary(sivid::diagnosis const& d, std::string const& id,
                           std::filesystem::path const& out) {
     namespace report = sivid::report;
     std::cout << id << ": gap " << to_string(d.gap) << ", inflation "
-              << report::inflation_text(detail::range_of(d.inflation)) << "\n";
+              << (report::says_something(detail::range_of(d.inflation))
+                      ? report::inflation_text(detail::range_of(d.inflation))
+                      : std::string{"not bounded"})
+              << "\n";
     for (auto const& p : d.where) {
         std::cout << "  where: " << p.kind << " " << p.name << (p.proved ? " (proved)" : "")
                   << (p.law.empty() ? "" : ", like ") << p.law << "\n";
@@ -254,7 +256,7 @@ page_options(sivid::diagnosis_run const& run, std::string dataset, std::string c
     return page;
 }
 
-/// Writes diagnosis.json and report.html.
+/// Writes diagnosis.json and report.html, both or none.
 /// @param further  adds sections of the program's own: further(page)
 /// @throws sivid::output_error
 template <class Further>
@@ -262,10 +264,12 @@ void write_diagnosis(sivid::diagnosis const& d, std::string const& id,
                      sivid::report::diagnosis_plot_data const& plots,
                      sivid::report::diagnosis_report_options const& options,
                      std::filesystem::path const& out, Further&& further) {
-    sivid::write_atomically(out / "diagnosis.json", sivid::diagnosis_json(d, id));
     auto page = sivid::report::diagnosis_page(sivid::report::view_of(d, plots, options));
     further(page);
-    sivid::write_atomically(out / "report.html", page.str());
+    sivid::file_set files(out);
+    files.add("diagnosis.json", sivid::diagnosis_json(d, id));
+    files.add("report.html", page.str());
+    files.commit();
 }
 
 } // namespace console

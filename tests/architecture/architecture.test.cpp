@@ -118,6 +118,23 @@ TEST_CASE("planted breaches are found") {
         tree.remove("tests/space/detail/inner.test.cpp");
         CHECK(tree.findings() == "");
     }
+    SECTION("options that run nothing need no test") {
+        std::string const body = "struct o {\n    int a = 1; // (one)\n"
+                                 "    std::function<void(int)> f = nullptr;\n};\n";
+        tree.header("space/high.hpp", "#include <sivid/space/high_options.hpp>\n");
+        tree.write("include/sivid/sivid.hpp",
+                   planted_tree::wrapped("sivid/sivid.hpp",
+                                         "#include <sivid/number/low.hpp>\n"
+                                         "#include <sivid/space/high.hpp>\n"
+                                         "#include <sivid/space/high_options.hpp>\n"));
+        tree.header("space/high_options.hpp", body);
+        tree.remove("tests/space/high_options.test.cpp");
+        CHECK(tree.findings() == "");
+        tree.header("space/high_options.hpp", body + "inline int f() { return 1; }\n");
+        tree.remove("tests/space/high_options.test.cpp");
+        CHECK_THAT(tree.findings(),
+                   ContainsSubstring("test: include/sivid/space/high_options.hpp: no tests"));
+    }
     SECTION("licence line") {
         tree.write("include/sivid/number/low.hpp",
                    std::string{"\n"}.append(planted_tree::wrapped("sivid/number/low.hpp", "")));
@@ -142,6 +159,26 @@ TEST_CASE("planted breaches are found") {
         tree.header("number/low.hpp", "inline void f() { std::cerr << 1; }\n");
         CHECK_THAT(tree.findings(), ContainsSubstring("silence: include/sivid/number/low.hpp"));
     }
+}
+
+TEST_CASE("names of test cases that would be taken apart are found") {
+    planted_tree const tree;
+    auto const with_case = [&](std::string const& macro_and_name) {
+        tree.write("tests/space/high.test.cpp",
+                   "#include <sivid/space/high.hpp>\n" + macro_and_name + ", \"[.long]\") {}\n");
+        return tree.findings();
+    };
+    std::string const macro = "TEST_"
+                              "CASE(\"";
+    CHECK(with_case(macro + "plain, with a comma: x' = a x (1e-8) <2>\"") == "");
+    for (auto name : {"this; that", "within [0, 1]", " led", "trailing ", "*all", "all*", "~not",
+                      "a \\\"word\\\"", "back\\\\slash", "#1", "exclude: it"}) {
+        CAPTURE(name);
+        CHECK_THAT(with_case(macro + name + "\""),
+                   ContainsSubstring("test name: tests/space/high.test.cpp"));
+    }
+    CHECK_THAT(with_case("TEMPLATE_" + macro + "one\"\n    \"; two\", \"\", int"),
+               ContainsSubstring("'one; two'"));
 }
 
 TEST_CASE("packages are kept to the floors that may use them") {

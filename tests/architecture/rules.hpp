@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -102,6 +103,71 @@ inline bool package_allowed(std::string_view name, std::string_view floor, std::
     return processor.count(name) > 0;
 }
 
+/// Whether a header declares options and nothing that runs: a test could but repeat its defaults.
+/// What they do is tested where they are used.
+inline bool only_options(std::string const& stem, std::vector<std::string> const& lines) {
+    if (stem != "options" && !(stem.size() > 8 && stem.substr(stem.size() - 8) == "_options"))
+        return false;
+    return std::none_of(lines.begin(), lines.end(), [](std::string const& line) {
+        auto const code = line.substr(0, line.find("//"));
+        auto const call = code.find('('); // within a default it is no function of its own
+        return call != code.npos && code.find('=') > call && code.find("std::function<") > call;
+    });
+}
+
+/// Whether ctest and Catch2 take a name of a test case as it stands. A semicolon ends it in CMake's
+/// lists, brackets hold lists together there and are tags to Catch2, which also has a wildcard at
+/// either end, a negation in front, an escape, and quotes. (Commas are escaped on the way.)
+inline bool plain_test_name(std::string_view name) {
+    return !name.empty() && name.find_first_of(";[]\\\"") == std::string_view::npos &&
+           std::string_view{" *~#"}.find(name.front()) == std::string_view::npos &&
+           std::string_view{" *"}.find(name.back()) == std::string_view::npos &&
+           !starts_with(name, "exclude:");
+}
+
+/// The names of the test cases in a source, as written between the quotes.
+inline std::vector<std::string> test_names(std::string_view source) {
+    std::vector<std::string> names;
+    auto const skip_space = [&](std::size_t i) {
+        while (i < source.size() && std::isspace(static_cast<unsigned char>(source[i])) != 0) ++i;
+        return i;
+    };
+    for (std::string_view macro : {"TEST_CASE", "SCENARIO"})
+        for (auto at = source.find(macro); at != std::string_view::npos;
+             at = source.find(macro, at + 1)) {
+            auto i = at + macro.size();
+            while (i < source.size() &&
+                   (std::isupper(static_cast<unsigned char>(source[i])) != 0 || source[i] == '_'))
+                ++i; // TEMPLATE_TEST_CASE_SIG and the like
+            i = skip_space(i);
+            if (i >= source.size() || source[i] != '(') continue;
+            i = skip_space(i + 1);
+            std::string name;
+            bool named = false;
+            for (; i < source.size() && source[i] == '"'; i = skip_space(i + 1), named = true)
+                for (++i; i < source.size() && source[i] != '"'; ++i) {
+                    name += source[i];
+                    if (source[i] == '\\' && i + 1 < source.size()) name += source[++i];
+                }
+            if (named) names.push_back(name);
+        }
+    return names;
+}
+
+/// Test cases that would not run under their name, or not at all.
+inline void check_test_names(fs::path const& tree, std::vector<finding>& findings) {
+    for (auto const& entry : fs::recursive_directory_iterator{tree / "tests"}) {
+        auto const extension = entry.path().extension();
+        if (!entry.is_regular_file() || (extension != ".cpp" && extension != ".hpp")) continue;
+        std::ifstream in{entry.path()};
+        std::string const source{std::istreambuf_iterator<char>{in}, {}};
+        for (auto const& name : test_names(source))
+            if (!plain_test_name(name))
+                findings.push_back({"test name", fs::relative(entry.path(), tree).generic_string(),
+                                    "ctest or Catch2 read '" + name + "' as syntax"});
+    }
+}
+
 /// All breaches of the rules in the tree that holds include/sivid and tests.
 inline std::vector<finding> check(fs::path const& tree) {
     std::vector<finding> findings;
@@ -177,8 +243,9 @@ inline std::vector<finding> check(fs::path const& tree) {
         if (!internal) {
             auto const test = tree / "tests" / floor / (path.stem().string() + ".test.cpp");
             if (!fs::exists(test)) {
-                report("test",
-                       std::string{"no "}.append(fs::relative(test, tree).generic_string()));
+                if (!only_options(path.stem().string(), lines))
+                    report("test",
+                           std::string{"no "}.append(fs::relative(test, tree).generic_string()));
             } else {
                 auto const text = lines_of(test);
                 bool const named = std::any_of(text.begin(), text.end(), [&](auto const& line) {
@@ -193,6 +260,8 @@ inline std::vector<finding> check(fs::path const& tree) {
         if (!umbrella_members.empty() && umbrella_members.count(header) == 0)
             findings.push_back(
                 {"umbrella", "include/" + header, "not in sivid.hpp (scripts/update-umbrella)"});
+
+    check_test_names(tree, findings);
 
     // Cycles, which the guards would hide: depth-first search with the usual three colours.
     std::map<std::string, int> colour;

@@ -67,7 +67,7 @@ TEST_CASE("the witness that is shown is the one that the inflation is proved at"
     }
 }
 
-TEST_CASE("without boxes nothing is excluded; a stop leaves the rest undecided") {
+TEST_CASE("without boxes nothing is excluded, and a stop leaves the rest undecided") {
     diagnosis_options none;
     none.exclusion.boxes = none.exclusions.boxes = 0;
     for (auto const& c : judged(small_campaign::with_slope(0.3), none).result.causes) {

@@ -70,7 +70,7 @@ TEST_CASE("a kinematic rate varies no more than its state's rate brings about") 
     CHECK(law[0].variation < 0.2); // its own secants would allow 2.7
 }
 
-TEST_CASE("what the user declares is taken as it is; what nobody measured is open") {
+TEST_CASE("what the user declares is taken as it is, and what nobody measured is open") {
     draws d(10);
     auto const m = pendulum();
     auto const model = bound_pendulum(m);
@@ -83,19 +83,4 @@ TEST_CASE("what the user declares is taken as it is; what nobody measured is ope
     auto const plain = laws(model, prior, e);
     CHECK(plain[1].variation != 1.2345);
     CHECK(std::isfinite(plain[0].variation));
-}
-
-TEST_CASE("inputs are enclosed on a piece, formulas by their graph") {
-    signal const line = sampled_signal({0.0, 1.0, 2.0}, {0.0, 2.0, 2.0}, interpolation::linear);
-    auto const range = input_over(line, 0.25, 0.5);
-    CHECK_THAT(range.lower(), WithinAbs(0.5, 1e-12));
-    CHECK_THAT(range.upper(), WithinAbs(1, 1e-12));
-    signal const hold = sampled_signal({0.0, 1.0}, {3.0, 4.0}, interpolation::hold);
-    CHECK(equal(input_over(hold, 0.2, 1.0), between(3, 3)));
-    signal const formula = analytic_signal::from([](auto const& t) { return sin(t); });
-    auto const wave = input_over(formula, 1, 2);
-    CHECK(wave.lower() <= std::sin(1.0));
-    CHECK(wave.upper() >= 1);
-    signal const bad = analytic_signal::from([](auto const& t) { return sqrt(t - 1); });
-    CHECK(is_entire(input_over(bad, 0, 2)));
 }

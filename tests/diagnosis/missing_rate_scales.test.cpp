@@ -6,7 +6,7 @@
 
 using namespace sivid;
 
-TEST_CASE("rates are as large as they are along the motion; a second to twenty seconds") {
+TEST_CASE("rates are as large as they are along the motion, for a second to twenty seconds") {
     auto const p = small_campaign::problem();
     CHECK(rate_time(p) == 1); // four seconds
     campaign c(p);

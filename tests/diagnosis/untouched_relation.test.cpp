@@ -87,7 +87,7 @@ TEST_CASE("an effect keeps the relations that it does not act in") {
     CHECK_FALSE(keeps({stronger}, dynamic()));
 }
 
-TEST_CASE("a channel that is late is another one; a delay of the model itself is left alone") {
+TEST_CASE("a channel that is late is another one, a delay of the model itself is left alone") {
     effect seen_late{"seen late", {{"tau", "s", 0_dec, 1_dec, 0_dec}}};
     seen_late.on_channels = [](effect_scope& h) { h.delay_channel("v"); };
     CHECK_FALSE(keeps({seen_late}, kinematic()));

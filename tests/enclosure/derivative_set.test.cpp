@@ -28,7 +28,7 @@ bool encloses(interval_matrix<interval> const& a, real_matrix const& m, long dou
 
 } // namespace
 
-TEST_CASE("the begin is [1, 0]") {
+TEST_CASE("the begin is one and zero") {
     derivative_set<interval> const s(2, 1);
     for (std::size_t i = 0; i < 2; ++i) {
         for (std::size_t c = 0; c < 3; ++c) {

@@ -3,12 +3,15 @@
 
 #include "support/catch.hpp"
 
-TEST_CASE("options are an aggregate with useful defaults") {
-    STATIC_REQUIRE(std::is_aggregate_v<sivid::enclosure_options>);
-    sivid::enclosure_options const o{.order = 20, .tolerance = 1e-9};
-    CHECK(o.order == 20);
-    CHECK(o.tolerance == 1e-9);
-    CHECK(o.minimum_step > 0);
-    CHECK(o.minimum_step < o.maximum_step);
-    CHECK_FALSE(o.method);
+using namespace sivid;
+
+TEST_CASE("an enclosure is cancelled when who is asked says so and never when nobody is") {
+    enclosure_options options;
+    CHECK_FALSE(options.cancelled());
+    bool go = true;
+    options.keep_going = [&go] { return go; };
+    CHECK_FALSE(options.cancelled());
+    go = false;
+    CHECK(options.cancelled());
+    CHECK(enclosure_options{options}.cancelled());
 }

@@ -80,7 +80,7 @@ std::size_t check(box const& x0, box const& p, double end, std::size_t halvings)
 
 } // namespace
 
-TEST_CASE("parts cover the box, and their sets the ends; alone and in lanes") {
+TEST_CASE("parts cover the box, and their sets the ends, alone and in lanes") {
     box const x0{between(-1, 2.4), between(-0.5, 0.5)};
     box const p{between(0.8, 1.6)};
     auto const alone = check<3, double>(x0, p, 3, 0);

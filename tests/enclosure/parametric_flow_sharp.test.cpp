@@ -107,7 +107,7 @@ TEST_CASE("sharp centres: a rotation, at low orders and over long times") {
     CHECK(encloses_exactly(lane_of(eight.set(), 0), exact(mp(1))));
 }
 
-TEST_CASE("sharp centres: time, quotients and roots; steps that are no doubles") {
+TEST_CASE("sharp centres: time, quotients and roots, steps that are no doubles") {
     // From t = 0.1 on, the computed length of a step is not the exact one.
     auto const f = flow_of(
         model_of({3, 0, 0, 100}, [](auto const& t, auto const& x, auto const&, auto const&) {

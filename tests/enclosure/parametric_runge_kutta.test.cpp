@@ -200,7 +200,7 @@ TEST_CASE("wide boxes stay as tight as with the Taylor series") {
     }
 }
 
-TEST_CASE("failures say why; options without a method are refused") {
+TEST_CASE("failures say why, and options without a method are refused") {
     auto const f =
         flow_of(model_of({1, 0, 0, 1e6}, [](auto const&, auto const& x, auto const&, auto const&) {
             using namespace support::real;

@@ -36,7 +36,7 @@ std::vector<tableau> all_explicit() {
 
 } // namespace
 
-TEST_CASE("coefficient 0 is the formula; the next ones are its Taylor coefficients") {
+TEST_CASE("coefficient 0 is the formula, the next ones are its Taylor coefficients") {
     draws d(251);
     support::for_each_system([&](auto const& system) {
         auto const f = system.flow();

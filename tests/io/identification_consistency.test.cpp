@@ -27,7 +27,7 @@ box_cover covered(identification_problem const& problem, stored_identification c
 
 } // namespace
 
-TEST_CASE("a result agrees with itself; each tampering is seen by the check it concerns") {
+TEST_CASE("a result agrees with itself, and each tampering is seen by the check it concerns") {
     auto const problem = io_support::one_rate_problem();
     auto good = io_support::stored_result(problem).read();
     good.combinations = {{"a", good.parameters[0].range, "1/s"}};

@@ -69,7 +69,7 @@ TEST_CASE("an outlier that every feasible parameter violates is listed with time
     CHECK(json["outliers"]["forced"][0]["channel"] == "x");
 }
 
-TEST_CASE("a share of the prior never leaves [0, 1]") {
+TEST_CASE("a share of the prior is never below 0 or above 1") {
     CHECK(share_of_whole(interval(0.25, 1.0000001)).upper() == 1);
     CHECK(share_of_whole(interval(0.25, 0.5)).lower() == 0.25);
 }

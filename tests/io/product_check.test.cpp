@@ -7,7 +7,7 @@
 using namespace sivid;
 using outcome = check_finding::outcome;
 
-TEST_CASE("hull, combinations and volumes follow from the products; each alteration is seen") {
+TEST_CASE("hull, combinations and volumes follow from the products, and each alteration is seen") {
     auto const problem = io_support::two_rates_problem();
     auto const good = io_support::stored_result(problem).read();
     REQUIRE(good.products);

@@ -93,7 +93,7 @@ TEST_CASE("a bound is proposed from the converted readings") {
     CHECK_THAT(proposal_for(read(q, rows).quantity).quantum, WithinRel(0.5, 1e-9));
 }
 
-TEST_CASE("exact inputs are said to be exact; overflow is refused") {
+TEST_CASE("exact inputs are said to be exact, and overflow is refused") {
     quantity_mapping q;
     q.name = "u";
     CHECK(has_note(read(q, {{"1"}}).protocol, "the input is exact"));

@@ -56,7 +56,7 @@ TEST_CASE("a scenario lasts as long as its inputs") {
     CHECK(has_note(r.protocol, "the times are exact"));
 }
 
-TEST_CASE("offset and duration cut; one knot on either side stays") {
+TEST_CASE("offset and duration cut, one knot on either side stays") {
     auto const r = read(R"("offset": 0 })", R"("offset": -0.1 }, "duration": 0.15)");
     CHECK(times(r.scenario.inputs[0]) == list{"0", "0.1", "0.2"});
     CHECK(times(r.scenario.channels[0]) == list{"0"});

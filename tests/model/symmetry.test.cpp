@@ -32,7 +32,7 @@ model_motion translation(std::vector<int> p, std::vector<int> x = {0}) {
 
 } // namespace
 
-TEST_CASE("sums, multiplied out or not, may be shifted; products and ratios scaled") {
+TEST_CASE("sums, multiplied out or not, may be shifted, products and ratios scaled") {
     auto const both = bound(
         {1, 5},
         [](auto const&, auto const& x, auto const& p, auto const&) {

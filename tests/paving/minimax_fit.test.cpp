@@ -70,7 +70,7 @@ TEST_CASE("the least inflation of a decay lies at a kink, and is met") {
     CHECK(steps == 3);
 }
 
-TEST_CASE("a descent from outside starts at the nearest point; one that cannot simulate ends") {
+TEST_CASE("a descent from outside starts at the nearest point, one that cannot simulate ends") {
     auto problem = support::decay(between(0.25, 3), 0.5, 0.25, 0.0078125);
     CHECK(minimax_fitter(problem)({100}, {{5}}).inflation < 1e-3);
     problem.model =

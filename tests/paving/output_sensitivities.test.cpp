@@ -35,7 +35,7 @@ identification_problem decay() {
 
 } // namespace
 
-TEST_CASE("what is unknown has a name and a prior; decimals are known") {
+TEST_CASE("what is unknown has a name and a prior, decimals are known") {
     auto problem = decay();
     CHECK(unknowns_of(problem, false).size() == 1);
     auto const both = unknowns_of(problem, true);

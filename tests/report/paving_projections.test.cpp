@@ -60,7 +60,7 @@ TEST_CASE("a projection has the boxes that are not outside, and the witness") {
     CHECK((bare.boxes[1].y.lo == 2 && bare.boxes[1].y.hi == 3));
 }
 
-TEST_CASE("all pairs of few sides, or of the four narrowest; wanted ones first, points never") {
+TEST_CASE("all pairs of few sides, or of the four narrowest, wanted ones first, points never") {
     auto const three = paved(3);
     CHECK(pairs(projections(named(three, 3), {}, 6)) == "ab ac bc ");
     CHECK(pairs(projections(named(three, 3), {1, 2}, 6)) == "bc ab ac ");

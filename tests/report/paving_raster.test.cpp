@@ -37,7 +37,7 @@ std::vector<projected_box> random_boxes(int n, std::uint32_t seed) {
 
 } // namespace
 
-TEST_CASE("paving raster: the best region above a point wins; nothing above is outside") {
+TEST_CASE("paving raster: the best region above a point wins, and nothing above is outside") {
     std::vector<projected_box> const boxes{{{0, 1}, {0, 1}, region::outside},
                                            {{0, 0.5}, {0, 1}, region::pending},
                                            {{0, 0.4}, {0, 1}, region::undecided},
@@ -100,7 +100,8 @@ TEST_CASE("paving raster: merged rectangles tile exactly the cells that are not 
     CHECK(rects.size() < painted);
 }
 
-TEST_CASE("paving raster: thin boxes stay visible and do not spread; neighbours do not leak in") {
+TEST_CASE(
+    "paving raster: thin boxes stay visible and do not spread, and neighbours do not leak in") {
     region_raster const thin =
         project_paving({{{0.3, 0.3}, {0, 1}, region::inside}}, {0, 1}, {0, 1}, 100);
     std::size_t painted = 0;

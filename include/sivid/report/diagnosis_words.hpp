@@ -290,8 +290,8 @@ SIVID_ENTRY std::string open_clause(diagnosis_view const& v) {
     std::string const tried = tried_text(v);
     candidate_view const* closest = nullptr;
     for (candidate_view const& c : v.candidates) {
-        if (c.effects.empty() || !is_fitted(c.fitted)) continue;
-        if (closest == nullptr || c.fitted < closest->fitted) closest = &c;
+        // Best first: the closest, or with fewer effects nearly so.
+        if (closest == nullptr && !c.effects.empty() && is_fitted(c.fitted)) closest = &c;
     }
     return "whether an effect explains the data is open" + (tried.empty() ? "" : ": " + tried) +
            (closest == nullptr

@@ -6,6 +6,7 @@
 #include <sivid/diagnosis/broken_relation.hpp>
 #include <sivid/diagnosis/candidate_order.hpp>
 #include <sivid/diagnosis/candidate_verdicts.hpp>
+#include <sivid/diagnosis/claim_review.hpp>
 #include <sivid/diagnosis/describe_candidate.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/diagnosis/gap_proof.hpp>
@@ -15,6 +16,7 @@
 #include <sivid/diagnosis/place_estimate.hpp>
 #include <sivid/diagnosis/place_report.hpp>
 #include <sivid/diagnosis/screening.hpp>
+#include <sivid/diagnosis/sensor_discharge.hpp>
 #include <sivid/diagnosis/verification.hpp>
 
 #include <algorithm>
@@ -57,8 +59,9 @@ public:
             d.tried = tried.counts();
             if (!run_.candidates.empty() && !effort_.stopped()) find_causes(tried);
         }
+        discharge_sensors();
+        settle_claims(run_);
         state_constants();
-        gather_assumptions();
         d.interrupted = effort_.stopped() || !d.tried.complete();
         d.seconds = effort_.seconds();
         return std::move(run_);
@@ -199,18 +202,18 @@ private:
         add_constants_at_ends({}, named_parameters(base.problem, base.fit.parameters), d.at_ends);
     }
 
-    /// Adds what the proofs shown rest on to the list of all assumptions.
-    void gather_assumptions() {
-        auto& all = run_.result.assumptions;
-        auto const add = [&all](std::vector<std::string> const& more) {
-            for (auto const& a : more) {
-                if (std::find(all.begin(), all.end(), a) == all.end()) all.push_back(a);
-            }
-        };
-        for (auto const& r : run_.result.relations) {
-            if (r.proved) add(r.assumptions);
+    /// Proves of places that no sensor of their relation can be what is wrong instead.
+    void discharge_sensors() {
+        auto& d = run_.result;
+        if (d.gap == gap_verdict::none || run_.findings.empty()) return;
+        if (!effort_.go_on("looking whether a sensor may be wrong instead")) return;
+        double const end = effort_.left() - effort_.seconds_of({0, options_.discharge_share});
+        auto const go_on = [this, end] { return effort_.left() >= end && effort_.go_on(); };
+        for (auto& f : run_.findings) {
+            if (!is_about_equation(f, run_.places.places)) continue;
+            f.place = prove_place(run_.base, f, {}, {}, go_on);
         }
-        for (auto const& c : run_.result.causes) add(c.assumptions);
+        d.where = reported(run_.places, run_.findings);
     }
 
     /// The inflation of each scenario and each channel alone.

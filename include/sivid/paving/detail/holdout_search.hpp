@@ -3,6 +3,7 @@
 #define SIVID_PAVING_DETAIL_HOLDOUT_SEARCH_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/number/guard.hpp>
 #include <sivid/paving/box_explorer.hpp>
 #include <sivid/paving/dependence.hpp>
 #include <sivid/paving/inflation.hpp>

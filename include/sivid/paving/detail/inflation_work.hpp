@@ -3,6 +3,7 @@
 #define SIVID_PAVING_DETAIL_INFLATION_WORK_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/number/guard.hpp>
 #include <sivid/paving/dependence.hpp>
 #include <sivid/paving/inflation_search.hpp>
 #include <sivid/paving/minimax_fit.hpp>
