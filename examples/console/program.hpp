@@ -6,6 +6,7 @@
 
 #include <sivid/io/exact_decimal.hpp>
 #include <sivid/io/input_error.hpp>
+#include <sivid/io/printable_text.hpp>
 #include <sivid/io/text_file.hpp>
 
 #include <cstdio>
@@ -39,8 +40,12 @@ inline std::string command_line(std::string program, int argc, char** argv) {
 /// requests that cannot be met (std::invalid_argument) into 2, all else into 70.
 template <class Program>
 int guarded(std::string const& name, Program const& program) {
-    auto const refuse = [&name](std::exception const& e) {
-        std::cerr << name << ": " << e.what() << "\n";
+    // Whatever a message quotes, it must not steer the terminal, nor fill it.
+    auto const text = [](std::exception const& e) {
+        return sivid::printable_text(e.what(), 4000, true);
+    };
+    auto const refuse = [&](std::exception const& e) {
+        std::cerr << name << ": " << text(e) << "\n";
         return static_cast<int>(bad_input);
     };
     try {
@@ -52,7 +57,7 @@ int guarded(std::string const& name, Program const& program) {
     } catch (std::invalid_argument const& e) {
         return refuse(e);
     } catch (std::exception const& e) {
-        std::cerr << name << ": internal error: " << e.what() << "\n";
+        std::cerr << name << ": internal error: " << text(e) << "\n";
         return internal_error;
     }
 }
@@ -70,13 +75,15 @@ inline sivid::exact_decimal positive_decimal(std::string const& text, std::strin
 /// Creates the folder for results.
 /// @throws sivid::output_error
 inline void prepare_folder(std::filesystem::path const& folder) {
+    if (folder.empty()) throw sivid::output_error("--out is empty: give a folder for the results");
     std::error_code fault;
+    auto const name = sivid::printable_path(folder.string());
     if (std::filesystem::exists(folder, fault) && !std::filesystem::is_directory(folder, fault))
-        throw sivid::output_error(folder.string() + " is a file; give a folder for the results");
+        throw sivid::output_error(name + " is a file; give a folder for the results");
     fault.clear();
     std::filesystem::create_directories(folder, fault);
     if (fault || !std::filesystem::is_directory(folder))
-        throw sivid::output_error("the folder " + folder.string() + " cannot be created" +
+        throw sivid::output_error("the folder " + name + " cannot be created" +
                                   (fault ? ": " + fault.message() : std::string{}));
 }
 

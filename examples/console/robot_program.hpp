@@ -9,9 +9,11 @@
 #include "thorough_diagnosis.hpp"
 
 #include <sivid/io/dataset.hpp>
+#include <sivid/io/file_set.hpp>
 #include <sivid/io/identification_json.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
 #include <sivid/paving/identify.hpp>
+#include <sivid/paving/work_limit.hpp>
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
 #include <sivid/report/identification_words.hpp>
@@ -40,16 +42,22 @@ inline void write_identified_model(sivid::identification_problem const& problem,
     }
     sivid::identify_options options;
     options.search.seconds = seconds;
+    options.search.keep_going = [] { return !interrupted(); };
     options.search.progress = [&](auto const& p) {
         progress.show(paving_words(p));
-        return !interrupted();
+        return true;
     };
     auto const found = sivid::identify(problem, options);
     progress.finish();
-    auto const motion = sivid::find_explaining_motion(problem, found);
-    auto const view = report::view_of(
-        problem, found, motion ? &*motion : nullptr,
-        {.dataset = id, .date = today(), .machine = machine_text(), .command = command});
+    sivid::work_limit limit(0, options.search.keep_going);
+    limit.allow(0.2);
+    auto const motion = sivid::find_explaining_motion(problem, found, 240, limit);
+    auto const view = report::view_of(problem, found, motion ? &*motion : nullptr,
+                                      {.dataset = id,
+                                       .date = today(),
+                                       .machine = machine_text(),
+                                       .command = command,
+                                       .keep_going = limit});
     std::cout << "  ranges of all parameters (proved: none outside explains the data):\n";
     for (auto const& p : view.parameters) {
         if (report::is_empty(p.hull)) continue;
@@ -57,9 +65,10 @@ inline void write_identified_model(sivid::identification_problem const& problem,
                   << " " << p.unit
                   << (report::share_of_prior(p) > 0.999 ? "  (nothing excluded)" : "") << "\n";
     }
-    sivid::write_atomically(out / "model.html", report::identification_page(view).str());
-    sivid::write_atomically(out / "model.json",
-                            sivid::identification_json(problem, found, {.dataset = id}));
+    sivid::file_set files(out);
+    files.add("model.html", report::identification_page(view).str());
+    files.add("model.json", sivid::identification_json(problem, found, {.dataset = id}));
+    files.commit();
     std::cout << "  written: " << (out / "model.html").string() << " and model.json\n";
 }
 

@@ -104,6 +104,8 @@ private:
             data.parameters.push_back(
                 {k, u.name, all[k].unit, {u.lower, u.upper, *sivid::enclose(u.lower, u.upper)}});
             result_.truth[u.name] = truth;
+            // Stated, as in the data set: what is derived from it follows.
+            true_constants_.fixed[u.name] = *sivid::enclose(truth);
         }
         for (auto const& [name, value] : options_.set) {
             true_constants_.fixed[name] = *sivid::enclose(value);
@@ -287,8 +289,10 @@ int run(generate_command const& c) {
     auto const names = sivid::names_of(model.about);
     auto const made = generate(model, find_scenarios(c.scenario, names), c.options);
     console::prepare_folder(c.out);
-    sivid::write_atomically(c.out / "truth.json", truth_json(made, c));
-    sivid::write_dataset(made.data, names, c.out);
+    sivid::file_set files(c.out);
+    files.add("truth.json", truth_json(made, c));
+    sivid::add_dataset(files, made.data, names);
+    files.commit();
     for (auto const& s : made.data.scenarios)
         std::cout << s.name << ": " << s.measurements.size() << " measurements over " << s.duration
                   << " s\n";

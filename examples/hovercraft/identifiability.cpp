@@ -6,8 +6,10 @@
 namespace hovercraft_example {
 
 sivid::identifiability identifiability_at(sivid::identification_problem const& problem,
-                                          sivid::identification const& found) {
+                                          sivid::identification const& found,
+                                          std::function<bool()> const& keep_going) {
     sivid::identifiability_options options;
+    options.enclosure.keep_going = keep_going;
     auto at = is_empty(found.hull) ? mid(problem.prior) : mid(found.hull);
     if (found.witness) {
         at = found.witness->parameters;

@@ -10,15 +10,18 @@
 #include <sivid/io/checkpoint_reader.hpp>
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset_digest.hpp>
+#include <sivid/io/file_set.hpp>
 #include <sivid/io/identification_csv.hpp>
 #include <sivid/io/identification_json.hpp>
 #include <sivid/io/problem_digest.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
 #include <sivid/paving/outlier_budget.hpp>
+#include <sivid/paving/work_limit.hpp>
 #include <sivid/report/identifiability_words.hpp>
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
 #include <sivid/report/identification_words.hpp>
+#include <sivid/report/time_plot.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -48,6 +51,8 @@ void print_summary(sivid::identification_problem const& problem, sivid::identifi
     namespace report = sivid::report;
     auto const view = report::view_of(problem, found, nullptr, {.dataset = id});
     std::cout << id << ": " << to_string(found.verdict) << " (" << to_string(found.reason) << ")\n";
+    for (auto const& words : sivid::derivation_words(problem.model, problem.choice))
+        std::cout << "  " << words << "\n";
     if (found.verdict == sivid::verdict::inconsistent)
         std::cout
             << "  no parameter in the prior explains the data: all of it is excluded by proof\n";
@@ -83,7 +88,18 @@ void print_summary(sivid::identification_problem const& problem, sivid::identifi
                       << report::exact_text(found.witness->parameters[j]);
         std::cout << "\n";
     }
-    if (!found.forced.empty()) std::cout << "  proved outliers: " << found.forced.size() << "\n";
+    if (!found.forced.empty()) {
+        std::cout << "  proved outliers: " << found.forced.size();
+        std::size_t const most = 6;
+        for (std::size_t k = 0; k < std::min(most, found.forced.size()); ++k) {
+            auto const& e = problem.experiments[found.forced[k].experiment];
+            auto const m = sorted(e.measurements)[found.forced[k].measurement];
+            std::cout << (k == 0 ? ": " : ", ") << e.name << " "
+                      << problem.model.about.channels[m.channel].name << " at "
+                      << report::given_text(m.time) << " s";
+        }
+        std::cout << (found.forced.size() > most ? ", ...\n" : "\n");
+    }
     if (found.fewest) {
         std::cout << "  outliers needed: " << report::count_text(found.fewest->total.most);
         if (found.fewest->total.exact()) {
@@ -137,7 +153,7 @@ public:
     /// What to do with it once the results are written.
     void finish(sivid::stop_reason why) const {
         if (!used_) return;
-        if (why == sivid::stop_reason::decided || why == sivid::stop_reason::accuracy_reached) {
+        if (is_complete(why)) {
             std::error_code ignored;
             std::filesystem::remove(file_, ignored);
         } else if (std::filesystem::exists(file_)) {
@@ -160,6 +176,27 @@ std::string seen_from(std::filesystem::path const& here, std::filesystem::path c
     return fault ? std::string{} : way.generic_string();
 }
 
+/// One channel of every scenario as a picture of its own: Figure 4.1 of the report.
+/// @returns the files
+std::vector<std::string> draw_channel(sivid::report::identification_view const& view,
+                                      identify_command const& c) {
+    std::vector<std::string> files;
+    for (auto const& s : view.scenarios) {
+        for (auto const& series : s.channels) {
+            if (series.name != c.picture) continue;
+            auto const drawn =
+                sivid::report::draw_time_plot(series, {.width = 900,
+                                                       .height = 420,
+                                                       .title = s.name + ": " + series.name,
+                                                       .legend = true});
+            auto const file = c.out / (s.name + "." + series.name + ".svg");
+            sivid::write_atomically(file, drawn.str());
+            files.push_back(file.string());
+        }
+    }
+    return files;
+}
+
 int exit_code_of(sivid::verdict v) {
     switch (v) {
     case sivid::verdict::consistent:
@@ -172,9 +209,48 @@ int exit_code_of(sivid::verdict v) {
     return console::undecided;
 }
 
+/// What is known where the search for the fewest outliers ended before it found a parameter.
+sivid::identification nothing_known(sivid::identification_problem const& problem) {
+    sivid::identification result(problem.prior);
+    result.paving.add(problem.prior, sivid::box_verdict::pending);
+    result.reason =
+        console::interrupted() ? sivid::stop_reason::cancelled : sivid::stop_reason::time_budget;
+    result.assumptions.push_back(sivid::input_assumption(problem.experiments));
+    return result;
+}
+
+/// How long what completes a result may take where the budget is spent.
+constexpr double completing = 0.2; // [s]
+/// What each box of a result takes after the search: decimals, lines of a table.
+constexpr double writing_a_box = 1.5e-5; // [s]
+/// What the tables of measurements take, with and without the motion; at most half of a budget.
+double seconds_of_tables(sivid::identification_problem const& problem, double budget) {
+    constexpr double writing_a_sample = 2.2e-5;
+    double seconds = 0;
+    for (auto const& e : problem.experiments) {
+        seconds += writing_a_sample * static_cast<double>(e.measurements.size());
+    }
+    return std::min(seconds, 0.5 * budget);
+}
+
+/// @throws bad_request  where as many outliers are allowed as there are
+///         measurements: then nothing would have to be explained
+void require_fewer_outliers(sivid::identification_problem const& problem) {
+    for (auto const& e : problem.experiments) {
+        auto const count = e.measurements.size();
+        if (e.outliers < count) continue;
+        throw bad_request("--outliers " + std::to_string(e.outliers) + ": scenario '" + e.name +
+                          "' has " + std::to_string(count) +
+                          " measurements; allow fewer outliers than that");
+    }
+}
+
 sivid::online_options online_options_of(identify_command const& c) {
     sivid::online_options options;
-    options.refinement.accuracy = c.accuracy;
+    if (c.accuracy) {
+        options.refinement.accuracy = *c.accuracy;
+        options.refinement.sufficient_ratio = 1;
+    }
     if (c.boxes) options.refinement.boxes = *c.boxes;
     return options;
 }
@@ -189,29 +265,43 @@ int run(identify_command const& c) {
     auto const digest = sivid::dataset_digest(c.dataset);
     if (c.online && (c.compare || c.algorithm != "contracting"))
         throw bad_request("--online goes with neither --algorithm nor --compare");
+    if (!c.picture.empty())
+        static_cast<void>(sivid::index_of(model.about.channels, c.picture, "channel"));
+    if (c.online && c.verdict_only) throw bad_request("--online goes not with --verdict-only");
     if (c.online && (c.checkpoint || c.resume))
         throw bad_request("--online goes with neither --checkpoint nor --resume");
     if (c.online && c.fewest_outliers)
         throw bad_request("--outliers auto needs all measurements: it does not go with --online");
+    require_fewer_outliers(problem);
     console::prepare_folder(c.out);
 
-    if (!c.online) console::watch_interrupts();
+    // From here on the first Ctrl-C ends whatever is going on, and what is proved is written.
+    console::watch_interrupts();
+    auto const wanted = [] { return !console::interrupted(); };
+    double const budget = c.budget - seconds_of_tables(problem, c.budget);
+    sivid::work_limit limit(budget, wanted);
     console::progress_line progress(c.quiet);
     sivid::identify_options options;
     options.algorithm = algorithm_of(c.algorithm);
-    options.search.accuracy = c.accuracy;
+    options.search.accuracy = c.accuracy.value_or(0.003);
+    if (c.accuracy) options.search.sufficient_ratio = 1;
     if (c.boxes) options.search.boxes = *c.boxes;
-    options.search.seconds = c.compare ? 0.6 * c.budget : c.budget;
+    if (c.verdict_only) options.search.sufficient_ratio = 1e-300; // any inside box will do
+    options.search.seconds = c.compare ? 0.6 * budget : budget;
+    options.search.keep_going = wanted;
+    bool full = false; // as many boxes as can be written in what is left of the budget
     options.search.progress = [&](sivid::paving_progress const& p) {
         progress.show(console::paving_words(p));
-        return !console::interrupted();
+        auto const rows = static_cast<double>(p.pending) + static_cast<double>(p.tested) / 3;
+        full = limit.seconds() < writing_a_box * rows;
+        return !full;
     };
     std::optional<sivid::smallest_budget> fewest;
     if (c.fewest_outliers) {
         progress.note(data.id + ": how many outliers are needed");
         sivid::outlier_search_options least;
-        least.seconds = 0.5 * c.budget;
-        least.keep_going = [] { return !console::interrupted(); };
+        least.seconds = 0.5 * budget;
+        least.keep_going = wanted;
         fewest = sivid::smallest_outlier_budget(problem, least);
         for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
             problem.experiments[e].outliers = fewest->budgets[e];
@@ -239,9 +329,18 @@ int run(identify_command const& c) {
         progress.note(std::string{"identifying "} + data.id + " (" + words_of(c.algorithm) +
                       ", at most " + report::duration_text(options.search.seconds) +
                       "; Ctrl-C stops early)");
-    auto found = c.online ? identify_online(problem, online_options_of(c), std::cout)
-                          : sivid::identify(problem, options);
+    // Without a witness any number of outliers may be needed: there is nothing to invert.
+    auto found = fewest && !fewest->witness ? nothing_known(problem)
+                 : c.online                 ? identify_online(problem, online_options_of(c), limit,
+                                                              console::interrupted, std::cout)
+                                            : sivid::identify(problem, options);
     progress.finish();
+    auto const name_reason = [&full](sivid::identification& of) {
+        if (!full || of.reason != sivid::stop_reason::cancelled || console::interrupted()) return;
+        of.reason = sivid::stop_reason::time_budget;
+        if (of.effort) of.effort->most_seconds = of.effort->seconds; // the rest is for writing
+    };
+    name_reason(found);
 
     if (fewest) {
         found.fewest = *fewest;
@@ -255,51 +354,78 @@ int run(identify_command const& c) {
     if (c.compare && !console::interrupted()) {
         auto other = options;
         other.algorithm = sivid::algorithm::report_1;
-        other.search.seconds = c.budget - options.search.seconds;
+        other.search.seconds = limit.seconds();
         other.checkpoint = nullptr;
         other.resume = nullptr;
         progress.note("the same by Algorithm 1 of the report, for comparison");
         baseline = sivid::identify(problem, other);
+        name_reason(*baseline);
         progress.finish();
     }
-    std::signal(SIGINT, SIG_DFL);
-
-    auto const motion = sivid::find_explaining_motion(problem, found);
+    limit.allow(completing);
+    std::optional<sivid::identifiability> told;
+    if (c.identifiability) told = identifiability_at(problem, found, limit);
     report::identification_report_options about{.dataset = data.id,
                                                 .meanings = constant_meanings(),
                                                 .plane = report::plane_channels{"x", "y", "psi"},
                                                 .date = console::today(),
                                                 .machine = console::machine_text(),
-                                                .command = c.command_line};
-    auto view = report::view_of(problem, found, motion ? &*motion : nullptr, about);
-    std::optional<sivid::identifiability> told;
-    if (c.identifiability) {
-        told = identifiability_at(problem, found);
-        view.identifiability = report::identifiability_words(*told);
-        view.identifiability_at = place_of_identifiability(found);
+                                                .command = c.command_line,
+                                                .keep_going = limit};
+    auto const viewed = [&](sivid::explaining_motion const* motion) {
+        auto view = report::view_of(problem, found, motion, about);
+        if (told) {
+            view.identifiability = report::identifiability_words(*told);
+            view.identifiability_at = place_of_identifiability(found);
+        }
+        if (baseline) {
+            view.comparison = {report::comparison_of(words_of(c.algorithm), found, true),
+                               report::comparison_of(words_of("report-1"), *baseline, false,
+                                                     std::string{"bisection alone; "} +
+                                                         std::string{to_string(baseline->reason)})};
+            view.comparison_note =
+                "Both volumes are proved; the smaller the outer one, the more was "
+                "excluded. Same machine, same problem, one after the other.";
+        }
+        return view;
+    };
+    // What is proved comes first, whole; then what has to be integrated once more for pictures.
+    auto view = viewed(nullptr);
+    {
+        sivid::file_set files(c.out);
+        files.add("boxes.csv", sivid::boxes_csv(problem, found));
+        if (found.products) {
+            files.add("products.csv", sivid::products_csv(found));
+        } else {
+            files.drop("products.csv"); // of an earlier result
+        }
+        files.add("outputs.csv", sivid::outputs_csv(problem, found, nullptr));
+        files.add("report.html", report::identification_page(view).str());
+        files.add("result.json",
+                  sivid::identification_json(problem, found,
+                                             {.dataset = data.id,
+                                              .source_folder = seen_from(c.out, c.dataset),
+                                              .source_digest = digest,
+                                              .identifiability = told ? &*told : nullptr}));
+        files.commit();
     }
-    if (baseline) {
-        view.comparison = {report::comparison_of(words_of(c.algorithm), found, true),
-                           report::comparison_of(words_of("report-1"), *baseline, false,
-                                                 std::string{"bisection alone; "} +
-                                                     std::string{to_string(baseline->reason)})};
-        view.comparison_note = "Both volumes are proved; the smaller the outer one, the more was "
-                               "excluded. Same machine, same problem, one after the other.";
+    limit.allow(completing);
+    if (auto const motion = sivid::find_explaining_motion(problem, found, 240, limit)) {
+        view = viewed(&*motion);
+        auto const replace = [&c](char const* name, std::string const& text) {
+            sivid::file_set file(c.out);
+            file.add(name, text);
+            file.commit();
+        };
+        try {
+            replace("outputs.csv", sivid::outputs_csv(problem, found, &*motion));
+            replace("report.html", report::identification_page(view).str());
+        } catch (sivid::output_error const& e) {
+            std::cerr << "warning: no pictures of the motion in the report: "
+                      << sivid::printable_text(e.what(), 1000) << "\n";
+        }
     }
-    sivid::write_atomically(c.out / "boxes.csv", sivid::boxes_csv(problem, found));
-    std::error_code none;
-    std::filesystem::remove(c.out / "products.csv", none); // of an earlier result
-    if (found.products) sivid::write_atomically(c.out / "products.csv", sivid::products_csv(found));
-    sivid::write_atomically(c.out / "outputs.csv",
-                            sivid::outputs_csv(problem, found, motion ? &*motion : nullptr));
-    sivid::write_atomically(c.out / "report.html", report::identification_page(view).str());
-    sivid::write_atomically(
-        c.out / "result.json",
-        sivid::identification_json(problem, found,
-                                   {.dataset = data.id,
-                                    .source_folder = seen_from(c.out, c.dataset),
-                                    .source_digest = digest,
-                                    .identifiability = told ? &*told : nullptr}));
+    for (auto const& file : draw_channel(view, c)) std::cout << "picture: " << file << "\n";
     print_summary(problem, found, data.id, c.out);
     if (baseline) {
         std::cout << "  beside it, Algorithm 1 of the report: not excluded at most "

@@ -84,6 +84,10 @@ std::vector<unknown_parameter> unknown_from(std::vector<std::string> const& list
                               ": write the prior as lower:upper");
         result.push_back({name, decimal(range.substr(0, colon), std::string{"--unknown "} + name),
                           decimal(range.substr(colon + 1), std::string{"--unknown "} + name)});
+        for (auto const& end : {result.back().lower, result.back().upper})
+            if (mag(*sivid::enclose(end)) > sivid::farthest_range)
+                throw bad_request(std::string{"--unknown "} + name + ": " + end.text() +
+                                  " is beyond 1e100; state what is physically possible");
     }
     return result;
 }
@@ -143,11 +147,13 @@ private:
         s->add_option("--algorithm", c.algorithm, "contracting, or the report's Algorithm 1 or 2")
             ->check(CLI::IsMember({"contracting", "report-1", "report-2"}))
             ->capture_default_str();
-        s->add_option("--accuracy", c.accuracy,
-                      "leave boxes undecided when no side is wider than this share of the prior")
-            ->check(console::number_between(1e-15, 1.0))
-            ->capture_default_str();
-        s->add_option("--budget", c.budget, "seconds")
+        s->add_option("--accuracy", accuracy_,
+                      "leave boxes undecided when no side is wider than this share of what is left "
+                      "(report-1, report-2: of the prior). When given, nothing but a budget ends "
+                      "the search before; without it (0.003), half of what is left being proved "
+                      "inside does, too")
+            ->check(console::number_between(1e-15, 1.0));
+        s->add_option("--budget", c.budget, "seconds, from when the data are read")
             ->check(console::number_between(0.0, 1e9))
             ->capture_default_str();
         s->add_option("--boxes", c.boxes, "test at most so many boxes");
@@ -165,8 +171,15 @@ private:
         s->add_option("--outliers", outliers_,
                       "outliers allowed in each scenario, instead of the data set's own fraction; "
                       "auto: the fewest that explain the data, with proof that fewer do not");
+        s->add_option("--threshold", threshold_,
+                      "the outliers allowed as Algorithm 2 of the report prints them: with n "
+                      "measurements ceil(n * threshold) - 1 in each scenario");
         s->add_flag("--compare", c.compare,
                     "spend 40 % of the budget on the report's Algorithm 1 and show both");
+        s->add_flag("--verdict-only", c.verdict_only,
+                    "stop as soon as it is proved whether any parameter explains the data");
+        s->add_option("--picture", c.picture,
+                      "a channel to draw on its own, in OUT/<scenario>.<channel>.svg");
         s->add_flag("--online", c.online,
                     "feed the measurements in the order of time, and print what each update took");
         s->add_flag("--identifiability", c.identifiability,
@@ -177,6 +190,7 @@ private:
             action_ = [this] {
                 identify_.craft = shared_.craft();
                 read_outliers();
+                identify_.accuracy = accuracy_;
                 identify_.command_line = line_;
                 return run(identify_);
             };
@@ -184,6 +198,16 @@ private:
     }
 
     void read_outliers() {
+        if (!threshold_.empty()) {
+            if (!outliers_.empty()) throw bad_request("give --outliers or --threshold, not both");
+            if (identify_.algorithm == "report-1")
+                throw bad_request("--threshold: Algorithm 1 allows no outlier; use report-2");
+            auto const h = decimal(threshold_, "--threshold");
+            if (!h.is_positive() || decimal("1", "") < h)
+                throw bad_request("--threshold must be above 0 and at most 1: with 0 every box "
+                                  "would be rejected");
+            identify_.outliers = sivid::outlier_rule::threshold(h);
+        }
         identify_.fewest_outliers = outliers_ == "auto";
         if (outliers_.empty() || identify_.fewest_outliers) return;
         std::size_t count = 0;
@@ -192,7 +216,7 @@ private:
         if (read.ec != std::errc{} || read.ptr != end)
             throw bad_request(std::string{"--outliers: write a whole number or auto, not "} +
                               sivid::in_quotes(outliers_));
-        identify_.outliers = count;
+        identify_.outliers = sivid::outlier_rule(count);
     }
 
     void add_check() {
@@ -210,8 +234,9 @@ private:
         s->add_flag("--multiprecision", c.multiprecision,
                     "boxes too in 40 digits: 20 times slower");
         s->footer(
-            "Exit codes: 0 verified, 2 bad input, 3 not verified within the budget, 5 refuted: "
-            "the result is not what its data prove.");
+            "Exit codes: 0 every claim proved anew (--all), 2 bad input, 3 neither verified nor "
+            "refuted (a sample, or not within the budget), 5 refuted: the result is not what its "
+            "data prove.");
         add_variants(*s, shared_);
         s->callback([this] {
             action_ = [this] {
@@ -325,6 +350,9 @@ private:
         auto* const s = app_.add_subcommand(
             "rank", "the influence of each constant on each state equation, within proved bounds");
         s->add_option("--out", rank_.out, "folder for ranking.html and ranking.csv")->required();
+        s->add_option("--free", rank_.free,
+                      "constants to rank although they follow from others, such as A")
+            ->delimiter(',');
         add_variants(*s, shared_);
         s->callback([this] {
             action_ = [this] {
@@ -368,7 +396,8 @@ private:
     simulate_command simulate_;
     rank_command rank_;
     describe_command describe_;
-    std::string relative_, outliers_;
+    std::string relative_, outliers_, threshold_;
+    std::optional<double> accuracy_;
     std::vector<std::string> absolute_, unknown_{"Sv", "Sg", "L"};
     bool combined_ = false, hold_ = false;
     std::function<int()> action_;

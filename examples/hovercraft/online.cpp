@@ -4,6 +4,8 @@
 #include <sivid/report/number_text.hpp>
 
 #include <algorithm>
+#include <functional>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -34,7 +36,10 @@ void write_line(std::ostream& lines, double time, sivid::online_update const& no
 } // namespace
 
 sivid::identification identify_online(sivid::identification_problem problem,
-                                      sivid::online_options const& options, std::ostream& lines) {
+                                      sivid::online_options options, sivid::work_limit limit,
+                                      std::function<bool()> const& stopped, std::ostream& lines) {
+    options.test.run.enclosure.keep_going = limit;
+    options.test.witness.enclosure.keep_going = limit;
     std::vector<sivid::online_sample> samples;
     for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
         for (auto const& m : std::exchange(problem.experiments[e].measurements, {})) {
@@ -46,10 +51,19 @@ sivid::identification identify_online(sivid::identification_problem problem,
     sivid::online_identification online(std::move(problem), options);
     double longest = 0, total = 0;
     std::size_t updates = 0;
+    std::optional<sivid::stop_reason> cut;
     for (auto from = samples.begin(); from != samples.end();) {
-        double const time = from->what.time;
-        auto const until =
-            std::find_if(from, samples.end(), [&](auto const& s) { return s.what.time != time; });
+        double time = from->what.time;
+        if (!limit()) {
+            // What is said at the end is of all measurements: the others come together.
+            cut = stopped() ? sivid::stop_reason::cancelled : sivid::stop_reason::time_budget;
+            lines << "  " << to_string(*cut) << ": the other " << samples.end() - from
+                  << " measurements at once" << std::endl;
+            limit.allow(0.4);
+            time = samples.back().what.time;
+        }
+        auto const until = std::find_if(from, samples.end(),
+                                        [&](auto const& s) { return !cut && s.what.time != time; });
         auto const& now = online.add({from, until});
         write_line(lines, time, now, online.problem());
         longest = std::max(longest, now.seconds);
@@ -60,7 +74,9 @@ sivid::identification identify_online(sivid::identification_problem problem,
     lines << "  " << updates << " updates, the longest took "
           << sivid::report::duration_text(longest) << ", all together "
           << sivid::report::duration_text(total) << std::endl;
-    return online.result();
+    auto found = online.result();
+    if (cut && found.verdict != sivid::verdict::inconsistent) found.reason = *cut;
+    return found;
 }
 
 } // namespace hovercraft_example

@@ -5,7 +5,7 @@
 
 #include <sivid/enclosure/enclosed_motion.hpp>
 #include <sivid/enclosure/simulate.hpp>
-#include <sivid/io/text_file.hpp>
+#include <sivid/io/file_set.hpp>
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/report/page.hpp>
 #include <sivid/report/plane_plot.hpp>
@@ -202,22 +202,28 @@ int run(simulate_command const& c) {
                        .title = c.scenario == "all" ? "Scenarios of Table 2.4" : scenarios[0].name,
                        .lead = c.validated ? "The hovercraft, simulated and enclosed."
                                            : "The hovercraft, simulated in floating point."}};
+    sivid::parameter_choice set;
+    for (auto const& [name, value] : c.set) set.fixed[name] = *sivid::enclose(value);
+    auto const derived = sivid::derivation_words(model, set);
+    if (!derived.empty()) page.bullets(derived);
+    for (auto const& words : derived) std::cout << words << "\n";
     std::vector<std::string> warnings;
     for (auto const& s : all)
         if (!s->complete()) warnings.push_back(s->failure());
     page.warnings(warnings);
+    sivid::file_set files(c.out);
     for (std::size_t k = 0; k < all.size(); ++k) {
         auto const& name = scenarios[k].name;
-        sivid::write_atomically(c.out / (name + ".trajectory.csv"), all[k]->trajectory_csv());
-        if (all[k]->validated())
-            sivid::write_atomically(c.out / (name + ".tube.csv"), all[k]->tube_csv());
+        files.add(name + ".trajectory.csv", all[k]->trajectory_csv());
+        if (all[k]->validated()) files.add(name + ".tube.csv", all[k]->tube_csv());
         all[k]->add_to(page);
         std::cout << all[k]->summary() << "\n";
         if (!all[k]->complete()) std::cout << "  " << all[k]->failure() << "\n";
     }
     page.footer({std::string{"sivid "} + std::string{sivid::version}, console::today(),
                  console::machine_text(), c.command_line});
-    sivid::write_atomically(c.out / "simulation.html", page.str());
+    files.add("simulation.html", page.str());
+    files.commit();
     std::cout << "written: " << (c.out / "simulation.html").string() << "\n";
     return 0;
 }

@@ -61,11 +61,13 @@
 #include <sivid/model/effects.hpp>
 #include <sivid/model/expression.hpp>
 #include <sivid/model/find_combinations.hpp>
+#include <sivid/model/formula_text.hpp>
 #include <sivid/model/graph.hpp>
 #include <sivid/model/graph_listing.hpp>
 #include <sivid/model/homogeneity.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/model/operation.hpp>
+#include <sivid/model/parameter_choice.hpp>
 #include <sivid/model/plain_program.hpp>
 #include <sivid/model/recorded_map.hpp>
 #include <sivid/model/rewrite.hpp>
@@ -129,6 +131,7 @@
 #include <sivid/paving/constraint_blocks.hpp>
 #include <sivid/paving/continued_run.hpp>
 #include <sivid/paving/core_box.hpp>
+#include <sivid/paving/counterexample.hpp>
 #include <sivid/paving/cut_certificate.hpp>
 #include <sivid/paving/cut_contraction.hpp>
 #include <sivid/paving/cut_program.hpp>
@@ -136,6 +139,7 @@
 #include <sivid/paving/data_test_options.hpp>
 #include <sivid/paving/dependence.hpp>
 #include <sivid/paving/descent.hpp>
+#include <sivid/paving/exclusion_check.hpp>
 #include <sivid/paving/executor.hpp>
 #include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/explaining_starts.hpp>
@@ -180,6 +184,7 @@
 #include <sivid/paving/residuals.hpp>
 #include <sivid/paving/response.hpp>
 #include <sivid/paving/run_options.hpp>
+#include <sivid/paving/scalar_run.hpp>
 #include <sivid/paving/search_state.hpp>
 #include <sivid/paving/set_test.hpp>
 #include <sivid/paving/start_rule.hpp>
@@ -193,17 +198,21 @@
 #include <sivid/paving/suspect_samples.hpp>
 #include <sivid/paving/taylor_kernels.hpp>
 #include <sivid/paving/verdict.hpp>
+#include <sivid/paving/weighted_outputs.hpp>
 #include <sivid/paving/witness.hpp>
+#include <sivid/paving/work_limit.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/broken_relation.hpp>
 #include <sivid/diagnosis/candidate.hpp>
 #include <sivid/diagnosis/candidate_order.hpp>
 #include <sivid/diagnosis/candidate_verdicts.hpp>
 #include <sivid/diagnosis/channel_tube.hpp>
+#include <sivid/diagnosis/claim_review.hpp>
 #include <sivid/diagnosis/declared_variation.hpp>
 #include <sivid/diagnosis/describe_candidate.hpp>
 #include <sivid/diagnosis/diagnose.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/diagnosis/diagnosis_consistency.hpp>
 #include <sivid/diagnosis/diagnosis_effort.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/diagnosis/estimated_place.hpp>
@@ -212,6 +221,7 @@
 #include <sivid/diagnosis/hardest_experiments.hpp>
 #include <sivid/diagnosis/holdout.hpp>
 #include <sivid/diagnosis/holdout_judgement.hpp>
+#include <sivid/diagnosis/input_range.hpp>
 #include <sivid/diagnosis/integrand_set.hpp>
 #include <sivid/diagnosis/knot_trace.hpp>
 #include <sivid/diagnosis/law.hpp>
@@ -220,6 +230,7 @@
 #include <sivid/diagnosis/manoeuvre.hpp>
 #include <sivid/diagnosis/missing_rate.hpp>
 #include <sivid/diagnosis/missing_rate_scales.hpp>
+#include <sivid/diagnosis/model_variation.hpp>
 #include <sivid/diagnosis/observed_motion.hpp>
 #include <sivid/diagnosis/opening_words.hpp>
 #include <sivid/diagnosis/part_inflation.hpp>
@@ -228,6 +239,7 @@
 #include <sivid/diagnosis/place_fit.hpp>
 #include <sivid/diagnosis/place_report.hpp>
 #include <sivid/diagnosis/place_search.hpp>
+#include <sivid/diagnosis/rate_stretch.hpp>
 #include <sivid/diagnosis/relation_finding.hpp>
 #include <sivid/diagnosis/relation_row.hpp>
 #include <sivid/diagnosis/relation_windows.hpp>
@@ -238,6 +250,7 @@
 #include <sivid/diagnosis/separation.hpp>
 #include <sivid/diagnosis/state_samples.hpp>
 #include <sivid/diagnosis/time_cell.hpp>
+#include <sivid/diagnosis/time_grid.hpp>
 #include <sivid/diagnosis/untouched_relation.hpp>
 #include <sivid/diagnosis/verification.hpp>
 #include <sivid/diagnosis/weak_windows.hpp>

@@ -64,9 +64,10 @@ std::vector<engine> engines() {
 
 TEST_CASE("each reason and advice has its own words") {
     std::set<std::string> words;
-    for (auto r : {failure_reason::minimum_step, failure_reason::undefined,
-                   failure_reason::too_wide, failure_reason::step_limit, failure_reason::not_finite,
-                   failure_reason::unsolved_stages, failure_reason::blow_up}) {
+    for (auto r :
+         {failure_reason::minimum_step, failure_reason::undefined, failure_reason::too_wide,
+          failure_reason::step_limit, failure_reason::not_finite, failure_reason::unsolved_stages,
+          failure_reason::blow_up, failure_reason::cancelled}) {
         words.insert(std::string(to_string(r)));
     }
     for (auto a :
@@ -74,7 +75,7 @@ TEST_CASE("each reason and advice has its own words") {
           advice::other_method, advice::other_set, advice::parts_only, advice::nothing}) {
         words.insert(std::string(to_string(a)));
     }
-    CHECK(words.size() == 15);
+    CHECK(words.size() == 16);
     CHECK(words.count("") == 0);
     enclosure_failure f{failure_reason::too_wide, 1.5, 2, advice::smaller_box};
     CHECK(f.message("psi") == "enclosure stopped at t = 1.5 s (state psi): the enclosure grew too "
@@ -187,6 +188,16 @@ TEST_CASE("limits of steps and widths are kept") {
     CHECK(tube.failure()->reason == failure_reason::step_limit);
     CHECK(tube.failure()->help == advice::more_steps);
     CHECK(tube.steps().size() == 3);
+    enclosure_options stopped;
+    stopped.maximum_step = 0.01;
+    int asked = 0;
+    stopped.keep_going = [&asked] { return ++asked <= 7; };
+    auto const part = integrate<interval>(f, box{interval(1.0)}, box{}, 0, 1, stopped);
+    REQUIRE(part.failure());
+    CHECK(part.failure()->reason == failure_reason::cancelled);
+    CHECK(part.failure()->help == advice::nothing);
+    CHECK(part.steps().size() == 7);
+    CHECK(contains(part.at(0.05)[0], std::exp(0.05)));
     auto const wide = integrate<interval>(f, box{between(-1, 1)}, box{}, 0, 5);
     REQUIRE(wide.failure());
     CHECK(wide.failure()->reason == failure_reason::too_wide);

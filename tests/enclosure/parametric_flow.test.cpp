@@ -632,6 +632,18 @@ TEST_CASE("parametric flow: what is checked") {
     REQUIRE(limited.failure()->help == advice::more_steps);
     REQUIRE(lower(swept[0]) == lower(limited.swept()[0]));
     REQUIRE(upper(swept[0]) == upper(limited.swept()[0]));
+
+    bool go = true;
+    auto told = patient(4, 1e-3);
+    told.keep_going = [&go] { return go; };
+    parametric_flow<1, 2> stopped(*f, told);
+    stopped.begin(0, one, {between(0, 1)});
+    REQUIRE(stopped.step(0.1));
+    go = false;
+    double const reached = stopped.time();
+    REQUIRE_FALSE(stopped.step(0.3));
+    REQUIRE(stopped.failure()->reason == failure_reason::cancelled);
+    REQUIRE(stopped.time() == reached);
 }
 
 TEST_CASE("parametric set: a lane begins anew whatever its generators were") {

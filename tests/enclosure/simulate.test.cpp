@@ -69,3 +69,15 @@ TEST_CASE("a simulation that blows up ends") {
     }
     CHECK_FALSE(std::isfinite(last));
 }
+
+TEST_CASE("a simulation that is told to stop says so") {
+    auto const f = support::flow_of(
+        support::model_of({1, 0, 0, 2}, [](auto const&, auto const& x, auto const&, auto const&) {
+            return std::vector{-x[0]};
+        }));
+    int asked = 0;
+    CHECK_THROWS_AS(
+        approximate_simulator(*f)({1}, {}, 0, {1e6}, 1e-12, [&asked] { return ++asked < 100; }),
+        std::runtime_error);
+    CHECK(asked == 100);
+}

@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 
 class child : public support::child_program {
 public:
-    child(std::vector<std::string> arguments, fs::path const& folder)
-        : child_program(HOVERCRAFT_PROGRAM, std::move(arguments), folder) {}
+    child(std::vector<std::string> arguments, fs::path const& folder, ::rlim_t largest_file = 0)
+        : child_program(HOVERCRAFT_PROGRAM, std::move(arguments), folder, largest_file) {}
 };
 
 inline support::finished_program run(std::vector<std::string> const& arguments) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The program as a user runs it: exit codes, files, messages, Ctrl-C.
 #include "child.hpp"
+#include "effects.hpp"
 
 #include "support/catch.hpp"
 
@@ -22,7 +23,8 @@ using namespace hovercraft_test;
 namespace {
 
 std::string const h3 = std::string{SIVID_SOURCE_DIR} + "/examples/hovercraft/data/h3";
-std::string const lagging = std::string{SIVID_SOURCE_DIR} + "/examples/hovercraft/data/rudder_lag";
+std::string const bundled = std::string{SIVID_SOURCE_DIR} + "/examples/hovercraft/data";
+std::string const yard = bundled + "/yard_test";
 
 /// Rows of a table, with the number of cells of each checked.
 std::size_t rows(fs::path const& file) {
@@ -83,7 +85,8 @@ TEST_CASE("measurement by measurement, each update is printed, and the result is
                           ContainsSubstring("30 updates, the longest took") &&
                           ContainsSubstring("h3: consistent"));
     CHECK(json_of(fs::path{out} / "result.json")["verdict"] == "consistent");
-    CHECK(run({"check", out, "--sample", "4"}).code == 0);
+    CHECK(run({"check", out, "--sample", "4"}).code == 3); // a sample proves nothing of the rest
+    CHECK(run({"check", out, "--all", "--budget", "300"}).code == 0);
     for (auto const& other : {"--compare", "--algorithm=report-1", "--outliers=auto"}) {
         auto const refused = run({"identify", h3, "--out", out, "--online", other});
         CHECK(refused.code == 2);
@@ -193,6 +196,34 @@ TEST_CASE("bad input or usage: one message, exit code 2, nothing written") {
     CHECK_THAT(r.err, ContainsSubstring("cannot be created"));
 }
 
+TEST_CASE("a forged proof of inconsistency is refuted whatever the seed") {
+    temporary_folder const folder;
+    auto const forge = [&](std::string const& more) {
+        folder.write("out/result.json", R"({
+  "format": "sivid-identification-1", "dataset": "h3", "verdict": "inconsistent",
+  "stop_reason": "every box decided", )" + more +
+                                            R"(
+  "parameters": { "Sv": {"hull": null, "unit": "m^2"}, "Sg": {"hull": null, "unit": "m^2"},
+                  "L": {"hull": null, "unit": "m"} },
+  "combinations": [], "volume": {"inner": [0, 0], "outer": [0, 0], "of": "boxes"},
+  "rows": {"inside": 0, "undecided": 0, "pending": 0}, "witness": null,
+  "assumptions": ["inputs exact"], "outliers": {"budget": {"S3": 0}, "forced": []},
+  "boxes": 69, "integrations": 69, "seconds": 5.0 })");
+        folder.write("out/boxes.csv",
+                     "verdict,Sv_lower,Sv_upper,Sg_lower,Sg_upper,L_lower,L_upper\n");
+    };
+    auto const out = (folder.path() / "out").string();
+    for (std::string const grounds : {"", R"("verdict_rests_on": "excluded boxes",)"}) {
+        forge(grounds);
+        for (int seed = 1; seed <= 7; ++seed) {
+            auto const r = run({"check", out, "--dataset", h3, "--seed", std::to_string(seed)});
+            CAPTURE(seed, r.out);
+            CHECK(r.code == 5);
+            CHECK_THAT(r.out, ContainsSubstring("the contrary holds at Sv=0.2"));
+        }
+    }
+}
+
 TEST_CASE("check verifies what identify wrote, and refutes what was changed since") {
     temporary_folder const folder;
     auto const out = folder.path() / "out";
@@ -203,10 +234,13 @@ TEST_CASE("check verifies what identify wrote, and refutes what was changed sinc
         return run(more);
     };
     auto const good = check({"--budget", "60"});
-    CHECK(good.code == 0);
-    CHECK_THAT(good.out, ContainsSubstring("h3: verified, boxes by sample"));
-    CHECK(check({"--dataset", h3, "--budget", "60"}).code == 0);
+    CHECK(good.code == 3); // a sample is not a proof
+    CHECK_THAT(good.out, ContainsSubstring("h3: sampled: nothing refuted, not verified"));
+    CHECK(check({"--dataset", h3, "--budget", "60"}).code == 3);
     CHECK(check({"--budget", "0"}).code == 3); // nothing of the boxes is proved in no time
+    auto const whole = check({"--all", "--budget", "600"});
+    CHECK(whole.code == 0);
+    CHECK_THAT(whole.out, ContainsSubstring("h3: verified, every claim"));
 
     auto const text_of = [](fs::path const& file) {
         std::ifstream in{file, std::ios::binary};
@@ -263,14 +297,86 @@ TEST_CASE("check verifies what identify wrote, and refutes what was changed sinc
     CHECK(check({"--dataset", (folder.path() / "none").string()}).code == 2);
 }
 
+TEST_CASE("Figure 4.1: thirty seconds, two outliers, named as proved") {
+    temporary_folder const folder;
+    auto const out = folder.path() / "out";
+    auto const r = run({"identify", bundled + "/figure41", "--outliers", "3", "--out", out.string(),
+                        "--picture", "v", "--verdict-only"});
+    CHECK(r.code == 0);
+    auto const result = json_of(out / "result.json");
+    CHECK(result["verdict"] == "consistent");
+    CHECK(result["outliers"]["budget"]["weave"] == 3);
+    CHECK(result["outliers"]["forced"] ==
+          json_of(fs::path{bundled} / "figure41" / "truth.json")["outliers"]);
+    std::ifstream picture{out / "weave.v.svg"};
+    std::string const text{std::istreambuf_iterator<char>{picture}, {}};
+    CHECK_THAT(text, StartsWith("<svg") && ContainsSubstring("outlier (proved)"));
+
+    auto const first = run({"identify", bundled + "/figure41", "--out", out.string(), "--algorithm",
+                            "report-1", "--quiet"});
+    CHECK(first.code == 4);
+    CHECK(run({"identify", bundled + "/figure41", "--out", out.string(), "--picture", "Q"}).code ==
+          2);
+}
+
+TEST_CASE("Algorithm 2 by its threshold, as the report prints it") {
+    temporary_folder const folder;
+    auto const out = folder.path() / "out";
+    std::string const s1 = bundled + "/section41/S1"; // 20 measurements
+    auto const with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"identify", s1, "--out", out.string(), "--quiet"});
+        return run(more);
+    };
+    CHECK(with({"--algorithm", "report-2", "--threshold", "0.2"}).code == 0);
+    CHECK(json_of(out / "result.json")["outliers"]["budget"]["S1"] == 3);
+    CHECK(with({"--algorithm", "report-2", "--threshold", "0.1"}).code == 4); // one too few
+    CHECK(json_of(out / "result.json")["outliers"]["budget"]["S1"] == 1);
+    CHECK(with({"--threshold", "0.15"}).code == 0);
+    for (std::vector<std::string> const& wrong :
+         {std::vector<std::string>{"--threshold", "0"},
+          {"--threshold", "1.01"},
+          {"--threshold", "x"},
+          {"--threshold", "0.1", "--outliers", "2"},
+          {"--threshold", "0.1", "--algorithm", "report-1"}}) {
+        auto const r = with(wrong);
+        CHECK(r.code == 2);
+        CHECK_THAT(r.err, ContainsSubstring("--threshold"));
+    }
+}
+
+TEST_CASE("bundled campaigns do not tell their answers") {
+    std::vector<std::string> answers;
+    for (auto const& e : hovercraft_example::catalogue()) {
+        answers.push_back(e.name);
+        auto const end = e.name.find('_');
+        if (end != std::string::npos && e.name.substr(end + 1).size() > 2)
+            answers.push_back(e.name.substr(end + 1));
+    }
+    std::size_t read = 0;
+    for (auto const& entry : fs::recursive_directory_iterator{yard}) {
+        std::string text = entry.path().filename().string();
+        std::ifstream in{entry.path()};
+        text.append(std::istreambuf_iterator<char>{in}, {});
+        for (auto const& name : answers) {
+            INFO(entry.path() << " " << name);
+            CHECK(text.find(name) == std::string::npos);
+        }
+        ++read;
+    }
+    CHECK(read == 15);
+    std::ifstream labels{bundled + "/labels.tsv"};
+    std::string const text{std::istreambuf_iterator<char>{labels}, {}};
+    CHECK_THAT(text, ContainsSubstring("yard_test\tsingle\trudder_lag("));
+}
+
 TEST_CASE("diagnose says where, which and how far, and ends with 0 whatever it finds") {
     temporary_folder const folder;
     auto const out = folder.path() / "out";
-    auto r = run({"diagnose", lagging, "--out", out.string()});
+    auto r = run({"diagnose", yard, "--out", out.string()});
     CHECK(r.code == 0);
     auto const found = json_of(out / "diagnosis.json");
     CHECK(found["format"] == "sivid-diagnosis-1");
-    CHECK(found["dataset"] == "rudder_lag");
+    CHECK(found["dataset"] == "yard_test");
     CHECK(found["gap"]["verdict"] == "certified");
     double const lower = found["gap"]["inflation"][0], upper = found["gap"]["inflation"][1];
     CHECK(lower > 5);
@@ -295,7 +401,7 @@ TEST_CASE("diagnose says where, which and how far, and ends with 0 whatever it f
     CHECK_THAT(r.err, ContainsSubstring("a gap is proved"));
     CHECK_THAT(r.out, ContainsSubstring("answer: rudder_lag (explains)"));
 
-    r = run({"diagnose", lagging, "--out", out.string(), "--budget", "0", "--quiet"});
+    r = run({"diagnose", yard, "--out", out.string(), "--budget", "0", "--quiet"});
     CHECK(r.code == 0);
     CHECK(r.err.empty());
     auto const stopped = json_of(out / "diagnosis.json");

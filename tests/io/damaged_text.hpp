@@ -17,7 +17,14 @@ inline std::string damaged(std::string text, std::mt19937_64& random, std::size_
     auto const below = [&](std::size_t n) {
         return n == 0 ? 0 : static_cast<std::size_t>(random() % n);
     };
-    static constexpr std::array<std::string_view, 48> tokens{"{",
+    static constexpr std::array<std::string_view, 55> tokens{"\x1b[31m",
+                                                             "\\u001b]0;",
+                                                             "\\u202e",
+                                                             "\xe2\x80\xae",
+                                                             "\xc2\x9b",
+                                                             "\\u2028",
+                                                             "-1e308",
+                                                             "{",
                                                              "}",
                                                              "[",
                                                              "]",
@@ -99,7 +106,8 @@ inline std::string damaged(std::string text, std::mt19937_64& random, std::size_
             break;
         }
         case 7:
-            text.insert(at, std::string(below(9), "0123456789"[below(10)]));
+            text.insert(at,
+                        std::string(below(20) == 0 ? 5000 : below(9), "0123456789k"[below(11)]));
             break;
         }
     }

@@ -22,7 +22,7 @@ TEST_CASE("the motion of an inside box meets every measurement and contains its 
     CHECK(motion->tubes[0]->complete());
     CHECK(motion->tubes[0]->steps().size() >= 50);
     auto const& samples = problem.experiments[0].measurements;
-    auto const outputs = motion->outputs_of(0, samples);
+    auto const outputs = motion->outputs.at(0); // they come in order
     auto const p = mid(motion->parameters);
     for (std::size_t i = 0; i < samples.size(); ++i) {
         CHECK(subset(outputs[i], samples[i].bound));
@@ -56,12 +56,31 @@ TEST_CASE("without an inside box the witness is shown, without a witness the bes
     CHECK_FALSE(find_explaining_motion(problem, found, 10));
 }
 
-TEST_CASE("beyond the end of a tube nothing is claimed") {
+TEST_CASE("what is told to stop claims nothing beyond") {
     auto const problem = two_rates_problem();
-    auto const motion = find_explaining_motion(problem, two_rates_result(problem), 10);
-    REQUIRE(motion);
-    auto const outputs = motion->outputs_of(0, {{3.0, 0, interval(0.0)}, {9.0, 0, interval(0.0)}});
-    CHECK(std::isfinite(width(outputs[0])));
-    CHECK(outputs[1].lower() == -HUGE_VAL);
-    CHECK(outputs[1].upper() == HUGE_VAL);
+    auto found = two_rates_result(problem);
+    auto const& samples = problem.experiments[0].measurements;
+    int cut = 0;
+    for (bool const inside : {true, false}) {
+        if (!inside) found.paving = subpaving(problem.prior); // the witness
+        for (int const most : {0, 1, 3, 10, 11, 12, 14, 1000}) {
+            int asked = 0;
+            auto const motion =
+                find_explaining_motion(problem, found, 10, [&] { return ++asked <= most; });
+            if (!motion) continue;
+            auto const p = mid(motion->parameters);
+            auto const& outputs = motion->outputs.at(0);
+            REQUIRE(outputs.size() == samples.size());
+            for (std::size_t i = 0; i < samples.size(); ++i) {
+                CHECK(contains(outputs[i], 2 * std::exp(-p[0] * p[1] * samples[i].time)));
+                if (samples[i].time > motion->tubes[0]->end_time()) {
+                    CHECK(outputs[i].lower() == -HUGE_VAL);
+                    CHECK(outputs[i].upper() == HUGE_VAL);
+                    ++cut;
+                }
+            }
+        }
+    }
+    CHECK(cut > 0);
+    CHECK_FALSE(find_explaining_motion(problem, found, 10, [] { return false; }));
 }

@@ -31,6 +31,7 @@ void run(unsigned seed, int count) {
         try {
             auto const data = read_dataset(folder.path(), model);
             ++accepted;
+            REQUIRE(unprintable_in(data.id).empty());
             for (auto const& s : data.scenarios)
                 for (std::size_t k = 0; k < s.measurements.size(); ++k) {
                     REQUIRE_FALSE(is_empty(s.measurements[k].bound));
@@ -40,6 +41,8 @@ void run(unsigned seed, int count) {
             ++refused;
             REQUIRE_FALSE(e.problem().empty());
             REQUIRE_FALSE(e.place().file.empty());
+            REQUIRE(unprintable_in(e.what()).empty());
+            REQUIRE(std::string_view{e.what()}.size() < 2600);
         } // anything else ends the test
         folder.write(file, original);
     }

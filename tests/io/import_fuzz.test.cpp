@@ -53,6 +53,9 @@ std::string rich_table(generator& random) {
 /// what the values state, the protocol is JSON.
 void check(imported_dataset const& r) {
     REQUIRE_FALSE(nlohmann::json::parse(r.protocol.json()).empty());
+    auto lines = r.protocol.text();
+    std::erase(lines, '\n');
+    REQUIRE(unprintable_in(lines).empty());
     for (auto const& s : r.data.scenarios) {
         REQUIRE_FALSE(s.measurements.empty());
         for (std::size_t k = 0; k < s.measurements.size(); ++k) {
@@ -85,6 +88,8 @@ void run(unsigned seed, int count, bool serial) {
             ++refused;
             REQUIRE_FALSE(e.problem().empty());
             REQUIRE_FALSE(e.place().file.empty());
+            REQUIRE(unprintable_in(e.what()).empty());
+            REQUIRE(std::string_view{e.what()}.size() < 2600);
             REQUIRE_FALSE(fs::exists(folder.path() / "out"));
         } // anything else ends the test
     }

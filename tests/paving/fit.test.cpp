@@ -156,3 +156,20 @@ TEST_CASE("least squares have fewer squares, the fit less inflation") {
     };
     CHECK(sum(squares) <= 1.01 * sum(minimax));
 }
+
+TEST_CASE("a fit that is told to stop ends with the best it has") {
+    draws d(344);
+    auto const planted = support::plant(d, 1, {.experiments = 2, .samples = 12, .outliers = 1});
+    double last = HUGE_VAL;
+    for (std::size_t const most : {0, 1, 10, 100, 1000000}) {
+        std::size_t asked = 0;
+        auto const found = fitter(planted.problem, [&] { return ++asked <= most; })();
+        CAPTURE(most);
+        CHECK((found.parameters.empty() || contains(planted.problem.prior, found.parameters)));
+        CHECK(found.inflation <= last);
+        last = found.inflation;
+        CHECK((asked <= most || asked < most + 100)); // it is heard
+    }
+    CHECK(last <= 1);
+    CHECK(fitter(planted.problem, [] { return false; })().parameters.empty());
+}

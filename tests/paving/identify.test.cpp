@@ -7,6 +7,7 @@
 #include "support/some_start.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 using namespace sivid;
@@ -177,7 +178,7 @@ TEST_CASE("budgets and cancellation leave the truth in what is left") {
     auto options = quick(algorithm::contracting, 1e-4, 30);
     auto const few = identify(planted.problem, options);
     CHECK(few.boxes <= 30);
-    CHECK((few.reason == stop_reason::box_budget || few.reason == stop_reason::accuracy_reached));
+    CHECK((few.reason == stop_reason::box_budget || few.reason == stop_reason::inside_share));
     check_claims(planted, few, d, 0);
     options.search.seconds = 0;
     auto const none = identify(planted.problem, options);
@@ -190,6 +191,15 @@ TEST_CASE("budgets and cancellation leave the truth in what is left") {
     CHECK(cancelled.reason == stop_reason::cancelled);
     CHECK(cancelled.paving.count(box_verdict::pending) > 0);
     check_claims(planted, cancelled, d, 0);
+    // The same from within integrations and simulations, at any time.
+    options.search.progress = nullptr;
+    for (std::size_t const most : {0, 1, 30, 300, 3000}) {
+        std::atomic<std::size_t> asked = 0;
+        options.search.keep_going = [&] { return ++asked <= most; };
+        auto const stopped = identify(planted.problem, options);
+        CHECK((stopped.reason == stop_reason::cancelled || asked <= most));
+        check_claims(planted, stopped, d, 0);
+    }
 }
 
 TEST_CASE("exact measurements do not stop the search") {

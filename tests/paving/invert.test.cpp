@@ -199,7 +199,7 @@ TEST_CASE("the search stops when enough is proved inside") {
     auto options = accuracy(1e-6);
     options.sufficient_ratio = 0.9;
     auto const found = invert(set, square, options);
-    CHECK(found.reason == stop_reason::accuracy_reached);
+    CHECK(found.reason == stop_reason::inside_share);
     CHECK(found.paving.inner_volume().upper() >= 0.89 * found.paving.outer_volume().lower());
     CHECK(found.paving.outer_volume().upper() >= 20 * std::numbers::pi / 100);
 }

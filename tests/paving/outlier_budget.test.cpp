@@ -9,6 +9,7 @@
 #include <sivid/paving/identify.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -196,4 +197,24 @@ TEST_CASE("a search that is stopped leaves proved bounds") {
     auto nothing = problem;
     nothing.experiments.clear();
     CHECK_THROWS_AS(smallest_outlier_budget(nothing), std::invalid_argument);
+}
+
+TEST_CASE("a search for outliers that is told to stop says what is proved") {
+    draws d(883);
+    auto const planted = support::plant(d, 0, {.experiments = 2, .samples = 12, .outliers = 2});
+    auto const whole = smallest_outlier_budget(planted.problem, {.seconds = 600});
+    REQUIRE(whole.total.exact());
+    for (std::size_t const most : {0, 1, 20, 200, 2000, 20000}) {
+        std::atomic<std::size_t> asked = 0;
+        outlier_search_options options;
+        options.seconds = 600;
+        options.keep_going = [&] { return ++asked <= most; };
+        auto const part = smallest_outlier_budget(planted.problem, options);
+        CAPTURE(most);
+        CHECK(part.total.least <= whole.total.least);
+        CHECK(part.total.most >= whole.total.most);
+    }
+    auto const none = smallest_outlier_budget(planted.problem, {.seconds = 0});
+    CHECK_FALSE(none.witness);
+    CHECK(none.total.most == 24);
 }

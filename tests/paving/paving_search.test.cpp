@@ -9,6 +9,7 @@
 #include "support/problems.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -162,7 +163,9 @@ TEST_CASE("the order of the search and its results are those of the plain loop i
         CHECK(found.paving.count(box_verdict::undecided) == e.undecided);
         CHECK(found.paving.inner_volume().lower() == e.inner);
         CHECK(found.paving.outer_volume().upper() == e.outer);
-        CHECK(found.reason == stop_reason::accuracy_reached);
+        CHECK(found.reason == (e.variant == 1     ? stop_reason::inside_share
+                               : e.undecided == 0 ? stop_reason::hulls_rest
+                                                  : stop_reason::accuracy_reached));
     }
 }
 
@@ -367,6 +370,88 @@ TEST_CASE("checkpoints come at the interval and hold a search that can go on") {
     late.seconds = 100;
     o.resume = std::make_shared<search_state const>(late);
     CHECK(invert(test, square, o).reason == stop_reason::time_budget);
+}
+
+namespace {
+
+/// A ring that is told to stop at some call; what it says from then on is nothing.
+struct interrupted_ring {
+    ring set;
+    std::size_t last;
+    std::size_t calls = 0;
+
+    assessment<> operator()(box const& b) {
+        if (++calls > last) return {box_verdict::undecided, b};
+        return set(b);
+    }
+    [[nodiscard]] bool cancelled() const { return calls > last; }
+};
+
+} // namespace
+
+TEST_CASE("a step during which the test is told to stop is undone, and can be made later") {
+    inversion_options o;
+    o.accuracy = 1.0 / 32;
+    o.sufficient_ratio = 1;
+    o.accuracy_of_hull = true;
+    ring complete{1, 2, true};
+    auto const whole = invert(complete, square, o);
+    for (std::size_t last = 0; last < whole.tested; last += 7) {
+        interrupted_ring test{complete, last};
+        std::shared_ptr<search_state const> saved;
+        auto first = o;
+        first.checkpoint_seconds = 1e9;
+        first.checkpoint = [&](search_state const& s) {
+            saved = std::make_shared<search_state const>(s);
+        };
+        auto const part = invert(test, square, first);
+        CHECK(part.reason == stop_reason::time_budget);
+        CHECK(part.tested == last);
+        REQUIRE(saved);
+        CHECK_NOTHROW(saved->require_valid());
+        auto again = o;
+        again.resume = saved;
+        check_same(invert(complete, square, again), whole);
+    }
+    // Who says stop to the search itself is told that it was.
+    std::size_t asked = 0;
+    o.keep_going = [&asked] { return ++asked < 20; };
+    CHECK(invert(complete, square, o).reason == stop_reason::cancelled);
+}
+
+TEST_CASE("integrations that are told to stop leave a search that goes on as if nothing had been") {
+    draws d(4711);
+    int stopped = 0;
+    for (int k = 0; k < 12; ++k) {
+        auto const p = random_posed(d);
+        auto const& problem = p.planted.problem;
+        data_test complete(problem, p.test);
+        auto const whole = invert(complete, problem.prior, p.search);
+        for (std::size_t const most : {0, 3, 40, 300, 2000}) {
+            std::atomic<std::size_t> asked = 0;
+            auto options = p.test;
+            options.run.enclosure.keep_going = [&] { return ++asked <= most; };
+            data_test test(problem, options);
+            std::shared_ptr<search_state const> saved;
+            auto first = p.search;
+            first.checkpoint_seconds = 1e9;
+            first.checkpoint = [&](search_state const& s) {
+                saved = std::make_shared<search_state const>(s);
+            };
+            auto const part = invert(test, problem.prior, first);
+            if (!saved) { // it was over before
+                check_same(part, whole);
+                continue;
+            }
+            ++stopped;
+            auto again = p.search;
+            again.resume = saved;
+            data_test fresh(problem, p.test);
+            CAPTURE(k, most);
+            check_same(invert(fresh, problem.prior, again), whole);
+        }
+    }
+    CHECK(stopped > 20);
 }
 
 TEST_CASE("states of other searches, and what is no state, are refused") {

@@ -5,13 +5,16 @@
 
 #include "io/support.hpp"
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -27,14 +30,20 @@ inline std::string text_of(std::filesystem::path const& file) {
 /// A running program whose outputs go to files of a folder.
 class child_program {
 public:
+    /// @param largest_file  writing beyond so many bytes fails, as on a full disk; 0: nothing does
     child_program(std::string program, std::vector<std::string> arguments,
-                  std::filesystem::path const& folder)
+                  std::filesystem::path const& folder, ::rlim_t largest_file = 0)
         : out_{folder / "stdout.txt"}, err_{folder / "stderr.txt"} {
         arguments.insert(arguments.begin(), program);
         id_ = ::fork();
         if (id_ == 0) {
             redirect(out_, STDOUT_FILENO);
             redirect(err_, STDERR_FILENO);
+            if (largest_file > 0) {
+                ::rlimit const limit{largest_file, largest_file};
+                ::setrlimit(RLIMIT_FSIZE, &limit);
+                ::signal(SIGXFSZ, SIG_IGN); // so that writing fails instead
+            }
             std::vector<char*> argv;
             for (auto& a : arguments) argv.push_back(a.data());
             argv.push_back(nullptr);
@@ -48,6 +57,32 @@ public:
         int status = 0;
         ::waitpid(id_, &status, 0);
         return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+    }
+    /// How a program ended, and what it took.
+    struct ending {
+        int code = 0;         ///< as of `wait`; 1000 + SIGKILL: it had to be killed
+        double processor = 0; ///< [s]
+    };
+    /// Kills it after so many seconds.
+    [[nodiscard]] ending wait_at_most(double seconds) const {
+        auto const begin = std::chrono::steady_clock::now();
+        for (;;) {
+            int status = 0;
+            ::rusage used{};
+            if (::wait4(id_, &status, WNOHANG, &used) == id_) {
+                auto const spent = [](::timeval const& t) {
+                    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+                };
+                return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status),
+                        spent(used.ru_utime) + spent(used.ru_stime)};
+            }
+            if (std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() >
+                seconds) {
+                ::kill(id_, SIGKILL);
+                seconds = 1e9;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
     }
     [[nodiscard]] std::string out() const { return text_of(out_); }
     [[nodiscard]] std::string err() const { return text_of(err_); }

@@ -4,6 +4,7 @@
 #include "console/program.hpp"
 
 #include <sivid/io/explaining_motion.hpp>
+#include <sivid/io/file_set.hpp>
 #include <sivid/io/identification_csv.hpp>
 #include <sivid/io/identification_json.hpp>
 #include <sivid/report/identification_page.hpp>
@@ -309,16 +310,20 @@ int run(command const& c) {
     add_literature(page, posed, o);
     add_pictures(page, view, o, c);
     add_windows(page, posed, o, c);
-    sivid::write_atomically(c.out / "boxes.csv", sivid::boxes_csv(posed.problem, o.found));
-    if (o.found.products)
-        sivid::write_atomically(c.out / "products.csv", sivid::products_csv(o.found));
-    sivid::write_atomically(c.out / "outputs.csv", sivid::outputs_csv(posed.problem, o.found,
-                                                                      motion ? &*motion : nullptr));
-    sivid::write_atomically(c.out / "report.html", page.str());
-    sivid::write_atomically(
-        c.out / "result.json",
-        sivid::identification_json(posed.problem, o.found,
-                                   {.dataset = c.file, .further_assumptions = further}));
+    sivid::file_set files(c.out);
+    files.add("boxes.csv", sivid::boxes_csv(posed.problem, o.found));
+    if (o.found.products) {
+        files.add("products.csv", sivid::products_csv(o.found));
+    } else {
+        files.drop("products.csv"); // of an earlier result
+    }
+    files.add("outputs.csv",
+              sivid::outputs_csv(posed.problem, o.found, motion ? &*motion : nullptr));
+    files.add("report.html", page.str());
+    files.add("result.json",
+              sivid::identification_json(posed.problem, o.found,
+                                         {.dataset = c.file, .further_assumptions = further}));
+    files.commit();
     print_summary(posed, o, c);
     return exit_code_of(o.found.verdict);
 }

@@ -28,7 +28,8 @@ enum class failure_reason {
     unsolved_stages,
     /// a single trajectory grows beyond all bounds, as far as it could be followed; said by
     /// `explain_failure` only
-    blow_up
+    blow_up,
+    cancelled ///< it was told to stop: `enclosure_options::keep_going`
 };
 
 /// What is most likely to help.
@@ -59,6 +60,8 @@ enum class advice {
         return "the stages of the implicit method have no proven solution";
     case failure_reason::blow_up:
         return "a trajectory seems to grow without bound";
+    case failure_reason::cancelled:
+        return "it was told to stop";
     }
     return "";
 }
@@ -96,6 +99,7 @@ enum class advice {
     case failure_reason::unsolved_stages:
         return advice::shorter_steps;
     case failure_reason::blow_up:
+    case failure_reason::cancelled:
         return advice::nothing;
     case failure_reason::undefined:
         return wide ? advice::smaller_box : advice::nothing;

@@ -5,6 +5,7 @@
 #include <sivid/enclosure/tableau.hpp>
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 
 namespace sivid {
@@ -31,6 +32,11 @@ struct enclosure_options {
     /// Give up when what a Taylor-model set has lost to its generators exceeds this share of what
     /// its polynomial spans (or of a fiftieth of the state's own range, if that is more).
     double remainder_share = 0.5;
+    /// Asked before each step, by the thread that makes it: false ends the enclosure there
+    /// (`failure_reason::cancelled`); what was proved until then stays proved. Empty: never asked.
+    std::function<bool()> keep_going = nullptr;
+
+    [[nodiscard]] bool cancelled() const { return keep_going && !keep_going(); }
 };
 
 } // namespace sivid

@@ -261,11 +261,13 @@ void parametric_flow<N, D, C>::note_steepest(mask lanes, square const& m) {
 template <std::size_t N, std::size_t D, class C>
 typename parametric_flow<N, D, C>::mask parametric_flow<N, D, C>::advance(C const& limit) {
     mask trying = running_ & (set_.time < limit);
+    bool const cancelled = options_.cancelled();
     for (std::size_t l = 0; l < width; ++l) {
         if (!side_by_side::test(trying, l)) continue;
-        if (lanes_[l].attempts == 0 && lanes_[l].steps >= options_.maximum_steps) {
+        bool const worn = lanes_[l].attempts == 0 && lanes_[l].steps >= options_.maximum_steps;
+        if (cancelled || worn) {
             enclosure_failure why;
-            why.reason = failure_reason::step_limit;
+            why.reason = cancelled ? failure_reason::cancelled : failure_reason::step_limit;
             fail(l, why);
         }
     }

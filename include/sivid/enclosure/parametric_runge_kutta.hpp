@@ -121,6 +121,10 @@ bool parametric_runge_kutta<N, D>::step(double limit) {
         why.reason = failure_reason::step_limit;
         return fail(why);
     }
+    if (options_.cancelled()) {
+        why.reason = failure_reason::cancelled;
+        return fail(why);
+    }
     if (!useful(why)) return fail(why);
     limit = std::min(limit, flow_->next_knot(set_.time));
     double const from = set_.time;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -67,22 +68,25 @@ public:
     [[nodiscard]] std::vector<output_request> const& requests() const { return mesh_.requests(); }
     /// Scales the tolerances of the steps from now on.
     void set_accuracy(double factor) { accuracy_ = factor; }
+    /// Asked at the begin of a run and every 64 steps: false ends it without a result.
+    void set_keep_going(std::function<bool()> keep_going) { keep_going_ = std::move(keep_going); }
 
     /// Outputs, and their derivatives when `with_sensitivities`.
     /// @param disturbance  values at the knots: [k * layout.disturbed.size() + equation]
-    /// @returns false when the motion leaves the doubles or needs too many steps
+    /// @returns false when the motion leaves the doubles, needs too many steps or was cancelled
     [[nodiscard]] bool operator()(std::vector<double> const& start,
                                   std::vector<double> const& parameters,
                                   std::vector<double> const& disturbance,
                                   sensitivity_layout const& layout, bool with_sensitivities,
                                   simulated_outputs& out, simulated_trace* trace = nullptr) {
+        if (keep_going_ && !keep_going_()) return false;
         layout_ = &layout;
         disturbance_ = &disturbance;
         sensitive_ = with_sensitivities;
         mesh_.place(parameters);
         set_parameters(parameters);
         x_ = start;
-        steps_ = 0;
+        steps_ = hat_ = 0;
         out.values.assign(mesh_.requests().size(), 0.0);
         if (sensitive_) {
             out.jacobian.assign(mesh_.requests().size() * layout.columns, 0.0);
@@ -91,16 +95,13 @@ public:
         }
         fresh_ = false;
         double suggested = std::numeric_limits<double>::infinity();
-        hat_ = 0;
-        std::size_t const pieces = mesh_.pieces();
-        for (std::size_t k = 0; k <= pieces; ++k) {
+        for (std::size_t k = 0, pieces = mesh_.pieces(); k <= pieces; ++k) {
             if (k < pieces) enter(k);
             if (k < pieces && mesh_.jumps() && sensitive_ && k > 0) shift_by_jumps(k);
             if (mesh_.jumps()) fresh_ = false;
             if (!mesh_.observed(k).empty()) look(k, out);
             if (trace != nullptr) record(k, *trace);
-            if (k == pieces) break;
-            if (!cross(mesh_.time(k), mesh_.time(k + 1), suggested)) return false;
+            if (k < pieces && !cross(mesh_.time(k), mesh_.time(k + 1), suggested)) return false;
         }
         return true;
     }
@@ -326,7 +327,8 @@ private:
             if (last) h = to - t;
             if (!fresh_) evaluate(t, x_, stages_[0]);
             fresh_ = true;
-            if (++steps_ > 400000) return false;
+            if (++steps_ > 400000 || (steps_ % 64 == 0 && keep_going_ && !keep_going_()))
+                return false;
             auto const advance = [&](double step, stage const& s) {
                 for (std::size_t i = 0; i < n; ++i) trial_[i] = x_[i] + step * s.rate[i];
             };
@@ -389,6 +391,7 @@ private:
     std::vector<double> const* disturbance_ = nullptr;
     std::size_t active_ = 0, piece_ = 0, hat_ = 0, steps_ = 0;
     double accuracy_ = 1;
+    std::function<bool()> keep_going_;
     bool sensitive_ = false, fresh_ = false;
 };
 

@@ -5,6 +5,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/enclosure/flow.hpp>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -24,8 +25,10 @@ struct approximate_trajectory {
 /// Simulates a flow in plain floating point by Boost.Odeint (Dormand-Prince 5, adaptive), restarted
 /// at the knots of sampled inputs.
 /// @param times      increasing, the first not before `from`
-/// @param tolerance  absolute and relative, of one step
-/// @throws boost::numeric::odeint::step_adjustment_error or no_progress_error when it gets stuck
+/// @param tolerance   absolute and relative, of one step
+/// @param keep_going  asked before each step; may be empty
+/// @throws boost::numeric::odeint::step_adjustment_error or no_progress_error when it gets stuck,
+///         std::runtime_error when it was told to stop
 class approximate_simulator {
 public:
     /// @given  the flow outlives this
@@ -37,7 +40,8 @@ public:
     [[nodiscard]] approximate_trajectory operator()(std::vector<double> const& initial,
                                                     std::vector<double> const& parameters,
                                                     double from, std::vector<double> const& times,
-                                                    double tolerance = 1e-9);
+                                                    double tolerance = 1e-9,
+                                                    std::function<bool()> const& keep_going = {});
 
 private:
     std::unique_ptr<enclosure_detail::odeint_simulator> work_;

@@ -56,6 +56,10 @@ public:
             why.reason = failure_reason::step_limit;
             return fail(why);
         }
+        if (options_.cancelled()) {
+            why.reason = failure_reason::cancelled;
+            return fail(why);
+        }
         if (!useful(set_.hull, why)) return fail(why);
         auto next = stepper_.prove(set_, std::min(limit, flow_->next_knot(set_.time)), why);
         if (!next) {

@@ -4,9 +4,9 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/io/dataset_value.hpp>
+#include <sivid/io/file_set.hpp>
 #include <sivid/io/json_writer.hpp>
 #include <sivid/io/model_names.hpp>
-#include <sivid/io/text_file.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -128,23 +128,33 @@ namespace sivid {
     return json.text();
 }
 
-/// Stores a data set as a folder in the format sivid-dataset-1; read_dataset gives the same value
-/// back. dataset.json comes last and each file whole, so that a run that was killed leaves nothing
-/// that reads as complete.
+/// Adds the files of a data set in the format sivid-dataset-1, dataset.json last.
 /// @given  as read_dataset returns it: one interpolation in a scenario, indices within the model's
 /// (trusted)
+/// @throws output_error
+SIVID_ENTRY void add_dataset(file_set& files, dataset const& data, model_names const& model);
+
+/// Stores a data set as a folder in the format sivid-dataset-1; read_dataset gives the same value
+/// back. All files take their names together (`file_set`): a full disk leaves what was there, and a
+/// run that was killed leaves nothing that reads as complete.
+/// @given  as for `add_dataset`
 /// @throws output_error
 SIVID_ENTRY void write_dataset(dataset const& data, model_names const& model,
                                std::filesystem::path const& folder);
 
 #if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_WRITE_DATASET)
+SIVID_ENTRY void add_dataset(file_set& files, dataset const& data, model_names const& model) {
+    for (auto const& s : data.scenarios) {
+        files.add(s.name + ".inputs.csv", inputs_csv(s, model));
+        files.add(s.name + ".measurements.csv", measurements_csv(s, model));
+    }
+    files.add("dataset.json", dataset_json(data, model));
+}
 SIVID_ENTRY void write_dataset(dataset const& data, model_names const& model,
                                std::filesystem::path const& folder) {
-    for (auto const& s : data.scenarios) {
-        write_atomically(folder / (s.name + ".inputs.csv"), inputs_csv(s, model));
-        write_atomically(folder / (s.name + ".measurements.csv"), measurements_csv(s, model));
-    }
-    write_atomically(folder / "dataset.json", dataset_json(data, model));
+    file_set files(folder);
+    add_dataset(files, data, model);
+    files.commit();
 }
 #endif
 

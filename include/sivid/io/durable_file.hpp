@@ -2,6 +2,7 @@
 #ifndef SIVID_IO_DURABLE_FILE_HPP
 #define SIVID_IO_DURABLE_FILE_HPP
 
+#include <sivid/io/printable_text.hpp>
 #include <sivid/io/text_file.hpp>
 
 #include <cerrno>
@@ -16,20 +17,17 @@
 
 namespace sivid {
 
-/// Writes a file whole or not at all, on the disk: when this returns, the new content survives the
-/// end of the process and of the machine; until then the old content does.
-///   The temporary neighbour always has the same name, FILE.part, so that a killed run leaves at
-///   most one behind, which the next run overwrites. One process at a time.
-/// @throws output_error when it cannot be written; the old content is then still there
-/// @cost  waits for the disk
-inline void write_durably(std::filesystem::path const& file, std::string_view text) {
-    auto temporary = file;
-    temporary += ".part";
+namespace io_detail {
+
+/// Writes a file under another name; when this returns, its content is on the disk.
+/// @throws output_error  with the name that it is meant for; nothing is left behind then
+inline void write_to_disk(std::filesystem::path const& temporary,
+                          std::filesystem::path const& meant_for, std::string_view text) {
     int handle = -1;
     auto const fail = [&](int fault) {
         if (handle >= 0) ::close(handle);
         ::unlink(temporary.c_str());
-        throw output_error{file.string() +
+        throw output_error{printable_path(meant_for.string()) +
                            ": cannot be written: " + std::generic_category().message(fault) +
                            "; check permissions and space"};
     };
@@ -44,13 +42,36 @@ inline void write_durably(std::filesystem::path const& file, std::string_view te
     int const closed = ::close(handle);
     handle = -1;
     if (closed != 0) fail(errno);
-    if (::rename(temporary.c_str(), file.c_str()) != 0) fail(errno);
-    // The name, too; file systems that cannot sync a folder have none to lose.
-    auto const folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path{"."};
+}
+
+/// Names on the disk, too; file systems that cannot sync a folder have none to lose.
+inline void sync_folder(std::filesystem::path const& folder) {
     int const names = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (names < 0) return;
     (void)::fsync(names);
     ::close(names);
+}
+
+} // namespace io_detail
+
+/// Writes a file whole or not at all, on the disk: when this returns, the new content survives the
+/// end of the process and of the machine; until then the old content does.
+///   The temporary neighbour always has the same name, FILE.part, so that a killed run leaves at
+///   most one behind, which the next run overwrites. One process at a time.
+/// @throws output_error when it cannot be written; the old content is then still there
+/// @cost  waits for the disk
+inline void write_durably(std::filesystem::path const& file, std::string_view text) {
+    auto temporary = file;
+    temporary += ".part";
+    io_detail::write_to_disk(temporary, file, text);
+    if (::rename(temporary.c_str(), file.c_str()) != 0) {
+        int const fault = errno;
+        ::unlink(temporary.c_str());
+        throw output_error{printable_path(file.string()) +
+                           ": cannot be written: " + std::generic_category().message(fault)};
+    }
+    io_detail::sync_folder(file.has_parent_path() ? file.parent_path()
+                                                  : std::filesystem::path{"."});
 }
 
 } // namespace sivid

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -35,9 +36,9 @@ struct explaining_motion {
     std::vector<box> starts;                            ///< one per experiment
     std::vector<std::shared_ptr<flow const>> flows;     ///< one per experiment
     std::vector<std::shared_ptr<tube<interval>>> tubes; ///< one per experiment
-
-    /// Encloses the measured channels of experiment e; unbounded where the tube ends before.
-    [[nodiscard]] std::vector<interval> outputs_of(std::size_t e, record const& samples) const;
+    /// Per experiment and measurement (in order of time): the output; unbounded where the tube ends
+    /// before, or nobody had the time to look.
+    std::vector<std::vector<interval>> outputs;
 };
 
 namespace io_detail {
@@ -54,11 +55,15 @@ inline double last_measurement(experiment const& e) {
 /// inside box (or the largest part around its middle whose tube alone shows it), else the witness,
 /// else the best guess.
 /// @param pieces  least number of steps of each tube, so that pictures are smooth
-/// @returns nothing when there is no point to show
-/// @cost  a handful of integrations of each experiment
+/// @param keep_going  asked while integrating; false ends the search with a motion of the next
+///                    kind in that order if one is whole, or with what a tube reached. May be empty
+/// @returns nothing when there is no point to show, or no time to follow it
+/// @cost  a handful of integrations of each experiment, each in so many steps at most as the
+/// pieces,
+///        the knots of the inputs and the measurements ask for
 [[nodiscard]] SIVID_ENTRY std::optional<explaining_motion>
 find_explaining_motion(identification_problem const& problem, identification const& found,
-                       std::size_t pieces = 240);
+                       std::size_t pieces = 240, std::function<bool()> const& keep_going = nullptr);
 
 } // namespace sivid
 

@@ -124,7 +124,7 @@ SIVID_ENTRY std::string outputs_csv(identification_problem const& problem,
     auto const no_bound = interval_traits<interval>::entire();
     for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
         auto const samples = sorted(problem.experiments[e].measurements);
-        auto const outputs = motion != nullptr ? motion->outputs_of(e, samples)
+        auto const outputs = motion != nullptr ? motion->outputs[e]
                                                : std::vector<interval>(samples.size(), no_bound);
         for (std::size_t i = 0; i < samples.size(); ++i) {
             auto const& m = samples[i];

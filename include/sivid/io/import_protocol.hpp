@@ -3,6 +3,7 @@
 #define SIVID_IO_IMPORT_PROTOCOL_HPP
 
 #include <sivid/io/json_writer.hpp>
+#include <sivid/io/printable_text.hpp>
 #include <sivid/measurement/error_bound.hpp>
 
 #include <algorithm>
@@ -80,7 +81,8 @@ public:
         return words[static_cast<std::size_t>(k)];
     }
 
-    /// For people; long lists of lines are cut, the JSON has them all.
+    /// For people; long lists of lines are cut, the JSON has them all. Both can be printed,
+    /// whatever the names are.
     [[nodiscard]] std::string text() const {
         std::string out = "data set " + dataset + ", imported by " + mapping + "\n";
         for (auto const& s : scenarios) {
@@ -111,7 +113,7 @@ public:
                 for (auto const& a : p.assumptions) out += "    assumed: " + a + "\n";
             }
         }
-        return out;
+        return printable_text(out, std::string::npos, true);
     }
 
     /// The same in the format sivid-import-1, complete.
@@ -122,15 +124,15 @@ public:
             .key("format")
             .string("sivid-import-1")
             .key("dataset")
-            .string(utf8(dataset));
-        j.key("mapping").string(utf8(mapping)).key("scenarios").begin_array();
+            .string(printable_text(dataset));
+        j.key("mapping").string(printable_text(mapping)).key("scenarios").begin_array();
         for (auto const& s : scenarios) {
             j.begin_object(layout::one_line)
                 .key("name")
-                .string(utf8(s.name))
+                .string(printable_text(s.name))
                 .key("role")
                 .string(s.role);
-            j.key("file").string(utf8(s.file)).key("lines").integer(s.lines);
+            j.key("file").string(printable_text(s.file)).key("lines").integer(s.lines);
             j.key("first").integer(s.first).key("last").integer(s.last);
             j.key("rows").integer(s.rows).key("measurements").integer(s.measurements);
             j.key("duration").string(s.duration).end_object();
@@ -138,8 +140,11 @@ public:
         j.end_array().key("notes").begin_array();
         for (auto const& n : notes_) {
             j.begin_object(layout::one_line).key("kind").string(word(n.what));
-            j.key("scenario").string(utf8(n.scenario)).key("field").string(utf8(n.field));
-            j.key("reason").string(utf8(n.reason)).key("count").integer(n.lines.size());
+            j.key("scenario")
+                .string(printable_text(n.scenario))
+                .key("field")
+                .string(printable_text(n.field));
+            j.key("reason").string(printable_text(n.reason)).key("count").integer(n.lines.size());
             j.key("lines").begin_array();
             for (auto const& [first, last] : ranges(n.lines))
                 j.begin_array().integer(first).integer(last).end_array();
@@ -149,18 +154,18 @@ public:
         for (auto const& b : bounds) {
             j.begin_object()
                 .key("quantity")
-                .string(utf8(b.quantity))
+                .string(printable_text(b.quantity))
                 .key("unit")
-                .string(utf8(b.unit));
+                .string(printable_text(b.unit));
             j.key("bound").string(b.bound).key("scenarios").begin_array();
             for (auto const& [name, p] : b.scenarios) {
-                j.begin_object(layout::one_line).key("scenario").string(utf8(name));
+                j.begin_object(layout::one_line).key("scenario").string(printable_text(name));
                 j.key("bound").nearest(p.bound).key("quantum").nearest(p.quantum);
                 j.key("spread").nearest(p.spread);
                 j.key("largest_residual").nearest(p.largest_residual);
                 j.key("support").integer(p.support).key("outliers").integer(p.outliers);
                 j.key("refusal").string(p.refusal).key("assumptions").begin_array();
-                for (auto const& a : p.assumptions) j.string(utf8(a));
+                for (auto const& a : p.assumptions) j.string(printable_text(a));
                 j.end_array().end_object();
             }
             j.end_array().end_object();
@@ -169,30 +174,6 @@ public:
     }
 
 private:
-    /// The text with '?' for each byte that is not UTF-8: a shortened or foreign name.
-    static std::string utf8(std::string const& text) {
-        std::string result;
-        for (std::size_t i = 0; i < text.size();) {
-            auto const lead = static_cast<unsigned char>(text[i]);
-            std::size_t const length = lead < 0x80                   ? 1
-                                       : lead >= 0xC2 && lead < 0xE0 ? 2
-                                       : lead >= 0xE0 && lead < 0xF0 ? 3
-                                       : lead >= 0xF0 && lead < 0xF5 ? 4
-                                                                     : 0;
-            bool valid = length > 0 && i + length <= text.size();
-            for (std::size_t k = 1; valid && k < length; ++k)
-                valid = (static_cast<unsigned char>(text[i + k]) & 0xC0) == 0x80;
-            // Longer forms than needed, and the surrogates.
-            auto const second = valid && length > 2 ? static_cast<unsigned char>(text[i + 1]) : 0;
-            if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) ||
-                (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F))
-                valid = false;
-            result += valid ? text.substr(i, length) : "?";
-            i += valid ? length : 1;
-        }
-        return result;
-    }
-
     static std::string number(double x) { return rounded_digits(x).text(); }
     /// Three digits, to be read.
     static exact_decimal rounded_digits(double x) {

@@ -3,6 +3,7 @@
 #define SIVID_IO_INPUT_ERROR_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/io/printable_text.hpp>
 
 #include <concepts>
 #include <cstddef>
@@ -36,6 +37,8 @@ struct input_place {
 /// further.
 ///   "S1.inputs.csv: line 12, column 3 (delta): '0,1x' is not a number; write a decimal such as
 ///   0.25 or 1e-3"
+/// The message is printable, whatever the input holds, and of a length that can be read; place,
+/// problem and remedy are what was given.
 class input_error : public std::runtime_error {
 public:
     input_error(input_place place, std::string problem, std::string remedy)
@@ -62,24 +65,21 @@ private:
 #if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_INPUT_ERROR)
 SIVID_ENTRY std::string input_error::message(input_place const& place, std::string const& problem,
                                              std::string const& remedy) {
-    std::string text = place.file;
-    if (place.is_json) text += text_of(": ", place.pointer.empty() ? "(document)" : place.pointer);
+    std::string text = printable_path(place.file);
+    if (place.is_json) {
+        text += text_of(": ", place.pointer.empty() ? std::string{"(document)"}
+                                                    : printable_text(place.pointer, 120));
+    }
     if (place.line > 0) text += text_of(": line ", std::to_string(place.line));
     if (place.column > 0) text += text_of(", column ", std::to_string(place.column));
-    if (!place.heading.empty()) text += " (" + place.heading + ")";
-    text += ": " + problem;
-    if (!remedy.empty()) text += "; " + remedy;
+    if (!place.heading.empty()) text += " (" + printable_text(place.heading, 60) + ")";
+    text += ": " + printable_text(problem, 1000);
+    if (!remedy.empty()) text += "; " + printable_text(remedy, 1000);
     return text;
 }
 
 SIVID_ENTRY std::string in_quotes(std::string const& text) {
-    constexpr std::size_t longest = 40;
-    std::string result = "'";
-    for (char c : text.substr(0, longest)) {
-        auto const byte = static_cast<unsigned char>(c);
-        result += byte < 0x20 || byte == 0x7f ? '?' : c;
-    }
-    return result + (text.size() > longest ? "...'" : "'");
+    return "'" + printable_text(text, 40) + "'";
 }
 #endif
 

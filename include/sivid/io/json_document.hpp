@@ -32,14 +32,12 @@ public:
 
     [[noreturn]] void fail(std::string problem, std::string remedy) const;
 
-    /// A non-empty text without control characters.
+    /// A non-empty text without control characters and marks that hide or turn text: it may be
+    /// printed (`printable_text.hpp`).
     [[nodiscard]] std::string const& string() const;
 
-    /// A text that may be empty.
-    [[nodiscard]] std::string const& any_string() const {
-        expect(kind::string, "a text in quotes");
-        return text_;
-    }
+    /// The same, but it may be empty.
+    [[nodiscard]] std::string const& any_string() const;
 
     /// Whether the text is the second of two words.
     [[nodiscard]] bool is_second_of(char const* first, char const* second) const {

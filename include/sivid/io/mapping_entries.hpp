@@ -34,7 +34,10 @@ namespace sivid::mapping_entries {
     if (ends.size() != 2) entry.fail("not two numbers", "write [lower, upper]");
     auto const lower = ends[0].number(), upper = ends[1].number();
     if (upper < lower) entry.fail("lower is above upper", "write [lower, upper]");
-    return {lower, upper, *enclose(lower, upper)};
+    auto const enclosure = enclose(lower, upper);
+    if (!enclosure || mag(*enclosure) > farthest_range)
+        entry.fail("the range reaches beyond 1e100", "state what is physically possible");
+    return {lower, upper, *enclosure};
 }
 
 /// A whole number from `least` to `most`.

@@ -24,21 +24,70 @@ struct error_bound_proposal {
     double largest_residual = 0; ///< of the samples that count
     std::size_t support = 0;     ///< samples that count
     std::size_t outliers = 0;    ///< samples left out, too far from their neighbours
-    std::string refusal;         ///< why no bound is proposed
+    /// By how much the correlation of neighbouring residuals differs at most from what independent
+    /// errors leave: about the share of the residuals' square that is not such errors.
+    double correlation = 0;
+    std::string refusal; ///< why no bound is proposed
     std::vector<std::string> assumptions;
 };
+
+namespace detail {
+
+/// Residuals whose spread is below so many steps are those of rounding, correlated as they are.
+inline constexpr double explained_steps = 0.6;
+
+/// Why residuals are not those of independent errors, in words; nothing if they may be. Notes their
+/// correlation.
+[[nodiscard]] inline std::string doubt_of(local_residuals const& fit,
+                                          std::vector<double> const& times,
+                                          std::vector<double> const& values,
+                                          error_bound_proposal& of) {
+    if (!(of.spread > explained_steps * of.quantum)) return {};
+    double const chance = 1 / std::sqrt(static_cast<double>(of.support));
+    dependence_of_residuals const own(fit.residuals(), of.spread, 1);
+    of.correlation = own.excess;
+    // Motion: residuals follow each other, or come back after a period.
+    if (own.excess > 0.35 + 3 * chance) {
+        return "the residuals of samples " + std::to_string(own.lag) +
+               (own.lag == 1 ? " step" : " steps") + " apart are correlated by " +
+               sivid::nearest_text(own.measured, 2) + ", where independent errors leave " +
+               sivid::nearest_text(independent_correlation[own.lag], 2);
+    }
+    // Errors that last: of fewer samples the residuals are larger, yet no more correlated, as those
+    // of motion would be.
+    for (std::size_t const stride : {2, 4}) {
+        local_residuals const fewer{times, values, stride, fit.out()};
+        if (fewer.support() < 20) break;
+        dependence_of_residuals const then(fewer.residuals(), fewer.spread(), stride);
+        double const growth = then.square / own.square;
+        if (!(growth > 1 + std::max(0.4, 8 * chance))) continue;
+        if (then.excess > 0.5 * (1 - 1 / growth)) continue;
+        return "the residuals of every " + std::string{stride == 2 ? "2nd" : "4th"} +
+               " sample are " + sivid::nearest_text(std::sqrt(growth), 3) +
+               " times as large, without the correlation of a motion";
+    }
+    return {};
+}
+
+} // namespace detail
 
 /// Proposes an error bound from the quantisation step q of the readings and from their residuals
 /// e against a quadratic through the three neighbours on either side:
 ///   \f$ q + \max(1.25 \max |e|, 4 \sigma) \f$,  \f$ \sigma \f$ = 1.4826 median |e|
 /// The residual of a sample is divided by \f$ \sqrt{1 - h} \f$, h its leverage, so that white noise
 /// keeps its standard deviation. Residuals beyond 6 sigma + 2 q are outliers, and no neighbour is
-/// judged by them; when they are more than 5 % of all samples the motion is not resolved, and all
-/// count. Windows across gaps (wider than twice the usual) and the three samples at either end do
-/// not count.
+/// judged by them. Windows across gaps (wider than twice the usual) and the three samples at either
+/// end do not count.
+///   No bound is proposed where the residuals are not those of independent errors: they are motion
+/// that the samples do not resolve, which would make the bound so large that a wrong model passes,
+/// or errors that last for several samples, of which the residuals show only a part. That is where
+/// more than 5 % of the samples are outliers, or where the correlation of neighbours differs from
+/// that of independent errors by more than 0.35 + 3/sqrt(n), or where every second or fourth sample
+/// alone leaves larger residuals that are no smoother; unless the step q explains the residuals.
+/// Which of the two it is, the record cannot always tell: the refusal says both figures.
 /// @given  as many values as times, finite, times strictly increasing (checked)
 /// @guarantee  none for the instrument: an offset, a drift, a wrong scale and noise slower than
-///             seven samples leave no residual; motion that these do not resolve raises the bound
+///             seven samples leave no residual
 /// @throws std::invalid_argument
 /// @cost  n log n
 [[nodiscard]] inline error_bound_proposal propose_error_bound(std::vector<double> const& times,
@@ -68,9 +117,8 @@ struct error_bound_proposal {
         result.spread = fit.spread();
         if (fit.leave_out_farthest(far * result.spread + 2 * result.quantum) == 0) break;
     }
-    bool const unresolved = 20 * fit.left_out() > times.size();
-    if (unresolved)
-        fit = detail::local_residuals{times, values}; // these are no outliers: all count
+    bool const scattered = 20 * fit.left_out() > times.size();
+    if (scattered) fit = detail::local_residuals{times, values}; // these are no outliers: all count
     result.outliers = fit.left_out();
     result.support = fit.support();
     if (result.support < least_support)
@@ -81,11 +129,34 @@ struct error_bound_proposal {
     result.largest_residual = fit.largest();
     result.bound =
         result.quantum + std::max(margin * result.largest_residual, sigmas * result.spread);
-    if (!(result.bound > 0) || !std::isfinite(result.bound))
+    if (!(result.bound > 0) || !std::isfinite(result.bound)) {
+        result.bound = 0;
         return refuse("the readings have neither a step nor residuals");
+    }
+    auto const doubt = detail::doubt_of(fit, times, values, result);
+    if (scattered || !doubt.empty()) {
+        // Motion leaves less the more freely the curve through the neighbours bends.
+        detail::local_polynomial<6, 8> const free{times, values, 1, fit.out()};
+        auto const either = sivid::nearest_text(result.bound, 3);
+        double const own = result.quantum + sigmas * free.spread();
+        result.bound = 0;
+        return refuse(
+            (scattered ? std::string{"more than 5 % of the samples are far from their neighbours"}
+                       : doubt) +
+            ": motion that the samples do not resolve, or errors that last longer than a sample; "
+            "as errors they ask for a bound of at least " +
+            either +
+            (own < 0.5 * result.spread * sigmas
+                 ? ", as motion they hide errors of about " + sivid::nearest_text(own, 3)
+                 : std::string{", as motion they hide errors of any size below"}) +
+            "; take the bound from the data sheet, or from a record at rest");
+    }
     result.assumptions = {
         "the error has no part that is slower than seven samples: no offset, drift or wrong scale",
-        "errors of neighbouring samples are independent",
+        result.support < 200 ? "errors of neighbouring samples are independent: so few samples "
+                               "would hardly show if they were not"
+                             : "errors of neighbouring samples are independent: the residuals are "
+                               "not those of errors that last",
         "the largest error of the record is at most 1.25 times the largest residual that counts, "
         "or four standard deviations",
         result.quantum > 0
@@ -95,18 +166,20 @@ struct error_bound_proposal {
         result.assumptions.push_back("the samples that were left out are outliers: the bound does "
                                      "not hold for them, allow for their share");
     double const usual = std::max(sigmas * result.spread, result.quantum);
-    if (!unresolved && margin * result.largest_residual > 1.5 * usual) {
+    if (margin * result.largest_residual > 1.5 * usual) {
         result.assumptions.push_back(
             "the few samples farthest from their neighbours are errors of the instrument: they set "
             "the bound; step and four standard deviations alone make " +
-            nearest_text(result.quantum + sigmas * result.spread, 3) +
+            sivid::nearest_text(result.quantum + sigmas * result.spread, 3) +
             ", so state a bound if they are kinks of the motion, as where an input jumps");
     }
-    if (unresolved)
+    if (result.correlation > 0.2 + 3 / std::sqrt(static_cast<double>(result.support)) &&
+        result.spread > detail::explained_steps * result.quantum)
         result.assumptions.push_back(
-            "more than 5 % of the samples are far from their neighbours: motion that the samples "
-            "do not resolve, or noise of another kind; all count, and the bound is that much "
-            "larger");
+            "neighbouring residuals are somewhat correlated, by " +
+            sivid::nearest_text(result.correlation, 2) +
+            ": that much of their square is motion that the samples do not resolve, or errors "
+            "that last longer than a sample");
     return result;
 }
 

@@ -14,6 +14,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -181,6 +182,13 @@ public:
     void set_accuracy(double factor) {
         for (auto& s : simulators_) s.set_accuracy(factor);
     }
+    /// False ends what is being simulated, which then counts as failed; all later runs fail at
+    /// once. Asked by any thread.
+    void set_keep_going(std::function<bool()> keep_going) {
+        for (auto& s : simulators_) s.set_keep_going(keep_going);
+        keep_going_ = std::move(keep_going);
+    }
+    [[nodiscard]] bool cancelled() const { return keep_going_ && !keep_going_(); }
     /// Simulates the experiments at once; they say the same with any.
     void set_workers(executor workers) { workers_ = std::move(workers); }
     /// @returns false when a simulation fails
@@ -290,6 +298,7 @@ private:
     arrow_vector lower_, upper_;
     std::vector<simulated_outputs> outputs_;
     executor workers_{};
+    std::function<bool()> keep_going_;
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> scaled_;
 };
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -37,8 +38,13 @@ class core_search {
 
 public:
     /// @given  `part` lies in the box of the responses, the point in `part` (trusted)
-    core_search(response_list known, box part, std::vector<double> point)
-        : known_(std::move(known)), part_(std::move(part)), point_(std::move(point)) {}
+    /// @param keep_going  false ends the growth with what is proved until then; may be empty
+    core_search(response_list known, box part, std::vector<double> point,
+                std::function<bool()> keep_going = nullptr)
+        : known_(std::move(known)),
+          part_(std::move(part)),
+          point_(std::move(point)),
+          keep_going_(std::move(keep_going)) {}
 
     /// All sides in proportion.
     [[nodiscard]] std::optional<box> scaled() {
@@ -97,6 +103,7 @@ private:
         return true;
     }
     [[nodiscard]] std::optional<box> proved(std::vector<double> const& reach) const {
+        if (keep_going_ && !keep_going_()) return std::nullopt;
         auto x = about(reach);
         if (!explained_by_responses(known_, x)) return std::nullopt;
         return x;
@@ -134,6 +141,7 @@ private:
     response_list known_;
     box part_;
     std::vector<double> point_;
+    std::function<bool()> keep_going_;
     std::vector<double> reach_;
     std::optional<box> best_;
 };
@@ -144,7 +152,7 @@ private:
 /// that takes \f$ 2^{h_1 + ... + h_n} \f$ boxes where side i has to be halved h_i times.
 /// @param around  the first region: what is left of the prior, with the point in it
 /// @param starts  by experiment, from which the point explains the data
-/// @returns  nothing when none was found
+/// @returns  nothing when none was found, or the test was told to stop before
 /// @cost  eight integrations of each experiment, and some hundred re-expansions of each response
 [[nodiscard]] inline std::optional<box> core_about(data_test& test, box const& around,
                                                    std::vector<double> const& point,
@@ -168,7 +176,8 @@ private:
     std::optional<core_search> best;
     double best_size = 0;
     for (std::size_t k = 0; k < regions.size(); ++k) {
-        core_search search(std::move(known[k]), regions[k], point);
+        core_search search(std::move(known[k]), regions[k], point,
+                           [&test] { return !test.cancelled(); });
         auto const core = search.scaled();
         double const size = core ? relative_volume(*core, around).upper() : 0;
         if (best && size <= best_size) break; // it is the region that limits, not the remainders

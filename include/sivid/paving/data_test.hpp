@@ -82,6 +82,9 @@ public:
     /// Initial states, one box per experiment within its own, from which existence is proved.
     void set_starts(std::vector<box> starts) { starts_ = std::move(starts); }
 
+    /// Whether it was told to stop (`enclosure_options::keep_going` of its runs).
+    [[nodiscard]] bool cancelled() const { return options_.run.enclosure.cancelled(); }
+
     [[nodiscard]] std::size_t integrations() const {
         return pool_->integrations() + (recorded_pool_ ? recorded_pool_->integrations() : 0);
     }

@@ -59,7 +59,8 @@ public:
             auto const held = held_at_bounds(here.at);
             bool improved = false;
             double after = before;
-            for (int attempt = 0; attempt < 7 && !improved; ++attempt, damping *= 8) {
+            for (int attempt = 0; attempt < 7 && !improved && !campaign_->cancelled();
+                 ++attempt, damping *= 8) {
                 arrow_vector step;
                 if (!system_.solve(damping, held, step)) continue;
                 auto z = here.at;

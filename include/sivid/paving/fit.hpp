@@ -6,6 +6,7 @@
 #include <sivid/paving/approximate_fit.hpp>
 #include <sivid/paving/problem.hpp>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -21,8 +22,11 @@ class fit_search;
 /// @cost  about twenty simulations with sensitivities
 class fitter {
 public:
-    /// @param problem  outlives this object
-    explicit fitter(identification_problem const& problem);
+    /// @param problem     outlives this object
+    /// @param keep_going  asked while simulating, false ends a fit with the best it has until then,
+    ///                    which may be nothing; may be empty
+    explicit fitter(identification_problem const& problem,
+                    std::function<bool()> keep_going = nullptr);
     fitter(fitter&&) noexcept;
     fitter& operator=(fitter&&) noexcept;
     ~fitter();

@@ -16,7 +16,8 @@ namespace sivid {
 enum class algorithm {
     contracting, ///< contraction by linear programs, smear bisection, largest box first, witness
     report_1,    ///< Algorithm 1 of the report: bisection alone, no outlier allowed
-    report_2     ///< Algorithm 2 of the report with the consistent outlier rule
+    report_2     ///< Algorithm 2 of the report; its threshold is a budget of outliers, see
+                 ///< `outlier_rule::threshold`
 };
 
 struct identify_options {
@@ -27,6 +28,9 @@ struct identify_options {
     bool only_hulls = false;
     /// Boxes tested to draw the paving of the prior, when the search ran in products of parameters.
     std::size_t drawn_boxes = 1500;
+    /// What may be added to `search.seconds`, at most, to complete a result: the box about the
+    /// witness, the drawing of the prior, the measurements that fail in every case.
+    double completing_seconds = 0.3;
     /// Called with the state every `search.checkpoint_seconds` of the search and when a budget ends
     /// it (in place of `search.checkpoint`).
     std::function<void(identification_state const&)> checkpoint = nullptr;

@@ -30,9 +30,10 @@ struct inversion_options {
     /// `accuracy` is a fraction of the hull of all that is not proved outside, instead.
     bool accuracy_of_hull = false;
     /// Stop when no side of that hull has shrunk by more than this fraction while the boxes tested
-    /// doubled, twice in a row (0: never).
+    /// doubled, twice in a row (0: never). `stop_reason::hulls_rest`.
     double hull_gain = 0;
-    /// Stop when the inner volume reaches this fraction of the outer one (1: never).
+    /// Stop when the inner volume reaches this fraction of the outer one (1: never), whatever the
+    /// accuracy. `stop_reason::inside_share`.
     double sufficient_ratio = 0.5;
     double seconds = 60;
     std::size_t boxes = 10'000'000;
@@ -45,6 +46,9 @@ struct inversion_options {
     bool keep_outside = true;
     /// Called after each test; false stops the search with what is proved until then.
     std::function<bool(paving_progress const&)> progress = nullptr;
+    /// The same question between two tests and, where the test can be interrupted
+    /// (`interruptible_set_test`), during one; by any thread. Once it is false it stays so.
+    std::function<bool()> keep_going = nullptr;
 
     /// A test that learns about several boxes at once gets up to so many full sets of boxes at a
     /// time, which different threads can work on. It is part of what the result depends on; how

@@ -100,7 +100,7 @@ private:
         above.for_each(
             [&](double& b, double s, double hi) { b = even * t / std::max(hi - s, 1e-300); }, step,
             high);
-        for (int round = 0; round < 40; ++round) {
+        for (int round = 0; round < 40 && !campaign_->cancelled(); ++round) {
             double gap = 0;
             for (std::size_t e = 0; e < lines_.size(); ++e) {
                 for (Eigen::Index k = 0; k < lines_[e].size(); ++k) {

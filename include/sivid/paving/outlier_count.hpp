@@ -63,8 +63,7 @@ public:
         goal_ = goal;
         auto const begin = std::chrono::steady_clock::now();
         auto const over = [&] {
-            if (options_.keep_going && !options_.keep_going()) return true;
-            return judged_ >= options_.boxes ||
+            return cancelled() || judged_ >= options_.boxes ||
                    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() >
                        options_.seconds;
         };
@@ -94,6 +93,7 @@ private:
         std::vector<double> smear = {};
         bool blind = true;
     };
+    [[nodiscard]] bool cancelled() const { return options_.keep_going && !options_.keep_going(); }
     static bool before(node const& a, node const& b) {
         return a.bound < b.bound || (a.bound == b.bound && a.volume > b.volume);
     }
@@ -162,6 +162,7 @@ private:
             auto r = std::make_shared<response>(*n.known[e]);
             for (r->allowed = n.least[e]; r->allowed <= spare(e); ++r->allowed) {
                 auto part = n.set;
+                if (cancelled()) break; // so many are proved, perhaps more are needed
                 if (!assess(*r, part).refuted && cut_contraction()({r}, part)) break;
             }
             n.least[e] = r->allowed;

@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -47,7 +48,8 @@ public:
           waiting_(options.order),
           batches_(test, waiting_, options.workers),
           whole_(prior),
-          rest_{.last = prior} {
+          rest_{.last = prior},
+          outside_kept_(options.keep_outside || options.checkpoint || options.resume) {
         require_sound_environment();
         if (prior.size() == 0 || is_empty(prior))
             throw std::invalid_argument("invert: empty prior");
@@ -71,31 +73,43 @@ public:
         double const inner = paving_.inner_volume().upper();
         double const outer = paving_.outer_volume().upper() + waiting_.volume();
         std::optional<stop_reason> stop;
-        if (options_.progress &&
-            !options_.progress({seconds(), tested_, waiting_.size(), inner, outer})) {
-            stop = stop_reason::cancelled;
-        } else if (seconds() > options_.seconds) {
+        bool const cancelled =
+            (options_.progress &&
+             !options_.progress({seconds(), tested_, waiting_.size(), inner, outer})) ||
+            (options_.keep_going && !options_.keep_going());
+        double const now = seconds();
+        if (now > options_.seconds || (!cancelled && cut_short())) {
             stop = stop_reason::time_budget;
         } else if (tested_ >= options_.boxes) {
             stop = stop_reason::box_budget;
         } else if (bytes() > options_.memory) {
             stop = stop_reason::memory_budget;
+        } else if (cancelled) {
+            stop = stop_reason::cancelled;
         }
         if (options_.checkpoint && (stop || checkpoint_due())) write_checkpoint();
-        if (!stop && (hull_rests() || (inner > 0 && inner >= options_.sufficient_ratio * outer &&
-                                       options_.sufficient_ratio < 1))) {
-            stop = stop_reason::accuracy_reached;
+        if (!stop && hull_rests()) stop = stop_reason::hulls_rest;
+        if (!stop && inner > 0 && inner >= options_.sufficient_ratio * outer &&
+            options_.sufficient_ratio < 1) {
+            stop = stop_reason::inside_share;
         }
-        if (stop) reason_ = *stop;
+        if (stop) {
+            reason_ = *stop;
+            stopped_at_ = now;
+        }
         return stop.has_value();
     }
 
-    /// Takes the next box, or the next boxes to learn about, and settles what is found.
+    /// Takes the next box, or the next boxes to learn about, and settles what is found. A test that
+    /// was interrupted meanwhile settles nothing: then all is as it was before the step.
     void step() {
+        step_mark const before{waiting_.pushed(), waiting_.running_volume()};
         if constexpr (in_batches) {
             auto next = batches_.take();
-            if (next.load.judged->blind) {
-                learn(std::move(next));
+            if (cut_short()) {
+                put_back(before, {std::move(next)});
+            } else if (next.load.judged->blind) {
+                learn(before, std::move(next));
             } else {
                 settle_judged(std::move(next));
             }
@@ -103,6 +117,10 @@ public:
             auto next = waiting_.pop();
             auto const known = next.load.known;
             auto found = ask(next.set, known);
+            if (cut_short()) {
+                put_back(before, {std::move(next)});
+                return;
+            }
             ++tested_;
             settle(std::move(next), found, hand_on(found.knowledge, known));
         }
@@ -111,7 +129,11 @@ public:
     /// What waits is pending in the result.
     [[nodiscard]] inversion finish() && {
         while (!waiting_.empty()) paving_.add(waiting_.pop().set, box_verdict::pending);
-        return {std::move(paving_), reason_, tested_, cost_, seconds()};
+        double const spent = stopped_at_.value_or(seconds());
+        if (outside_kept_ && !options_.keep_outside) {
+            return {without_outside(paving_), reason_, tested_, cost_, spent};
+        }
+        return {std::move(paving_), reason_, tested_, cost_, spent};
     }
 
     /// Bytes held by boxes and knowledge.
@@ -142,6 +164,7 @@ public:
         s.rested = rest_.rested;
         s.next_look = rest_.next_look;
         s.seconds = seconds();
+        s.outside_kept = outside_kept_;
         return s;
     }
 
@@ -155,6 +178,7 @@ private:
                 throw std::invalid_argument("search state: it is of another search");
             }
             for (auto const& b : s.paved) paving_.add(b.set, b.verdict);
+            outside_kept_ = outside_kept_ && s.outside_kept;
             paving_detail::lesson_restorer<knowledge> known(s, held_);
             std::vector<item> items;
             for (auto const& w : s.waiting) {
@@ -195,6 +219,30 @@ private:
         }
     }
 
+    /// Where a step began.
+    struct step_mark {
+        std::size_t pushed;
+        double volume;
+    };
+    /// Undoes a step that has settled nothing.
+    /// @param taken  the items that it took
+    /// @param moved  numbers that items had which it put back in vain, in the order of putting back
+    void put_back(step_mark const& before, std::vector<item> taken,
+                  std::vector<std::size_t> const& moved = {}) {
+        for (auto i : waiting_.items()) {
+            if (i.number >= before.pushed) i.number = moved[i.number - before.pushed];
+            taken.push_back(std::move(i));
+        }
+        waiting_.restore(std::move(taken), before.pushed, before.volume);
+    }
+    [[nodiscard]] bool cut_short() const {
+        if constexpr (interruptible_set_test<Test>) {
+            return test_->cancelled();
+        } else {
+            return false;
+        }
+    }
+
     [[nodiscard]] bool hull_rests() {
         return rest_(tested_, options_.hull_gain,
                      [this] { return waiting_.hull(paving_.outer_hull()); });
@@ -202,7 +250,7 @@ private:
 
     [[nodiscard]] double volume(box const& x) const { return relative_volume(x, prior_).upper(); }
     void decide(box x, box_verdict v) {
-        if (v != box_verdict::outside || options_.keep_outside) paving_.add(std::move(x), v);
+        if (v != box_verdict::outside || outside_kept_) paving_.add(std::move(x), v);
     }
     [[nodiscard]] std::optional<std::size_t> split_side(box const& x,
                                                         std::vector<double> const& smear) {
@@ -295,13 +343,21 @@ private:
     }
 
     /// Boxes that are blind too are learnt about together.
-    void learn(item first) {
-        auto sets = batches_.gather(std::move(first), options_.batches);
+    void learn(step_mark const& before, item first) {
+        auto [sets, moved] = batches_.gather(std::move(first), options_.batches);
+        std::vector<item> taken;
+        for (auto const& set : sets) taken.insert(taken.end(), set.begin(), set.end());
+        auto const measure = std::pair(whole_, measured_at_);
         // While there are few the search has just begun: halves are more use than wholes.
         while (options_.order == search_order::largest_first &&
                2 * sets[0].size() <= test_->at_once() && halve(sets[0])) {
         }
         auto found = batches_.learn(sets);
+        if (cut_short()) {
+            put_back(before, std::move(taken), moved);
+            std::tie(whole_, measured_at_) = measure;
+            return;
+        }
         for (std::size_t k = 0; k < sets.size(); ++k) {
             for (std::size_t n = 0; n < sets[k].size(); ++n) {
                 ++tested_;
@@ -330,6 +386,9 @@ private:
     box whole_; ///< what the accuracy is a fraction of
     std::size_t measured_at_ = 0;
     paving_detail::hull_rest rest_;
+    /// A state without them could not be told from one that lost a box.
+    bool outside_kept_;
+    std::optional<double> stopped_at_; ///< when a budget, or what was reached, ended the search
     clock::time_point begin_ = clock::now();
     double earlier_ = 0;    ///< seconds of the runs before
     double written_at_ = 0; ///< of the last checkpoint, and what it took

@@ -71,6 +71,9 @@ struct identification_problem {
             if (is_empty(s.initial)) fail(where + "the initial box is empty");
             if (!bounded(s.initial)) fail(where + "the initial box must be bounded");
             if (s.measurements.empty()) fail(where + "no measurement");
+            if (s.outliers > s.measurements.size()) {
+                fail(where + "more outliers allowed than there are measurements");
+            }
             for (auto const& m : s.measurements) {
                 if (m.channel >= model.about.channels.size()) fail(where + "unknown channel");
                 if (!(m.time >= s.begin) || !std::isfinite(m.time)) {

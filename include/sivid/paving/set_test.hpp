@@ -71,6 +71,13 @@ concept measured_set_test = requires(T test, typename T::knowledge const& known)
     { test.bytes(known) } -> std::convertible_to<std::size_t>;
 };
 
+/// A test that may be told to stop: `cancelled()` says that what it answered last need not be what
+/// it would have found with more time. Once true it stays so. Its answers are proofs all the same.
+template <class T>
+concept interruptible_set_test = requires(T const& test) {
+    { test.cancelled() } -> std::convertible_to<bool>;
+};
+
 template <class T>
 concept set_test = plain_set_test<T> || learning_set_test<T>;
 

@@ -20,13 +20,16 @@ namespace paving_detail {
 
 /// By how many half-widths each sample of one channel leaves a parabola through its neighbours,
 /// fitted without it and robustly (least absolute values by reweighting).
-[[nodiscard]] inline std::vector<double> local_misfits(std::vector<double> const& t,
-                                                       std::vector<double> const& y,
-                                                       std::vector<double> const& e) {
+/// @param over  asked now and then: the samples that come then are not looked at
+template <class Over>
+[[nodiscard]] std::vector<double> local_misfits(std::vector<double> const& t,
+                                                std::vector<double> const& y,
+                                                std::vector<double> const& e, Over const& over) {
     std::vector<double> result(t.size(), 0.0);
     std::size_t const side = 4;
     if (t.size() < 2 * side) return result;
     for (std::size_t k = 0; k < t.size(); ++k) {
+        if (k % 256 == 0 && over()) break;
         auto const first = std::min(k > side ? k - side : 0, t.size() - 2 * side);
         auto const last = std::min(t.size(), first + 2 * side + 1);
         Eigen::Vector3d c = Eigen::Vector3d::Zero();
@@ -78,7 +81,8 @@ namespace paving_detail {
                 y.push_back(c.centres(e)[k]);
                 r.push_back(c.radii(e)[k]);
             }
-            auto const misfit = paving_detail::local_misfits(t, y, r);
+            auto const misfit =
+                paving_detail::local_misfits(t, y, r, [&c] { return c.cancelled(); });
             for (std::size_t i = 0; i < rows.size(); ++i) {
                 if (misfit[i] > limit) suspects.emplace_back(misfit[i], rows[i]);
             }

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -25,11 +26,12 @@ class scenario_filler {
 public:
     scenario_filler(identification_problem const& problem, identification const& found,
                     explaining_motion const* motion, std::optional<plane_channels> names,
-                    std::size_t experiment)
+                    std::size_t experiment, std::function<bool()> keep_going = {})
         : problem_{problem},
           found_{found},
           motion_{motion},
           names_{std::move(names)},
+          keep_going_{std::move(keep_going)},
           e_{experiment} {}
 
     [[nodiscard]] scenario_view view() const {
@@ -37,8 +39,7 @@ public:
         record const samples = sorted(s.measurements);
         scenario_view out{
             .name = s.name, .measurements = samples.size(), .outlier_budget = s.outliers};
-        auto const outputs =
-            motion_ != nullptr ? motion_->outputs_of(e_, samples) : std::vector<interval>{};
+        auto const outputs = motion_ != nullptr ? motion_->outputs[e_] : std::vector<interval>{};
         std::vector<channel_series> all(about().channels.size());
         for (std::size_t c = 0; c < all.size(); ++c) {
             all[c].name = about().channels[c].name;
@@ -93,6 +94,7 @@ private:
         ensemble<interval> const family(motion_->starts[e_], motion_->parameters);
         look.set_ensemble(family);
         for (auto const& step : tube.steps()) {
+            if (keep_going_ && !keep_going_()) return;
             auto const y = look.over(step.from, interval(step.from, step.to), step.swept);
             for (std::size_t c = 0; c < all.size(); ++c) {
                 if (is_finite(shown(y[c]))) {
@@ -117,7 +119,8 @@ private:
         }
         auto const start = found_.witness ? found_.witness->starts[e_] : found_.guess->starts[e_];
         try {
-            line = approximate_simulator(*motion_->flows[e_])(start, *point, s.begin, times);
+            line = approximate_simulator(*motion_->flows[e_])(start, *point, s.begin, times, 1e-9,
+                                                              keep_going_);
         } catch (std::exception const&) {
             return {}; // a missing line is no loss: nothing rests on it
         }
@@ -177,6 +180,7 @@ private:
     identification const& found_;
     explaining_motion const* motion_;
     std::optional<plane_channels> names_;
+    std::function<bool()> keep_going_;
     std::size_t e_;
 };
 

@@ -75,7 +75,7 @@ public:
         if (!failed) return std::nullopt;
         result_.failure = *failed;
         result_.end = end_;
-        if (follow_members()) return result_;
+        if (failed->reason == failure_reason::cancelled || follow_members()) return result_;
         try_remedies();
         choose();
         return result_;

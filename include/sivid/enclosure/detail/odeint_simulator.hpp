@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <vector>
@@ -30,7 +31,8 @@ public:
     [[nodiscard]] approximate_trajectory operator()(std::vector<double> const& initial,
                                                     std::vector<double> const& parameters,
                                                     double from, std::vector<double> const& times,
-                                                    double tolerance) {
+                                                    double tolerance,
+                                                    std::function<bool()> const& keep_going) {
         namespace odeint = boost::numeric::odeint;
         using state = std::vector<double>;
         rate_.set_parameters(parameters);
@@ -54,7 +56,7 @@ public:
                 // The method keeps its last derivative, which a knot may have changed.
                 method.reset();
                 step = std::min(step, to - t);
-                advance(method, rhs, x, t, to, step);
+                advance(method, rhs, x, t, to, step, keep_going);
             }
             result.states.push_back(x);
             evaluate(observe_, t, t, x);
@@ -67,10 +69,12 @@ public:
 private:
     template <class Method, class Rate>
     static void advance(Method& method, Rate const& rate, std::vector<double>& x, double& t,
-                        double to, double& step) {
+                        double to, double& step, std::function<bool()> const& keep_going) {
         namespace odeint = boost::numeric::odeint;
         std::size_t attempts = 0;
         while (t < to) {
+            if (keep_going && !keep_going())
+                throw std::runtime_error("simulation was told to stop");
             double trial = std::min(step, to - t);
             bool const last = trial >= to - t;
             if (method.try_step(rate, x, t, trial) == odeint::success) {
@@ -106,8 +110,8 @@ approximate_simulator::operator=(approximate_simulator&&) noexcept = default;
 SIVID_ENTRY approximate_simulator::~approximate_simulator() = default;
 SIVID_ENTRY approximate_trajectory approximate_simulator::operator()(
     std::vector<double> const& initial, std::vector<double> const& parameters, double from,
-    std::vector<double> const& times, double tolerance) {
-    return (*work_)(initial, parameters, from, times, tolerance);
+    std::vector<double> const& times, double tolerance, std::function<bool()> const& keep_going) {
+    return (*work_)(initial, parameters, from, times, tolerance, keep_going);
 }
 
 } // namespace sivid

@@ -184,7 +184,12 @@ private:
             entry.fail(text_of("the ", what, " [", lower.text(), ", ", upper.text(),
                                "] is empty: lower is above upper"),
                        "write [lower, upper]");
-        return {lower, upper, enclosed(entry, lower, upper)};
+        auto const enclosure = enclosed(entry, lower, upper);
+        if (mag(enclosure) > farthest_range)
+            entry.fail(text_of("the ", what, " [", lower.text(), ", ", upper.text(),
+                               "] reaches beyond 1e100"),
+                       "state the range that is physically possible");
+        return {lower, upper, enclosure};
     }
 
     static bool same_unit(std::string const& a, std::string const& b) {

@@ -3,44 +3,61 @@
 #define SIVID_IO_DETAIL_EXPLAINING_MOTION_SEARCH_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/enclosure/observation.hpp>
 #include <sivid/enclosure/tube.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/problem.hpp>
 #include <sivid/space/box.hpp>
 
-#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace sivid {
 
-SIVID_ENTRY std::vector<interval> explaining_motion::outputs_of(std::size_t e,
-                                                                record const& samples) const {
-    std::vector<interval> result;
-    auto const& tube = *tubes[e];
-    std::optional<box> outputs;
-    double time = 0;
-    for (auto const& m : samples) {
-        if (!outputs || m.time != time) {
-            bool const covered = tube.begin_time() <= m.time && m.time <= tube.end_time();
-            outputs = covered ? tube.observe_at(m.time) : box{};
-            time = m.time;
+namespace io_detail {
+
+/// Encloses the outputs at the measurements of an experiment, as far as the tube and the time go.
+inline std::vector<interval> outputs_along(tube<interval> const& motion, record const& samples,
+                                           std::function<bool()> const& keep_going) {
+    using traits = interval_traits<interval>;
+    std::vector<interval> result(samples.size(), traits::entire());
+    observer<interval> look(motion.equations());
+    look.set_ensemble(motion.ensemble());
+    std::vector<observation<interval>> seen;
+    double seen_at = std::nan("");
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        auto const& m = samples[i];
+        if (!(motion.begin_time() <= m.time && m.time <= motion.end_time())) continue;
+        if (m.time != seen_at) {
+            if (keep_going && !keep_going()) break;
+            seen = look(motion.set_at(m.time));
+            seen_at = m.time;
         }
-        result.push_back(outputs->size() > m.channel ? (*outputs)[m.channel]
-                                                     : interval_traits<interval>::entire());
+        if (seen[m.channel].defined) result[i] = seen[m.channel].value;
     }
     return result;
 }
 
-namespace io_detail {
+/// So many steps do for a picture, knots and measurements included: a set that needs more says no
+/// more for it.
+inline std::size_t steps_for(experiment const& e, std::size_t pieces) {
+    std::size_t stops = pieces + e.measurements.size();
+    for (auto const& input : e.inputs) {
+        if (auto const* u = std::get_if<sampled_signal>(&input)) stops += u->times().size();
+    }
+    return 2000 + 4 * stops;
+}
 
 inline explaining_motion enclose_motion(identification_problem const& problem, motion_source source,
-                                        box parameters, std::vector<box> starts,
-                                        std::size_t pieces) {
-    explaining_motion motion{source, std::move(parameters), std::move(starts), {}, {}};
+                                        box parameters, std::vector<box> starts, std::size_t pieces,
+                                        std::function<bool()> const& keep_going) {
+    explaining_motion motion{source, std::move(parameters), std::move(starts), {}, {}, {}};
     for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
         auto const& s = problem.experiments[e];
         auto const f =
@@ -48,9 +65,13 @@ inline explaining_motion enclose_motion(identification_problem const& problem, m
         double const end = last_measurement(s);
         enclosure_options options;
         if (pieces > 0) options.maximum_step = (end - s.begin) / static_cast<double>(pieces);
+        options.maximum_steps = steps_for(s, pieces);
+        options.keep_going = keep_going;
         motion.flows.push_back(f);
         motion.tubes.push_back(std::make_shared<tube<interval>>(
             integrate<interval>(f, motion.starts[e], motion.parameters, s.begin, end, options)));
+        motion.outputs.push_back(
+            outputs_along(*motion.tubes[e], sorted(s.measurements), keep_going));
     }
     return motion;
 }
@@ -59,11 +80,10 @@ inline explaining_motion enclose_motion(identification_problem const& problem, m
 inline bool shows_explanation(identification_problem const& problem,
                               explaining_motion const& motion) {
     for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
-        auto const& samples = problem.experiments[e].measurements;
-        auto const outputs = motion.outputs_of(e, samples);
+        auto const samples = sorted(problem.experiments[e].measurements);
         std::size_t open = 0;
         for (std::size_t i = 0; i < samples.size(); ++i) {
-            open += subset(outputs[i], samples[i].bound) ? 0 : 1;
+            open += subset(motion.outputs[e][i], samples[i].bound) ? 0 : 1;
         }
         if (open > problem.experiments[e].outliers) return false;
     }
@@ -84,7 +104,7 @@ inline box middle_half(box x) {
 
 SIVID_ENTRY std::optional<explaining_motion>
 find_explaining_motion(identification_problem const& problem, identification const& found,
-                       std::size_t pieces) {
+                       std::size_t pieces, std::function<bool()> const& keep_going) {
     std::vector<box> starts;
     for (auto const& s : problem.experiments) starts.push_back(s.initial);
     auto const points = [](std::vector<std::vector<double>> const& all) {
@@ -108,21 +128,23 @@ find_explaining_motion(identification_problem const& problem, identification con
     }
     if (largest != nullptr) {
         auto part = *largest;
-        for (int attempt = 0; attempt < 5; ++attempt) {
-            auto motion =
-                io_detail::enclose_motion(problem, motion_source::inside_box, part, starts, pieces);
+        for (int attempt = 0; attempt < 5 && (!keep_going || keep_going()); ++attempt) {
+            auto motion = io_detail::enclose_motion(problem, motion_source::inside_box, part,
+                                                    starts, pieces, keep_going);
             if (io_detail::shows_explanation(problem, motion)) return motion;
             part = io_detail::middle_half(part);
         }
     }
+    if (keep_going && !keep_going()) return std::nullopt;
     if (found.witness) {
         return io_detail::enclose_motion(problem, motion_source::witness,
                                          point_box(found.witness->parameters),
-                                         points(found.witness->starts), pieces);
+                                         points(found.witness->starts), pieces, keep_going);
     }
     if (found.guess && !found.guess->parameters.empty()) {
         return io_detail::enclose_motion(problem, motion_source::best_guess,
-                                         point_box(found.guess->parameters), starts, pieces);
+                                         point_box(found.guess->parameters), starts, pieces,
+                                         keep_going);
     }
     return std::nullopt;
 }

@@ -23,11 +23,14 @@ SIVID_ENTRY void json_value::fail(std::string problem, std::string remedy) const
 SIVID_ENTRY std::string const& json_value::string() const {
     expect(kind::string, "a text in quotes");
     if (text_.empty()) fail("the text is empty", "give a name");
-    auto const is_control = [](char c) {
-        return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-    };
-    if (std::any_of(text_.begin(), text_.end(), is_control))
-        fail(text_of("the text ", in_quotes(text_), " holds a control character"), "remove it");
+    return any_string();
+}
+
+SIVID_ENTRY std::string const& json_value::any_string() const {
+    expect(kind::string, "a text in quotes");
+    if (auto const what = unprintable_in(text_); !what.empty())
+        fail(text_of("the text ", in_quotes(text_), " holds a control character: ", what),
+             "remove it");
     return text_;
 }
 

@@ -62,11 +62,17 @@ public:
         return waiting_->pop();
     }
 
+    struct gathered {
+        std::vector<std::vector<item>> sets;
+        std::vector<std::size_t> moved; ///< numbers that others had, which now wait under new ones
+    };
     /// The first, which is blind, and more blind boxes that are near their turn: one set as large
     /// as the test takes at once, or what there is, and up to `most` - 1 further full sets.
-    [[nodiscard]] std::vector<std::vector<item>> gather(item first, std::size_t most) {
+    [[nodiscard]] gathered gather(item first, std::size_t most) {
         std::size_t const wanted = test_->at_once();
-        std::vector<std::vector<item>> sets(1);
+        gathered result;
+        auto& sets = result.sets;
+        sets.resize(1);
         std::vector<item> others;
         sets[0].push_back(std::move(first));
         auto const fill = [&](std::vector<item>& set) {
@@ -86,8 +92,11 @@ public:
             }
             sets.push_back(std::move(more));
         }
-        for (auto& i : others) waiting_->push(std::move(i.set), i.volume, std::move(i.load));
-        return sets;
+        for (auto& i : others) {
+            result.moved.push_back(i.number);
+            waiting_->push(std::move(i.set), i.volume, std::move(i.load));
+        }
+        return result;
     }
 
     /// A call of `learn`.

@@ -8,6 +8,7 @@
 #include <sivid/paving/preimage_volume.hpp>
 #include <sivid/paving/reduction.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -46,7 +47,7 @@ inline void draw(identification& result, reduction const& map, subpaving const& 
                  box const& prior, inversion_options drawing, std::size_t boxes) {
     preimage_test test(map, reduced);
     drawing.boxes = boxes;
-    drawing.seconds = 10; // nothing is integrated
+    drawing.seconds = std::min(10.0, drawing.seconds); // nothing is integrated
     drawing.progress = nullptr;
     drawing.hull_gain = 0;
     drawing.memory = inversion_options{}.memory; // few boxes

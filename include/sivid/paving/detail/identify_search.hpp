@@ -13,10 +13,12 @@
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/reduction.hpp>
 #include <sivid/paving/witness.hpp>
+#include <sivid/paving/work_limit.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -47,6 +49,12 @@ SIVID_ENTRY identification identify(identification_problem const& problem,
                                     identify_options options) {
     problem.require_valid();
     auto const begin = std::chrono::steady_clock::now();
+    // Every phase ends in time, and soon when told to: integrations and simulations ask.
+    double const earlier =
+        options.resume ? options.resume->seconds + options.resume->search.seconds : 0;
+    work_limit limit(options.search.seconds - earlier, options.search.keep_going);
+    options.test.run.enclosure.keep_going = limit;
+    options.test.witness.enclosure.keep_going = limit;
     auto working = problem;
     if (options.algorithm != algorithm::contracting) {
         options.test.contract = false;
@@ -63,8 +71,8 @@ SIVID_ENTRY identification identify(identification_problem const& problem,
     result.assumptions.push_back(input_assumption(problem.experiments));
     std::vector<box> starts;
     if (options.algorithm == algorithm::contracting) {
-        auto guess =
-            options.resume ? options.resume->guess.value_or(approximate_fit{}) : fitter(working)();
+        auto guess = options.resume ? options.resume->guess.value_or(approximate_fit{})
+                                    : fitter(working, limit)();
         if (!guess.parameters.empty()) {
             result.witness = verify_witness(test, working, guess.parameters, guess.starts);
             for (std::size_t s = 0; s < guess.starts.size(); ++s) {
@@ -90,7 +98,9 @@ SIVID_ENTRY identification identify(identification_problem const& problem,
     auto search = options.search;
     if (map) search.keep_outside = true; // what is drawn is told from them
     search.checkpoint = nullptr;
-    if (options.checkpoint) {
+    // A fit that was cut short is not what an uninterrupted run would go on from.
+    bool const prepared = options.resume || limit();
+    if (options.checkpoint && prepared) {
         search.checkpoint = [&](search_state const& now) {
             options.checkpoint({result.guess, spent, now});
         };
@@ -102,6 +112,7 @@ SIVID_ENTRY identification identify(identification_problem const& problem,
     // Not what was integrated but what the result stands on: resuming repeats some.
     result.integrations = found.cost + integrated - searching.integrations();
     auto const left = found.paving.outer_hull();
+    limit.allow(options.completing_seconds);
     if (result.witness && !options.only_hulls && found.reason != stop_reason::cancelled &&
         found.paving.count(box_verdict::inside) == 0) {
         auto const point = map ? mid(map->forward(point_box(result.witness->parameters)))
@@ -114,7 +125,14 @@ SIVID_ENTRY identification identify(identification_problem const& problem,
     }
     result.reason = found.reason;
     result.boxes = found.tested;
+    result.effort = search_effort{
+        found.seconds, std::min(search.seconds, 1e300), found.tested, search.boxes, {}};
+    if (search.memory < std::numeric_limits<std::size_t>::max()) {
+        result.effort->most_bytes = search.memory;
+    }
     if (map) {
+        options.search.seconds = limit.seconds();
+        options.search.keep_going = limit;
         paving_detail::draw(result, *map, found.paving, problem.prior, options.search,
                             options.drawn_boxes);
     } else {

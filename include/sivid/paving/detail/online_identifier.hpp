@@ -107,7 +107,7 @@ public:
             result.hull = left;
         }
         result.verdict = judged_verdict();
-        result.reason = reason();
+        result.reason = paving_->rests_since(options_.refinement);
         result.combinations = combinations();
         if (!paving_->boxes().empty()) {
             result.entangled = structure_.entangled;
@@ -187,17 +187,6 @@ private:
             }
         }
         return verdict::undecided;
-    }
-    [[nodiscard]] stop_reason reason() const {
-        auto const& boxes = paving_->boxes();
-        bool const decided = std::all_of(boxes.begin(), boxes.end(), [](auto const& b) {
-            return b.verdict == box_verdict::inside;
-        });
-        bool const judged =
-            std::all_of(boxes.begin(), boxes.end(), [](auto const& b) { return b.judged; });
-        return decided  ? stop_reason::decided
-               : judged ? stop_reason::accuracy_reached
-                        : stop_reason::box_budget;
     }
     [[nodiscard]] box hull() const {
         auto const left = paving_->hull();

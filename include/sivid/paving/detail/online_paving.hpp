@@ -100,6 +100,23 @@ public:
         consolidate();
         narrow_regions();
     }
+    /// Why what is left was refined no further by the last update.
+    [[nodiscard]] stop_reason rests_since(online_refinement const& how) const {
+        bool decided = true, judged = true, fine = true;
+        auto const whole = hull();
+        for (auto const& b : boxes_) {
+            if (b.verdict == box_verdict::inside) continue;
+            decided = false;
+            judged = judged && b.judged;
+            fine = fine && !paving_detail::side_to_split(b.set, whole, b.smear, how.accuracy);
+        }
+        return decided             ? stop_reason::decided
+               : !judged           ? stop_reason::box_budget
+               : fine              ? stop_reason::accuracy_reached
+               : much_inside(how)  ? stop_reason::inside_share
+               : how.hull_gain > 0 ? stop_reason::hulls_rest
+                                   : stop_reason::box_budget;
+    }
     /// Integrates anew over what is left of each region: from other starts, say.
     void learn_anew() {
         auto const old = living();
@@ -170,6 +187,15 @@ private:
         boxes_ = std::move(settled);
     }
 
+    [[nodiscard]] bool much_inside(online_refinement const& how) const {
+        double inner = 0, outer = 0;
+        for (auto const& b : boxes_) {
+            outer += b.volume;
+            inner += b.verdict == box_verdict::inside ? b.volume : 0;
+        }
+        for (auto const& b : open_) outer += b.volume;
+        return inner > 0 && inner >= how.sufficient_ratio * outer;
+    }
     /// The hull of what is left while refining.
     [[nodiscard]] box hull_of_all() const {
         auto around = hull();
@@ -179,13 +205,7 @@ private:
     /// @param judged  boxes since the refinement began
     [[nodiscard]] bool enough(online_refinement const& how, paving_detail::hull_rest& rest,
                               std::size_t judged) const {
-        double inner = 0, outer = 0;
-        for (auto const& b : boxes_) {
-            outer += b.volume;
-            inner += b.verdict == box_verdict::inside ? b.volume : 0;
-        }
-        for (auto const& b : open_) outer += b.volume;
-        if (inner > 0 && inner >= how.sufficient_ratio * outer) return true;
+        if (much_inside(how)) return true;
         return rest(judged, how.hull_gain, [this] { return hull_of_all(); });
     }
 

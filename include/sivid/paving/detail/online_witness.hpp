@@ -71,7 +71,7 @@ public:
         std::erase_if(known.experiments,
                       [](experiment const& e) { return e.measurements.empty(); });
         if (known.experiments.empty()) return;
-        fitter fit(known);
+        fitter fit(known, options_.enclosure.keep_going);
         auto guess = last_.empty() ? fit() : fit(last_);
         if (!(guess.inflation < 1) && !last_.empty()) guess = fit();
         if (guess.parameters.empty()) return;

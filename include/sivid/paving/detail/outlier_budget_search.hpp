@@ -10,10 +10,12 @@
 #include <sivid/paving/problem.hpp>
 #include <sivid/paving/reduction.hpp>
 #include <sivid/paving/witness.hpp>
+#include <sivid/paving/work_limit.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -27,8 +29,13 @@ namespace paving_detail {
 /// validated runs.
 class few_violations {
 public:
-    few_violations(identification_problem const& problem, data_test_options const& options)
-        : problem_(problem), tolerant_(problem), test_(with_any_outliers(tolerant_), options) {
+    /// @param keep_going  false ends what is tried; what was found stands
+    few_violations(identification_problem const& problem, data_test_options const& options,
+                   std::function<bool()> keep_going)
+        : problem_(problem),
+          tolerant_(problem),
+          keep_going_(std::move(keep_going)),
+          test_(with_any_outliers(tolerant_), options) {
         for (auto const& e : problem.experiments) budgets_.push_back(e.measurements.size());
     }
     few_violations(few_violations const&) = delete; // the test refers to the problem
@@ -45,11 +52,11 @@ public:
     void search() {
         std::size_t most = 0;
         for (auto const& e : problem_.experiments) most = std::max(most, e.measurements.size());
-        for (std::size_t q = 0; 3 * q <= most; q = q == 0 ? 1 : 2 * q) {
+        for (std::size_t q = 0; 3 * q <= most && keep_going_(); q = q == 0 ? 1 : 2 * q) {
             for (auto& e : problem_.experiments) {
                 e.outliers = std::min(q, e.measurements.size() / 2);
             }
-            auto const guess = fitter(problem_)();
+            auto const guess = fitter(problem_, keep_going_)();
             (void)propose(guess);
             if (guess.inflation <= 1) break;
         }
@@ -67,7 +74,7 @@ public:
             problem_.experiments[e].outliers =
                 std::min(budgets_[e], problem_.experiments[e].measurements.size() / 2);
         }
-        if (propose(fitter(problem_)(parameters)) && total() < before) decrease();
+        if (propose(fitter(problem_, keep_going_)(parameters)) && total() < before) decrease();
     }
 
 private:
@@ -77,14 +84,14 @@ private:
     }
     /// Fits with one outlier less in an experiment, as long as that works.
     void decrease() {
-        for (bool better = true; better;) {
+        for (bool better = true; better && keep_going_();) {
             better = false;
             for (std::size_t e = 0; e < budgets_.size() && !better; ++e) {
                 if (budgets_[e] == 0) continue;
                 for (std::size_t k = 0; k < budgets_.size(); ++k) {
                     problem_.experiments[k].outliers = budgets_[k] - (k == e ? 1 : 0);
                 }
-                better = propose(fitter(problem_)(witness_->parameters));
+                better = propose(fitter(problem_, keep_going_)(witness_->parameters));
             }
         }
     }
@@ -109,6 +116,7 @@ private:
 
     identification_problem problem_;  ///< with the budgets of the next fit
     identification_problem tolerant_; ///< any number of outliers allowed
+    std::function<bool()> keep_going_;
     data_test test_;
     std::vector<std::size_t> budgets_;
     std::optional<verified_witness> witness_;
@@ -137,14 +145,19 @@ inline proved_count least_violations(identification_problem const& problem, few_
 } // namespace paving_detail
 
 SIVID_ENTRY smallest_budget smallest_outlier_budget(identification_problem const& problem,
-                                                    outlier_search_options const& options) {
+                                                    outlier_search_options const& asked) {
     problem.require_valid();
+    work_limit const limit(asked.seconds, asked.keep_going);
+    auto options = asked;
+    options.keep_going = limit;
+    options.test.run.enclosure.keep_going = limit;
+    options.test.witness.enclosure.keep_going = limit;
     auto const begin = std::chrono::steady_clock::now();
     auto const elapsed = [&] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     };
     smallest_budget result;
-    paving_detail::few_violations few(problem, options.test);
+    paving_detail::few_violations few(problem, options.test, limit);
     few.search();
     auto const count = problem.experiments.size();
     std::vector<std::size_t> least(count, 0);
@@ -158,7 +171,7 @@ SIVID_ENTRY smallest_budget smallest_outlier_budget(identification_problem const
             }
             auto one = problem;
             one.experiments = {problem.experiments[e]};
-            paving_detail::few_violations own(one, options.test);
+            paving_detail::few_violations own(one, options.test, limit);
             own.search();
             share.seconds =
                 std::max(0.0, 0.5 * (options.seconds - elapsed()) / static_cast<double>(count - e));

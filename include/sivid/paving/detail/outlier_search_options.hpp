@@ -15,7 +15,8 @@ struct outlier_search_options {
     std::size_t boxes = 20'000;
     /// No side is split below this share of the prior.
     double accuracy = 1e-6;
-    std::function<bool()> keep_going; ///< false ends the search with what is proved until then
+    /// Asked by any thread; false ends the search with what is proved until then. It stays false.
+    std::function<bool()> keep_going = nullptr;
 };
 
 } // namespace sivid

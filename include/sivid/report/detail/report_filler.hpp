@@ -37,7 +37,8 @@ public:
         add_witness();
         for (std::size_t e = 0; e < problem_.experiments.size(); ++e) {
             view_.scenarios.push_back(
-                scenario_filler(problem_, found_, motion_, options_.plane, e).view());
+                scenario_filler(problem_, found_, motion_, options_.plane, e, options_.keep_going)
+                    .view());
         }
         add_marked();
         add_meanings();
@@ -87,6 +88,9 @@ private:
                           "for the outliers allowed.");
         view_.assumptions.push_back("The constants that are not listed as parameters have exactly "
                                     "their stated values.");
+        for (auto& words : derivation_words(problem_.model, problem_.choice)) {
+            view_.assumptions.push_back(std::move(words));
+        }
         view_.assumptions.insert(view_.assumptions.end(), options_.further_assumptions.begin(),
                                  options_.further_assumptions.end());
         if (found_.fewest) {
