@@ -46,7 +46,7 @@ sivid_compiled_source(flags "\
 ")
 
 # Headers with functions that are compiled once; those of one floor share most of their code.
-set(entries_number decimal decimal_output decimal_text)
+set(entries_number decimal decimal_output decimal_text kernel_trial)
 set(entries_measurement signal)
 set(entries_model bound_model describe effect effects expression graph graph_listing model to_dot unit)
 set(entries_enclosure enclosed_motion failure flow simulate)

@@ -13,15 +13,36 @@
 
 namespace withheld {
 
-enum class family { single, weak, wide, pose, pair, outliers, outside, none };
-inline constexpr std::array<std::string_view, 8> family_names{
-    "single", "weak", "wide", "pose", "pair", "outliers", "outside", "none"};
+enum class family {
+    single,
+    weak,
+    wide,
+    pose,
+    pair,
+    outliers,
+    outside,
+    none,
+    alias,
+    askew,
+    instrument,
+    experiments,
+    bounds,
+    strong,
+    onset,
+    three
+};
+inline constexpr std::array<std::string_view, 16> family_names{
+    "single", "weak",  "wide",       "pose",        "pair",   "outliers", "outside", "none",
+    "alias",  "askew", "instrument", "experiments", "bounds", "strong",   "onset",   "three"};
 
 std::optional<family> family_named(std::string_view name);
+/// Names between commas.
+/// @throws std::invalid_argument for an unknown one
+std::vector<family> families_named(std::string_view list);
 
-/// The family of campaign `index`: every run of eleven campaigns holds each family at least once
-/// and single effects three times, in an order that the seed decides.
-family family_of(std::uint64_t seed, std::size_t index);
+/// The family of campaign `index`. Of all families, every run of 22 campaigns holds each at least
+/// once, in an order that the seed decides; of those in `only`, every run holds each once.
+family family_of(std::uint64_t seed, std::size_t index, std::vector<family> const& only = {});
 
 struct unknown_constant {
     std::string name, unit;
@@ -32,6 +53,7 @@ struct measured_scenario {
     scenario plan;
     channels initial{};            // the true start, within plan.initial
     std::vector<gust_pulse> gusts; // in truth only
+    double onset = 0;              // of the catalogue's effects, infinite for never
     std::vector<channels> truth;   // at plan.sample_times
     std::vector<channels> value;   // what is written
     std::size_t outliers = 0;      // how many values break their bound
@@ -48,9 +70,11 @@ struct campaign {
     constants true_constants;
     effect_values true_effects;
     foreign_values true_foreign;
-    std::vector<std::string> effects;  // names, empty for none
-    std::string effects_text = "none"; // with parameters, as in the labels
-    std::string noise;                 // the shape of the noise
+    instrument_faults true_instruments;
+    channels bound_factor{1, 1, 1, 1, 1, 1}; // noise reaches so many times the stated bound
+    std::vector<std::string> effects;        // names, empty for none
+    std::string effects_text = "none";       // with parameters, as in the labels
+    std::string noise;                       // the shape of the noise
 };
 
 inline constexpr channels error_bound{0.02, 0.02, 0.05, 0.02, 0.02, 0.03};
@@ -63,7 +87,7 @@ world world_of(campaign const& c, measured_scenario const& s);
 world base_world_of(campaign const& c, measured_scenario const& s);
 
 /// `size` multiplies the effects of the catalogue: below 1 the check becomes harder.
-campaign draw_campaign(std::uint64_t seed, std::size_t index, std::optional<family> only,
+campaign draw_campaign(std::uint64_t seed, std::size_t index, std::vector<family> const& only = {},
                        double size = 1);
 
 } // namespace withheld

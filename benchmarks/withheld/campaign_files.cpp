@@ -5,6 +5,9 @@
 #include "measure.hpp"
 #include "recorded.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -99,12 +102,58 @@ std::string true_gusts(campaign const& c) {
     return text.empty() ? "-" : text;
 }
 
-/// The least inflation of the base model that a fit finds in the data as they were written.
-double best_inflation_without_effects(fs::path const& folder) {
-    auto const data = read_recording(folder);
+std::string true_onsets(campaign const& c) {
+    std::string text;
+    for (auto const& s : c.scenarios) {
+        if (s.onset == 0) continue;
+        text += (text.empty() ? "" : " ") + s.plan.name + '=' +
+                (std::isinf(s.onset) ? "inf" : decimal_text(s.onset));
+    }
+    return text.empty() ? "-" : text;
+}
+
+/// The data of one scenario of the fit, or of one channel in all of them.
+recording restricted(recording const& data, std::string const& scenario, std::size_t channel) {
+    recording part = data;
+    std::erase_if(part.scenarios, [&](recorded_scenario const& s) {
+        return s.plan.holdout || (!scenario.empty() && s.plan.name != scenario);
+    });
+    for (auto& s : part.scenarios) {
+        if (channel < channel_count)
+            std::erase_if(s.samples, [&](sample const& m) { return m.channel != channel; });
+        s.budget = outlier_budget(data.outlier_fraction, s.samples.size());
+    }
+    return part;
+}
+
+struct best_fit {
+    double inflation = 0;
+    std::vector<std::pair<std::string, double>> values;
+};
+
+/// The least inflation of the model without effects that a fit finds; `closer` takes several times
+/// as long.
+best_fit fit_without_effects(recording const& data, bool closer) {
     fit_problem const problem{data, {}};
     auto result = fit(problem, {}, {});
-    return problem.tighten(result.x);
+    double const inflation = closer ? problem.tighten(result.x) : result.inflation;
+    return {inflation, problem.values(result.x)};
+}
+
+/// For every scenario and every channel alone: what a fit finds, to it or to all of the data.
+std::string best_of_parts(campaign const& c, recording const& data, best_fit const& whole) {
+    std::string text;
+    auto const add = [&](std::string const& name, recording const& part, bool closer) {
+        fit_problem const problem{part, {}};
+        double const best = std::min(fit_without_effects(part, closer).inflation,
+                                     problem.inflation(problem.start(whole.values)));
+        text += (text.empty() ? "" : " ") + name + '=' + six_digits(best);
+    };
+    for (auto const& s : c.scenarios)
+        if (!s.plan.holdout) add(s.plan.name, restricted(data, s.plan.name, channel_count), true);
+    for (std::size_t const k : c.channels_measured)
+        add(std::string{channel_names[k]}, restricted(data, "", k), false);
+    return text;
 }
 
 } // namespace
@@ -120,7 +169,7 @@ void write_dataset(campaign const& c, fs::path const& folder) {
 
 std::string labels_header() {
     return "case\tfamily\teffects\tparams\tnoise\toutliers\tstarts\tgusts\tfit_base\tfit_true"
-           "\tholdout_base\tholdout_true\tfit_base_best";
+           "\tholdout_base\tholdout_true\tfit_base_best\tonsets\tbest_fit\tbest_of_parts";
 }
 
 std::string label_of(campaign const& c, fs::path const& folder) {
@@ -138,7 +187,17 @@ std::string label_of(campaign const& c, fs::path const& folder) {
     for (part const which : {part::fit, part::holdout})
         for (bool const with : {false, true})
             line << '\t' << six_digits(inflation_at_truth(c, with, which));
-    line << '\t' << six_digits(best_inflation_without_effects(folder));
+    auto const data = read_recording(folder);
+    auto const best = fit_without_effects(data, true);
+    line << '\t' << six_digits(best.inflation) << '\t' << true_onsets(c) << '\t';
+    separator = "";
+    for (auto const& [name, value] : best.values) {
+        char text[40];
+        std::snprintf(text, sizeof text, "%.17g", value);
+        line << separator << name << '=' << text;
+        separator = " ";
+    }
+    line << '\t' << best_of_parts(c, data, best);
     return line.str();
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <utility>
 
 namespace withheld {
@@ -91,7 +92,9 @@ double motor_speed(world const& w, double t, command const& now, state const& s,
 } // namespace
 
 state derivative(world const& w, double t, command const& now, state const& s, state const& start) {
-    auto const& [c, e, f, gusts, motor, rudder] = w;
+    auto const& c = w.c;
+    auto const& e = w.e;
+    auto const& f = w.f;
     double const u = s[0], v = s[1], r = s[2];
     double const cosine = std::cos(s[5]), sine = std::sin(s[5]);
     double const mass = c.m + e.payload;
@@ -116,7 +119,7 @@ state derivative(world const& w, double t, command const& now, state const& s, s
     double X = thrust - friction * u / V - pressure * c.Su * air_V * air_u - c.D11 * u -
                e.linear_surge_damping * u;
     double Y = lift * c.Sv - friction * (1 + e.friction_anisotropy) * v / V -
-               pressure * c.Sv * air_V * air_v - c.D22 * v + gust_force(gusts, t);
+               pressure * c.Sv * air_V * air_v - c.D22 * v + gust_force(w.gusts, t);
     double const N = -c.L * lift * c.Sg - c.D33 * r + thrust * e.thrust_offset -
                      e.quadratic_yaw_damping * std::abs(r) * r -
                      e.dry_yaw_friction * r / std::sqrt(r * r + 0.01 * 0.01);
@@ -149,14 +152,41 @@ state derivative(world const& w, double t, command const& now, state const& s, s
     return rate;
 }
 
-channels sensed(world const& w, state const& now, state const& position) {
-    double const scale = 1 + w.e.position_scale;
-    return {now[0],
-            now[1],
-            now[2] + w.e.gyro_bias,
-            scale * position[3],
-            scale * position[4],
-            now[5] + w.e.heading_bias};
+command effective(world const& w, double t, command const& now, state const& s) {
+    state rate{};
+    return {motor_speed(w, t, now, s, rate), rudder_angle(w, now, s, rate)};
+}
+
+channels sensed(world const& w, double t, state const& s) {
+    effect_values const e = t < w.onset ? effect_values{} : w.e;
+    auto const& fault = w.instruments;
+    auto const turned = [](double a, double b, double angle) {
+        return std::pair{std::cos(angle) * a + std::sin(angle) * b,
+                         -std::sin(angle) * a + std::cos(angle) * b};
+    };
+    double const cosine = std::cos(s[5]), sine = std::sin(s[5]);
+    auto const [u, v] = turned(s[0], s[1] + fault.velocity_arm * s[2], fault.velocity_turn);
+    auto const [x, y] =
+        turned(s[3] + fault.antenna_x * cosine - fault.antenna_y * sine,
+               s[4] + fault.antenna_x * sine + fault.antenna_y * cosine, fault.position_turn);
+    double const scale = 1 + e.position_scale;
+    channels shown{u, v, s[2] + e.gyro_bias, scale * x, scale * y, s[5] + e.heading_bias};
+    for (std::size_t k = 0; k < channel_count; ++k) shown[k] += fault.drift[k] * t;
+    return shown;
+}
+
+void begin_effects_at(world& w, double onset) {
+    w.onset = 0;
+    if (!(onset > 0)) return;
+    auto const& e = w.e;
+    bool const memory =
+        e.rudder_lag > 0 || e.input_delay > 0 || e.motor_lag > 0 || e.position_latency > 0;
+    if (std::isinf(onset))
+        w.e = {};
+    else if (memory)
+        throw std::invalid_argument("an effect with a memory acts from the start on or never");
+    else
+        w.onset = onset;
 }
 
 } // namespace withheld

@@ -47,6 +47,22 @@ struct foreign_values {
     double stribeck_rise = 0, stribeck_speed = 1;  // more dry friction at low speed
 };
 
+/// u, v, r, x, y, psi.
+inline constexpr std::size_t channel_count = 6;
+using channels = std::array<double, channel_count>;
+inline constexpr std::array<std::string_view, channel_count> channel_names{"u", "v", "r",
+                                                                           "x", "y", "psi"};
+
+/// What may be wrong with instruments that no catalogue has; neutral where zero.
+struct instrument_faults {
+    double velocity_turn = 0, position_turn = 0; // rad: axes of u, v or of x, y turned by this
+    double velocity_arm = 0;                     // m: u, v are those of a point so far ahead
+    double antenna_x = 0, antenna_y = 0;         // m: x, y are those of a point of the body
+    channels drift{};                            // per s
+    channels lag{};                              // s: low-pass of first order, settled at the start
+    channels late{};                             // s: what is shown is so old; the start before
+};
+
 /// Samples at increasing times, linear between them, constant outside.
 struct polyline {
     std::vector<double> t, value;
@@ -60,16 +76,19 @@ struct world {
     foreign_values f;
     std::vector<gust_pulse> gusts;
     polyline motor, rudder; // W and delta
+    instrument_faults instruments;
+    /// The catalogue's effects act from here on; before, they are neutral.
+    double onset = 0;
 };
+
+/// Lets the catalogue's effects begin at `onset`, infinity for never.
+/// @throws std::invalid_argument for an onset after the start of an effect that has a memory
+void begin_effects_at(world& w, double onset);
 
 /// u, v, r, x, y, psi, then the rudder's angle and the motor's speed behind their lags, and the
 /// servo's rate.
 inline constexpr std::size_t state_size = 9;
 using state = std::array<double, state_size>;
-inline constexpr std::size_t channel_count = 6;
-using channels = std::array<double, channel_count>;
-inline constexpr std::array<std::string_view, channel_count> channel_names{"u", "v", "r",
-                                                                           "x", "y", "psi"};
 
 /// The commands at one time: W as recorded, delta behind delay and dead band.
 struct command {
@@ -81,8 +100,11 @@ double behind_deadband(double delta, double band);
 
 state derivative(world const& w, double t, command const& now, state const& s, state const& start);
 
-/// What the sensors show of a state; positions are those of a state that may be older.
-channels sensed(world const& w, state const& now, state const& position);
+/// What acts in place of the recorded W and delta: behind lags, limits and trims.
+command effective(world const& w, double t, command const& now, state const& s);
+
+/// What sensors that are neither slow nor late show at time t of a state.
+channels sensed(world const& w, double t, state const& s);
 
 } // namespace withheld
 

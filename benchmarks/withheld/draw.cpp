@@ -2,13 +2,17 @@
 // What is drawn: the family, the effects with their sizes, the constants, the starts.
 #include "campaign.hpp"
 #include "catalogue.hpp"
+#include "instruments.hpp"
 #include "measure.hpp"
 #include "noise.hpp"
 #include "random.hpp"
 #include "simulate.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <sstream>
 #include <stdexcept>
 
 namespace withheld {
@@ -19,18 +23,29 @@ std::optional<family> family_named(std::string_view name) {
     return std::nullopt;
 }
 
+std::vector<family> families_named(std::string_view list) {
+    std::vector<family> all;
+    std::istringstream in{std::string{list}};
+    for (std::string name; std::getline(in, name, ',');) {
+        auto const kind = family_named(name);
+        if (!kind) throw std::invalid_argument("unknown family " + name);
+        if (std::find(all.begin(), all.end(), *kind) == all.end()) all.push_back(*kind);
+    }
+    return all;
+}
+
 namespace {
 
 constexpr std::uint64_t family_deck = 1, effect_deck = 1000, foreign_deck = 5000,
                         campaigns = 100000;
 
-std::vector<family> shuffled_families(std::uint64_t seed, std::size_t round) {
+std::vector<family> const& usual_round() {
     using enum family;
-    std::vector<family> deck{single, single, single,   weak,    wide, pose,
-                             pair,   pair,   outliers, outside, none};
-    random_source random{derived_seed(derived_seed(seed, family_deck), round)};
-    random.shuffle(deck);
-    return deck;
+    static std::vector<family> const all{
+        single,     single,      weak,   wide,   pose,  pair,  pair,  outliers,
+        outside,    none,        alias,  alias,  alias, askew, askew, instrument,
+        instrument, experiments, bounds, strong, onset, three};
+    return all;
 }
 
 /// The n-th of `count` things dealt from shuffled decks: all come up equally often.
@@ -43,10 +58,10 @@ std::size_t dealt(std::uint64_t seed, std::size_t n, std::size_t count) {
 }
 
 /// How many campaigns of this family come before `index`.
-std::size_t ordinal(std::uint64_t seed, std::size_t index, family kind, bool only) {
-    if (only) return index;
+std::size_t ordinal(std::uint64_t seed, std::size_t index, family kind,
+                    std::vector<family> const& only) {
     std::size_t n = 0;
-    for (std::size_t i = 0; i < index; ++i) n += family_of(seed, i) == kind ? 1U : 0U;
+    for (std::size_t i = 0; i < index; ++i) n += family_of(seed, i, only) == kind ? 1U : 0U;
     return n;
 }
 
@@ -104,8 +119,93 @@ std::string draw_foreign(std::size_t which, random_source& random, campaign& c) 
     }
 }
 
-/// With poses only, a bias of the gyro leaves no trace.
-bool visible(effect const& e, family kind) { return kind != family::pose || e.name != "gyro_bias"; }
+void name_instrument(std::string_view kind, random_source& random, campaign& c) {
+    auto const values = draw_instrument(kind, random);
+    set_instrument(c.true_instruments, std::string{kind}, values);
+    c.effects = {std::string{kind}};
+    c.effects_text = kind;
+    char separator = '(';
+    for (double const x : values) {
+        c.effects_text += separator + six_digits(x);
+        separator = ',';
+    }
+    c.effects_text += ')';
+}
+
+/// A bound that is stated too small: the noise of a channel reaches farther.
+void widen_noise(std::size_t channel, double factor, campaign& c) {
+    c.bound_factor[channel] = rounded(factor);
+    auto const name = "bounds_" + std::string{channel_names[channel]};
+    c.effects = {name};
+    c.effects_text = name + '(' + six_digits(c.bound_factor[channel]) + ')';
+}
+
+/// Beyond the prior that it is diagnosed over.
+void draw_excess(effect const& which, random_source& random, effect_values& e) {
+    bool first = true;
+    for (auto const& p : which.parameters) {
+        double size = 0;
+        if (p.member == &effect_values::rudder_limit)
+            size = p.lo * random.uniform(0.3, 0.8);
+        else if (p.member == &effect_values::battery_sag)
+            size = p.hi * random.uniform(1.03, 1.1); // beyond 1/6 s the motor would turn round
+        else if (p.member == &effect_values::friction_anisotropy)
+            size = p.hi * random.uniform(1.1, 1.6);
+        else if (first)
+            size = p.hi * random.uniform(1.1, 1.6) * (p.either_sign ? random.sign() : 1);
+        else
+            size = random.uniform(p.lo, p.hi);
+        e.*p.member = rounded(size);
+        first = false;
+    }
+}
+
+bool has_memory(effect const& e) {
+    return e.name == "rudder_lag" || e.name == "input_delay" || e.name == "motor_lag" ||
+           e.name == "position_latency";
+}
+
+/// With poses only, a bias of the gyro leaves no trace. What begins later has no memory.
+bool possible(effect const& e, family kind) {
+    if (kind == family::pose) return e.name != "gyro_bias";
+    return kind != family::onset || !has_memory(e);
+}
+
+void draw_onsets(random_source& random, campaign& c) {
+    for (auto& s : c.scenarios) {
+        if (c.kind == family::onset)
+            s.onset = six_decimals(random.uniform(0.15, 0.7) * s.plan.duration);
+        if (c.kind == family::experiments)
+            s.onset = random.coin() ? 0 : std::numeric_limits<double>::infinity();
+    }
+}
+
+/// What is wrong when no effect of the catalogue is.
+bool draw_other(std::uint64_t seed, std::size_t n, random_source& random, campaign& c) {
+    auto const deck = derived_seed(seed, foreign_deck + static_cast<std::uint64_t>(c.kind));
+    switch (c.kind) {
+    case family::none:
+        return true;
+    case family::outside:
+        c.effects_text = draw_foreign(dealt(deck, n, 4), random, c);
+        return true;
+    case family::askew:
+        name_instrument(askew_kinds()[dealt(deck, n, askew_kinds().size())], random, c);
+        return true;
+    case family::instrument:
+        name_instrument(instrument_kinds()[dealt(deck, n, instrument_kinds().size())], random, c);
+        return true;
+    case family::bounds:
+        widen_noise(dealt(deck, n, channel_count), random.uniform(1.3, 2), c);
+        return true;
+    case family::alias: // the fourth has no effect of the catalogue
+        if (n % 4 != 3) return false;
+        if (n % 8 == 7) widen_noise(dealt(deck, n / 8, channel_count), random.uniform(1.3, 1.7), c);
+        return true;
+    default:
+        return false;
+    }
+}
 
 void draw_effects(std::uint64_t seed, std::size_t n, double size, random_source& random,
                   campaign& c) {
@@ -113,31 +213,43 @@ void draw_effects(std::uint64_t seed, std::size_t n, double size, random_source&
     std::uint64_t const deck = derived_seed(seed, effect_deck + static_cast<std::uint64_t>(c.kind));
     c.true_effects = {};
     c.true_foreign = {};
+    c.true_instruments = {};
+    c.bound_factor.fill(1);
     c.effects.clear();
+    c.effects_text = "none";
     for (auto& s : c.scenarios) s.gusts.clear();
-    if (c.kind == family::none) return;
-    if (c.kind == family::outside) {
-        c.effects_text = draw_foreign(dealt(derived_seed(seed, foreign_deck), n, 4), random, c);
-        return;
-    }
+    if (draw_other(seed, n, random, c)) return;
     double largest = 0;
     for (auto const& s : c.scenarios)
         if (!s.plan.holdout) largest = std::max(largest, s.plan.rudder.largest_magnitude());
-    std::size_t const count = c.kind == family::pair ? 2 : 1;
-    double const scale = size * (c.kind == family::weak   ? 1.0 / 3
-                                 : c.kind == family::pair ? random.uniform(0.6, 1)
-                                                          : 1.0);
+    std::size_t const count = c.kind == family::three ? 3 : c.kind == family::pair ? 2 : 1;
+    double const scale = size * (c.kind == family::weak ? 1.0 / 3
+                                 : count > 1            ? random.uniform(0.6, 1)
+                                                        : 1.0);
     c.effects_text.clear();
     std::size_t which = dealt(deck, n, all.size());
+    // Half of the campaigns with an unseen rudder leave the equations as they are.
+    if (c.kind == family::alias && n % 4 != 0) {
+        std::array<std::string_view, 4> const of_sensors{"position_scale", "gyro_bias",
+                                                         "position_latency", "heading_bias"};
+        auto const name = of_sensors[dealt(deck, n / 4 * 2 + n % 4 - 1, of_sensors.size())];
+        which = static_cast<std::size_t>(effect_named(name) - all.data());
+    } else if (c.kind == family::alias) {
+        which = dealt(deck, n / 4, all.size());
+    }
     while (c.effects.size() < count) {
-        while (!visible(all[which], c.kind) ||
+        while (!possible(all[which], c.kind) ||
                std::find(c.effects.begin(), c.effects.end(), all[which].name) != c.effects.end())
             which = random.below(all.size());
-        draw_size(all[which], random, scale, largest, c.true_effects);
+        if (c.kind == family::strong)
+            draw_excess(all[which], random, c.true_effects);
+        else
+            draw_size(all[which], random, scale, largest, c.true_effects);
         c.effects.emplace_back(all[which].name);
         c.effects_text += c.effects_text.empty() ? "" : " + ";
         c.effects_text += described(all[which], c.true_effects);
     }
+    draw_onsets(random, c);
 }
 
 /// Each effect must matter: at the true constants the data leave the model without it by some
@@ -147,8 +259,13 @@ bool matters(campaign const& c, double size) {
         bool const offset = name == "gyro_bias" || name == "heading_bias";
         return std::min(size, 1.0) * (offset ? 1.8 : 3.0) / (c.kind == family::weak ? 3 : 1);
     };
-    if (c.kind == family::none) return true;
-    if (c.kind == family::outside) return largest_deviation(c, {}, {}) >= 3;
+    // Nothing to wait for: the model is right, and noise alone may break bounds.
+    bool const right = c.effects.empty() || c.bound_factor != channels{1, 1, 1, 1, 1, 1};
+    if (right) return true;
+    if (effect_named(c.effects.front()) == nullptr) return largest_deviation(c, {}, {}) >= 3;
+    // Nor does it matter everywhere and always.
+    bool const partial = c.kind == family::onset || c.kind == family::experiments;
+    if (partial && largest_deviation(c, c.true_effects, c.true_foreign) < 3) return false;
     for (auto const& name : c.effects) {
         effect_values without = c.true_effects;
         for (auto const& p : effect_named(name)->parameters)
@@ -158,16 +275,31 @@ bool matters(campaign const& c, double size) {
     return true;
 }
 
-} // namespace
-
-family family_of(std::uint64_t seed, std::size_t index) {
-    return shuffled_families(seed, index / 11)[index % 11];
+/// Samples at 2 to 5 Hz and a rudder that moves between them; half of the time with their period.
+sampling draw_sampling(random_source& random) {
+    sampling how;
+    std::array<double, 4> const periods{0.5, 0.4, 0.25, 0.2};
+    how.period = periods[random.below(periods.size())];
+    how.dither = rounded(random.uniform(0.1, 0.4));
+    how.dither_period = random.coin() ? how.period : rounded(random.uniform(0.5, 0.9));
+    how.phase = random.coin() ? 0 : random.uniform(0, 6);
+    how.calm_start = random.coin(0.3);
+    return how;
 }
 
-campaign draw_campaign(std::uint64_t seed, std::size_t index, std::optional<family> only,
+} // namespace
+
+family family_of(std::uint64_t seed, std::size_t index, std::vector<family> const& only) {
+    auto deck = only.empty() ? usual_round() : only;
+    random_source random{derived_seed(derived_seed(seed, family_deck), index / deck.size())};
+    random.shuffle(deck);
+    return deck[index % deck.size()];
+}
+
+campaign draw_campaign(std::uint64_t seed, std::size_t index, std::vector<family> const& only,
                        double size) {
     campaign c;
-    c.kind = only ? *only : family_of(seed, index);
+    c.kind = family_of(seed, index, only);
     random_source random{derived_seed(derived_seed(seed, campaigns), index)};
     c.unknown = unknown_constants(c.kind);
     c.channels_measured = {0, 1, 2, 3, 4, 5};
@@ -177,7 +309,9 @@ campaign draw_campaign(std::uint64_t seed, std::size_t index, std::optional<fami
         c.true_constants.*constant_named(u.name) = drawn_constant(u, random);
 
     // Half of the campaigns fly the standard manoeuvres, half a variation of them.
-    for (auto& plan : draw_manoeuvres(random, random.coin() ? 0.1 : 0.0)) {
+    double const variation = random.coin() ? 0.1 : 0.0;
+    sampling const how = c.kind == family::alias ? draw_sampling(random) : sampling{};
+    for (auto& plan : draw_manoeuvres(random, variation, how)) {
         measured_scenario s;
         s.plan = std::move(plan);
         for (std::size_t i = 0; i < 3; ++i) {
@@ -191,7 +325,7 @@ campaign draw_campaign(std::uint64_t seed, std::size_t index, std::optional<fami
         }
         c.scenarios.push_back(std::move(s));
     }
-    std::size_t const n = ordinal(seed, index, c.kind, only.has_value());
+    std::size_t const n = ordinal(seed, index, c.kind, only);
     int attempts = 0;
     do {
         if (++attempts > 200) throw std::runtime_error("no size of the effect matters");

@@ -1,116 +1,117 @@
 // SPDX-License-Identifier: MIT
 #include "judge.hpp"
 #include "catalogue.hpp"
+#include "consistency.hpp"
 #include "places.hpp"
+#include "reading.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <exception>
 #include <fstream>
-#include <set>
 
 namespace withheld {
 
 namespace {
 
-using json = nlohmann::json;
-using names = std::set<std::string>;
-
 /// The simulation behind the labels is good to far less than this share of a bound.
 constexpr double tolerance = 1e-3;
 
-std::string joined(names const& all, std::string const& otherwise) {
-    std::string text;
-    for (auto const& n : all) text += (text.empty() ? "" : "+") + n;
-    return text.empty() ? otherwise : text;
+bool catalogue_holds(names const& effects) {
+    return std::all_of(effects.begin(), effects.end(),
+                       [](auto const& e) { return effect_named(e) != nullptr; });
 }
 
-names names_in(json const& list) {
-    names all;
-    if (list.is_array())
-        for (auto const& n : list) all.insert(n.get<std::string>());
-    return all;
+/// Effects that come close enough to a truth that no candidate holds.
+bool is_near(names const& truth, names const& said) {
+    return (truth == names{"servo"} && said == names{"rudder_lag"}) ||
+           (truth == names{"lagging_xy"} && said == names{"position_latency"});
 }
 
-json member(json const& j, std::string const& key) {
-    return j.is_object() && j.contains(key) ? j.at(key) : json{};
-}
-
-std::optional<double> number(json const& pair, std::size_t index) {
-    if (!pair.is_array() || pair.size() != 2 || !pair[index].is_number()) return std::nullopt;
-    return pair[index].get<double>();
-}
-
-bool includes(names const& all, names const& some) {
-    return std::includes(all.begin(), all.end(), some.begin(), some.end());
-}
+/// Is it honest to say that nothing explains the data: the truth is in no catalogue, beyond its
+/// prior, not everywhere, or three effects at once, of which pairs alone may be tried?
+bool may_be_unexplained(label const& l) { return !l.attainable() || l.effects.size() > 2; }
 
 bool right_answer(label const& l, json const& answer, bool absorbed) {
     auto const kind = answer.at("kind").get<std::string>();
     auto const said = names_in(member(answer, "effects"));
-    if (l.family == "none") return kind == "none";
+    auto const truth = l.names();
     if (absorbed && kind == "none") return true;
-    if (l.family == "outside") {
-        // A servo of second order may come close to a lag; nothing else in the catalogue comes
-        // close.
-        bool const near = l.names().contains("servo") && said == names{"rudder_lag"};
-        return kind == "unexplained" || (kind == "effects" && near);
-    }
+    if (truth.empty()) return false;
+    if (kind == "unexplained") return may_be_unexplained(l);
     if (kind != "effects") return false;
-    if (said == l.names()) return true;
+    if (said == truth || is_near(truth, said)) return true;
     auto const other = member(answer, "indistinguishable");
-    if (!other.is_array() || other.size() > 3) return false;
+    if (!catalogue_holds(truth) || !other.is_array() || other.size() > 3) return false;
     return std::any_of(other.begin(), other.end(),
-                       [&](json const& e) { return names_in(e) == l.names(); });
+                       [&](json const& e) { return names_in(e) == truth; });
 }
 
-void judge_gap(json const& d, judgement& j) {
+/// Lower bounds of the inflation of parts of the data against what fits have found.
+void judge_parts(label const& l, json const& gap, judgement& j) {
+    auto const known = l.values("best_of_parts");
+    for (auto const* parts : {"scenarios", "channels"}) {
+        auto const all = member(gap, parts);
+        for (auto const& [name, range] : all.items()) {
+            auto const lower = number(range, 0);
+            auto const best = known.find(name);
+            if (!lower || best == known.end()) continue;
+            j.proof(*lower <= best->second + tolerance, "part",
+                    name + " alone, at least " + short_text(*lower) + ", attained " +
+                        short_text(best->second));
+        }
+    }
+}
+
+void judge_gap(label const& l, json const& d, judgement& j) {
     auto const gap = member(d, "gap");
     j.gap_certified = member(gap, "verdict") == "certified";
     j.inflation_lower = number(member(gap, "inflation"), 0);
     j.inflation_upper = number(member(gap, "inflation"), 1);
-    if (j.gap_certified) {
-        ++j.proofs;
-        if (j.absorbed) j.false_proofs.emplace_back("gap");
-    }
-    if (j.inflation_lower && j.inflation_bound) {
-        ++j.proofs;
-        if (*j.inflation_lower > *j.inflation_bound + tolerance)
-            j.false_proofs.emplace_back("inflation");
-    }
+    if (j.gap_certified) j.proof(!j.absorbed, "gap", "certified");
+    if (j.inflation_lower && j.inflation_bound)
+        j.proof(*j.inflation_lower <= *j.inflation_bound + tolerance, "inflation",
+                "of the model at least " + short_text(*j.inflation_lower) + ", attained " +
+                    short_text(*j.inflation_bound));
+    judge_parts(l, gap, j);
 }
 
 void judge_relations(label const& l, json const& d, judgement& j) {
     auto const broken = places_of(l.names());
     for (auto const& r : member(d, "relations")) {
         if (member(r, "proved") != true) continue;
-        ++j.proofs;
         j.relation_proved = true;
-        auto const equation = member(r, "equation");
-        bool touched =
-            equation.is_string() && holds(broken, "equation", equation.get<std::string>());
-        for (auto const& s : names_in(member(r, "sensors")))
-            touched = touched || holds(broken, "sensor", s);
-        if (!touched || j.absorbed) j.false_proofs.emplace_back("relation");
+        bool const touched =
+            touches(broken, text_of(member(r, "equation")), names_in(member(r, "sensors")));
+        j.proof(touched && !j.absorbed, "relation", relation_text(r));
+    }
+}
+
+/// `acting` is what may be wrong there; the places of the truth are right for a first entry.
+void judge_proved_places(json const& where, names const& acting, judgement& j) {
+    auto const broken = places_of(acting);
+    for (auto const& w : where) {
+        if (member(w, "proved") != true) continue;
+        bool const hit = holds_instrument(broken, w.at("kind").get<std::string>(),
+                                          w.at("name").get<std::string>());
+        j.proof(hit && !j.absorbed, "place", place_text(w));
     }
 }
 
 void judge_places(label const& l, json const& d, judgement& j) {
-    auto const broken = places_of(l.names());
     auto const where = member(d, "where");
-    bool first = true;
-    for (auto const& w : where) {
-        bool const hit =
-            holds(broken, w.at("kind").get<std::string>(), w.at("name").get<std::string>());
-        if (first) j.place_right = hit;
-        first = false;
-        if (member(w, "proved") != true) continue;
-        ++j.proofs;
-        if (!hit || j.absorbed) j.false_proofs.emplace_back("place");
-    }
-    if (!first) return;
-    // Nothing is said: right where there is nothing to say.
-    j.place_right = l.family == "none" || j.absorbed;
+    judge_proved_places(where, l.names(), j);
+    // With the effects of the candidate that comes closest, these may be wrong, too.
+    auto const remainder = member(d, "remainder");
+    auto acting = l.names();
+    acting.merge(names_in(member(remainder, "effects")));
+    judge_proved_places(member(remainder, "where"), acting, j);
+    if (where.empty()) // right where there is nothing to say
+        j.place_right = l.effects.empty() || j.absorbed;
+    else
+        j.place_right =
+            holds_instrument(places_of(l.names()), where[0].at("kind").get<std::string>(),
+                             where[0].at("name").get<std::string>());
 }
 
 /// Do the intervals that are reported for the true effects hold the true parameters?
@@ -129,26 +130,49 @@ void judge_parameters(label const& l, json const& cause, judgement& j) {
     }
 }
 
-void judge_causes(label const& l, json const& d, judgement& j) {
+/// Hulls contain every value that explains the data: those of the truth and of the fits known.
+void judge_hulls(known_fits const& known, json const& cause, names const& effects, judgement& j) {
+    for (auto const* list : {"parameters", "constants"}) {
+        auto const hulls = member(cause, list);
+        for (auto const& [name, range] : hulls.items()) {
+            auto const hull = bounds_in(range);
+            if (!hull) continue;
+            for (auto const& f : known.all()) {
+                auto const value = f.values.find(name);
+                bool const comparable = f.effects == effects && f.inflation <= 1 - 1e-6;
+                if (!comparable || value == f.values.end()) continue;
+                ++j.hulls_checked;
+                j.proof(hull->contains(value->second, 1e-7 * (1 + std::abs(value->second))), "hull",
+                        name + " in " + text_of(*hull) + ", explains at " +
+                            short_text(value->second));
+            }
+        }
+    }
+}
+
+void judge_causes(label const& l, known_fits const& known, json const& d, judgement& j) {
+    bool const attainable = l.attainable();
     for (auto const& c : member(d, "causes")) {
         auto const effects = names_in(member(c, "effects"));
-        // More effects explain no less: their neutral values lie in the priors.
-        bool const explains = j.absorbed || (l.family != "outside" && includes(effects, l.names()));
+        bool const explains = j.absorbed || (attainable && includes(effects, l.names()));
+        auto const least = known.least(effects);
         auto const verdict = member(c, "verdict");
-        if (verdict == "explains" && effects == l.names()) {
-            j.truth_explains = true;
-            judge_parameters(l, c, j);
+        if (verdict == "explains") {
+            if (effects == l.names()) {
+                j.truth_explains = true;
+                judge_parameters(l, c, j);
+            }
+            judge_hulls(known, c, effects, j);
         }
-        if (verdict == "excluded") {
-            ++j.proofs;
-            if (explains) j.false_proofs.emplace_back("excluded");
-        }
+        if (verdict == "excluded")
+            j.proof(!explains && !(least && *least <= 1 - 1e-6), "excluded", joined(effects));
         auto const lower = number(member(c, "inflation"), 0);
-        auto const least = j.absorbed ? j.inflation_bound : l.number("fit_true");
-        if (explains && lower && *lower > least.value_or(1.0) + tolerance)
-            j.false_proofs.emplace_back("inflation");
+        if (lower && least)
+            j.proof(*lower <= *least + tolerance, "inflation",
+                    joined(effects) + " at least " + short_text(*lower) + ", attained " +
+                        short_text(*least));
     }
-    if (!j.truth_explains && !l.effects.empty() && l.family != "outside") j.truth_explains = false;
+    if (!j.truth_explains && !l.effects.empty() && attainable) j.truth_explains = false;
 }
 
 /// What the effect itself would bring on hold-out data, at the true constants.
@@ -157,44 +181,56 @@ void judge_shrink(label const& l, json const& d, judgement& j) {
     j.shrink_lower = number(shrink, 0);
     j.shrink_upper = number(shrink, 1);
     auto const before = l.number("holdout_base"), after = l.number("holdout_true");
-    if (before && after && *before > 1 && l.family != "outside")
+    if (before && after && *before > 1 && l.attainable())
         j.shrink_true = 1 - std::max(0.0, *after - 1) / (*before - 1);
+}
+
+json read_json(std::filesystem::path const& path) {
+    std::ifstream file{path};
+    return file ? json::parse(file) : json{};
 }
 
 } // namespace
 
-judgement judge(label const& l, json const& d) {
+judgement judge(label const& l, json const& d, json const& baseline) {
     judgement j;
     j.id = l.id;
     j.family = l.family;
     j.truth = joined(l.names(), "none");
-    auto const at_truth = l.number("fit_base"), fitted = l.number("fit_base_best");
-    if (at_truth || fitted)
-        j.inflation_bound = std::min(at_truth.value_or(1e300), fitted.value_or(1e300));
+    known_fits const known(l, baseline);
+    if (l.number("fit_base") || l.number("fit_base_best")) j.inflation_bound = known.least({});
     j.absorbed = l.effects.empty() || (j.inflation_bound && *j.inflation_bound <= 1 - tolerance);
 
     auto const answer = d.at("answer");
     auto const kind = answer.at("kind").get<std::string>();
     j.answer = kind == "effects" ? joined(names_in(member(answer, "effects")), "effects()") : kind;
+    j.open = kind == "open";
     j.right = right_answer(l, answer, j.absorbed);
-    judge_gap(d, j);
+    judge_gap(l, d, j);
     judge_relations(l, d, j);
     judge_places(l, d, j);
-    judge_causes(l, d, j);
+    judge_causes(l, known, d, j);
     judge_shrink(l, d, j);
+    j.contradictions = contradictions_in(d);
     if (auto const s = member(d, "seconds"); s.is_number()) j.seconds = s.get<double>();
     return j;
 }
 
 judgement judge_case(label const& l, std::filesystem::path const& results,
-                     std::filesystem::path const& data) {
+                     std::filesystem::path const& data, std::filesystem::path const& baseline) {
     judgement j;
     try {
         std::ifstream file{results / l.id / "diagnosis.json"};
         if (!file) throw std::runtime_error("no diagnosis");
         auto const diagnosis = json::parse(file);
-        j = judge(l, diagnosis);
-        if (!data.empty()) check_witnesses(read_recording(data / l.id), diagnosis, j);
+        auto const other =
+            baseline.empty() ? json{} : read_json(baseline / l.id / "diagnosis.json");
+        j = judge(l, diagnosis, other);
+        if (!data.empty()) {
+            auto const recorded = read_recording(data / l.id);
+            check_witnesses(recorded, diagnosis, j);
+            check_claims(l, recorded, diagnosis, j);
+        }
     } catch (std::exception const& e) {
         j = {};
         j.id = l.id;

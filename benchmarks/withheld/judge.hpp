@@ -3,6 +3,7 @@
 #ifndef WITHHELD_JUDGE_HPP
 #define WITHHELD_JUDGE_HPP
 
+#include "known.hpp"
 #include "labels.hpp"
 #include "recorded.hpp"
 
@@ -14,33 +15,54 @@
 
 namespace withheld {
 
+/// What is wrong with a claim: its kind, for the tables, and the claim itself.
+struct finding {
+    std::string kind, about;
+};
+
 struct judgement {
     std::string id, family, truth, answer;
     bool missing = false;  // no diagnosis, or none that can be read
     std::string trouble;   // what was wrong with the file
     bool absorbed = false; // the model without the effect explains the data as well
     bool right = false;
+    bool open = false; // it says that it did not try everything: neither right nor wrong
     std::optional<bool> place_right; // of the first place; without effect: that there is none
-    std::vector<std::string> false_proofs;
-    std::size_t proofs = 0; // claims that could have been false: gap, relations, places, causes
+    std::vector<finding> false_proofs;
+    std::vector<finding> contradictions; // within the file, whatever the truth is
+    std::size_t proofs = 0;              // claims that could have been false
     bool gap_certified = false, relation_proved = false;
     std::optional<bool> truth_explains; // is the truth among the causes proved to explain?
     std::optional<double> inflation_lower, inflation_upper, inflation_bound; // bound: by the truth
     std::optional<double> shrink_lower, shrink_upper, shrink_true;           // on hold-out data
-    std::size_t witnesses_checked = 0;
+    std::size_t witnesses_checked = 0, rates_checked = 0, hulls_checked = 0;
     std::size_t intervals = 0, intervals_hold = 0; // of the true effects' parameters
     std::optional<double> seconds;
+
+    /// Counts a proof, and remembers it when it is false.
+    void proof(bool holds, char const* kind, std::string const& about) {
+        ++proofs;
+        if (!holds) false_proofs.push_back({kind, about});
+    }
 };
 
-judgement judge(label const& truth, nlohmann::json const& diagnosis);
+/// `baseline`, a diagnosis by least squares, knows further parameters that explain the data; null
+/// for none.
+judgement judge(label const& truth, nlohmann::json const& diagnosis,
+                nlohmann::json const& baseline = {});
 
 /// Reads <results>/<case>/diagnosis.json and, where it is, <results>/<case>/seconds.txt; with a
-/// folder of data sets, proved witnesses are simulated too.
+/// folder of data sets, claims are checked by simulations of the truth and of witnesses, too.
 judgement judge_case(label const& truth, std::filesystem::path const& results,
-                     std::filesystem::path const& data);
+                     std::filesystem::path const& data, std::filesystem::path const& baseline = {});
 
-/// Simulates the witnesses of all causes that are said to be proved to explain the data.
+/// Simulates the witnesses of all causes: what is proved of them, and on hold-out data.
 void check_witnesses(recording const& data, nlohmann::json const& diagnosis, judgement& j);
+
+/// Simulates the truth: missing rates and offsets of sensors over the windows that are named, and
+/// hold-out inflations over all fits.
+void check_claims(label const& truth, recording const& data, nlohmann::json const& diagnosis,
+                  judgement& j);
 
 } // namespace withheld
 

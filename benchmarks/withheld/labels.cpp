@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "labels.hpp"
 #include "catalogue.hpp"
+#include "instruments.hpp"
 
 #include <algorithm>
 #include <fstream>
@@ -67,6 +68,29 @@ std::optional<double> label::number(std::string const& column) const {
     return end == place->second.c_str() ? std::nullopt : std::optional{value};
 }
 
+std::map<std::string, double> label::values(std::string const& column) const {
+    std::map<std::string, double> all;
+    auto const place = more.find(column);
+    if (place == more.end()) return all;
+    for (auto const& part : split(place->second, ' '))
+        if (auto const equals = part.find('='); equals != std::string::npos)
+            all[part.substr(0, equals)] = std::stod(part.substr(equals + 1));
+    return all;
+}
+
+bool label::attainable() const {
+    for (auto const& [name, values] : effects) {
+        auto const* known = effect_named(name);
+        if (known == nullptr) return false;
+        for (std::size_t i = 0; i < values.size() && i < known->parameters.size(); ++i)
+            if (values[i] < known->parameters[i].lo || values[i] > known->parameters[i].hi)
+                return false;
+    }
+    for (auto const& [scenario, onset] : values("onsets"))
+        if (onset > 0) return false;
+    return true;
+}
+
 std::vector<label> read_labels(std::filesystem::path const& path) {
     std::ifstream file{path};
     if (!file) throw std::runtime_error("cannot read " + path.string());
@@ -106,7 +130,8 @@ world world_of(label const& l, constants const& fixed) {
         } else if (name == "stribeck") {
             w.f.stribeck_rise = values.at(0);
             w.f.stribeck_speed = values.at(1);
-        } else if (name != "gust") {
+        } else if (!set_instrument(w.instruments, name, values) && name != "gust" &&
+                   !name.starts_with("bounds_")) {
             throw std::runtime_error("unknown effect " + name);
         }
     }
@@ -136,6 +161,21 @@ std::vector<gust_pulse> true_gusts(label const& l, std::string const& scenario) 
             all.push_back({values[0], values[1], values[2]});
     }
     return all;
+}
+
+double true_onset(label const& l, std::string const& scenario) {
+    auto const all = l.values("onsets");
+    auto const place = all.find(scenario);
+    return place == all.end() ? 0 : place->second;
+}
+
+world true_world(label const& l, constants const& fixed, scenario const& plan) {
+    world w = world_of(l, fixed);
+    w.motor = plan.motor;
+    w.rudder = plan.rudder;
+    w.gusts = true_gusts(l, plan.name);
+    begin_effects_at(w, true_onset(l, plan.name));
+    return w;
 }
 
 } // namespace withheld

@@ -4,6 +4,7 @@
 #define WITHHELD_LABELS_HPP
 
 #include "craft.hpp"
+#include "manoeuvres.hpp"
 
 #include <filesystem>
 #include <map>
@@ -22,6 +23,11 @@ struct label {
 
     std::set<std::string> names() const;
     std::optional<double> number(std::string const& column) const; // of a further column
+    /// "S1=0.9 S2=3" in a further column.
+    std::map<std::string, double> values(std::string const& column) const;
+    /// Whether a candidate of the catalogue holds the truth: effects with parameters in their
+    /// priors, everywhere, from the start on.
+    bool attainable() const;
 };
 
 /// Any table whose columns are named and begin with case, family, effects, params.
@@ -32,6 +38,10 @@ world world_of(label const& l, constants const& fixed);
 /// The true start of a scenario, and its gusts, where the label says so.
 std::optional<channels> true_start(label const& l, std::string const& scenario);
 std::vector<gust_pulse> true_gusts(label const& l, std::string const& scenario);
+/// When the catalogue's effects begin there: 0 where the label does not say otherwise.
+double true_onset(label const& l, std::string const& scenario);
+/// All of it, in a scenario with these inputs.
+world true_world(label const& l, constants const& fixed, scenario const& plan);
 
 } // namespace withheld
 

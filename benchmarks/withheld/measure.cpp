@@ -9,11 +9,21 @@
 namespace withheld {
 
 world world_of(campaign const& c, measured_scenario const& s) {
-    return {c.true_constants, c.true_effects, c.true_foreign, s.gusts, s.plan.motor, s.plan.rudder};
+    world w = base_world_of(c, s);
+    w.e = c.true_effects;
+    w.f = c.true_foreign;
+    w.gusts = s.gusts;
+    w.instruments = c.true_instruments;
+    begin_effects_at(w, s.onset);
+    return w;
 }
 
 world base_world_of(campaign const& c, measured_scenario const& s) {
-    return {c.true_constants, {}, {}, {}, s.plan.motor, s.plan.rudder};
+    world w;
+    w.c = c.true_constants;
+    w.motor = s.plan.motor;
+    w.rudder = s.plan.rudder;
+    return w;
 }
 
 double largest_deviation(campaign const& c, effect_values const& e, foreign_values const& f) {

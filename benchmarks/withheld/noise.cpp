@@ -29,13 +29,16 @@ double drawn(shape s, random_source& random) {
     return a;
 }
 
-void add_noise(measured_scenario& s, shape noise, double reach, random_source& random) {
+void add_noise(measured_scenario& s, shape noise, double reach, channels const& factor,
+               random_source& random) {
     s.value.assign(s.truth.size(), channels{});
     for (std::size_t i = 0; i < s.truth.size(); ++i)
         for (std::size_t k = 0; k < channel_count; ++k) {
             // Rounding and the integration must not push a sample over its bound.
-            double const room = reach * error_bound[k] - 2e-6;
-            s.value[i][k] = six_decimals(s.truth[i][k] + room * drawn(noise, random));
+            double const room = reach * factor[k] * error_bound[k] - 2e-6;
+            // Where the bound is too small, it is broken often.
+            shape const own = factor[k] > 1 ? shape::uniform : noise;
+            s.value[i][k] = six_decimals(s.truth[i][k] + room * drawn(own, random));
         }
 }
 
@@ -78,7 +81,7 @@ void measure(campaign& c, random_source& random) {
     if (reach < 1) c.noise += " 0.95";
     for (auto& s : c.scenarios) {
         s.truth = readings(world_of(c, s), s.initial, s.plan.sample_times, careful_step);
-        add_noise(s, noise, reach, random);
+        add_noise(s, noise, reach, c.bound_factor, random);
         add_outliers(s, c, random);
     }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "places.hpp"
+#include "instruments.hpp"
 
+#include <algorithm>
 #include <map>
 
 namespace withheld {
@@ -38,6 +40,12 @@ places places_of(std::string const& effect) {
         {"tether", force},
         {"stribeck", force},
         {"servo", rudder}};
+    if (auto const group = instrument_of(effect); !group.empty()) {
+        places at;
+        for (std::size_t const k : channels_of(group))
+            at.sensors.insert(std::string{channel_names[k]});
+        return at;
+    }
     auto const found = table.find(effect);
     return found == table.end() ? places{} : found->second;
 }
@@ -59,6 +67,17 @@ bool holds(places const& all, std::string const& kind, std::string const& name) 
     if (kind != "sensor") return false;
     if (name == "position") return all.sensors.contains("x") || all.sensors.contains("y");
     return all.sensors.contains(name);
+}
+
+bool holds_instrument(places const& all, std::string const& kind, std::string const& name) {
+    bool const position = kind == "sensor" && (name == "x" || name == "y");
+    return holds(all, kind, position ? "position" : name);
+}
+
+bool touches(places const& all, std::string const& equation, std::set<std::string> const& sensors) {
+    return holds(all, "equation", equation) ||
+           std::any_of(sensors.begin(), sensors.end(),
+                       [&](std::string const& s) { return holds(all, "sensor", s); });
 }
 
 } // namespace withheld

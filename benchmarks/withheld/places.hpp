@@ -19,6 +19,11 @@ places places_of(std::set<std::string> const& effects);
 
 /// Does this place, of kind equation, sensor or input, lie among them? `position` is x or y.
 bool holds(places const& all, std::string const& kind, std::string const& name);
+/// The same for the name of a place, where x and y are one instrument.
+bool holds_instrument(places const& all, std::string const& kind, std::string const& name);
+
+/// Does anything act in this equation or in one of these sensors?
+bool touches(places const& all, std::string const& equation, std::set<std::string> const& sensors);
 
 } // namespace withheld
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Opens the labels after the diagnosis and prints how far it was right. Ends with 1 when anything
-// that was called proved is false, so that a script cannot overlook it.
+// that was called proved is false or a file contradicts itself, so that a script cannot overlook
+// it.
 #include "summary.hpp"
 
 #include <CLI/CLI.hpp>
@@ -23,7 +24,7 @@ int main(int argc, char** argv) {
     try {
         std::vector<judgement> all, base;
         for (auto const& l : read_labels(labels)) {
-            all.push_back(judge_case(l, results, data));
+            all.push_back(judge_case(l, results, data, baseline));
             if (!baseline.empty()) base.push_back(judge_case(l, baseline, {}));
         }
         std::cout << "True effects and answers\n"
@@ -37,7 +38,7 @@ int main(int argc, char** argv) {
             if (!file.flush()) throw std::runtime_error("cannot write " + table);
         }
         for (auto const& j : all)
-            if (!j.false_proofs.empty()) return 1;
+            if (!j.false_proofs.empty() || !j.contradictions.empty()) return 1;
     } catch (std::exception const& e) {
         std::cerr << e.what() << '\n';
         return 2;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace withheld {
 
@@ -21,6 +22,7 @@ std::vector<double> kinks(world const& w, double end) {
                 all.push_back(t[i - 1] + (t[i] - t[i - 1]) * from / (from - to) + w.e.input_delay);
         }
     }
+    all.push_back(w.onset);
     for (auto const& g : w.gusts) all.insert(all.end(), {g.begin, g.begin + g.length});
     std::erase_if(all, [&](double x) { return !(x > 0 && x < end); });
     return all;
@@ -62,12 +64,18 @@ std::vector<state> states_at(world const& w, channels const& initial,
     stops.insert(stops.end(), times.begin(), times.end());
     std::sort(stops.begin(), stops.end());
 
+    world neutral; // until the effects begin
+    if (w.onset > 0) {
+        neutral = w;
+        neutral.e = {};
+    }
+    auto const acting = [&](double t) -> world const& { return t < w.onset ? neutral : w; };
     state now{};
     std::copy(initial.begin(), initial.end(), now.begin());
-    now[6] = command_at(w, 0).rudder; // the lag begins at rest; the motor begins at zero
+    now[6] = command_at(acting(0), 0).rudder; // the lag begins at rest; the motor begins at zero
     state const start = now;
     double t = 0;
-    command here = command_at(w, 0);
+    command here = command_at(acting(0), 0);
     std::size_t wanted = 0;
     auto const record = [&] {
         for (; wanted < times.size() && times[wanted] <= t; ++wanted) result.push_back(now);
@@ -75,7 +83,8 @@ std::vector<state> states_at(world const& w, channels const& initial,
     record();
     for (double const stop : stops) {
         if (stop <= t) continue;
-        command const there = command_at(w, stop);
+        world const& model = acting(t);
+        command const there = command_at(model, stop);
         auto const steps = std::max(1.0, std::ceil((stop - t) / max_step - 1e-9));
         double const begin = t, h = (stop - t) / steps;
         auto const between = [&](double share) {
@@ -83,36 +92,99 @@ std::vector<state> states_at(world const& w, channels const& initial,
                            here.rudder + share * (there.rudder - here.rudder)};
         };
         for (double k = 0; k < steps; ++k)
-            now = runge_kutta(w, start, now, begin + k * h, h, between(k / steps),
+            now = runge_kutta(model, start, now, begin + k * h, h, between(k / steps),
                               between((k + 1) / steps));
         t = stop;
-        here = there;
+        here = stop == w.onset ? command_at(w, stop) : there;
         record();
     }
     return result;
 }
 
+namespace {
+
+/// States at any of the times that were asked for.
+class known_states {
+public:
+    known_states(world const& w, channels const& initial, std::vector<double> times, double step)
+        : times_(std::move(times)) {
+        std::sort(times_.begin(), times_.end());
+        times_.erase(std::unique(times_.begin(), times_.end()), times_.end());
+        states_ = states_at(w, initial, times_, step);
+    }
+    state const& operator()(double t) const {
+        auto const place = std::lower_bound(times_.begin(), times_.end(), t) - times_.begin();
+        return states_[static_cast<std::size_t>(place)];
+    }
+
+private:
+    std::vector<double> times_;
+    std::vector<state> states_;
+};
+
+/// tau z' = h - z from z = h at the start on, at the times that are asked for; h is linear over
+/// steps of a millisecond, whose solution is exact.
+std::vector<double> low_passed(std::vector<double> const& t, std::vector<double> const& h,
+                               double tau, std::vector<double> const& times) {
+    std::vector<double> result;
+    double z = h.front();
+    std::size_t wanted = 0;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+        if (i > 0) {
+            double const dt = t[i] - t[i - 1], slope = (h[i] - h[i - 1]) / dt;
+            z = h[i] - tau * slope + (z - h[i - 1] + tau * slope) * std::exp(-dt / tau);
+        }
+        if (wanted < times.size() && times[wanted] == t[i]) {
+            result.push_back(z);
+            ++wanted;
+        }
+    }
+    return result;
+}
+
+} // namespace
+
 std::vector<channels> readings(world const& w, channels const& initial,
                                std::vector<double> const& times, double max_step) {
-    std::vector<double> wanted = times, old;
-    double const latency = w.e.position_latency;
-    if (latency > 0) {
-        for (double const t : times) old.push_back(std::max(t - latency, 0.0));
-        wanted.insert(wanted.end(), old.begin(), old.end());
-        std::sort(wanted.begin(), wanted.end());
-    }
-    auto const states = states_at(w, initial, wanted, max_step);
-    auto const find = [&](double t) -> state const& {
-        auto const place = std::lower_bound(wanted.begin(), wanted.end(), t) - wanted.begin();
-        return states[static_cast<std::size_t>(place)];
-    };
+    channels age = w.instruments.late;
+    age[3] += w.e.position_latency;
+    age[4] += w.e.position_latency;
+    auto const& lag = w.instruments.lag;
+    auto const in_use = [](double x) { return x > 0; };
+    bool const slow = std::any_of(lag.begin(), lag.end(), in_use);
     std::vector<channels> result;
     result.reserve(times.size());
-    for (std::size_t i = 0; i < times.size(); ++i) {
-        if (latency > 0)
-            result.push_back(sensed(w, find(times[i]), find(old[i])));
-        else
-            result.push_back(sensed(w, states[i], states[i]));
+    if (!slow && std::none_of(age.begin(), age.end(), in_use)) {
+        auto const states = states_at(w, initial, times, max_step);
+        for (std::size_t i = 0; i < times.size(); ++i)
+            result.push_back(sensed(w, times[i], states[i]));
+        return result;
+    }
+    auto const older = [](double t, double by) { return std::max(t - by, 0.0); };
+    std::vector<double> wanted = times, grid;
+    for (double const a : age)
+        for (double const t : times)
+            if (a > 0) wanted.push_back(older(t, a));
+    if (slow) {
+        grid = times;
+        for (int i = 0; i * 1e-3 < times.back(); ++i) grid.push_back(i * 1e-3);
+        std::sort(grid.begin(), grid.end());
+        grid.erase(std::unique(grid.begin(), grid.end()), grid.end());
+        wanted.insert(wanted.end(), grid.begin(), grid.end());
+    }
+    known_states const at(w, initial, std::move(wanted), max_step);
+    for (double const t : times) {
+        channels shown{};
+        for (std::size_t k = 0; k < channel_count; ++k)
+            shown[k] = sensed(w, t, at(older(t, age[k])))[k];
+        result.push_back(shown);
+    }
+    for (std::size_t k = 0; k < channel_count; ++k) {
+        if (!(lag[k] > 0)) continue;
+        std::vector<double> h;
+        for (double const t : grid) h.push_back(sensed(w, t, at(t))[k]);
+        auto const shown = low_passed(grid, h, lag[k], times);
+        for (std::size_t i = 0; i < times.size(); ++i) result[i][k] = shown[i];
     }
     return result;
 }

@@ -28,14 +28,20 @@ struct counted {
 };
 
 struct tally {
-    std::size_t campaigns = 0, false_proofs = 0, proofs = 0;
+    std::size_t campaigns = 0, open = 0, false_proofs = 0, proofs = 0, contradictions = 0;
+    std::vector<double> seconds;
     counted right, place, gap, relation, explained, baseline;
 
     void add(judgement const& j, judgement const* base) {
         ++campaigns;
         false_proofs += j.false_proofs.size();
         proofs += j.proofs;
-        right.add(j.right);
+        contradictions += j.contradictions.size();
+        if (j.seconds) seconds.push_back(*j.seconds);
+        if (j.open)
+            ++open;
+        else
+            right.add(j.right);
         if (j.place_right || j.missing) place.add(j.place_right.value_or(false));
         if (!j.absorbed) {
             gap.add(j.gap_certified);
@@ -58,11 +64,19 @@ std::string number_text(std::optional<double> const& x, char const* format = "%.
     return buffer;
 }
 
-std::string row(std::string const& name, tally const& t) {
-    std::string line = padded(name, 9) + padded(t.right.text(), 13) +
-                       padded(t.baseline.text(), 13) + padded(t.place.text(), 13) +
-                       padded(t.explained.text(), 13) + padded(t.gap.text(), 13) +
-                       padded(t.relation.text(), 13);
+constexpr std::size_t name_width = 11, cell_width = 12;
+
+std::string row(std::string const& name, tally& t) {
+    std::string line = padded(name, name_width);
+    for (auto const& cell : {t.right.text(), std::to_string(t.open), t.baseline.text(),
+                             t.place.text(), t.explained.text(), t.gap.text(), t.relation.text()})
+        line += padded(cell, cell_width);
+    std::string middle = "-";
+    if (auto& all = t.seconds; !all.empty()) {
+        std::sort(all.begin(), all.end());
+        middle = number_text(all[all.size() / 2], "%.1f");
+    }
+    line += padded(middle, 7) + padded(std::to_string(t.contradictions), 14);
     return line + std::to_string(t.false_proofs) + " of " + std::to_string(t.proofs) + '\n';
 }
 
@@ -87,10 +101,12 @@ std::string family_table(std::vector<judgement> const& all,
         by_family[all[i].family].add(all[i], base);
         total.add(all[i], base);
     }
-    std::string text = padded("family", 9) + padded("right", 13) + padded("baseline", 13) +
-                       padded("place", 13) + padded("explained", 13) + padded("gap proved", 13) +
-                       padded("relation", 13) + "false proofs\n";
-    for (auto const& [name, t] : by_family) text += row(name, t);
+    std::string text = padded("family", name_width);
+    for (auto const* head :
+         {"right", "open", "baseline", "place", "explained", "gap proved", "relation"})
+        text += padded(head, cell_width);
+    text += padded("s", 7) + padded("contradictions", 14) + "false proofs\n";
+    for (auto& [name, t] : by_family) text += row(name, t);
     return text + row("all", total);
 }
 
@@ -107,30 +123,44 @@ std::string confusion(std::vector<judgement> const& all) {
 }
 
 std::string complaints(std::vector<judgement> const& all) {
-    std::map<std::string, std::size_t> kinds;
+    std::map<std::string, std::size_t> false_kinds, contradicting_kinds;
     std::string text;
-    for (auto const& j : all) {
-        for (auto const& p : j.false_proofs) {
-            ++kinds[p];
-            text += "FALSE PROOF  " + j.id + "  " + p + "  (" + j.truth + ")\n";
+    auto const add = [&](char const* head, judgement const& j, std::vector<finding> const& found,
+                         std::map<std::string, std::size_t>& kinds) {
+        for (auto const& f : found) {
+            ++kinds[f.kind];
+            text += head + j.id + "  " + f.kind + "  " + f.about + "  (" + j.family + ", " +
+                    j.truth + ")\n";
         }
+    };
+    for (auto const& j : all) {
+        add("FALSE PROOF  ", j, j.false_proofs, false_kinds);
+        add("CONTRADICTION  ", j, j.contradictions, contradicting_kinds);
         if (j.missing) text += "missing      " + j.id + "  " + j.trouble + '\n';
         if (!j.right && !j.missing)
-            text += "wrong        " + j.id + "  " + j.family + "  " + j.truth + " -> " + j.answer +
-                    '\n';
+            text += (j.open ? "open         " : "wrong        ") + j.id + "  " + j.family + "  " +
+                    j.truth + " -> " + j.answer + '\n';
     }
-    text += "false proofs by kind:";
-    if (kinds.empty()) text += " none";
-    for (auto const& [kind, n] : kinds) text += "  " + kind + ' ' + std::to_string(n);
-    return text + '\n';
+    auto const tell = [&](char const* head, std::map<std::string, std::size_t> const& kinds) {
+        text += head;
+        if (kinds.empty()) text += " none";
+        for (auto const& [kind, n] : kinds) text += "  " + kind + ' ' + std::to_string(n);
+        text += '\n';
+    };
+    tell("false proofs by kind:", false_kinds);
+    tell("contradictions by kind:", contradicting_kinds);
+    return text;
 }
 
 std::string measures(std::vector<judgement> const& all) {
     std::vector<double> width, slack, shrink, shrink_error, seconds;
     counted relations, certified, sound, shrink_held;
-    std::size_t witnesses = 0, intervals = 0, hold = 0;
+    std::size_t witnesses = 0, rates = 0, hulls = 0, intervals = 0, hold = 0, contradictory = 0;
     for (auto const& j : all) {
         witnesses += j.witnesses_checked;
+        rates += j.rates_checked;
+        hulls += j.hulls_checked;
+        contradictory += j.contradictions.empty() ? 0U : 1U;
         intervals += j.intervals;
         hold += j.intervals_hold;
         if (j.seconds) seconds.push_back(*j.seconds);
@@ -140,7 +170,7 @@ std::string measures(std::vector<judgement> const& all) {
             sound.add(*j.inflation_lower <= *j.inflation_bound + 1e-3);
             slack.push_back(*j.inflation_lower / *j.inflation_bound);
         }
-        if (!j.absorbed && j.family != "pose" && j.family != "outliers" && j.family != "outside") {
+        if (!j.absorbed && j.truth_explains && j.family != "pose" && j.family != "outliers") {
             relations.add(j.relation_proved);
             certified.add(j.gap_certified);
         }
@@ -164,6 +194,9 @@ std::string measures(std::vector<judgement> const& all) {
          << "seconds a campaign:              " << spread(seconds) << ", in all "
          << std::accumulate(seconds.begin(), seconds.end(), 0.0) << '\n'
          << "witnesses simulated:             " << witnesses << '\n'
+         << "missing rates simulated:         " << rates << '\n'
+         << "explaining values held to hulls: " << hulls << '\n'
+         << "files that contradict themselves: " << contradictory << " of " << all.size() << '\n'
          << "effect parameters in their intervals: " << hold << '/' << intervals << '\n';
     return text.str();
 }
@@ -172,20 +205,25 @@ std::string csv(std::vector<judgement> const& all) {
     std::string text =
         "case,family,truth,answer,right,place,absorbed,false_proofs,proofs,gap_certified,"
         "relation_proved,truth_explains,inflation_lower,inflation_upper,"
-        "inflation_bound,shrink_lower,shrink_upper,shrink_true,seconds,missing\n";
+        "inflation_bound,shrink_lower,shrink_upper,shrink_true,seconds,missing,open,"
+        "contradictions\n";
     auto const flag = [](bool b) { return b ? "1" : "0"; };
     auto const maybe = [&](std::optional<bool> const& b) { return b ? flag(*b) : ""; };
     for (auto const& j : all) {
-        std::string proofs;
-        for (auto const& p : j.false_proofs) proofs += (proofs.empty() ? "" : " ") + p;
+        auto const kinds = [](std::vector<finding> const& all_of_them) {
+            std::string list;
+            for (auto const& f : all_of_them) list += (list.empty() ? "" : " ") + f.kind;
+            return list;
+        };
         text += j.id + ',' + j.family + ',' + j.truth + ',' + j.answer + ',' + flag(j.right) + ',' +
-                maybe(j.place_right) + ',' + flag(j.absorbed) + ',' + proofs + ',' +
+                maybe(j.place_right) + ',' + flag(j.absorbed) + ',' + kinds(j.false_proofs) + ',' +
                 std::to_string(j.proofs) + ',' + flag(j.gap_certified) + ',' +
                 flag(j.relation_proved) + ',' + maybe(j.truth_explains) + ',' +
                 number_text(j.inflation_lower) + ',' + number_text(j.inflation_upper) + ',' +
                 number_text(j.inflation_bound) + ',' + number_text(j.shrink_lower) + ',' +
                 number_text(j.shrink_upper) + ',' + number_text(j.shrink_true) + ',' +
-                number_text(j.seconds, "%.3f") + ',' + flag(j.missing) + '\n';
+                number_text(j.seconds, "%.3f") + ',' + flag(j.missing) + ',' + flag(j.open) + ',' +
+                kinds(j.contradictions) + '\n';
     }
     return text;
 }

@@ -34,11 +34,10 @@ missing_rates(sivid::place_estimate const& places,
             sivid::report::missing_rate_data d{p.name,   r.scenario,   p.unit, r.times,
                                                r.values, r.deviations, {}};
             for (auto const& f : findings) {
-                if (f.name != p.name || !f.missing || f.missing->window.scenario != r.scenario) {
-                    continue;
-                }
-                d.windows.push_back(
-                    {f.missing->window.from, f.missing->window.to, f.missing->value});
+                if (f.name != p.name || !f.place || !f.place->missing) continue;
+                auto const& [window, value, unit] = *f.place->missing;
+                if (window.scenario != r.scenario) continue;
+                d.windows.push_back({window.from, window.to, value});
             }
             result.push_back(std::move(d));
         }

@@ -25,13 +25,15 @@ struct identify_command {
     std::optional<double> accuracy;
     double budget = 50; ///< [s]
     std::optional<std::size_t> boxes;
-    std::optional<std::size_t> outliers;
-    bool fewest_outliers = false;     ///< the smallest budgets that explain the data
-    std::optional<double> memory;     ///< [MB] for boxes and what is known about them
-    std::optional<double> checkpoint; ///< [s] between two checkpoints in `out`
-    bool resume = false;              ///< from the checkpoint in `out`
-    std::size_t threads = 1;          ///< 0: as many as the machine has
+    std::optional<sivid::outlier_rule> outliers; ///< instead of the data set's own fraction
+    bool fewest_outliers = false;                ///< the smallest budgets that explain the data
+    std::optional<double> memory;                ///< [MB] for boxes and what is known about them
+    std::optional<double> checkpoint;            ///< [s] between two checkpoints in `out`
+    bool resume = false;                         ///< from the checkpoint in `out`
+    std::size_t threads = 1;                     ///< 0: as many as the machine has
     bool compare = false;
+    bool verdict_only = false;    ///< stop once the verdict is proved
+    std::string picture;          ///< a channel to draw on its own; empty: none
     bool online = false;          ///< the measurements one after the other, as they would arrive
     bool identifiability = false; ///< what the data can tell about the parameters at all
     bool quiet = false;
@@ -87,6 +89,7 @@ struct simulate_command {
 struct rank_command {
     hovercraft craft;
     std::filesystem::path out;
+    std::vector<std::string> free; ///< derived constants to take as independent
     std::string command_line;
 };
 [[nodiscard]] int run(rank_command const& command);

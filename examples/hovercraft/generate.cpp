@@ -104,6 +104,8 @@ private:
             data.parameters.push_back(
                 {k, u.name, all[k].unit, {u.lower, u.upper, *sivid::enclose(u.lower, u.upper)}});
             result_.truth[u.name] = truth;
+            // Stated, as in the data set: what is derived from it follows.
+            true_constants_.fixed[u.name] = *sivid::enclose(truth);
         }
         for (auto const& [name, value] : options_.set) {
             true_constants_.fixed[name] = *sivid::enclose(value);

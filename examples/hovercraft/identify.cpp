@@ -21,6 +21,7 @@
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
 #include <sivid/report/identification_words.hpp>
+#include <sivid/report/time_plot.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -50,6 +51,8 @@ void print_summary(sivid::identification_problem const& problem, sivid::identifi
     namespace report = sivid::report;
     auto const view = report::view_of(problem, found, nullptr, {.dataset = id});
     std::cout << id << ": " << to_string(found.verdict) << " (" << to_string(found.reason) << ")\n";
+    for (auto const& words : sivid::derivation_words(problem.model, problem.choice))
+        std::cout << "  " << words << "\n";
     if (found.verdict == sivid::verdict::inconsistent)
         std::cout
             << "  no parameter in the prior explains the data: all of it is excluded by proof\n";
@@ -85,7 +88,18 @@ void print_summary(sivid::identification_problem const& problem, sivid::identifi
                       << report::exact_text(found.witness->parameters[j]);
         std::cout << "\n";
     }
-    if (!found.forced.empty()) std::cout << "  proved outliers: " << found.forced.size() << "\n";
+    if (!found.forced.empty()) {
+        std::cout << "  proved outliers: " << found.forced.size();
+        std::size_t const most = 6;
+        for (std::size_t k = 0; k < std::min(most, found.forced.size()); ++k) {
+            auto const& e = problem.experiments[found.forced[k].experiment];
+            auto const m = sorted(e.measurements)[found.forced[k].measurement];
+            std::cout << (k == 0 ? ": " : ", ") << e.name << " "
+                      << problem.model.about.channels[m.channel].name << " at "
+                      << report::given_text(m.time) << " s";
+        }
+        std::cout << (found.forced.size() > most ? ", ...\n" : "\n");
+    }
     if (found.fewest) {
         std::cout << "  outliers needed: " << report::count_text(found.fewest->total.most);
         if (found.fewest->total.exact()) {
@@ -162,6 +176,27 @@ std::string seen_from(std::filesystem::path const& here, std::filesystem::path c
     return fault ? std::string{} : way.generic_string();
 }
 
+/// One channel of every scenario as a picture of its own: Figure 4.1 of the report.
+/// @returns the files
+std::vector<std::string> draw_channel(sivid::report::identification_view const& view,
+                                      identify_command const& c) {
+    std::vector<std::string> files;
+    for (auto const& s : view.scenarios) {
+        for (auto const& series : s.channels) {
+            if (series.name != c.picture) continue;
+            auto const drawn =
+                sivid::report::draw_time_plot(series, {.width = 900,
+                                                       .height = 420,
+                                                       .title = s.name + ": " + series.name,
+                                                       .legend = true});
+            auto const file = c.out / (s.name + "." + series.name + ".svg");
+            sivid::write_atomically(file, drawn.str());
+            files.push_back(file.string());
+        }
+    }
+    return files;
+}
+
 int exit_code_of(sivid::verdict v) {
     switch (v) {
     case sivid::verdict::consistent:
@@ -230,6 +265,9 @@ int run(identify_command const& c) {
     auto const digest = sivid::dataset_digest(c.dataset);
     if (c.online && (c.compare || c.algorithm != "contracting"))
         throw bad_request("--online goes with neither --algorithm nor --compare");
+    if (!c.picture.empty())
+        static_cast<void>(sivid::index_of(model.about.channels, c.picture, "channel"));
+    if (c.online && c.verdict_only) throw bad_request("--online goes not with --verdict-only");
     if (c.online && (c.checkpoint || c.resume))
         throw bad_request("--online goes with neither --checkpoint nor --resume");
     if (c.online && c.fewest_outliers)
@@ -250,6 +288,7 @@ int run(identify_command const& c) {
     if (c.boxes) options.search.boxes = *c.boxes;
     options.search.seconds = c.compare ? 0.6 * budget : budget;
     options.search.keep_going = wanted;
+    if (c.verdict_only) options.search.sufficient_ratio = 1e-300; // any inside box will do
     bool full = false; // as many boxes as can be written in what is left of the budget
     options.search.progress = [&](sivid::paving_progress const& p) {
         progress.show(console::paving_words(p));
@@ -385,6 +424,7 @@ int run(identify_command const& c) {
                       << sivid::printable_text(e.what(), 1000) << "\n";
         }
     }
+    for (auto const& file : draw_channel(view, c)) std::cout << "picture: " << file << "\n";
     print_summary(problem, found, data.id, c.out);
     if (baseline) {
         std::cout << "  beside it, Algorithm 1 of the report: not excluded at most "

@@ -171,8 +171,15 @@ private:
         s->add_option("--outliers", outliers_,
                       "outliers allowed in each scenario, instead of the data set's own fraction; "
                       "auto: the fewest that explain the data, with proof that fewer do not");
+        s->add_option("--threshold", threshold_,
+                      "the outliers allowed as Algorithm 2 of the report prints them: with n "
+                      "measurements ceil(n * threshold) - 1 in each scenario");
         s->add_flag("--compare", c.compare,
                     "spend 40 % of the budget on the report's Algorithm 1 and show both");
+        s->add_flag("--verdict-only", c.verdict_only,
+                    "stop as soon as it is proved whether any parameter explains the data");
+        s->add_option("--picture", c.picture,
+                      "a channel to draw on its own, in OUT/<scenario>.<channel>.svg");
         s->add_flag("--online", c.online,
                     "feed the measurements in the order of time, and print what each update took");
         s->add_flag("--identifiability", c.identifiability,
@@ -191,6 +198,16 @@ private:
     }
 
     void read_outliers() {
+        if (!threshold_.empty()) {
+            if (!outliers_.empty()) throw bad_request("give --outliers or --threshold, not both");
+            if (identify_.algorithm == "report-1")
+                throw bad_request("--threshold: Algorithm 1 allows no outlier; use report-2");
+            auto const h = decimal(threshold_, "--threshold");
+            if (!h.is_positive() || decimal("1", "") < h)
+                throw bad_request("--threshold must be above 0 and at most 1: with 0 every box "
+                                  "would be rejected");
+            identify_.outliers = sivid::outlier_rule::threshold(h);
+        }
         identify_.fewest_outliers = outliers_ == "auto";
         if (outliers_.empty() || identify_.fewest_outliers) return;
         std::size_t count = 0;
@@ -199,7 +216,7 @@ private:
         if (read.ec != std::errc{} || read.ptr != end)
             throw bad_request(std::string{"--outliers: write a whole number or auto, not "} +
                               sivid::in_quotes(outliers_));
-        identify_.outliers = count;
+        identify_.outliers = sivid::outlier_rule(count);
     }
 
     void add_check() {
@@ -332,6 +349,9 @@ private:
         auto* const s = app_.add_subcommand(
             "rank", "the influence of each constant on each state equation, within proved bounds");
         s->add_option("--out", rank_.out, "folder for ranking.html and ranking.csv")->required();
+        s->add_option("--free", rank_.free,
+                      "constants to rank although they follow from others, such as A")
+            ->delimiter(',');
         add_variants(*s, shared_);
         s->callback([this] {
             action_ = [this] {
@@ -375,7 +395,7 @@ private:
     simulate_command simulate_;
     rank_command rank_;
     describe_command describe_;
-    std::string relative_, outliers_;
+    std::string relative_, outliers_, threshold_;
     std::optional<double> accuracy_;
     std::vector<std::string> absolute_, unknown_{"Sv", "Sg", "L"};
     bool combined_ = false, hold_ = false;

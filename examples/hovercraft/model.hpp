@@ -4,6 +4,8 @@
 
 #include <sivid/model/model.hpp>
 
+#include <array>
+
 /// The hovercraft of L. Zhu's internship report (ENSTA ParisTech, 2016), equations (2.1) to (2.3).
 ///
 /// States u, v [m/s] (surge, sway, body frame), r [rad/s], x, y [m], psi [rad]; inputs W [1/s]
@@ -14,6 +16,7 @@
 ///     X = F_u - Ff u/V - 1/2 rho Cd Su V u - D11 u
 ///     Y = CL Sv F_u delta/(4A) - Ff v/V - 1/2 rho Cd Sv V v - D22 v
 ///     N = -L CL Sg F_u delta/(4A) - D33 r
+///     A = pi D^2/4                                                swept by the propeller
 ///     u' = v r + X/m    v' = -u r + Y/m    r' = N/Iz
 ///     x' = u cos psi - v sin psi    y' = u sin psi + v cos psi    psi' = r
 ///
@@ -60,6 +63,17 @@ struct hovercraft {
 
     lift_area lift = lift_area::as_printed;
     friction_law friction = friction_law::unit_vector;
+
+    /// The propeller sweeps a disc, (2.3c,d). Table 2.3 rounds A; it stands where the data say
+    /// nothing of D, and where they say something of A itself.
+    template <class T>
+    std::array<sivid::relation_of_constants<T>, 1>
+    derived(sivid::constants_of<hovercraft, T> const& constant) const {
+        auto const& [m, Iz, rho, Cd, CL, Cdelta, D, Su, Sv, Sg, A, L, Ff, eps, D11, D22, D33] =
+            constant;
+        T const pi = 4 * atan(T(1));
+        return {{{"A", pi * sqr(D) / 4}}};
+    }
 
     template <class T>
     sivid::states_of<hovercraft, T> rate(T const& /*t*/,

@@ -10,6 +10,7 @@
 #include <sivid/report/page.hpp>
 #include <sivid/version.hpp>
 
+#include <algorithm>
 #include <iostream>
 
 namespace hovercraft_example {
@@ -40,18 +41,24 @@ std::string ranking_csv(std::vector<ranked_equation> const& ranking) {
     return text;
 }
 
-partial_effect const& effect(std::vector<ranked_equation> const& ranking, std::string const& state,
+partial_effect const* effect(std::vector<ranked_equation> const& ranking, std::string const& state,
                              std::string const& constant) {
     for (auto const& e : ranking)
         for (auto const& p : e.effects)
-            if (e.state == state && p.constant == constant) return p;
-    throw std::logic_error("no such effect");
+            if (e.state == state && p.constant == constant) return &p;
+    return nullptr;
 }
 
 /// One entry of Table 2.2 against what is proved.
-std::string judge(std::vector<ranked_equation> const& ranking, std::string const& state,
+std::string judge(sivid::model_description const& about,
+                  std::vector<ranked_equation> const& ranking, std::string const& state,
                   std::string const& constant) {
-    auto const& p = effect(ranking, state, constant);
+    auto const* const found = effect(ranking, state, constant);
+    if (found == nullptr) {
+        auto const k = sivid::index_of(about.constants, constant, "constant");
+        return "is no constant of its own: " + constant + " = " + about.constants[k].formula;
+    }
+    auto const& p = *found;
     if (!p.occurs) return std::string{"does not occur in "} + state + "'";
     double most = 0;
     std::size_t rank = 1;
@@ -72,7 +79,7 @@ std::string judge(std::vector<ranked_equation> const& ranking, std::string const
 
 int run(rank_command const& c) {
     auto const model = sivid::record_model(c.craft);
-    auto const ranking = rank_constants(model);
+    auto const ranking = rank_constants(model, default_ranges(), c.free);
     console::prepare_folder(c.out);
     auto const ranges = default_ranges();
 
@@ -81,11 +88,13 @@ int run(rank_command const& c) {
                        .lead = "How much can each constant, moved through its prior, change each "
                                "state equation?"}};
     page.section("What is bounded");
-    page.prose("The effect of a constant c on an equation is the width of its prior times the "
-               "largest size of the equation's partial derivative by c, over all states and inputs "
-               "in the ranges below and all constants in their priors. The bar is full up to a "
-               "lower bound and hatched up to an upper bound, both proved: from below by interval "
-               "evaluation at points, from above by interval evaluation over boxes.");
+    page.prose(
+        "The effect of a constant c on an equation is the width of its prior times the "
+        "largest size of the equation's partial derivative by c, over all states and inputs "
+        "in the ranges below and all constants in their priors. The bar is full up to a "
+        "lower bound and hatched up to an upper bound, both proved: from below by interval "
+        "evaluation at points, from above by interval evaluation over boxes, which shrink to "
+        "the ends of the priors in which the equation is affine.");
     std::vector<std::string> stated;
     for (std::size_t i = 0; i < ranges.states.size(); ++i)
         stated.push_back(model.about.states[i].name + " in " +
@@ -95,6 +104,13 @@ int run(rank_command const& c) {
                      " 1/s, delta in " + report::given_text(shown(ranges.rudder)) + " rad");
     stated.push_back("priors: Sv, Sg and L those of Table 2.3, D11 in [0, 0.1] kg/s, every other "
                      "constant 10 % about its nominal value");
+    for (auto const& d : model.about.constants) {
+        if (d.formula.empty()) continue;
+        bool const free = std::find(c.free.begin(), c.free.end(), d.name) != c.free.end();
+        stated.push_back(free ? d.name + " is free, although " + d.name + " = " + d.formula
+                              : d.name + " = " + d.formula +
+                                    ": its part is in the effects of the constants in it");
+    }
     page.bullets(stated);
     page.section("Ranking");
     report::figure figure{.panels = {},
@@ -126,7 +142,8 @@ int run(rank_command const& c) {
     auto const compare = [&](std::string const& state, std::string const& says,
                              std::vector<std::string> const& constants) {
         for (auto const& name : constants)
-            table.rows.push_back({state + "'", name, says, judge(ranking, state, name)});
+            table.rows.push_back(
+                {state + "'", name, says, judge(model.about, ranking, state, name)});
     };
     compare("u", "important", {"Sv"});
     compare("u", "negligible", {"D11", "rho", "Cd", "Su"});
@@ -137,7 +154,7 @@ int run(rank_command const& c) {
     page.footer({std::string{"sivid "} + std::string{sivid::version}, console::today(),
                  console::machine_text(), c.command_line});
     for (auto const& row : table.rows)
-        if (row[3].find("does not occur") == 0)
+        if (row[3].find("does not occur") == 0 || row[3].find("is no constant") == 0)
             std::cout << "the report calls " << row[1] << " " << row[2] << " for " << row[0]
                       << ", but it " << row[3] << "\n";
     sivid::file_set files(c.out);

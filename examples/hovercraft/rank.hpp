@@ -4,8 +4,10 @@
 
 #include "model.hpp"
 
+#include <sivid/diagnosis/graph_range.hpp>
 #include <sivid/enclosure/expansion.hpp>
 #include <sivid/enclosure/flow.hpp>
+#include <sivid/model/rewrite.hpp>
 #include <sivid/model/unit.hpp>
 #include <sivid/number/decimal.hpp>
 
@@ -13,7 +15,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,7 +25,8 @@
 /// Table 2.2 of the report with proof: how much can each constant, moved through its prior, change
 /// each state equation?
 ///   \f$ e_{ic} = w_c \max |\partial f_i / \partial c| \f$ over all states and inputs in stated
-///   ranges and all constants in their priors, w_c the width of the prior of c.
+///   ranges and all constants in their priors, w_c the width of the prior of c. A constant that is
+///   a function of others, A = pi D^2/4, moves with them.
 namespace hovercraft_example {
 
 /// The effect of one constant on one state equation, within proved bounds.
@@ -68,16 +73,32 @@ struct ranking_ranges {
 /// below by evaluation at points (corners and random ones).
 class effect_bounds {
 public:
-    effect_bounds(sivid::recorded_model const& model, ranking_ranges const& ranges)
-        : ranges_{ranges}, flow_{make_flow(model, ranges)}, series_{flow_.rate_jacobian(), 0} {
-        for (auto const& c : model.about.constants) priors_.push_back(ranking_prior(c));
+    effect_bounds(sivid::recorded_model const& model, ranking_ranges const& ranges,
+                  std::vector<std::string> const& freed)
+        : ranges_{ranges},
+          flow_{make_flow(model, ranges, freed)},
+          series_{flow_.rate_jacobian(), 0} {
+        for (auto const k : flow_.model().parameters) {
+            priors_.push_back(ranking_prior(model.about.constants[k]));
+        }
+        related_ = first_related(model);
     }
 
-    [[nodiscard]] std::vector<ranked_equation> operator()(std::size_t parts = 120,
-                                                          std::size_t points = 4000) {
+    [[nodiscard]] std::vector<ranked_equation> operator()(std::size_t points = 4000) {
         auto const n = flow_.states(), m = flow_.parameters();
-        std::vector<double> high(n * m, 0.0), low(n * m, 0.0);
-        bound_from_above(high, parts);
+        std::vector<double> low(n * m, 0.0);
+        // Each cover is the sharper one for some effects.
+        auto high = bound_from_above({.speeds = 120});
+        if (related_ < m) {
+            for (auto const& other : {bound_from_above({.related = 1000}),
+                                      bound_from_above({.speeds = 40, .related = 40})}) {
+                for (std::size_t k = 0; k < high.size(); ++k) high[k] = std::min(high[k], other[k]);
+            }
+            for (std::size_t i = 0; i < n; ++i) {
+                auto& value = high[i * m + related_];
+                value = std::min(value, bound_at_corners(i));
+            }
+        }
         bound_from_below(low, points);
         std::vector<ranked_equation> result;
         auto const& about = flow_.model().about;
@@ -91,7 +112,8 @@ public:
                 auto const width = traits::sub(traits::point(priors_[c].upper()),
                                                traits::point(priors_[c].lower()));
                 auto const slope = traits::bounds(low[i * m + c], high[i * m + c]);
-                equation.effects.push_back({about.constants[c].name, equation.unit, priors_[c],
+                auto const& name = about.constants[flow_.model().parameters[c]].name;
+                equation.effects.push_back({name, equation.unit, priors_[c],
                                             traits::mul(width, slope), high[i * m + c] > 0});
             }
             std::stable_sort(equation.effects.begin(), equation.effects.end(),
@@ -105,12 +127,41 @@ public:
 
 private:
     // The rudder angle is put in as the time, so that it can range over an interval.
-    static sivid::flow make_flow(sivid::recorded_model const& model, ranking_ranges const& ranges) {
+    static sivid::flow make_flow(sivid::recorded_model const& model, ranking_ranges const& ranges,
+                                 std::vector<std::string> const& freed) {
+        for (auto const& name : freed) {
+            auto const k = sivid::index_of(model.about.constants, name, "constant");
+            if (model.about.constants[k].formula.empty())
+                throw std::invalid_argument("the constant '" + name + "' is free already");
+        }
         sivid::parameter_choice all;
-        for (auto const& c : model.about.constants) all.unknown.push_back(c.name);
+        for (auto const& c : model.about.constants) {
+            bool const free = std::find(freed.begin(), freed.end(), c.name) != freed.end();
+            if (c.formula.empty() || free) all.unknown.push_back(c.name);
+        }
         sivid::sampled_signal const speed({0}, {ranges.thrust_speed}, sivid::interpolation::hold);
         auto const rudder = sivid::analytic_signal::from([](auto const& t) { return t; });
         return sivid::flow(model, all, {speed, rudder});
+    }
+
+    /// The first constant from which another one is derived; else the number of constants. Ranges
+    /// are cut along it, too: it occurs in many places, which interval evaluation cannot relate.
+    [[nodiscard]] std::size_t first_related(sivid::recorded_model const& model) const {
+        auto const& unknown = flow_.model().parameters;
+        std::vector<sivid::node_id> formulas;
+        for (auto const& d : model.derived) {
+            if (std::find(unknown.begin(), unknown.end(), d.constant) == unknown.end())
+                formulas.push_back(d.value);
+        }
+        auto const needed = sivid::operands_of(model.g, formulas);
+        for (std::size_t i = 0; i < needed.size(); ++i) {
+            auto const& n = model.g.nodes()[i];
+            if (!needed[i] || n.op != sivid::operation::constant) continue;
+            auto const at =
+                std::find(unknown.begin(), unknown.end(), static_cast<std::size_t>(n.index));
+            if (at != unknown.end()) return static_cast<std::size_t>(at - unknown.begin());
+        }
+        return unknown.size();
     }
 
     /// Calls back with the row, the constant and the partial derivative over a box.
@@ -127,29 +178,115 @@ private:
         }
     }
 
-    void bound_from_above(std::vector<double>& high, std::size_t parts) {
-        series_.set_parameters(sivid::box(priors_));
-        auto const part = [parts](sivid::interval const& whole, std::size_t k) {
-            auto const share = [&](std::size_t i) {
-                if (i == 0) return whole.lower();
-                if (i == parts) return whole.upper();
-                return whole.lower() + (whole.upper() - whole.lower()) *
-                                           (static_cast<double>(i) / static_cast<double>(parts));
-            };
-            return sivid::interval(share(k), share(k + 1));
+    [[nodiscard]] static sivid::interval part(sivid::interval const& whole, std::size_t k,
+                                              std::size_t parts) {
+        auto const share = [&](std::size_t i) {
+            if (i == 0) return whole.lower();
+            if (i == parts) return whole.upper();
+            return whole.lower() + (whole.upper() - whole.lower()) *
+                                       (static_cast<double>(i) / static_cast<double>(parts));
         };
-        auto x = ranges_.states;
-        for (std::size_t a = 0; a < parts; ++a) {
-            x[0] = part(ranges_.states[0], a);
-            for (std::size_t b = 0; b < parts; ++b) {
-                x[1] = part(ranges_.states[1], b);
-                evaluate(x, ranges_.rudder,
-                         [&](std::size_t i, std::size_t c, sivid::interval const& d) {
-                             auto& value = high[i * priors_.size() + c];
-                             value = std::max(value, mag(d));
-                         });
+        return {share(k), share(k + 1)};
+    }
+
+    /// The degree of a node as a polynomial in one leaf; infinite when it is none.
+    [[nodiscard]] static double degree(sivid::graph const& g, sivid::node_id root,
+                                       sivid::operation leaf, std::size_t index) {
+        using sivid::operation;
+        double const infinite = std::numeric_limits<double>::infinity();
+        std::vector<double> d(root + 1, 0.0);
+        for (std::size_t k = 0; k <= root; ++k) {
+            auto const& n = g.nodes()[k];
+            if (is_leaf(n.op)) {
+                d[k] = n.op == leaf && static_cast<std::size_t>(n.index) == index ? 1 : 0;
+                continue;
+            }
+            double const a = d[n.a], b = is_binary(n.op) ? d[n.b] : 0;
+            if (n.op == operation::add || n.op == operation::sub || n.op == operation::neg) {
+                d[k] = std::max(a, b);
+            } else if (n.op == operation::mul) {
+                d[k] = a + b;
+            } else if (n.op == operation::div && b == 0) {
+                d[k] = a;
+            } else {
+                d[k] = a + b > 0 ? infinite : 0;
             }
         }
+        return d[root];
+    }
+
+    /// Bounds |d f_i/d c| for the related constant from above. In a constant (or the rudder) in
+    /// which f_i is affine, this is convex: it is largest at the ends. So interval evaluation,
+    /// which cannot see that the terms of the derivative share such factors, is spared their
+    /// ranges.
+    [[nodiscard]] double bound_at_corners(std::size_t i) const {
+        auto const& model = flow_.model();
+        auto const& g = model.g;
+        auto const entry = model.rate_dp[i][related_];
+        auto const needed = sivid::operands_of(g, {entry});
+        std::vector<std::pair<sivid::operation, std::size_t>> ends;
+        for (std::size_t k = 0; k < needed.size(); ++k) {
+            auto const& n = g.nodes()[k];
+            auto const index = static_cast<std::size_t>(n.index);
+            bool const ours = n.op == sivid::operation::time ||
+                              (n.op == sivid::operation::constant && index != related_);
+            if (needed[k] && ours && ends.size() < 8 && degree(g, model.rate[i], n.op, index) <= 1)
+                ends.emplace_back(n.op, index);
+        }
+        sivid::graph_range range(g, {entry});
+        sivid::leaf_ranges at;
+        at.time = ranges_.rudder;
+        at.states = sivid::box(ranges_.states);
+        at.constants = sivid::box(priors_);
+        at.inputs = sivid::box(std::vector<sivid::interval>(model.about.inputs.size(),
+                                                            sivid::interval(ranges_.thrust_speed)));
+        double high = 0;
+        std::size_t const parts = 2048;
+        for (std::size_t corner = 0; corner < (std::size_t{1} << ends.size()); ++corner) {
+            for (std::size_t b = 0; b < ends.size(); ++b) {
+                auto const [leaf, index] = ends[b];
+                bool const constant = leaf == sivid::operation::constant;
+                auto const& whole = constant ? priors_[index] : ranges_.rudder;
+                bool const upper = (corner >> b & 1) != 0;
+                (constant ? at.constants[index] : at.time) =
+                    sivid::interval(upper ? whole.upper() : whole.lower());
+            }
+            for (std::size_t k = 0; k < parts; ++k) {
+                at.constants[related_] = part(priors_[related_], k, parts);
+                range.evaluate(at);
+                if (range.undefined(entry)) return std::numeric_limits<double>::infinity();
+                high = std::max(high, mag(range.value(entry)));
+            }
+        }
+        return high;
+    }
+
+    /// In how many parts u and v, and the related constant, are cut.
+    struct cuts {
+        std::size_t speeds = 1, related = 1;
+    };
+
+    /// Over all boxes of parts.
+    [[nodiscard]] std::vector<double> bound_from_above(cuts const& n) {
+        std::vector<double> high(flow_.states() * priors_.size(), 0.0);
+        auto const keep = [&](std::size_t i, std::size_t c, sivid::interval const& d) {
+            auto& value = high[i * priors_.size() + c];
+            value = std::max(value, mag(d));
+        };
+        auto constants = sivid::box(priors_);
+        auto x = ranges_.states;
+        for (std::size_t k = 0; k < n.related; ++k) {
+            if (n.related > 1) constants[related_] = part(priors_[related_], k, n.related);
+            series_.set_parameters(constants);
+            for (std::size_t a = 0; a < n.speeds; ++a) {
+                x[0] = part(ranges_.states[0], a, n.speeds);
+                for (std::size_t b = 0; b < n.speeds; ++b) {
+                    x[1] = part(ranges_.states[1], b, n.speeds);
+                    evaluate(x, ranges_.rudder, keep);
+                }
+            }
+        }
+        return high;
     }
 
     void bound_from_below(std::vector<double>& low, std::size_t points) {
@@ -185,16 +322,19 @@ private:
     ranking_ranges ranges_;
     sivid::flow flow_;
     sivid::series<sivid::interval> series_;
-    std::vector<sivid::interval> priors_;
+    std::vector<sivid::interval> priors_; ///< of the constants that are ranked
+    std::size_t related_ = 0;
 };
 
-/// The ranking of all constants for every state equation.
+/// The ranking of the constants for every state equation. One that is a function of others is no
+/// entry of its own: its part is in their effects.
+/// @param freed  derived constants that are taken as independent all the same
 /// @guarantee  each effect lies in its interval; a constant whose effect is [0, 0] and which does
 ///             not `occur` is absent from the equation
 [[nodiscard]] inline std::vector<ranked_equation>
-rank_constants(sivid::recorded_model const& model,
-               ranking_ranges const& ranges = default_ranges()) {
-    return effect_bounds(model, ranges)();
+rank_constants(sivid::recorded_model const& model, ranking_ranges const& ranges = default_ranges(),
+               std::vector<std::string> const& freed = {}) {
+    return effect_bounds(model, ranges, freed)();
 }
 
 } // namespace hovercraft_example

@@ -202,6 +202,11 @@ int run(simulate_command const& c) {
                        .title = c.scenario == "all" ? "Scenarios of Table 2.4" : scenarios[0].name,
                        .lead = c.validated ? "The hovercraft, simulated and enclosed."
                                            : "The hovercraft, simulated in floating point."}};
+    sivid::parameter_choice set;
+    for (auto const& [name, value] : c.set) set.fixed[name] = *sivid::enclose(value);
+    auto const derived = sivid::derivation_words(model, set);
+    if (!derived.empty()) page.bullets(derived);
+    for (auto const& words : derived) std::cout << words << "\n";
     std::vector<std::string> warnings;
     for (auto const& s : all)
         if (!s->complete()) warnings.push_back(s->failure());

@@ -21,6 +21,7 @@
 #include <sivid/number/interval.hpp>
 #include <sivid/number/interval_traits.hpp>
 #include <sivid/number/inverse_trigonometric.hpp>
+#include <sivid/number/kernel_trial.hpp>
 #include <sivid/number/lanes.hpp>
 #include <sivid/number/monomials.hpp>
 #include <sivid/number/nearest_text.hpp>
@@ -60,11 +61,13 @@
 #include <sivid/model/effects.hpp>
 #include <sivid/model/expression.hpp>
 #include <sivid/model/find_combinations.hpp>
+#include <sivid/model/formula_text.hpp>
 #include <sivid/model/graph.hpp>
 #include <sivid/model/graph_listing.hpp>
 #include <sivid/model/homogeneity.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/model/operation.hpp>
+#include <sivid/model/parameter_choice.hpp>
 #include <sivid/model/plain_program.hpp>
 #include <sivid/model/recorded_map.hpp>
 #include <sivid/model/rewrite.hpp>
@@ -200,10 +203,12 @@
 #include <sivid/diagnosis/candidate_order.hpp>
 #include <sivid/diagnosis/candidate_verdicts.hpp>
 #include <sivid/diagnosis/channel_tube.hpp>
+#include <sivid/diagnosis/claim_review.hpp>
 #include <sivid/diagnosis/declared_variation.hpp>
 #include <sivid/diagnosis/describe_candidate.hpp>
 #include <sivid/diagnosis/diagnose.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/diagnosis/diagnosis_consistency.hpp>
 #include <sivid/diagnosis/diagnosis_effort.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/diagnosis/estimated_place.hpp>
@@ -212,6 +217,7 @@
 #include <sivid/diagnosis/hardest_experiments.hpp>
 #include <sivid/diagnosis/holdout.hpp>
 #include <sivid/diagnosis/holdout_judgement.hpp>
+#include <sivid/diagnosis/input_range.hpp>
 #include <sivid/diagnosis/integrand_set.hpp>
 #include <sivid/diagnosis/knot_trace.hpp>
 #include <sivid/diagnosis/law.hpp>
@@ -220,6 +226,7 @@
 #include <sivid/diagnosis/manoeuvre.hpp>
 #include <sivid/diagnosis/missing_rate.hpp>
 #include <sivid/diagnosis/missing_rate_scales.hpp>
+#include <sivid/diagnosis/model_variation.hpp>
 #include <sivid/diagnosis/observed_motion.hpp>
 #include <sivid/diagnosis/opening_words.hpp>
 #include <sivid/diagnosis/part_inflation.hpp>
@@ -228,6 +235,7 @@
 #include <sivid/diagnosis/place_fit.hpp>
 #include <sivid/diagnosis/place_report.hpp>
 #include <sivid/diagnosis/place_search.hpp>
+#include <sivid/diagnosis/rate_stretch.hpp>
 #include <sivid/diagnosis/relation_finding.hpp>
 #include <sivid/diagnosis/relation_row.hpp>
 #include <sivid/diagnosis/relation_windows.hpp>
@@ -238,6 +246,7 @@
 #include <sivid/diagnosis/separation.hpp>
 #include <sivid/diagnosis/state_samples.hpp>
 #include <sivid/diagnosis/time_cell.hpp>
+#include <sivid/diagnosis/time_grid.hpp>
 #include <sivid/diagnosis/untouched_relation.hpp>
 #include <sivid/diagnosis/verification.hpp>
 #include <sivid/diagnosis/weak_windows.hpp>

@@ -84,18 +84,3 @@ TEST_CASE("what the user declares is taken as it is, and what nobody measured is
     CHECK(plain[1].variation != 1.2345);
     CHECK(std::isfinite(plain[0].variation));
 }
-
-TEST_CASE("inputs are enclosed on a piece, formulas by their graph") {
-    signal const line = sampled_signal({0.0, 1.0, 2.0}, {0.0, 2.0, 2.0}, interpolation::linear);
-    auto const range = input_over(line, 0.25, 0.5);
-    CHECK_THAT(range.lower(), WithinAbs(0.5, 1e-12));
-    CHECK_THAT(range.upper(), WithinAbs(1, 1e-12));
-    signal const hold = sampled_signal({0.0, 1.0}, {3.0, 4.0}, interpolation::hold);
-    CHECK(equal(input_over(hold, 0.2, 1.0), between(3, 3)));
-    signal const formula = analytic_signal::from([](auto const& t) { return sin(t); });
-    auto const wave = input_over(formula, 1, 2);
-    CHECK(wave.lower() <= std::sin(1.0));
-    CHECK(wave.upper() >= 1);
-    signal const bad = analytic_signal::from([](auto const& t) { return sqrt(t - 1); });
-    CHECK(is_entire(input_over(bad, 0, 2)));
-}

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <sivid/diagnosis/declared_variation.hpp>
 #include <sivid/diagnosis/observed_motion.hpp>
 
 #include "diagnosis/planted_motion.hpp"

@@ -24,9 +24,18 @@ TEST_CASE("a place is called proved where its equation is, with the proof's wind
     f.channels = {"r"};
     f.windows = {{"E2", 1, 2}};
     f.missing = missing_rate{{"E2", 3, 4}, interval(1.0, 1.5), "1"};
+    // As long as its sensors may be wrong the relation is what is proved.
+    auto const open = reported(estimate, {f});
+    CHECK_FALSE(open[0].proved);
+    CHECK_FALSE(open[0].missing);
+    CHECK(open[0].where.scenario == "E1");
+    CHECK(open[0].estimate == 2.0);
+    f.place = proved_place{{"inputs exact"}, f.missing};
     auto const places = reported(estimate, {f});
     REQUIRE(places.size() == 2);
     CHECK(places[0].proved);
+    CHECK(places[0].assumptions == std::vector<std::string>{"inputs exact"});
+    CHECK_FALSE(places[0].estimate); // nothing was estimated in that window
     CHECK(places[0].kind == "equation");
     CHECK(places[0].where.scenario == "E2");
     CHECK(places[0].where.from == 3);
@@ -50,7 +59,7 @@ TEST_CASE("no equation is called proved where a suspect may be what its proof me
     f.name = "v";
     f.proved = true;
     f.channels = {"v", "r"};
-    f.missing = missing_rate{{"E2", 3, 4}, interval(1.0, 1.5), "1"};
+    f.place = proved_place{{}, missing_rate{{"E2", 3, 4}, interval(1.0, 1.5), "1"}};
     place_estimate estimate;
     estimate.places.resize(2);
     estimate.places[0].name = "v";
@@ -66,4 +75,58 @@ TEST_CASE("no equation is called proved where a suspect may be what its proof me
     }
     estimate.places[1].kind = place_kind::equation; // its sensors are not suspected
     CHECK(reported(estimate, {f})[0].proved);
+}
+
+TEST_CASE("what is missing and its estimate are of one window and contain no zero") {
+    relation_finding f;
+    f.name = "v";
+    f.proved = true;
+    f.place = proved_place{{}, missing_rate{{"E2", 1, 3}, interval(1.0, 1.5), "1"}};
+    place_estimate estimate;
+    estimate.places.resize(1);
+    auto& p = estimate.places[0];
+    p.name = "v";
+    p.scenario = "E1";
+    p.to = 1;
+    p.missing = -7;
+    p.rates = {{"E1", {0, 1}, {-7, -7}, {}}, {"E2", {0, 2, 4}, {0, 2, 0}, {}}};
+    auto place = reported(estimate, {f})[0];
+    CHECK(place.where.scenario == "E2");
+    CHECK(place.estimate == 1.5);
+    CHECK_THAT(*mean_missing(p, {"E2", 1, 3}), WithinAbs(1.5, 1e-12));
+    CHECK_FALSE(mean_missing(p, {"E3", 1, 3}));
+    p.rates[1].values = {0, 9, 0}; // what is proved is known better
+    CHECK(reported(estimate, {f})[0].estimate == 1.5);
+    f.place->missing->value = interval(-0.5, 1.5);
+    place = reported(estimate, {f})[0];
+    CHECK(place.proved);
+    CHECK_FALSE(place.missing);
+    CHECK(place.where.scenario == "E1");
+    CHECK(place.estimate == -7.0);
+}
+
+TEST_CASE("a definition is not blamed but its sensors") {
+    place_estimate estimate;
+    estimate.places.resize(2);
+    estimate.places[0].kind = place_kind::kinematic;
+    estimate.places[0].name = "psi";
+    estimate.places[0].missing = 20;
+    estimate.places[0].law = "r";
+    estimate.places[0].sensors = {"heading", "gyro"};
+    estimate.places[1].kind = place_kind::sensor;
+    estimate.places[1].name = "heading";
+    estimate.places[1].missing = 0.25;
+    estimate.places[1].law = "offset";
+    auto const places = reported(estimate);
+    REQUIRE(places.size() == 1); // one sensor is one place
+    CHECK(places[0].kind == "sensor");
+    CHECK(places[0].name == "heading");
+    CHECK(places[0].estimate == 0.25);
+    CHECK(places[0].law == "offset");
+    CHECK(places[0].alternatives == std::vector<std::string>{"sensor gyro"});
+    estimate.places.pop_back();
+    auto const alone = reported(estimate);
+    CHECK(alone[0].kind == "sensor");
+    CHECK_FALSE(alone[0].estimate);
+    CHECK(alone[0].law.empty());
 }

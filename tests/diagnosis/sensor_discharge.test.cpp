@@ -8,77 +8,125 @@ using namespace diagnosis_support;
 
 namespace {
 
-box const prior{between(1, 10), between(0, 1), between(0.5, 2)};
+/// Two carts on one rail, side by side: both are pushed and braked, and their speeds are measured
+/// by one instrument. x0' = p0 u0 - p1 x0, x1' = p0 u1 - p1 x1.
+recorded_model carts(double gust = 0) {
+    return support::model_of(
+        {2, 2, 2, 20}, [gust](auto const&, auto const& x, auto const& p, auto const& u) {
+            using T = std::decay_t<decltype(x[0])>;
+            return std::vector<T>{p[0] * u[0] - p[1] * x[0] + T(gust) * sqr(x[0]),
+                                  p[0] * u[1] - p[1] * x[1]};
+        });
+}
+box const prior{between(0.8, 1.2), between(0.2, 0.5)};
 
-/// A pendulum, with dry friction that the model lacks or with a biased second sensor.
-identification_problem problem_of(draws& d, double dry, double bias) {
-    identification_problem problem{pendulum(), {support::all_constants(3), {}}, prior, {}};
-    for (double const pace : {1.5, 2.5}) {
-        std::vector<sampled_signal> const inputs{sine_input(2, pace, 4)};
-        auto const truth = simulate(pendulum(dry), {5, 0.3, 1}, inputs, {0.8, 0}, 4);
-        problem.experiments.push_back(
-            measured(d, support::numbered('S', problem.experiments.size()), truth, inputs, {0, 1},
-                     0.01, noise::uniform, {0, bias}));
+using fault = std::function<std::vector<double>(double t, motion_truth const&)>;
+
+/// What sensors show is made of the truth by `shown`.
+identification_problem problem_of(draws& d, recorded_model const& real, fault const& shown,
+                                  double error = 0.005) {
+    identification_problem problem{carts(), {support::all_constants(2), {}}, prior, {}};
+    for (double const pace : {1.1, 1.7}) {
+        std::vector<sampled_signal> const inputs{sine_input(2, pace, 5), sine_input(1.5, 0.9, 5)};
+        auto const truth = simulate(real, {1, 0.3}, inputs, {0.5, -0.5}, 5);
+        experiment e;
+        e.name = support::numbered('S', problem.experiments.size());
+        for (auto const& i : inputs) e.inputs.emplace_back(i);
+        e.initial = point_box(truth.states.front());
+        for (int k = 1; k <= 50; ++k) {
+            auto const y = shown(k * 0.1, truth);
+            for (std::size_t i = 0; i < 2; ++i) {
+                double const off = d.uniform(-0.9, 0.9) * error;
+                e.measurements.push_back({k * 0.1, i, around(y[i] + off, error)});
+            }
+        }
+        problem.experiments.push_back(std::move(e));
     }
     return problem;
 }
-sensor_fault const ranges{between(-0.1, 0.1), between(-0.3, 0.3)};
+std::vector<double> right(double t, motion_truth const& truth) { return truth.at(t); }
 
 } // namespace
 
-TEST_CASE("correcting a channel undoes its fault") {
-    draws d(40);
-    auto const problem = problem_of(d, 0, 0);
-    auto const fixed = corrected(problem, "y1", {between(-0.5, 0.25), between(1, 2)});
-    for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
-        auto const& before = problem.experiments[e].measurements;
-        auto const& after = fixed.experiments[e].measurements;
-        for (std::size_t k = 0; k < before.size(); ++k) {
-            if (before[k].channel == 0) {
-                CHECK(equal(before[k].bound, after[k].bound));
-                continue;
-            }
-            double const s = d.uniform(-0.5, 0.25), b = d.uniform(1, 2);
-            CHECK(contains(after[k].bound, (d.in(before[k].bound) - b) / (1 + s)));
-        }
-    }
-    CHECK_THROWS_AS(corrected(problem, "y7", {}), std::invalid_argument);
-    CHECK_THROWS_AS(corrected(problem, "y1", {between(-1, 0), between(0, 0)}),
-                    std::invalid_argument);
-}
-
-TEST_CASE("a fault of the sensor is never discharged where it is the cause") {
+TEST_CASE("no fault within the ranges lets an equation be called broken") {
     draws d(41);
-    for (double const bias : {-0.2, 0.05, 0.25}) {
-        auto const problem = problem_of(d, 0, bias);
-        for (std::size_t i = 0; i < 2; ++i) {
-            auto const verdict = discharge_sensor(problem, i, "y1", ranges, {}, 40);
-            CHECK_FALSE(verdict.discharged);
-            CHECK(verdict.examined <= 40);
-        }
-        // The other sensor cannot have caused what the kinematic equation shows.
-        if (std::abs(bias) > 0.1) {
-            REQUIRE(relation_examiner(problem).examine(0).proved);
-            CHECK(discharge_sensor(problem, 0, "y0", {interval(0.0), between(-1, 1)}).discharged);
+    std::vector<std::pair<char const*, fault>> const faults{
+        {"offset",
+         [](double t, auto const& s) {
+             return std::vector<double>{s.at(t)[0] + 0.3, s.at(t)[1]};
+         }},
+        {"scale",
+         [](double t, auto const& s) {
+             return std::vector<double>{1.09 * s.at(t)[0], s.at(t)[1]};
+         }},
+        {"drift",
+         [](double t, auto const& s) {
+             return std::vector<double>{s.at(t)[0] + 0.05 * t, s.at(t)[1]};
+         }},
+        {"askew",
+         [](double t, auto const& s) {
+             double const c = std::cos(0.1), n = std::sin(0.1);
+             return std::vector<double>{c * s.at(t)[0] + n * s.at(t)[1], s.at(t)[1]};
+         }},
+        {"late", [](double t, auto const& s) {
+             return std::vector<double>{s.at(std::max(0.0, t - 0.15))[0], s.at(t)[1]};
+         }}};
+    int broken = 0;
+    for (auto const& [what, shown] : faults) {
+        INFO(what);
+        auto const problem = problem_of(d, carts(), shown);
+        for (auto const& f : find_broken_relations(problem)) {
+            ++broken;
+            CHECK_FALSE(prove_place(problem, f));
         }
     }
+    CHECK(broken >= 3); // together with their sensors they cannot hold
 }
 
-TEST_CASE("friction is no fault of a sensor") {
+TEST_CASE("what no fault of a sensor can do is proved of the equation") {
     draws d(42);
-    auto const problem = problem_of(d, 1.5, 0);
-    REQUIRE(relation_examiner(problem).examine(1).proved);
-    auto const rate = discharge_sensor(problem, 1, "y1", {interval(0.0), between(-0.3, 0.3)});
-    CHECK(rate.discharged);
-    CHECK_FALSE(rate.repair);
-    CHECK(rate.channel == "y1");
+    auto const problem = problem_of(d, carts(-0.6), right, 0.002);
+    auto const found = examine_relations(problem)[0];
+    REQUIRE(found.proved);
+    sensor_fault_ranges ranges;
+    ranges.scale = 0.03;
+    ranges.offset = 0.02;
+    ranges.mixing = 0.02;
+    ranges.latency = 0.01;
+    auto const place = prove_place(problem, found, ranges);
+    REQUIRE(place);
+    CHECK(place->assumptions.size() == found.assumptions.size() + 1);
+    CHECK_THAT(place->assumptions.back(), ContainsSubstring("at most one sensor"));
+    if (place->missing) {
+        CHECK(place->missing->value.upper() < 0);
+        // The proof with right sensors says more.
+        auto const sure = relation_examiner(problem).missing_over(0, place->missing->window);
+        REQUIRE(sure);
+        CHECK(subset(*sure, place->missing->value));
+    }
+    CHECK_FALSE(prove_place(problem, found, ranges, {}, [] { return false; }));
+    auto definition = found;
+    definition.definition = true;
+    CHECK_FALSE(prove_place(problem, definition, ranges));
+    CHECK_FALSE(prove_place(problem, relation_finding{}, ranges));
 }
 
-TEST_CASE("a relation that holds needs no repair") {
+TEST_CASE("the ranges of a sensor's faults are in its unit and mix what one instrument shows") {
     draws d(43);
-    auto const verdict = discharge_sensor(problem_of(d, 0, 0), 1, "y1", ranges);
-    CHECK_FALSE(verdict.discharged);
-    REQUIRE(verdict.repair);
-    CHECK(verdict.repair->first == 0);
-    CHECK(verdict.examined == 1);
+    auto const problem = problem_of(d, carts(), right);
+    std::vector<std::optional<std::size_t>> const channels{0, 1};
+    auto const f = faults_of(problem, channels, 1, {});
+    CHECK(f.channel == 1);
+    CHECK(f.offset > 0);
+    CHECK_THAT(f.drift, WithinRel(f.offset / 5, 1e-9));
+    REQUIRE(f.mixing.size() == 1);
+    CHECK(f.mixing[0].first == 0);
+    auto const [delays, half] = delay_slices(problem, f, 40);
+    CHECK_FALSE(delays.empty());
+    CHECK(delays.front() - half <= 0);
+    CHECK(delays.back() + half >= f.latency);
+    for (std::size_t k = 0; k + 1 < delays.size(); ++k) {
+        CHECK(delays[k] + half >= delays[k + 1] - half);
+    }
+    CHECK(fault_assumption(problem, {f}).find("y1") != std::string::npos);
 }

@@ -69,6 +69,34 @@ std::vector<sivid::interval> true_outputs(fixture const& f, generated const& g,
 
 } // namespace
 
+TEST_CASE("the bundled data of section 4.1 are what their commands make, to the last digit") {
+    fixture const f;
+    namespace fs = std::filesystem;
+    fs::path const bundled = fs::path{SIVID_SOURCE_DIR} / "examples/hovercraft/data";
+    auto const same = [&](generated const& made, fs::path const& folder) {
+        for (auto const& s : made.data.scenarios) {
+            INFO(folder << " " << s.name);
+            CHECK(sivid::inputs_csv(s, f.names) == text_of(folder / (s.name + ".inputs.csv")));
+            CHECK(sivid::measurements_csv(s, f.names) ==
+                  text_of(folder / (s.name + ".measurements.csv")));
+        }
+        CHECK(made.outliers.size() == 2);
+    };
+    generate_options o;
+    o.unknown = report_priors();
+    o.outliers = 2;
+    o.relative = dec("0.1");
+    for (std::string const scenario : {"S1", "S2", "S3"}) {
+        same(f.make(scenario, o), bundled / "section41" / scenario);
+    }
+    o.relative.reset();
+    o.absolute.assign(6, dec("0.1"));
+    o.rate = 2;
+    o.outlier_size = 12;
+    o.seed = 33;
+    same(f.make("weave", o), bundled / "figure41");
+}
+
 TEST_CASE("the bundled campaign is what `generate` makes, to the last digit") {
     fixture const f;
     auto const made = f.make("S3", h3_options());

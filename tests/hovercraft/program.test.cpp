@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The program as a user runs it: exit codes, files, messages, Ctrl-C.
 #include "child.hpp"
+#include "effects.hpp"
 
 #include "support/catch.hpp"
 
@@ -22,7 +23,8 @@ using namespace hovercraft_test;
 namespace {
 
 std::string const h3 = std::string{SIVID_SOURCE_DIR} + "/examples/hovercraft/data/h3";
-std::string const lagging = std::string{SIVID_SOURCE_DIR} + "/examples/hovercraft/data/rudder_lag";
+std::string const bundled = std::string{SIVID_SOURCE_DIR} + "/examples/hovercraft/data";
+std::string const yard = bundled + "/yard_test";
 
 /// Rows of a table, with the number of cells of each checked.
 std::size_t rows(fs::path const& file) {
@@ -263,14 +265,86 @@ TEST_CASE("check verifies what identify wrote, and refutes what was changed sinc
     CHECK(check({"--dataset", (folder.path() / "none").string()}).code == 2);
 }
 
+TEST_CASE("Figure 4.1: thirty seconds, two outliers, named as proved") {
+    temporary_folder const folder;
+    auto const out = folder.path() / "out";
+    auto const r = run({"identify", bundled + "/figure41", "--outliers", "3", "--out", out.string(),
+                        "--picture", "v", "--verdict-only"});
+    CHECK(r.code == 0);
+    auto const result = json_of(out / "result.json");
+    CHECK(result["verdict"] == "consistent");
+    CHECK(result["outliers"]["budget"]["weave"] == 3);
+    CHECK(result["outliers"]["forced"] ==
+          json_of(fs::path{bundled} / "figure41" / "truth.json")["outliers"]);
+    std::ifstream picture{out / "weave.v.svg"};
+    std::string const text{std::istreambuf_iterator<char>{picture}, {}};
+    CHECK_THAT(text, StartsWith("<svg") && ContainsSubstring("outlier (proved)"));
+
+    auto const first = run({"identify", bundled + "/figure41", "--out", out.string(), "--algorithm",
+                            "report-1", "--quiet"});
+    CHECK(first.code == 4);
+    CHECK(run({"identify", bundled + "/figure41", "--out", out.string(), "--picture", "Q"}).code ==
+          2);
+}
+
+TEST_CASE("Algorithm 2 by its threshold, as the report prints it") {
+    temporary_folder const folder;
+    auto const out = folder.path() / "out";
+    std::string const s1 = bundled + "/section41/S1"; // 20 measurements
+    auto const with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"identify", s1, "--out", out.string(), "--quiet"});
+        return run(more);
+    };
+    CHECK(with({"--algorithm", "report-2", "--threshold", "0.2"}).code == 0);
+    CHECK(json_of(out / "result.json")["outliers"]["budget"]["S1"] == 3);
+    CHECK(with({"--algorithm", "report-2", "--threshold", "0.1"}).code == 4); // one too few
+    CHECK(json_of(out / "result.json")["outliers"]["budget"]["S1"] == 1);
+    CHECK(with({"--threshold", "0.15"}).code == 0);
+    for (std::vector<std::string> const& wrong :
+         {std::vector<std::string>{"--threshold", "0"},
+          {"--threshold", "1.01"},
+          {"--threshold", "x"},
+          {"--threshold", "0.1", "--outliers", "2"},
+          {"--threshold", "0.1", "--algorithm", "report-1"}}) {
+        auto const r = with(wrong);
+        CHECK(r.code == 2);
+        CHECK_THAT(r.err, ContainsSubstring("--threshold"));
+    }
+}
+
+TEST_CASE("bundled campaigns do not tell their answers") {
+    std::vector<std::string> answers;
+    for (auto const& e : hovercraft_example::catalogue()) {
+        answers.push_back(e.name);
+        auto const end = e.name.find('_');
+        if (end != std::string::npos && e.name.substr(end + 1).size() > 2)
+            answers.push_back(e.name.substr(end + 1));
+    }
+    std::size_t read = 0;
+    for (auto const& entry : fs::recursive_directory_iterator{yard}) {
+        std::string text = entry.path().filename().string();
+        std::ifstream in{entry.path()};
+        text.append(std::istreambuf_iterator<char>{in}, {});
+        for (auto const& name : answers) {
+            INFO(entry.path() << " " << name);
+            CHECK(text.find(name) == std::string::npos);
+        }
+        ++read;
+    }
+    CHECK(read == 15);
+    std::ifstream labels{bundled + "/labels.tsv"};
+    std::string const text{std::istreambuf_iterator<char>{labels}, {}};
+    CHECK_THAT(text, ContainsSubstring("yard_test\tsingle\trudder_lag("));
+}
+
 TEST_CASE("diagnose says where, which and how far, and ends with 0 whatever it finds") {
     temporary_folder const folder;
     auto const out = folder.path() / "out";
-    auto r = run({"diagnose", lagging, "--out", out.string()});
+    auto r = run({"diagnose", yard, "--out", out.string()});
     CHECK(r.code == 0);
     auto const found = json_of(out / "diagnosis.json");
     CHECK(found["format"] == "sivid-diagnosis-1");
-    CHECK(found["dataset"] == "rudder_lag");
+    CHECK(found["dataset"] == "yard_test");
     CHECK(found["gap"]["verdict"] == "certified");
     double const lower = found["gap"]["inflation"][0], upper = found["gap"]["inflation"][1];
     CHECK(lower > 5);
@@ -295,7 +369,7 @@ TEST_CASE("diagnose says where, which and how far, and ends with 0 whatever it f
     CHECK_THAT(r.err, ContainsSubstring("a gap is proved"));
     CHECK_THAT(r.out, ContainsSubstring("answer: rudder_lag (explains)"));
 
-    r = run({"diagnose", lagging, "--out", out.string(), "--budget", "0", "--quiet"});
+    r = run({"diagnose", yard, "--out", out.string(), "--budget", "0", "--quiet"});
     CHECK(r.code == 0);
     CHECK(r.err.empty());
     auto const stopped = json_of(out / "diagnosis.json");

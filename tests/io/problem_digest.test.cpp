@@ -28,6 +28,7 @@ TEST_CASE("whatever decides a search changes the digest, budgets and threads do 
     differs([](p& x) { x.model.about.states[0].limit = 11; });
     differs([](p& x) { x.model.rate[0] = x.model.g.neg(x.model.rate[0]); });
     differs([](p& x) { x.model.about.constants[1].nominal = {interval(0.25), 0.25}; });
+    differs([](p& x) { x.model.derived.push_back({1, x.model.rate[0]}); });
     differs([](p& x) { x.prior[0] = interval(0.5, 1.9999999999999998); });
     differs([](p& x) { x.choice.fixed["b"] = interval(1.0); });
     differs([](p& x) { x.experiments[0].name = "walk"; });

@@ -50,6 +50,13 @@ TEST_CASE("names, units, ranges and nominal values are all there") {
     CHECK(line_with(text, "|u| <= 8").find("'surge'") != std::string::npos);
     CHECK(line_with(text, "1.297").find("[kg]") != std::string::npos);
     CHECK(line_with(text, "0.0254").find("= 0.025447") != std::string::npos);
+    CHECK(line_with(text, "0.0254").find("= 3.141592653589793 * D^2 / 4, rounded") !=
+          std::string::npos);
+    // Bound with D unknown, A is a function of it.
+    sampled_signal const any({0, 1}, {0, 0}, interpolation::linear);
+    auto const bound = describe(bind(record_model(hovercraft{}), {{"D"}, {}}, {any, any}));
+    CHECK(line_with(bound, "3.14159").find("parameters only") != std::string::npos);
+    CHECK(bound.find("0.025447") == std::string::npos);
     CHECK(line_with(text, "  delta  ").find("[rad]") != std::string::npos);
     CHECK(describe(all_operations{}).find("  k  = 0.1  [1/s]\n") != std::string::npos);
 }

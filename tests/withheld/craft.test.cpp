@@ -5,8 +5,11 @@
 
 #include "support/catch.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <stdexcept>
 
 using namespace withheld;
 
@@ -260,4 +263,130 @@ TEST_CASE("sensors") {
     CHECK_THAT(got[3][5] - plain[3][5], WithinAbs(-0.2, 1e-12));
     CHECK_THAT(got[0][3], WithinAbs(1.05 * 0.5, 1e-12)); // before the latency: the start
     CHECK_THAT(got[2][4], WithinAbs(1.05 * plain[1][4], 1e-9));
+}
+
+TEST_CASE("instruments that no catalogue has by their closed forms") {
+    // Straight ahead at a constant speed while turning evenly: every channel is known.
+    world w = frictionless(4);
+    double const speed = 1.5, turn = 0.4;
+    channels const start{speed, 0, 0, 0, 0, 0};
+    std::vector<double> const times{0.05, 0.7, 2, 4};
+    auto const at = [&](world const& model) { return readings(model, start, times, careful_step); };
+    auto const plain = at(w);
+    CHECK_THAT(plain[3][3], WithinAbs(4 * speed, 1e-9));
+
+    // A low-pass follows a ramp with a delay that settles at tau.
+    world slow = w;
+    slow.instruments.lag[3] = 0.3;
+    auto const lagging = at(slow);
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        double const t = times[i];
+        CHECK_THAT(lagging[i][3], WithinAbs(speed * (t - 0.3 + 0.3 * std::exp(-t / 0.3)), 1e-9));
+        CHECK(lagging[i][0] == plain[i][0]);
+    }
+    // A late one shows the start until something younger is old enough.
+    world late = w;
+    late.instruments.late[3] = 0.1;
+    CHECK_THAT(at(late)[0][3], WithinAbs(0, 1e-12));
+    CHECK_THAT(at(late)[1][3], WithinAbs(speed * 0.6, 1e-9));
+    // A drift is the same whatever moves.
+    world drifting = w;
+    drifting.instruments.drift[2] = 0.05;
+    CHECK_THAT(at(drifting)[2][2], WithinAbs(0.1, 1e-12));
+    CHECK_THAT(at(drifting)[3][2], WithinAbs(0.2, 1e-12));
+
+    // Turned axes keep lengths; x goes where y was after a quarter.
+    world askew = w;
+    askew.instruments.velocity_turn = 0.1;
+    askew.instruments.position_turn = std::numbers::pi / 2;
+    auto const turned = at(askew);
+    CHECK_THAT(turned[2][0], WithinAbs(speed * std::cos(0.1), 1e-9));
+    CHECK_THAT(turned[2][1], WithinAbs(-speed * std::sin(0.1), 1e-9));
+    CHECK_THAT(turned[2][3], WithinAbs(0, 1e-9));
+    CHECK_THAT(turned[2][4], WithinAbs(-2 * speed, 1e-9));
+
+    // A point of a body that turns about its centre goes round in a circle.
+    world arm = w;
+    arm.instruments.velocity_arm = 0.2;
+    arm.instruments.antenna_x = 0.3;
+    arm.instruments.antenna_y = -0.1;
+    channels const spinning{0, 0, turn, 1, 2, 0};
+    auto const seen = readings(arm, spinning, times, careful_step);
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        double const c = std::cos(turn * times[i]), sn = std::sin(turn * times[i]);
+        CHECK_THAT(seen[i][0], WithinAbs(0, 1e-9));
+        CHECK_THAT(seen[i][1], WithinAbs(0.2 * turn, 1e-9));
+        CHECK_THAT(seen[i][3], WithinAbs(1 + 0.3 * c + 0.1 * sn, 1e-9));
+        CHECK_THAT(seen[i][4], WithinAbs(2 + 0.3 * sn - 0.1 * c, 1e-9));
+    }
+}
+
+TEST_CASE("halving the step changes nothing with slow and late instruments") {
+    world w = lively();
+    w.instruments.lag = {0.2, 0.2, 0.3, 0, 0, 0.1};
+    w.instruments.late = {0, 0, 0, 0.13, 0.13, 0};
+    std::vector<double> times;
+    for (int i = 1; i <= 30; ++i) times.push_back(0.1 * i);
+    channels const start{1, 0.2, 0.1, 0, 0, 0.3};
+    auto const a = readings(w, start, times, careful_step);
+    auto const b = readings(w, start, times, careful_step / 2);
+    for (std::size_t i = 0; i < times.size(); ++i)
+        for (std::size_t k = 0; k < channel_count; ++k)
+            CHECK_THAT(a[i][k], WithinAbs(b[i][k], 1e-7));
+}
+
+TEST_CASE("effects that begin later") {
+    // Down a slope from 0.8 s on.
+    world w = frictionless(2);
+    w.e.slope_x = 0.03;
+    w.e.gyro_bias = 0.2;
+    begin_effects_at(w, 0.8);
+    auto const slid = states_at(w, {0, 0, 0, 0, 0, 0}, {0.8, 2}, careful_step);
+    CHECK_THAT(slid[0][3], WithinAbs(0, 1e-15));
+    CHECK_THAT(slid[1][0], WithinAbs(0.03 * 9.81 * 1.2, 1e-9));
+    CHECK_THAT(slid[1][3], WithinAbs(0.03 * 9.81 * 0.72, 1e-9));
+    auto const shown = readings(w, {0, 0, 0, 0, 0, 0}, {0.7, 0.9}, careful_step);
+    CHECK(shown[0][2] == 0);
+    CHECK_THAT(shown[1][2], WithinAbs(0.2, 1e-12));
+
+    // Until then as if there were none, then as one that starts from that state.
+    world band = lively();
+    band.e.rudder_deadband = 0.1;
+    band.e.payload = 0.2;
+    begin_effects_at(band, 1.2);
+    channels const start{1, 0, 0, 0, 0, 0};
+    auto const both = states_at(band, start, {1.2, 3}, careful_step);
+    auto const before = states_at(lively(), start, {1.2}, careful_step).back();
+    for (std::size_t i = 0; i < channel_count; ++i)
+        CHECK_THAT(both[0][i], WithinAbs(before[i], 1e-10));
+    world rest = band;
+    rest.onset = 0;
+    for (auto* p : {&rest.motor, &rest.rudder}) {
+        polyline const whole = *p;
+        *p = sampled([&](double t) { return whole.at(t + 1.2); }, 1.8);
+    }
+    channels handed{};
+    std::copy_n(before.begin(), channel_count, handed.begin());
+    auto const after = states_at(rest, handed, {1.8}, careful_step).back();
+    for (std::size_t i = 0; i < channel_count; ++i)
+        CHECK_THAT(both[1][i], WithinAbs(after[i], 1e-4)); // knots of `rest` lie elsewhere
+
+    world never = lively();
+    never.e.payload = 0.2;
+    begin_effects_at(never, std::numeric_limits<double>::infinity());
+    CHECK(states_at(never, start, {3}, 1e-3).back() ==
+          states_at(lively(), start, {3}, 1e-3).back());
+    world lag = lively();
+    lag.e.rudder_lag = 0.2;
+    CHECK_THROWS_AS(begin_effects_at(lag, 1), std::invalid_argument);
+}
+
+TEST_CASE("what acts in place of the inputs") {
+    world w = lively();
+    w.e.rudder_trim = 0.05;
+    w.e.rudder_limit = 0.3;
+    w.e.battery_sag = 0.1;
+    auto const acts = effective(w, 2, {90, 0.4}, {});
+    CHECK_THAT(acts.rudder, WithinAbs(0.35, 1e-15));
+    CHECK_THAT(acts.motor, WithinAbs(72, 1e-12));
 }

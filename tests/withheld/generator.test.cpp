@@ -2,6 +2,9 @@
 // What the generator writes is read back, without its memory of what it drew: every sample lies
 // within its bound of the truth that the label describes, but for the outliers that are allowed.
 #include "campaign_files.hpp"
+#include "catalogue.hpp"
+#include "fit.hpp"
+#include "instruments.hpp"
 #include "labels.hpp"
 #include "measure.hpp"
 #include "recorded.hpp"
@@ -12,9 +15,13 @@
 
 #include <sivid/io/dataset.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <map>
+#include <set>
 #include <sstream>
+#include <stdexcept>
 
 using namespace withheld;
 using io_support::temporary_folder;
@@ -39,10 +46,7 @@ std::string text_of(fs::path const& file) {
 /// How many samples of the scenario break their bound under the truth of the label.
 std::size_t violations(label const& l, recording const& data, recorded_scenario const& s,
                        double step) {
-    world w = world_of(l, data.fixed);
-    w.motor = s.plan.motor;
-    w.rudder = s.plan.rudder;
-    w.gusts = true_gusts(l, s.plan.name);
+    world const w = true_world(l, data.fixed, s.plan);
     channels start{};
     for (std::size_t k = 0; k < channel_count; ++k) start[k] = s.plan.initial[k].middle();
     start = true_start(l, s.plan.name).value_or(start);
@@ -52,11 +56,32 @@ std::size_t violations(label const& l, recording const& data, recorded_scenario 
     return broken;
 }
 
+bool small_bounds(label const& l) {
+    return !l.effects.empty() && l.effects[0].first.starts_with("bounds_");
+}
+
+/// The label's fit of the model attains what the label says, and no part needs more.
+void check_known_fits(label const& l, recording const& data) {
+    fit_problem const problem{data, {}};
+    auto const values = l.values("best_fit");
+    double const best = problem.inflation(
+        problem.start(std::vector<std::pair<std::string, double>>{values.begin(), values.end()}));
+    CHECK_THAT(best, WithinRel(l.number("fit_base_best").value(), 1e-4));
+    auto const parts = l.values("best_of_parts");
+    CHECK(parts.size() == (l.family == "pose" ? 8 : 11));
+    for (auto const& [name, x] : parts) {
+        CAPTURE(name);
+        CHECK(x > 0);
+        // A budget of outliers is divided among the parts, which may round it off.
+        if (l.family != "outliers") CHECK(x <= best * (1 + 1e-4));
+    }
+}
+
 } // namespace
 
 TEST_CASE("campaigns of all families lie within their bounds of the truth") {
     temporary_folder const folder;
-    REQUIRE(generate(folder.path(), 77, 22) == 0);
+    REQUIRE(generate(folder.path(), 77, 22, "--jobs 2") == 0);
     auto const labels = read_labels(folder.path() / "labels.tsv");
     REQUIRE(labels.size() == 22);
     std::map<std::string, std::size_t> families;
@@ -73,8 +98,8 @@ TEST_CASE("campaigns of all families lie within their bounds of the truth") {
             CAPTURE(s.plan.name);
             // Another step than the generator's.
             auto const broken = violations(l, data, s, careful_step / 2);
-            CHECK(broken <= s.budget);
-            outliers += broken;
+            if (!small_bounds(l)) CHECK(broken <= s.budget);
+            outliers += small_bounds(l) ? 0 : broken;
             CHECK((s.budget > 0) == (l.family == "outliers"));
             if (auto const start = true_start(l, s.plan.name))
                 for (std::size_t k = 0; k < channel_count; ++k) {
@@ -89,24 +114,100 @@ TEST_CASE("campaigns of all families lie within their bounds of the truth") {
             CHECK(l.constants_true.at(u.name) > u.prior.lo);
             CHECK(l.constants_true.at(u.name) < u.prior.hi);
         }
-        CHECK(l.number("fit_true").value() <= 1);
-        CHECK(l.number("holdout_true").value() <= 1);
-        if (!l.effects.empty())
-            CHECK(l.number("fit_base").value() > (l.family == "weak" ? 0.6 : 1.5));
+        if (small_bounds(l)) {
+            CHECK(l.number("fit_true").value() > 1.1);
+            CHECK(l.number("fit_true").value() <= 2);
+            CHECK(l.number("fit_true") == l.number("fit_base"));
+        } else {
+            CHECK(l.number("fit_true").value() <= 1);
+            CHECK(l.number("holdout_true").value() <= 1);
+            if (!l.effects.empty())
+                CHECK(l.number("fit_base").value() > (l.family == "weak" ? 0.6 : 1.5));
+        }
+        check_known_fits(l, data);
         // The library's own reader takes it, and nothing of the truth is in it.
         CHECK_NOTHROW(sivid::read_dataset(place, io_support::hovercraft_names()));
         for (auto const& entry : fs::directory_iterator{place})
             for (auto const& name : l.names())
                 CHECK(text_of(entry.path()).find(name) == std::string::npos);
     }
-    CHECK(families == std::map<std::string, std::size_t>{{"single", 6},
-                                                         {"weak", 2},
-                                                         {"wide", 2},
-                                                         {"pose", 2},
-                                                         {"pair", 4},
-                                                         {"outliers", 2},
-                                                         {"outside", 2},
-                                                         {"none", 2}});
+    CHECK(families.size() == family_names.size());
+    for (auto const& [name, n] : families) {
+        CAPTURE(name);
+        bool const two =
+            name == "single" || name == "pair" || name == "askew" || name == "instrument";
+        CHECK(n == (name == "alias" ? 3 : two ? 2 : 1));
+    }
+}
+
+TEST_CASE("what each family is about") {
+    for (std::size_t i = 0; i < 8; ++i) {
+        CAPTURE(i);
+        auto const alias = draw_campaign(5, i, {family::alias});
+        auto const& plan = alias.scenarios.at(3).plan;
+        double const period = plan.sample_times.at(0);
+        CHECK(period >= 0.2);
+        CHECK(period <= 0.5);
+        // Between two samples the rudder goes somewhere that the line through its ends does not.
+        double hidden = 0;
+        for (double const t : plan.sample_times)
+            for (double share = 0.1; share < 1; share += 0.1)
+                hidden = std::max(hidden, std::abs(plan.rudder.at(t - share * period) -
+                                                   (1 - share) * plan.rudder.at(t) -
+                                                   share * plan.rudder.at(t - period)));
+        CHECK(hidden > 0.05);
+        CHECK(plan.rudder.largest_magnitude() < 1); // within the prior of a saturation
+        CHECK((alias.effects.empty() || alias.effects[0].starts_with("bounds_")) == (i % 4 == 3));
+
+        auto const part = draw_campaign(5, i, {family::experiments});
+        bool acts = false, rests = false;
+        for (auto const& s : part.scenarios) {
+            acts = acts || (!s.plan.holdout && s.onset == 0);
+            rests = rests || (!s.plan.holdout && std::isinf(s.onset));
+        }
+        CHECK(acts);
+        CHECK(rests);
+        CHECK(largest_deviation(part, {}, {}) >= 3);
+        CHECK(largest_deviation(part, part.true_effects, {}) >= 3);
+
+        auto const later = draw_campaign(5, i, {family::onset});
+        for (auto const& s : later.scenarios) {
+            CHECK(s.onset > 0);
+            CHECK(s.onset < s.plan.duration);
+        }
+        auto const strong = draw_campaign(5, i, {family::strong});
+        bool beyond = false;
+        for (auto const& p : effect_named(strong.effects.at(0))->parameters)
+            beyond = beyond || strong.true_effects.*p.member < p.lo ||
+                     strong.true_effects.*p.member > p.hi;
+        CHECK(beyond);
+        CHECK(draw_campaign(5, i, {family::three}).effects.size() == 3);
+        auto const small = draw_campaign(5, i, {family::bounds});
+        double const factor =
+            *std::max_element(small.bound_factor.begin(), small.bound_factor.end());
+        CHECK(factor >= 1.3);
+        CHECK(factor <= 2);
+        CHECK(std::count(small.bound_factor.begin(), small.bound_factor.end(), 1) == 5);
+    }
+    std::set<std::string> kinds;
+    for (std::size_t i = 0; i < instrument_kinds().size(); ++i)
+        kinds.insert(draw_campaign(5, i, {family::instrument}).effects.at(0));
+    CHECK(kinds.size() == instrument_kinds().size());
+}
+
+TEST_CASE("lists of families") {
+    CHECK(families_named("").empty());
+    CHECK(families_named("alias,three") == std::vector{family::alias, family::three});
+    CHECK(families_named("alias,alias") == std::vector{family::alias});
+    CHECK_THROWS_AS(families_named("alias,unheard"), std::invalid_argument);
+    std::map<family, int> seen;
+    for (std::size_t i = 0; i < 6; ++i)
+        ++seen[family_of(3, i, {family::alias, family::bounds, family::none})];
+    CHECK(seen ==
+          std::map<family, int>{{family::alias, 2}, {family::bounds, 2}, {family::none, 2}});
+    seen.clear();
+    for (std::size_t i = 0; i < 22; ++i) ++seen[family_of(3, i)];
+    CHECK(seen.size() == family_names.size());
 }
 
 TEST_CASE("a campaign depends on the seed and its number alone") {
@@ -126,14 +227,15 @@ TEST_CASE("a campaign depends on the seed and its number alone") {
 
 TEST_CASE("one family, all effects in turn, and labels stay outside of the data") {
     std::map<std::string, int> seen;
-    for (std::size_t i = 0; i < 42; ++i) ++seen[draw_campaign(9, i, family::single).effects.at(0)];
+    for (std::size_t i = 0; i < 42; ++i)
+        ++seen[draw_campaign(9, i, {family::single}).effects.at(0)];
     CHECK(seen.size() == 21);
     for (auto const& [name, times] : seen) {
         CAPTURE(name);
         CHECK(times == 2);
     }
     for (std::size_t i = 0; i < 4; ++i) {
-        auto const c = draw_campaign(9, i, family::outside);
+        auto const c = draw_campaign(9, i, {family::outside});
         CHECK(largest_deviation(c, {}, {}) >= 3);
     }
     temporary_folder const folder;

@@ -61,15 +61,7 @@ inline interval start_of(recorded_model const& model, added_state const& added,
 /// @throws std::domain_error where such a value is not defined
 inline void start_added_states(identification_problem& problem) {
     auto const& about = problem.model.about;
-    std::vector<interval> constants;
-    for (auto const& c : about.constants) constants.push_back(c.nominal.enclosure);
-    for (auto const& [name, value] : problem.choice.fixed) {
-        constants[index_of(about.constants, name, "constant")] = value;
-    }
-    for (std::size_t j = 0; j < problem.choice.unknown.size(); ++j) {
-        constants[index_of(about.constants, problem.choice.unknown[j], "constant")] =
-            problem.prior[j];
-    }
+    auto const constants = constant_ranges(problem.model, problem.choice, problem.prior);
     for (auto& e : problem.experiments) {
         std::vector<interval> sides(e.initial.begin(), e.initial.end());
         sides.resize(about.states.size());

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -27,10 +28,13 @@ class relation_examiner {
 public:
     /// @param problem  outlives this object
     /// @throws std::invalid_argument if the problem is not valid
+    /// @param suspect  a sensor that may be faulty, see `sensor_discharge.hpp`
     explicit relation_examiner(identification_problem const& problem,
-                               relation_options const& options = {})
-        : windows_(problem, options), options_(options) {}
+                               relation_options const& options = {},
+                               suspected_sensor const* suspect = nullptr)
+        : windows_(problem, options, suspect), options_(options) {}
 
+    [[nodiscard]] relation_windows& windows() { return windows_; }
     [[nodiscard]] std::size_t equations() const { return windows_.about().states.size(); }
 
     /// Tries to refute equation i (the rate of state i).
@@ -40,6 +44,7 @@ public:
         result.name = windows_.about().states.at(i).equation_name();
         result.reason = windows_.obstacle(i);
         if (!result.reason.empty()) return result;
+        result.definition = windows_.row(i).kinematic;
         for (auto const way : windows_.ways(i)) {
             auto const list = windows_.all(i, way);
             if (list.empty()) {
@@ -71,6 +76,20 @@ public:
                     at->value = both;
                 }
             }
+        }
+        return result;
+    }
+
+    /// The rate that equation i lacks on the average over one window, as far as it is covered.
+    [[nodiscard]] std::optional<interval> missing_over(std::size_t i, relation_window const& at) {
+        std::optional<interval> result;
+        if (!windows_.obstacle(i).empty()) return result;
+        for (auto const way : windows_.ways(i)) {
+            auto const w = windows_.over(i, way, at);
+            if (!w) continue;
+            auto const found = missing_rate_in(windows_.row(i), *w);
+            auto const both = result ? intersect(*result, found) : found;
+            if (!is_empty(both)) result = both;
         }
         return result;
     }

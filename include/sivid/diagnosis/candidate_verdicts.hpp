@@ -3,10 +3,10 @@
 #define SIVID_DIAGNOSIS_CANDIDATE_VERDICTS_HPP
 
 #include <sivid/diagnosis/candidate_order.hpp>
+#include <sivid/diagnosis/claim_review.hpp>
 #include <sivid/diagnosis/describe_candidate.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/diagnosis/gap_proof.hpp>
-#include <sivid/diagnosis/untouched_relation.hpp>
 #include <sivid/paving/identify.hpp>
 
 #include <algorithm>
@@ -91,25 +91,17 @@ private:
         }
     }
 
-    /// Candidates that leave a refuted relation as it is. A relation that stands in one that
-    /// explains the data, or seems to, rests on assumptions in doubt: it excludes nothing.
+    /// Candidates that leave a refuted relation as it is, by those that no candidate contradicts.
     void exclude_by_relations() {
-        auto& causes = run_->result.causes;
+        review_relations(*run_);
         for (auto const& f : run_->findings) {
             if (!f.proved) continue;
-            std::vector<std::size_t> keeping;
-            bool doubtful = false;
-            for (std::size_t k = 0; k < causes.size() && !doubtful; ++k) {
-                auto const& s = candidate_of(k);
-                if (!keeps_relation(run_->base.model, s.problem.model, f)) continue;
-                keeping.push_back(k);
-                doubtful = causes[k].verdict == cause_verdict::explains || s.figures.explains();
-            }
-            if (doubtful) continue;
-            for (auto const k : keeping) {
-                auto& c = causes[k];
+            for (auto& c : run_->result.causes) {
+                auto const& kept = c.untouched;
+                if (std::find(kept.begin(), kept.end(), f.name) == kept.end()) continue;
                 if (c.verdict == cause_verdict::excluded) continue; // by a clearer relation
                 c.verdict = cause_verdict::excluded;
+                c.excluded_by = f.name;
                 c.assumptions = f.assumptions;
             }
         }

@@ -4,34 +4,21 @@
 
 #include <sivid/diagnosis/channel_tube.hpp>
 #include <sivid/diagnosis/graph_range.hpp>
+#include <sivid/diagnosis/input_range.hpp>
+#include <sivid/diagnosis/model_variation.hpp>
 #include <sivid/diagnosis/state_samples.hpp>
+#include <sivid/number/nearest_text.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <stdexcept>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace sivid {
-
-/// The range of an input over times within one piece, its error included.
-[[nodiscard]] inline interval input_over(signal const& s, double from, double to) {
-    using traits = interval_traits<interval>;
-    auto const time = traits::bounds(from, to);
-    if (auto const* sampled = std::get_if<sampled_signal>(&s)) {
-        auto const piece = sampled->piece(from);
-        double const e =
-            std::max(sampled->error_bound(piece, from), sampled->error_bound(piece, to));
-        return traits::add(sampled->value<interval>(piece, time), traits::bounds(-e, e));
-    }
-    auto const& formula = std::get<analytic_signal>(s);
-    graph_range range(formula.g, {formula.value});
-    range.evaluate({time, {}, {}, {}});
-    return range.undefined(formula.value) ? traits::entire() : range.value(formula.value);
-}
 
 /// What an experiment lets one expect of the rates of the states.
 struct rate_scales {
@@ -45,7 +32,7 @@ struct rate_scales {
 /// less. Change: what the bounds allow over three gaps, at least one and a half times what they
 /// prove over one (fast motion, of which three gaps say little); infinite where nothing was
 /// measured.
-///   Only a choice of scales, not a proof: the inputs are taken at the samples.
+///   Only a choice of scales, not a proof.
 [[nodiscard]] inline rate_scales
 find_rate_scales(bound_model const& model, box const& prior, experiment const& e,
                  std::vector<std::optional<std::size_t>> const& channels) {
@@ -79,8 +66,7 @@ find_rate_scales(bound_model const& model, box const& prior, experiment const& e
             at.states[i] = seen ? *seen : traits::bounds(-limit, limit);
         }
         for (std::size_t u = 0; u < e.inputs.size(); ++u) {
-            at.inputs[u] = hull(input_over(e.inputs[u], times[k], times[k]),
-                                input_over(e.inputs[u], times[k + 1], times[k + 1]));
+            at.inputs[u] = input_across(e.inputs[u], times[k], times[k + 1]);
         }
         range.evaluate(at);
         for (std::size_t i = 0; i < n; ++i) {
@@ -103,6 +89,7 @@ find_rate_scales(bound_model const& model, box const& prior, experiment const& e
 /// change as above, plus a tenth of its size in the experiment where that is greatest. A rate that
 /// is a function of states only (a kinematic equation) varies by at most one and a half times what
 /// the rates of those states bring about within a gap.
+///   A first choice, of which `above_model` makes sure that the model does not contradict it.
 ///   An assumption, not a theorem: it belongs into the list of assumptions. Smooth motion meets it
 ///   with room to spare; an actuator that switches, or a gust, shows in the change over three gaps.
 ///   Not met by what comes and goes between two samples, such as the hard sticking of dry friction:
@@ -139,6 +126,60 @@ declare_variations(bound_model const& model, std::vector<rate_scales> const& sca
         }
     }
     return result;
+}
+
+/// Declared variations that neither the recorded inputs nor the model contradict: none is less than
+/// what the model's own rate may vary by, for any parameter of the prior, over any stretch of the
+/// period's length, along any motion of the model that meets the bounds, and along any in the tubes
+/// that the declared variations leave. Infinite (1e100) where no such bound is found: the samples
+/// are too far apart for the motion.
+/// @param own  declared by the user: kept
+/// @throws std::invalid_argument if the user's declaration is less than what the model's rate
+///         varies by for every parameter of the prior
+[[nodiscard]] inline std::vector<rate_variation>
+above_model(bound_model const& model, box const& prior, experiment const& e,
+            std::vector<std::optional<std::size_t>> const& channels,
+            std::vector<rate_variation> laws, std::map<std::string, double> const& own) {
+    auto const n = model.state_count();
+    model_variation const by_model(model, prior, e, channels);
+    std::vector<double> declared, periods;
+    std::vector<bool> fixed;
+    for (std::size_t i = 0; i < n; ++i) {
+        declared.push_back(laws[i].variation);
+        periods.push_back(laws[i].period);
+        fixed.push_back(!channels[i] || own.count(model.about.states[i].name) > 0);
+    }
+    auto const whole = by_model.of_model(periods);
+    auto const shown = [](double v) { // two digits, upward, so that it reads well
+        if (!(v > 0) || !std::isfinite(v)) return v;
+        double const unit = std::pow(10.0, std::floor(std::log10(v)) - 1);
+        return std::ceil(v / unit) * unit;
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!fixed[i] && declared[i] < whole[i]) declared[i] = shown(whole[i]);
+    }
+    constexpr int patience = 25; // then what still grows has no bound
+    for (int pass = 0;; ++pass) {
+        auto const found = by_model.in_tubes(declared, periods);
+        bool grew = false;
+        for (std::size_t i = 0; i < n; ++i) {
+            if (fixed[i]) {
+                if (!channels[i] || !(found.least[i] > declared[i])) continue;
+                throw std::invalid_argument(
+                    "relations: the rate of " + model.about.states[i].name +
+                    " is declared to vary by at most " + nearest_text(declared[i], 6) + " within " +
+                    nearest_text(periods[i], 6) + " s, but in " + e.name + " the model varies by " +
+                    nearest_text(found.least[i], 6) +
+                    " or more, whatever the parameters of the prior: declare more");
+            }
+            if (found.most[i] <= declared[i]) continue;
+            grew = true;
+            declared[i] = pass < patience ? shown(1.02 * found.most[i]) : HUGE_VAL;
+        }
+        if (!grew) break;
+    }
+    for (std::size_t i = 0; i < n; ++i) laws[i].variation = std::min(declared[i], 1e100);
+    return laws;
 }
 
 } // namespace sivid

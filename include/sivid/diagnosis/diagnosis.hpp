@@ -74,27 +74,31 @@ struct time_window {
     double from = 0, to = 0; ///< [s]
 };
 
-/// A proof that an equation and sensors cannot hold together, whatever the parameters.
+/// A proof that an equation and sensors cannot hold together, whatever the parameters, if the
+/// assumptions hold.
 struct broken_relation_report {
     std::string equation;
     std::vector<std::string> sensors;
     bool proved = false;
     std::vector<std::string> assumptions;
     std::vector<time_window> windows;
+    bool definition =
+        false; ///< no constant acts in the equation: the sensors contradict each other
 };
 
 /// A place where model and robot part.
 struct suspected_place {
     std::string kind; ///< equation, sensor or input
     std::string name;
-    bool proved = false;
+    bool proved = false; ///< the equation is broken, whatever a sensor does within the assumptions
     time_window where;
-    std::optional<interval> missing; ///< proved bounds of the mean missing rate or offset
-    std::optional<double> estimate;  ///< the same, estimated
+    std::optional<interval> missing; ///< proved bounds of the mean missing rate there, without 0
+    std::optional<double> estimate;  ///< the same or a sensor's fault, estimated, of that window
     std::string unit;
     std::string law;    ///< the shape of what is missing; empty when none stands out
     std::string regime; ///< where it acts; empty when everywhere
     std::vector<std::string> alternatives{}; ///< places that explain as much
+    std::vector<std::string> assumptions{};  ///< that `proved` and `missing` rest on
 };
 
 enum class cause_verdict {
@@ -149,6 +153,8 @@ struct cause {
     std::optional<named_witness> witness;   ///< a validated run proves `inflation.upper()` there
     std::vector<std::string> assumptions;
     std::optional<holdout_figures> holdout;
+    std::vector<std::string> untouched{}; ///< refuted equations that it leaves as they are
+    std::string excluded_by{}; ///< the refuted equation that excludes it; empty: its whole prior
 };
 
 enum class answer_kind { none, effects, unexplained };
@@ -171,6 +177,11 @@ struct next_experiment {
     bool recorded = false; ///< one of the manoeuvres at hand, made again with finer bounds
 };
 
+/// A claim that something else in the same diagnosis contradicts, or did.
+struct withdrawn_claim {
+    std::string claim, reason;
+};
+
 /// Where model and robot part, which effect it is, and how far the gap shrinks.
 /// Everything that is called proved, certified, excluded or explained is a theorem under the
 /// assumptions listed; the rest is an estimate.
@@ -188,7 +199,8 @@ struct diagnosis {
     std::optional<interval> shrink_fit, shrink_holdout;
     std::optional<unexplained_remainder> remainder; ///< of an unexplained gap
     std::optional<next_experiment> next;
-    std::vector<std::string> assumptions;
+    std::vector<std::string> assumptions; ///< all that anything proved rests on
+    std::vector<withdrawn_claim> withdrawn;
     double seconds = 0;
     bool interrupted = false;
 };

@@ -3,9 +3,10 @@
 #define SIVID_DIAGNOSIS_OBSERVED_MOTION_HPP
 
 #include <sivid/diagnosis/channel_tube.hpp>
-#include <sivid/diagnosis/declared_variation.hpp>
+#include <sivid/diagnosis/input_range.hpp>
 #include <sivid/diagnosis/state_samples.hpp>
 #include <sivid/diagnosis/time_cell.hpp>
+#include <sivid/diagnosis/time_grid.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -42,23 +43,6 @@ struct observed_motion {
 };
 
 namespace diagnosis_detail {
-
-/// The given times, each gap cut into pieces no longer than about `step`.
-inline std::vector<double> refined(std::vector<double> times, double step) {
-    std::sort(times.begin(), times.end());
-    std::vector<double> result;
-    for (std::size_t k = 0; k + 1 < times.size(); ++k) {
-        double const gap = times[k + 1] - times[k];
-        auto const pieces =
-            static_cast<std::size_t>(std::clamp(std::ceil(gap / step - 1e-6), 1.0, 1e3));
-        for (std::size_t p = 0; p < pieces; ++p) {
-            double const t = times[k] + gap * static_cast<double>(p) / static_cast<double>(pieces);
-            if (result.empty() || result.back() < t) result.push_back(t);
-        }
-    }
-    if (result.empty() || result.back() < times.back()) result.push_back(times.back());
-    return result;
-}
 
 /// An input over a cell within one piece: samples run along a line, formulas count as still.
 inline cell_line input_line(signal const& s, double from, double to) {
@@ -111,8 +95,8 @@ observe_motion(bound_model const& model, box const& prior, experiment const& e,
             if (t > e.begin && t < end) result.boundaries.push_back(t);
         }
     }
-    result.boundaries = diagnosis_detail::refined(std::move(result.boundaries),
-                                                  period / static_cast<double>(cells_per_gap));
+    result.boundaries =
+        refined_times(std::move(result.boundaries), period / static_cast<double>(cells_per_gap));
     for (std::size_t c = 0; c + 1 < result.boundaries.size(); ++c) {
         double const from = result.boundaries[c];
         double const to = result.boundaries[c + 1];

@@ -129,6 +129,7 @@ private:
             p.members = where.members;
             p.name = where.name;
             p.loss = loss;
+            p.sensors = where.sensors;
             if (where.is_sensor()) {
                 sensor(p, index, best, fit, result.base);
             } else {
@@ -165,6 +166,10 @@ private:
     void sensor(estimated_place& p, std::size_t index, place_fit const& best, place_fitter& fit,
                 approximate_fit const& base) const {
         auto const& faults = fit.extended().faults[index];
+        if (fit.places()[index].askew) {
+            askew(p, faults, best, fit, base);
+            return;
+        }
         auto const offsets = p.members.size();
         double const scale = best.state.parameters[faults.front()];
         bool const late = faults.size() > offsets + 1;
@@ -217,6 +222,33 @@ private:
             p.law = "latency";
             p.missing = delay;
             p.unit = "s";
+        }
+    }
+
+    /// An instrument that is mounted askew is named after the channel that it spoils most.
+    void askew(estimated_place& p, std::vector<std::size_t> const& faults, place_fit const& best,
+               place_fitter& fit, approximate_fit const& base) const {
+        double most = -1;
+        for (std::size_t e = 0; e < problem_->experiments.size(); ++e) {
+            auto const& requests = fit.simulations().requests(e);
+            for (std::size_t m = 0; m < 2; ++m) {
+                double sum = 0, end = problem_->experiments[e].begin;
+                for (std::size_t k = 0; k < requests.size(); ++k) {
+                    if (requests[k].channel != p.members[m]) continue;
+                    sum += base.residuals[e][k] * base.residuals[e][k];
+                    end = requests[k].time;
+                }
+                if (!(sum > most)) continue;
+                most = sum;
+                auto const& channels = problem_->model.about.channels;
+                p.scenario = problem_->experiments[e].name;
+                p.from = problem_->experiments[e].begin;
+                p.to = end;
+                p.name = channels[p.members[m]].name;
+                p.missing = best.state.parameters[faults[m]];
+                p.unit = "1";
+                p.law = std::string{"cross-talk of "} + channels[p.members[1 - m]].name;
+            }
         }
     }
 

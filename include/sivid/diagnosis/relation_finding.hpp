@@ -27,22 +27,40 @@ struct missing_rate {
     std::string unit; ///< of the state, per s
 };
 
+/// The assumption that the rate of a state varies by at most so much within a time.
+struct assumed_variation {
+    std::string scenario;
+    std::size_t state = 0;
+    double period = 0;    ///< [s]
+    double variation = 0; ///< in the state's unit per s
+};
+
+/// What is proved of an equation itself, and not of it or its sensors.
+struct proved_place {
+    std::vector<std::string> assumptions; ///< those of the relation, and what sensors may do
+    std::optional<missing_rate> missing;  ///< without 0
+};
+
 /// What was found out about one state equation together with the sensors in its row.
 struct relation_finding {
     std::size_t equation = 0;
     std::string name;                  ///< of the state whose rate it is
+    bool definition = false;           ///< a function of states alone, in which no constant acts
     std::vector<std::string> channels; ///< the sensors in the row, if proved
     std::vector<std::size_t> further;  ///< equations that the proof rests on, too
     /// For no parameter of the prior and no start do the equation and all bounds of these sensors
     /// hold, if the assumptions do. Nothing is said about which of them fails.
     bool proved = false;
     std::vector<std::string> assumptions;
-    std::vector<relation_window> windows; ///< that carry the proof, at most coefficients + 1
+    std::vector<assumed_variation> variations; ///< the same of the rates, in numbers
+    std::vector<relation_window> windows;      ///< that carry the proof, at most coefficients + 1
     /// Certified: no parameter fulfils all windows even if each may be off by so many times half of
     /// what the bounds leave open in it. Not above 0: nothing is proved.
     double margin = 0;
-    std::optional<missing_rate> missing; ///< of the window in which it is clearest
-    std::string reason;                  ///< why nothing could be tried
+    /// If the sensors are right, of the window in which it is clearest; it may contain 0.
+    std::optional<missing_rate> missing;
+    std::string reason;                ///< why nothing could be tried
+    std::optional<proved_place> place; ///< where no sensor can be what is wrong
 };
 
 /// How relations are examined.

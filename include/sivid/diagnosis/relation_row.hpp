@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -29,6 +30,9 @@ struct relation_row {
     bool bounded = true;            ///< all ranges are
     bool uses_inputs = false;
     bool kinematic = false; ///< a function of states only
+    /// Further unknown coefficients, after those of the functions: of what a state's sensor changes
+    /// by over the window, or (nothing) of the window's length.
+    std::vector<std::optional<std::size_t>> differences;
     /// Inequalities between coefficients, from quotients of which the prior knows more than of the
     /// coefficients one by one: (row in z, bound).
     std::vector<std::pair<std::vector<double>, double>> ratios;
@@ -40,7 +44,7 @@ struct window_row {
     std::size_t motion = 0; ///< of which experiment
     double from = 0, to = 0;
     interval difference;     ///< d
-    std::vector<interval> a; ///< last \f$ a_0 \f$
+    std::vector<interval> a; ///< of functions, then of differences, last \f$ a_0 \f$
     interval length;         ///< what a constant missing rate would be multiplied with [s]
 };
 
@@ -112,6 +116,15 @@ inline void add_ratios(relation_row& row, graph_range const& atoms) {
     return row;
 }
 
+/// Adds a coefficient within +-most of a difference.
+inline void add_difference(relation_row& row, std::optional<std::size_t> state, double most) {
+    row.differences.push_back(state);
+    row.range.push_back(interval_traits<interval>::bounds(-most, most));
+    row.anchor.push_back(-most);
+    row.width.push_back(2 * most);
+    row.bounded = row.bounded && std::isfinite(most);
+}
+
 /// Two inequalities for each window (numbers 2 i and 2 i + 1), then those between coefficients. A
 /// window's weight is half the width of what its bounds leave open.
 /// @guarantee  z of every coefficient vector that fulfils all windows fulfils all inequalities
@@ -135,7 +148,10 @@ inline void add_ratios(relation_row& row, graph_range const& atoms) {
         system.add(low, right.upper(), weight);
         system.add(high, -right.lower(), weight);
     }
-    for (auto const& [entries, bound] : row.ratios) system.add(entries, bound, 0);
+    for (auto [entries, bound] : row.ratios) {
+        entries.resize(n, 0.0);
+        system.add(entries, bound, 0);
+    }
     return system;
 }
 

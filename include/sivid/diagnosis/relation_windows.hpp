@@ -2,6 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_RELATION_WINDOWS_HPP
 #define SIVID_DIAGNOSIS_RELATION_WINDOWS_HPP
 
+#include <sivid/diagnosis/declared_variation.hpp>
 #include <sivid/diagnosis/observed_motion.hpp>
 #include <sivid/diagnosis/relation_finding.hpp>
 #include <sivid/diagnosis/relation_row.hpp>
@@ -31,6 +32,18 @@ enum class window_way {
     weak      ///< under a bump, where the state itself was not measured but its integral was
 };
 
+/// A sensor that may be faulty, in a problem whose model takes what it shows for the state: see
+/// `sensor_discharge.hpp`.
+struct suspected_sensor {
+    std::size_t state = 0; ///< that it shows
+    double scale = 0;      ///< the state's change is what is shown times 1 +- scale, ...
+    double drift = 0;      ///< ... +- drift times the time, ...
+    /// ... +- so much of what the sensors of other states show.
+    std::vector<std::pair<std::size_t, double>> mixing;
+    /// Declared variations of what is shown, per experiment.
+    std::map<std::string, std::vector<rate_variation>> laws;
+};
+
 /// The equations of a problem over windows of its experiments without an outlier budget and with
 /// exact inputs. (What inputs within error bounds may do from one moment to the next contradicts
 /// the declared variations of the rates.)
@@ -39,9 +52,12 @@ class relation_windows {
 
 public:
     /// @param problem  outlives this object
-    /// @throws std::invalid_argument if the problem is not valid
-    relation_windows(identification_problem const& problem, relation_options const& options)
-        : problem_(&problem), options_(options) {
+    /// @param suspect  outlives this object; none: all sensors are right
+    /// @throws std::invalid_argument if the problem is not valid, or declares variations of rates
+    ///         that the model contradicts
+    relation_windows(identification_problem const& problem, relation_options const& options,
+                     suspected_sensor const* suspect = nullptr)
+        : problem_(&problem), options_(options), suspect_(suspect) {
         problem.require_valid();
         std::vector<experiment const*> trusted;
         for (auto const& e : problem.experiments) {
@@ -59,11 +75,7 @@ public:
                                        sampled_signal({0.0}, {0.0}, interpolation::linear));
         model_ = bind(problem.model, problem.choice, open);
         channels_ = measured_states(model_, trusted);
-        std::vector<rate_scales> scales;
-        for (auto const* e : trusted) {
-            scales.push_back(find_rate_scales(model_, problem.prior, *e, channels_));
-        }
-        auto const laws = declare_variations(model_, scales, options.rate_variation);
+        auto const laws = laws_of(trusted);
         for (std::size_t e = 0; e < trusted.size(); ++e) {
             motions_.push_back(observe_motion(model_, problem.prior, *trusted[e], channels_,
                                               laws[e], options.cells_per_gap));
@@ -71,7 +83,9 @@ public:
         for (std::size_t q = 0; q < model_.state_count(); ++q) {
             auto const& n = model_.g[model_.rate[q]];
             if (n.op != operation::state || !channels_[q]) continue;
-            if (auto const r = static_cast<std::size_t>(n.index); r != q) pairs_.push_back({r, q});
+            auto const r = static_cast<std::size_t>(n.index);
+            bool const right = suspect == nullptr || (suspect->state != q && suspect->state != r);
+            if (r != q && right) pairs_.push_back({r, q});
         }
     }
 
@@ -80,6 +94,11 @@ public:
 
     [[nodiscard]] model_description const& about() const { return problem_->model.about; }
     [[nodiscard]] observed_motion const& motion(std::size_t m) const { return motions_[m]; }
+    [[nodiscard]] std::vector<observed_motion> const& motions() const { return motions_; }
+    /// The channel that shows each state.
+    [[nodiscard]] std::vector<std::optional<std::size_t>> const& channels() const {
+        return channels_;
+    }
     /// @given  `obstacle(i)` was asked
     [[nodiscard]] relation_row const& row(std::size_t i) const { return rows_.at(i).row; }
     [[nodiscard]] std::string rate_unit(std::size_t i) const {
@@ -125,6 +144,25 @@ public:
         return result;
     }
 
+    /// Equation i over one window; nothing where its ends are no boundaries of the cells, or it is
+    /// not covered.
+    /// @given  `obstacle(i)` was asked
+    [[nodiscard]] std::optional<window_row> over(std::size_t i, window_way way,
+                                                 relation_window const& at) {
+        if (way == window_way::weak) return std::nullopt;
+        auto& e = prepared(i);
+        integrate(e);
+        for (std::size_t m = 0; m < motions_.size(); ++m) {
+            if (motions_[m].name != at.scenario || !own_tube(e.row, motions_[m])) continue;
+            window_row w;
+            w.motion = m;
+            w.from = at.from;
+            w.to = at.to;
+            if (fill(e, way, w)) return w;
+        }
+        return std::nullopt;
+    }
+
     /// Sensors and assumptions of a proof.
     void describe(std::size_t i, window_way way, std::set<std::size_t> const& motions,
                   bool from_begin, relation_finding& result) const {
@@ -142,6 +180,8 @@ public:
                 text += (text.empty() ? "" : ", ") +
                         to_decimal_lower(motions_[m].variation[s].variation, 6) + " " +
                         rate_unit(s) + " in " + motions_[m].name;
+                auto const& law = motions_[m].variation[s];
+                result.variations.push_back({motions_[m].name, s, law.period, law.variation});
             }
             result.assumptions.push_back(
                 about().states[s].name + "' varies within " +
@@ -155,6 +195,26 @@ public:
     }
 
 private:
+    /// Declared variations per experiment and state: by the data, the user and the model.
+    [[nodiscard]] std::vector<std::vector<rate_variation>>
+    laws_of(std::vector<experiment const*> const& trusted) const {
+        std::vector<std::vector<rate_variation>> result;
+        if (suspect_ != nullptr) {
+            for (auto const* e : trusted) result.push_back(suspect_->laws.at(e->name));
+            return result;
+        }
+        std::vector<rate_scales> scales;
+        for (auto const* e : trusted) {
+            scales.push_back(find_rate_scales(model_, problem_->prior, *e, channels_));
+        }
+        result = declare_variations(model_, scales, options_.rate_variation);
+        for (std::size_t e = 0; e < trusted.size(); ++e) {
+            result[e] = above_model(model_, problem_->prior, *trusted[e], channels_, result[e],
+                                    options_.rate_variation);
+        }
+        return result;
+    }
+
     struct prepared_equation {
         relation_row row;
         integrand_set set;
@@ -165,6 +225,11 @@ private:
         if (auto const found = rows_.find(i); found != rows_.end()) return found->second;
         auto& e = rows_[i];
         e.row = make_relation_row(model_.g, model_.rate.at(i), i, problem_->prior);
+        if (suspect_ != nullptr && suspect_->state == i) {
+            add_difference(e.row, i, suspect_->scale);
+            add_difference(e.row, std::nullopt, suspect_->drift);
+            for (auto const& [m, most] : suspect_->mixing) add_difference(e.row, m, most);
+        }
         e.set = integrand_set::of(model_.g, e.row.functions, model_.state_count(),
                                   about().inputs.size());
         return e;
@@ -208,9 +273,7 @@ private:
             }
             return result;
         }
-        if (e.integrals.empty()) {
-            for (auto const& m : motions_) e.integrals.emplace_back(e.set, m.cells, pairs_of(i));
-        }
+        integrate(e);
         std::size_t total = 0;
         for (int const pass : {0, 1}) {
             std::size_t count = 0;
@@ -226,7 +289,9 @@ private:
                         if (++count % stride != 0 || pass == 0) continue;
                         window_row w;
                         w.motion = m;
-                        if (fill(e, a, b, way, w)) result.push_back(std::move(w));
+                        w.from = times[a];
+                        w.to = times[b];
+                        if (fill(e, way, w)) result.push_back(std::move(w));
                     }
                 }
             }
@@ -235,17 +300,28 @@ private:
         return result;
     }
 
-    [[nodiscard]] bool fill(prepared_equation const& e, std::size_t a, std::size_t b,
-                            window_way way, window_row& w) const {
+    void integrate(prepared_equation& e) {
+        if (!e.integrals.empty()) return;
+        for (auto const& m : motions_) {
+            e.integrals.emplace_back(e.set, m.cells, pairs_of(e.row.equation));
+        }
+    }
+    /// What a tube changes by from one time to another.
+    [[nodiscard]] static interval change(channel_tube const& tube, double from, double to) {
+        return traits::sub(tube.over(to, to), tube.over(from, from));
+    }
+
+    [[nodiscard]] bool fill(prepared_equation const& e, window_way way, window_row& w) const {
         auto const& motion = motions_[w.motion];
         auto const& tube = *own_tube(e.row, motion);
         auto const& integral = e.integrals[w.motion];
-        w.from = tube.times()[a];
-        w.to = tube.times()[b];
-        w.difference = traits::sub(tube.bound(b), tube.bound(a));
+        if (!tube.covers(w.from, w.to)) return false;
+        w.difference = change(tube, w.from, w.to);
         w.length = traits::sub(traits::point(w.to), traits::point(w.from));
         auto const first = motion.boundary_at(w.from);
         auto const last = motion.boundary_at(w.to);
+        auto const& ends = motion.boundaries;
+        if (last >= ends.size() || ends[first] != w.from || ends[last] != w.to) return false;
         auto const q_at = [&motion](std::size_t q, std::size_t k) {
             return motion.state_over(q, motion.boundaries[k], motion.boundaries[k]);
         };
@@ -262,11 +338,26 @@ private:
             if (!is_bounded(value)) return false;
             w.a.push_back(value);
         }
+        auto const rest = w.a.back();
+        w.a.pop_back();
+        for (auto const& state : e.row.differences) {
+            if (!state) {
+                w.a.push_back(w.length);
+                continue;
+            }
+            auto const& shown =
+                *state == e.row.equation ? own_tube(e.row, motion) : motion.tubes[*state];
+            if (!shown || !shown->covers(w.from, w.to)) return false;
+            w.a.push_back(change(*shown, w.from, w.to));
+            if (!is_bounded(w.a.back())) return false;
+        }
+        w.a.push_back(rest);
         return is_bounded(w.difference);
     }
 
     identification_problem const* problem_;
     relation_options options_;
+    suspected_sensor const* suspect_;
     std::string obstacle_;
     bound_model model_;
     std::vector<std::optional<std::size_t>> channels_;

@@ -3,96 +3,312 @@
 #define SIVID_DIAGNOSIS_SENSOR_DISCHARGE_HPP
 
 #include <sivid/diagnosis/broken_relation.hpp>
+#include <sivid/diagnosis/state_samples.hpp>
+#include <sivid/model/rewrite.hpp>
+#include <sivid/model/unit.hpp>
+#include <sivid/number/nearest_text.hpp>
 #include <sivid/paving/problem.hpp>
-#include <sivid/space/box.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <functional>
+#include <map>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace sivid {
 
-/// A sensor that shows \f$ y = (1 + s) h + b \f$ instead of h, with unknown s and b in ranges.
-struct sensor_fault {
-    interval scale{0.0}; ///< s, above -1
-    interval bias{0.0};  ///< b, in the channel's unit
+/// What a faulty sensor may do: the true x is
+///   \f$ x(t) = (1 + s)\, y(t + \tau) + b + d\, t + \sum_m c_m y_m(t) \f$
+/// of what it shows, y, and what the sensors of other states show, with unknown s, b, d, c in
+/// ranges about 0 and an unknown delay \f$ \tau \f$. Cross-talk c: of channels in the same unit (an
+/// instrument that is mounted askew) and of those whose unit is that by a length (a lever arm).
+struct sensor_fault_ranges {
+    double scale = 0.1;   ///< |s|
+    double offset = 0.1;  ///< |b| and |d t|, each as a share of what the channel's values span
+    double mixing = 0.12; ///< |c| within one unit: 0.12 rad askew
+    double arm = 0.1;     ///< |c| of a lever arm [m]
+    double latency = 0.2; ///< most delay [s]
+    std::size_t most_slices = 40; ///< pieces that the delay is cut into
 };
 
-/// Whether a faulty sensor could repair a broken relation.
-struct sensor_verdict {
-    std::string channel;
-    /// Proved: whatever s and b in their ranges, the equation and the sensors in its row, this one
-    /// corrected, cannot hold together. The fault is elsewhere in the row, or there are two.
-    bool discharged = false;
-    /// Otherwise: a fault (s, b) that was not refuted, if one was found.
-    std::optional<std::pair<double, double>> repair;
-    std::size_t examined = 0; ///< how many boxes of (s, b)
+/// A sensor with the ranges of its faults, in the channel's unit.
+struct faulty_channel {
+    std::size_t state = 0, channel = 0;
+    double scale = 0, offset = 0, drift = 0, latency = 0;
+    std::vector<std::pair<std::size_t, double>> mixing; ///< (state, most)
 };
 
-/// The problem whose channel is corrected: \f$ h \in (y - b)/(1 + s) \f$.
-/// @throws std::invalid_argument if there is no such channel or the scale reaches -1
-[[nodiscard]] inline identification_problem corrected(identification_problem const& problem,
-                                                      std::string const& channel,
-                                                      sensor_fault const& fault) {
-    using traits = interval_traits<interval>;
-    auto const index = index_of(problem.model.about.channels, channel, "channel");
-    auto const factor = traits::add(traits::point(1.0), fault.scale);
-    if (!(factor.lower() > 0) || !is_bounded(factor) || !is_bounded(fault.bias)) {
-        throw std::invalid_argument("sensor fault: the scale has to stay above -1, all bounded");
+namespace diagnosis_detail {
+
+/// A unit in which an angle is a number.
+inline unit without_angle(std::string const& text) {
+    auto result = unit(text);
+    for (int n = 1; n <= 4; ++n) { // rad stands in it to a small power, if at all
+        auto const above = result.times(unit("rad"), -1);
+        if (above.text().size() < result.text().size()) result = above;
+        auto const below = result.times(unit("rad"), 1);
+        if (below.text().size() < result.text().size()) result = below;
     }
-    auto result = problem;
-    for (auto& e : result.experiments) {
-        for (auto& m : e.measurements) {
-            bool undefined = false;
-            if (m.channel != index) continue;
-            m.bound = traits::div(traits::sub(m.bound, fault.bias), factor, undefined);
+    return result;
+}
+
+} // namespace diagnosis_detail
+
+/// The ranges of one sensor's faults.
+/// @param channels  that show the states
+[[nodiscard]] inline faulty_channel
+faults_of(identification_problem const& problem,
+          std::vector<std::optional<std::size_t>> const& channels, std::size_t state,
+          sensor_fault_ranges const& ranges) {
+    auto const& about = problem.model.about;
+    faulty_channel result{state, *channels[state], ranges.scale, 0, 0, ranges.latency, {}};
+    double low = HUGE_VAL, high = -HUGE_VAL, longest = 0, latest = 0;
+    for (auto const& e : problem.experiments) {
+        for (auto const& m : e.measurements) {
+            if (m.channel != result.channel) continue;
+            low = std::min(low, m.bound.lower());
+            high = std::max(high, m.bound.upper());
+            longest = std::max(longest, m.time - e.begin);
+            latest = std::max(latest, std::abs(e.begin));
+        }
+    }
+    double const most = ranges.offset * std::max(high - low, 0.0);
+    result.drift = longest > 0 ? most / longest : 0;
+    result.offset = most + result.drift * latest; // the drift counts from the begin
+    auto const own = diagnosis_detail::without_angle(about.channels[result.channel].unit);
+    for (std::size_t m = 0; m < channels.size(); ++m) {
+        if (!channels[m] || m == state) continue;
+        auto const other = diagnosis_detail::without_angle(about.channels[*channels[m]].unit);
+        if (about.channels[*channels[m]].unit == about.channels[result.channel].unit) {
+            result.mixing.emplace_back(m, ranges.mixing);
+        } else if (own == other.times(unit("m"), 1)) {
+            result.mixing.emplace_back(m, ranges.arm);
         }
     }
     return result;
 }
 
-/// Tries to prove that no fault of one sensor in the given ranges repairs the relation of equation
-/// i: the box of faults is cut until every part is refuted, or a point in it is not.
-/// @guarantee  `discharged` only if the parts cover the ranges and each was refuted as in
-///             `relation_examiner`, under the assumptions stated there for the corrected channel
-/// @cost  one examination of an equation (some milliseconds) for each part and for each centre
-[[nodiscard]] inline sensor_verdict
-discharge_sensor(identification_problem const& problem, std::size_t equation,
-                 std::string const& channel, sensor_fault const& ranges,
-                 relation_options const& options = {}, std::size_t most_boxes = 64) {
-    sensor_verdict result;
-    result.channel = channel;
-    auto const refuted = [&](sensor_fault const& fault) {
-        ++result.examined;
-        auto const changed = corrected(problem, channel, fault);
-        return relation_examiner(changed, options).examine(equation).proved;
+/// A problem about what a faulty sensor shows, re-timed for delays around one value: its model
+/// takes that for the state and corrects it by unknown constants.
+struct suspect_problem {
+    identification_problem problem;
+    suspected_sensor sensor;
+};
+
+/// @param laws         declared variations of the states' rates, per experiment
+/// @param delay, half  the delays delay - half to delay + half
+[[nodiscard]] inline suspect_problem
+suspect_of(identification_problem const& source, faulty_channel const& f,
+           std::map<std::string, std::vector<rate_variation>> const& laws, double delay,
+           double half) {
+    using traits = interval_traits<interval>;
+    suspect_problem result{source, {f.state, f.scale, f.drift, f.mixing, laws}};
+    auto& problem = result.problem;
+    auto& model = problem.model;
+    std::vector<interval> sides(source.prior.begin(), source.prior.end());
+    graph g;
+    auto const unknown = [&](std::string const& name, double most) {
+        model.about.constants.push_back({name, "1", literal{interval(0.0), 0.0}});
+        problem.choice.unknown.push_back(name);
+        sides.push_back(traits::bounds(-most, most));
+        return g.leaf(operation::constant, model.about.constants.size() - 1);
     };
-    box const whole{ranges.scale, ranges.bias};
-    std::vector<box> open{whole};
-    while (!open.empty()) {
-        auto const part = open.back();
-        open.pop_back();
-        if (result.examined + 2 > most_boxes) return result;
-        auto const centre = mid(part);
-        if (!refuted({interval(centre[0]), interval(centre[1])})) {
-            result.repair = {centre[0], centre[1]};
-            return result;
-        }
-        if (is_point(part[0]) && is_point(part[1])) continue;
-        if (refuted({part[0], part[1]})) continue;
-        // Cut where the part is wider, relative to the ranges.
-        auto const share = [&](std::size_t k) {
-            return is_point(whole[k]) ? 0.0 : width(part[k]) / width(whole[k]);
-        };
-        auto const side = share(0) > share(1) ? std::size_t{0} : std::size_t{1};
-        auto [below, above] = bisect(part, side, centre[side]);
-        open.push_back(std::move(below));
-        open.push_back(std::move(above));
+    auto const shown = g.leaf(operation::state, f.state);
+    auto state = g.add(shown, g.mul(unknown("sensor scale", f.scale), shown));
+    state = g.add(state, unknown("sensor offset", f.offset));
+    state = g.add(state, g.mul(unknown("sensor drift", f.drift), g.leaf(operation::time, 0)));
+    for (auto const& [m, most] : f.mixing) {
+        auto const share = unknown("sensor share " + model.about.states[m].name, most);
+        state = g.add(state, g.mul(share, g.leaf(operation::state, m)));
     }
-    result.discharged = true;
+    auto const plain = [](node const& n, graph& to) {
+        return to.leaf(n.op, static_cast<std::size_t>(n.index));
+    };
+    auto const corrected = [&](node const& n, graph& to) {
+        auto const k = static_cast<std::size_t>(n.index);
+        return n.op == operation::state && k == f.state ? state : to.leaf(n.op, k);
+    };
+    model.rate = copy_into(g, source.model.g, source.model.rate, corrected);
+    model.observe = copy_into(g, source.model.g, source.model.observe, plain);
+    for (auto& a : model.added_states) {
+        a.at_begin = copy_into(g, source.model.g, {a.at_begin}, plain).front();
+    }
+    model.g = std::move(g);
+    problem.prior = box(sides.size());
+    for (std::size_t j = 0; j < sides.size(); ++j) problem.prior[j] = sides[j];
+
+    for (auto& e : problem.experiments) {
+        auto const found = laws.find(e.name);
+        if (found == laws.end()) continue; // it is not used
+        // x' = (1 + s) y' + d + sum c y_m': what y' varies by.
+        auto& law = result.sensor.laws[e.name][f.state];
+        double variation = law.variation;
+        auto start = e.initial[f.state];
+        double off = f.offset + f.drift * std::abs(e.begin);
+        for (auto const& [m, most] : f.mixing) {
+            auto const& other = found->second[m];
+            double const periods = std::ceil(law.period / other.period * (1 - 1e-9));
+            variation += most * other.variation * std::max(1.0, periods);
+            off += most * mag(e.initial[m]);
+        }
+        law.variation = std::min(variation / (1 - f.scale) * (1 + 1e-9), 1e100);
+        bool undefined = false;
+        off *= 1 + 1e-9;
+        e.initial[f.state] = traits::div(traits::add(start, traits::bounds(-off, off)),
+                                         traits::bounds(1 - f.scale, 1 + f.scale), undefined);
+        // Late by delay: what is shown at t belongs to t - delay; and may have moved by half.
+        auto const samples = state_samples::sensed(e, f.channel);
+        auto const steepest = [&](double t) {
+            double rate = 0;
+            for (std::size_t k = 0; k + 1 < samples.times.size(); ++k) {
+                double const gap = samples.times[k + 1] - samples.times[k];
+                if (samples.times[k + 1] < t - 1.5 * gap || samples.times[k] > t + 1.5 * gap) {
+                    continue;
+                }
+                rate = std::max(rate, mag((samples.bounds[k + 1] - samples.bounds[k]) / gap));
+            }
+            return rate + 2 * law.variation;
+        };
+        record kept;
+        for (auto m : e.measurements) {
+            if (m.channel == f.channel) {
+                double const more = half > 0 ? half * steepest(m.time) * (1 + 1e-9) : 0;
+                m.bound = traits::add(m.bound, traits::bounds(-more, more));
+                m.time -= delay;
+                if (m.time < e.begin) continue;
+            }
+            kept.push_back(m);
+        }
+        e.measurements = std::move(kept);
+    }
+    return result;
+}
+
+/// Delays that stand for [0, latency], and half of what each one stands for.
+[[nodiscard]] inline std::pair<std::vector<double>, double>
+delay_slices(identification_problem const& problem, faulty_channel const& f,
+             std::size_t most_slices) {
+    if (!(f.latency > 0)) return {{0.0}, 0.0};
+    // As long as the channel takes to move by its error, by the median.
+    std::vector<double> lengths;
+    for (auto const& e : problem.experiments) {
+        auto const s = state_samples::sensed(e, f.channel);
+        for (std::size_t k = 0; k + 1 < s.times.size(); ++k) {
+            double const rate =
+                mag((s.bounds[k + 1] - s.bounds[k])) / (s.times[k + 1] - s.times[k]);
+            lengths.push_back(rad(s.bounds[k]) / std::max(rate, 1e-12));
+        }
+    }
+    double length = f.latency;
+    if (!lengths.empty()) {
+        auto const middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+        std::nth_element(lengths.begin(), middle, lengths.end());
+        length = std::min(length, 2 * *middle);
+    }
+    auto const count = static_cast<std::size_t>(
+        std::clamp(std::ceil(f.latency / length), 1.0, static_cast<double>(most_slices)));
+    double const half = f.latency / static_cast<double>(count) / 2;
+    std::vector<double> delays;
+    for (std::size_t k = 0; k < count; ++k) delays.push_back(half * static_cast<double>(2 * k + 1));
+    return {delays, half * (1 + 1e-9)};
+}
+
+/// What sensors may do where a place is proved, in words.
+[[nodiscard]] inline std::string fault_assumption(identification_problem const& problem,
+                                                  std::vector<faulty_channel> const& all) {
+    auto const& about = problem.model.about;
+    std::string text = "at most one sensor errs beyond its bounds, by no more than";
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        auto const& f = all[k];
+        auto const& c = about.channels[f.channel];
+        text += std::string{k == 0 ? " " : " / "} + c.name + ": scale " + nearest_text(f.scale, 3) +
+                ", offset " + nearest_text(f.offset, 3) + " " + c.unit + ", drift " +
+                nearest_text(f.drift, 3) + " " + c.unit + "/s";
+        for (auto const& [m, most] : f.mixing) {
+            text += ", share of " + about.states[m].name + " " + nearest_text(most, 3);
+        }
+        text += ", delay " + nearest_text(f.latency, 3) + " s";
+    }
+    return text;
+}
+
+/// Tries to prove that an equation itself is what is broken: that no fault of any one sensor of its
+/// row, within the ranges, repairs the relation. Each sensor's faults enter the equation as unknown
+/// coefficients, all at once, its delay in slices.
+/// @param f      proved to be broken together with its sensors, by `examine_relations`
+/// @param go_on  asked before each attempt; may be empty
+/// @returns nothing where some sensor may be what is wrong, or the time ended
+/// @guarantee  otherwise the equation does not hold if the assumptions that it lists do, and lacks
+///             `missing` on the average over its window
+/// @cost  one examination of an equation (some tens of milliseconds) for each sensor and slice, up
+///        to the first that does not refute
+[[nodiscard]] inline std::optional<proved_place>
+prove_place(identification_problem const& problem, relation_finding const& f,
+            sensor_fault_ranges const& ranges = {}, relation_options options = {},
+            std::function<bool()> const& go_on = {}) {
+    auto const stopped = [&go_on] { return go_on && !go_on(); };
+    if (!f.proved || f.definition || stopped()) return std::nullopt;
+    relation_examiner base(problem, options);
+    auto& windows = base.windows();
+    if (!windows.obstacle(f.equation).empty() || !windows.channels()[f.equation]) {
+        return std::nullopt;
+    }
+    std::map<std::string, std::vector<rate_variation>> laws;
+    for (auto const& m : windows.motions()) laws[m.name] = m.variation;
+    // Where something is missing if all sensors are right.
+    struct place_window {
+        relation_window at;
+        interval value;
+    };
+    std::vector<place_window> missing;
+    auto places = f.windows;
+    if (f.missing) places.insert(places.begin(), f.missing->window);
+    for (auto const& at : places) {
+        auto const found = base.missing_over(f.equation, at);
+        if (found && !contains(*found, 0)) missing.push_back({at, *found});
+    }
+    std::vector<faulty_channel> suspects;
+    for (std::size_t s = 0; s < windows.channels().size(); ++s) {
+        auto const& c = windows.channels()[s];
+        if (!c) continue;
+        auto const& name = problem.model.about.channels[*c].name;
+        if (std::find(f.channels.begin(), f.channels.end(), name) == f.channels.end()) continue;
+        suspects.push_back(faults_of(problem, windows.channels(), s, ranges));
+    }
+    options.most_windows = std::min<std::size_t>(options.most_windows, 3000);
+    auto const refuted = [&](faulty_channel const& suspect, double delay, double half) {
+        auto const faulty = suspect_of(problem, suspect, laws, delay, half);
+        relation_examiner examiner(faulty.problem, options, &faulty.sensor);
+        if (!examiner.examine(f.equation).proved) return false;
+        for (auto& w : missing) {
+            auto const found = examiner.missing_over(f.equation, w.at);
+            w.value = found ? hull(w.value, *found) : interval_traits<interval>::entire();
+        }
+        return true;
+    };
+    // The least delays of each first: most sensors that may be wrong show then.
+    for (bool const first : {true, false}) {
+        for (auto const& suspect : suspects) {
+            auto const [delays, half] = delay_slices(problem, suspect, ranges.most_slices);
+            for (std::size_t k = first ? 0 : 1; k < (first ? 1 : delays.size()); ++k) {
+                if (stopped() || !refuted(suspect, delays[k], half)) return std::nullopt;
+            }
+        }
+    }
+    proved_place result{f.assumptions, std::nullopt};
+    result.assumptions.push_back(fault_assumption(problem, suspects));
+    double clearest = 0;
+    for (auto const& w : missing) {
+        if (!is_bounded(w.value) || contains(w.value, 0)) continue;
+        double const clear = std::abs(mid(w.value)) / (width(w.value) + 1e-300);
+        if (!(clear > clearest)) continue;
+        clearest = clear;
+        result.missing = missing_rate{w.at, w.value, windows.rate_unit(f.equation)};
+    }
     return result;
 }
 

@@ -15,10 +15,12 @@
 namespace sivid {
 
 /// A problem whose model can also have faulty sensors: y = (1 + s) h(x(t - tau)) + b with unknown
-/// s, tau (one per sensor) and b (one per channel), all neutral at 0.
+/// s, tau (one per sensor) and b (one per channel), or with cross-talk of two channels, all neutral
+/// at 0.
 struct sensor_problem {
     identification_problem problem;
-    /// Per place: which of the problem's parameters are this sensor's faults, s and tau first.
+    /// Per place: which of the problem's parameters are this sensor's faults, s and tau first; of
+    /// an instrument askew what each channel shows of the other one.
     std::vector<std::vector<std::size_t>> faults;
     std::size_t original = 0; ///< so many parameters are the model's own
 };
@@ -49,6 +51,18 @@ struct sensor_problem {
     for (std::size_t p = 0; p < places.size(); ++p) {
         if (places[p].kind != place_kind::sensor) continue;
         auto const fault = "sensor " + places[p].name;
+        if (places[p].askew) {
+            for (std::size_t m = 0; m < 2; ++m) {
+                auto const own = places[p].members[m], other = places[p].members[1 - m];
+                result.faults[p].push_back(sides.size());
+                auto const share = g.leaf(operation::constant,
+                                          add(fault + " share in " + model.about.channels[own].name,
+                                              "1", interval(-0.4, 0.4)));
+                model.observe[own] =
+                    g.add(model.observe[own], g.mul(share, source.model.observe[other]));
+            }
+            continue;
+        }
         result.faults[p].push_back(sides.size());
         auto const scale =
             g.leaf(operation::constant, add(fault + " scale", "1", interval(-0.6, 0.6)));

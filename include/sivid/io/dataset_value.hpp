@@ -3,6 +3,7 @@
 #define SIVID_IO_DATASET_VALUE_HPP
 
 #include <sivid/io/exact_decimal.hpp>
+#include <sivid/io/outlier_rule.hpp>
 #include <sivid/measurement/record.hpp>
 #include <sivid/measurement/signal.hpp>
 #include <sivid/number/interval.hpp>
@@ -89,7 +90,7 @@ struct dataset {
     /// \f$ q_s = \lfloor f\, n_s \rfloor \f$, exact in decimals: so many measurements of s may
     /// violate their bounds.
     [[nodiscard]] std::size_t outlier_budget(scenario const& s) const {
-        return max_outlier_fraction.times(s.measurements.size()).floor();
+        return outlier_rule::share(max_outlier_fraction).of(s.measurements.size());
     }
 };
 

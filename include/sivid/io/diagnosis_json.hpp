@@ -36,6 +36,7 @@ public:
         next();
         strings("unobservable", d_->unobservable);
         strings("assumptions", d_->assumptions);
+        withdrawn();
         json_.key("interrupted").boolean(d_->interrupted);
         json_.key("seconds").nearest(d_->seconds);
         json_.end_object();
@@ -86,6 +87,7 @@ private:
             json_.key("equation").string(r.equation);
             strings("sensors", r.sensors);
             json_.key("proved").boolean(r.proved);
+            json_.key("definition").boolean(r.definition);
             strings("assumptions", r.assumptions);
             json_.key("windows").begin_array();
             for (auto const& w : r.windows) {
@@ -111,6 +113,7 @@ private:
             text_or_null("law", p.law);
             text_or_null("regime", p.regime);
             strings("alternatives", p.alternatives);
+            strings("assumptions", p.assumptions);
             json_.end_object();
         }
         json_.end_array();
@@ -171,6 +174,8 @@ private:
             values("estimates", c.parameters);
             witness(c.witness);
             strings("assumptions", c.assumptions);
+            strings("untouched", c.untouched);
+            text_or_null("excluded_by", c.excluded_by);
             holdout(c.holdout);
             json_.end_object();
         }
@@ -199,6 +204,14 @@ private:
         json_.key("inflation").bounds(d_->remainder->inflation);
         where(d_->remainder->where);
         json_.end_object();
+    }
+    void withdrawn() {
+        json_.key("withdrawn").begin_array();
+        for (auto const& w : d_->withdrawn) {
+            json_.begin_object(one_line).key("claim").string(w.claim);
+            json_.key("reason").string(w.reason).end_object();
+        }
+        json_.end_array();
     }
     void next() {
         json_.key("next");

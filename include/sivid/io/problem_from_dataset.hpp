@@ -5,6 +5,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/diagnosis/holdout.hpp>
 #include <sivid/io/dataset_value.hpp>
+#include <sivid/io/outlier_rule.hpp>
 #include <sivid/paving/problem.hpp>
 
 #include <cstddef>
@@ -21,7 +22,7 @@ namespace io_detail {
 /// The scenarios of one role as experiments.
 inline std::vector<experiment> experiments_of(dataset const& data, model_description const& about,
                                               scenario_role role,
-                                              std::optional<std::size_t> outliers) {
+                                              std::optional<outlier_rule> const& outliers) {
     std::vector<experiment> result;
     for (auto const& s : data.scenarios) {
         if (s.role != role) continue;
@@ -39,7 +40,7 @@ inline std::vector<experiment> experiments_of(dataset const& data, model_descrip
         e.initial = box(s.initial.size());
         for (std::size_t i = 0; i < s.initial.size(); ++i) e.initial[i] = s.initial[i].range;
         e.measurements = s.measurements;
-        e.outliers = outliers.value_or(data.outlier_budget(s));
+        e.outliers = outliers ? outliers->of(s.measurements.size()) : data.outlier_budget(s);
         result.push_back(std::move(e));
     }
     return result;
@@ -51,15 +52,16 @@ inline std::vector<experiment> experiments_of(dataset const& data, model_descrip
 /// experiment for each scenario of the role fit. Hold-out scenarios do not enter.
 ///   Bounds, priors and fixed constants are the enclosures of the stated decimals; every scenario
 ///   begins at t = 0 and may violate `outlier_budget` of its measurements.
-/// @param outliers  a budget for every scenario instead of the data set's own
+/// @param outliers  for every scenario instead of the data set's own fraction: a budget, or a rule
 /// @given  `data` was read with the names of this model (checked: name and sizes)
 /// @throws std::invalid_argument otherwise
-[[nodiscard]] SIVID_ENTRY identification_problem problem_from_dataset(
-    dataset const& data, recorded_model model, std::optional<std::size_t> outliers = std::nullopt);
+[[nodiscard]] SIVID_ENTRY identification_problem
+problem_from_dataset(dataset const& data, recorded_model model,
+                     std::optional<outlier_rule> const& outliers = std::nullopt);
 
 #if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_PROBLEM_FROM_DATASET)
-SIVID_ENTRY identification_problem problem_from_dataset(dataset const& data, recorded_model model,
-                                                        std::optional<std::size_t> outliers) {
+SIVID_ENTRY identification_problem problem_from_dataset(
+    dataset const& data, recorded_model model, std::optional<outlier_rule> const& outliers) {
     auto const fail = [](std::string const& what) {
         throw std::invalid_argument(std::string{"problem_from_dataset: "} + what);
     };

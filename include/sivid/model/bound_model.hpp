@@ -6,6 +6,7 @@
 #include <sivid/measurement/signal.hpp>
 #include <sivid/model/differentiate.hpp>
 #include <sivid/model/model.hpp>
+#include <sivid/model/parameter_choice.hpp>
 #include <sivid/model/rewrite.hpp>
 
 #include <algorithm>
@@ -55,25 +56,6 @@ using signal = std::variant<sampled_signal, analytic_signal>;
     return inputs;
 }
 
-/// Index of `name` in a list of named things.
-/// @throws std::invalid_argument that names what exists
-template <class Items>
-[[nodiscard]] std::size_t index_of(Items const& items, std::string const& wanted,
-                                   std::string const& kind) {
-    std::string known;
-    for (std::size_t i = 0; i < items.size(); ++i) {
-        if (items[i].name == wanted) return i;
-        known += (i ? ", " : "") + std::string(items[i].name);
-    }
-    throw std::invalid_argument("unknown " + kind + " '" + wanted + "'; known: " + known);
-}
-
-/// Which constants are unknown, and the values of those that differ from the model's nominal ones.
-struct parameter_choice {
-    std::vector<std::string> unknown;      ///< names; their order is the order of the parameters
-    std::map<std::string, interval> fixed; ///< overrides
-};
-
 /// A model with its constants bound and its analytic inputs inserted: the graph that is simulated
 /// and enclosed. `operation::constant` leaves are now the unknown parameters p.
 struct bound_model {
@@ -93,7 +75,8 @@ struct bound_model {
     [[nodiscard]] std::size_t channel_count() const { return observe.size(); }
 };
 
-/// Binds constants and inputs, folds what became constant, and differentiates.
+/// Binds constants and inputs, folds what became constant, and differentiates. Derived constants
+/// that follow their formulas (`followed`) become functions of the others.
 /// @param inputs  one signal per input of the model
 /// @given  the model has no delays (checked): they have to be resolved first
 /// @throws std::invalid_argument on unknown names, a wrong number of inputs, or an empty value
@@ -137,9 +120,11 @@ SIVID_ENTRY bound_model bind(recorded_model const& model, parameter_choice const
     std::vector<node_id> outputs = model.rate;
     outputs.insert(outputs.end(), model.observe.begin(), model.observe.end());
     auto& g = result.g;
+    std::map<std::size_t, node_id> derived; // by constant
     auto const leaf = [&](node const& n, graph& to) -> node_id {
         auto const k = static_cast<std::size_t>(n.index);
         if (n.op == operation::constant) {
+            if (auto const d = derived.find(k); d != derived.end()) return d->second;
             if (position[k] < 0) return to.constant(values[k]);
             return to.leaf(operation::constant, static_cast<std::size_t>(position[k]));
         }
@@ -151,6 +136,9 @@ SIVID_ENTRY bound_model bind(recorded_model const& model, parameter_choice const
         }
         return to.leaf(n.op, k);
     };
+    for (auto const& d : followed(model, choice)) {
+        derived[d.constant] = copy_into(g, model.g, {d.value}, leaf).front();
+    }
     auto const images = copy_into(g, model.g, outputs, leaf);
     auto const split = images.begin() + static_cast<std::ptrdiff_t>(model.rate.size());
     result.rate.assign(images.begin(), split);

@@ -106,8 +106,9 @@ SIVID_ENTRY std::string describe(recorded_model const& model) {
     auto const& about = model.about;
     std::vector<std::vector<std::string>> constants, delays;
     for (auto const& c : about.constants) {
-        constants.push_back(
-            {c.name, "= " + graph_listing::literal_text(c.nominal), bracketed(c.unit)});
+        constants.push_back({c.name, "= " + graph_listing::literal_text(c.nominal),
+                             bracketed(c.unit),
+                             c.formula.empty() ? "" : "= " + c.formula + ", rounded"});
     }
     for (auto const& d : model.input_delays) {
         delays.push_back({"input " + about.inputs[d.index].name, about.constants[d.constant].name});

@@ -203,6 +203,15 @@ SIVID_ENTRY recorded_model with(recorded_model const& base, std::vector<effect> 
         scope.channels_.emplace_back(g, *image++);
     }
     for (auto const& a : base.added_states) result.added_states.push_back({a.state, *image++});
+    // Relations between constants stay as they are: an effect that alters D alters what the
+    // equations see of D, and A = pi D^2/4 only if it says so.
+    auto const itself = [](node const& n, graph& to) {
+        return to.leaf(n.op, static_cast<std::size_t>(n.index));
+    };
+    for (auto const& d : base.derived) {
+        result.derived.push_back(
+            {d.constant, copy_into(g, base.g, {d.value}, itself).front(), d.always});
+    }
     apply_all(&effect::on_rates);
     apply_all(&effect::on_channels);
     for (auto const& e : scope.rates_) result.rate.push_back(e.in(g));

@@ -4,13 +4,17 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/model/expression.hpp>
+#include <sivid/model/formula_text.hpp>
+#include <sivid/model/rewrite.hpp>
 #include <sivid/number/decimal.hpp>
 #include <sivid/space/vec.hpp>
 
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -93,9 +97,25 @@ using inputs_of = vec<T, input_count<Model>>;
 template <class Model, class T>
 using channels_of = vec<T, channel_count<Model>>;
 
+/// One constant as a function of others: what `derived` of a model lists.
+///     template <class T>
+///     std::array<sivid::relation_of_constants<T>, 1> derived(constants_of<disc, T> const& c) const
+///     {
+///         auto const& [A, D] = c;
+///         return {{{"A", atan(T(1)) * sqr(D)}}}; // pi D^2/4
+///     }
+/// The nominal value of such a constant is that of its formula, rounded. It stands while the data
+/// state none of the constants in the formula; `parameter_choice` says when the formula takes over.
+template <class T>
+struct relation_of_constants {
+    std::string_view constant;
+    T value;
+};
+
 /// A dynamic model: `rate` is the right-hand side \f$ x' = f(t, x, c, u) \f$, `observe` the output
 /// \f$ y = g(t, x, c, u) \f$; both are member templates on the scalar, free of side effects, and
-/// `name`, `states`, `inputs`, `channels`, `constants` say what the numbers mean.
+/// `name`, `states`, `inputs`, `channels`, `constants` say what the numbers mean. A third member
+/// template, `derived`, is optional: constants that are functions of others.
 template <class M>
 concept dynamic_model = requires {
     M::states;
@@ -133,6 +153,7 @@ struct model_description {
     struct constant {
         std::string name, unit;
         literal nominal;
+        std::string formula{}; ///< of a derived constant, in the others; else empty
     };
     std::string name;
     std::vector<state> states;
@@ -154,6 +175,13 @@ struct added_state {
     node_id at_begin = 0; ///< a function of the inputs at the begin and the constants
 };
 
+/// A constant that the model gives as a function of others.
+struct derived_constant {
+    std::size_t constant = 0;
+    node_id value = 0;   ///< of constants that stand in `derived` before it, or not at all
+    bool always = false; ///< follows even where the data state none of those constants
+};
+
 /// A model as data: its description and its recorded graph. From here on nothing depends on the
 /// model's C++ type, so that constants, effects and variants are chosen at run time.
 struct recorded_model {
@@ -166,6 +194,7 @@ struct recorded_model {
     /// The channel at t shows its value at t - c, and the one at the begin before.
     std::vector<time_delay> channel_delays;
     std::vector<added_state> added_states; ///< of effects (see effect.hpp)
+    std::vector<derived_constant> derived;
 
     [[nodiscard]] bool has_delays() const {
         return !input_delays.empty() || !channel_delays.empty();
@@ -179,6 +208,11 @@ namespace model_detail {
                                                       std::span<quantity const> inputs,
                                                       std::span<quantity const> channels,
                                                       std::span<constant_quantity const> constants);
+/// Adds a relation between constants to a recorded model.
+/// @throws std::invalid_argument when the constant is unknown, stands twice, or is not a function
+/// of
+///         constants before it, and when its nominal value is not what the formula gives to 0.1 %
+SIVID_ENTRY void add_derived(recorded_model& model, std::string_view name, expression const& value);
 } // namespace model_detail
 
 /// Runs the functor once on the recording scalar.
@@ -201,6 +235,10 @@ template <dynamic_model M>
     expression const t(g, g.leaf(operation::time, 0));
     for (auto const& e : model.rate(t, x, c, u)) result.rate.push_back(e.in(g));
     for (auto const& e : model.observe(t, x, c, u)) result.observe.push_back(e.in(g));
+    if constexpr (requires { model.derived(c); }) {
+        for (auto const& d : model.derived(c))
+            model_detail::add_derived(result, d.constant, d.value);
+    }
     return result;
 }
 
@@ -232,6 +270,49 @@ SIVID_ENTRY model_description model_detail::described(
                                    literal{enclose(c.nominal), nearest(c.nominal)}});
     }
     return about;
+}
+
+SIVID_ENTRY void model_detail::add_derived(recorded_model& model, std::string_view name,
+                                           expression const& value) {
+    auto& constants = model.about.constants;
+    auto const fail = [&](std::string const& what) {
+        throw std::invalid_argument("model '" + model.about.name + "': the derived constant '" +
+                                    std::string(name) + "' " + what);
+    };
+    derived_constant d;
+    while (d.constant < constants.size() && constants[d.constant].name != name) ++d.constant;
+    if (d.constant == constants.size()) fail("is none of its constants");
+    d.value = value.in(model.g);
+    if ((model.g.depends(d.value) & ~on_constant) != 0) fail("depends on more than constants");
+    for (auto const& other : model.derived) {
+        if (other.constant == d.constant) fail("stands twice");
+        auto const earlier = operands_of(model.g, {other.value});
+        for (std::size_t i = 0; i < earlier.size(); ++i) {
+            auto const& n = model.g.nodes()[i];
+            if (earlier[i] && n.op == operation::constant &&
+                static_cast<std::size_t>(n.index) == d.constant) {
+                fail("stands in the formula of '" + constants[other.constant].name +
+                     "', which comes before it");
+            }
+        }
+    }
+    std::vector<std::string> names;
+    for (auto const& c : constants) names.push_back(c.name);
+    graph at_nominal;
+    auto const result = copy_into(at_nominal, model.g, {d.value}, [&](node const& n, graph& to) {
+        auto const k = static_cast<std::size_t>(n.index);
+        if (k == d.constant) fail("is a function of itself");
+        return to.constant(constants[k].nominal);
+    });
+    constants[d.constant].formula = formula_text(model.g, d.value, names);
+    double const stated = constants[d.constant].nominal.nearest;
+    bool const defined = at_nominal.is_literal(result.front());
+    double const given = defined ? at_nominal.value(at_nominal[result.front()]).nearest : 0;
+    if (!defined || !(std::abs(given - stated) <= 1e-3 * std::abs(given))) {
+        fail("is nominally " + nearest_text(stated) + ", but " + constants[d.constant].formula +
+             " gives " + (defined ? nearest_text(given) : std::string{"no value"}));
+    }
+    model.derived.push_back(d);
 }
 #endif
 

@@ -16,7 +16,7 @@
 namespace sivid {
 
 /// The model with some of its constants replaced by functions of new ones, which stand behind the
-/// others.
+/// others. A derived constant follows those that are replaced.
 /// @param replaced  names of constants
 /// @param fresh     the new constants; a name may be that of a replaced one
 /// @param values    of the replaced constants, as functions of the new ones
@@ -59,6 +59,7 @@ substituted(recorded_model const& model, std::vector<std::string> const& replace
     auto outputs = model.rate;
     outputs.insert(outputs.end(), model.observe.begin(), model.observe.end());
     for (auto const& a : model.added_states) outputs.push_back(a.at_begin);
+    for (auto const& d : model.derived) outputs.push_back(d.value);
     auto const copied = copy_into(g, model.g, outputs, [&](node const& n, graph& to) {
         auto const k = static_cast<std::size_t>(n.index);
         if (n.op != operation::constant) return to.leaf(n.op, k);
@@ -70,6 +71,22 @@ substituted(recorded_model const& model, std::vector<std::string> const& replace
     for (std::size_t i = 0; i < model.rate.size(); ++i) result.rate.push_back(*next++);
     for (std::size_t y = 0; y < model.observe.size(); ++y) result.observe.push_back(*next++);
     for (auto const& a : model.added_states) result.added_states.push_back({a.state, *next++});
+    for (auto const& d : model.derived) {
+        auto const value = *next++;
+        if (position[d.constant] >= constants.size()) continue; // replaced itself
+        auto const needed = operands_of(model.g, {d.value});
+        auto const follows_replaced = std::any_of(gone.begin(), gone.end(), [&](std::size_t k) {
+            for (std::size_t i = 0; i < needed.size(); ++i) {
+                auto const& n = model.g.nodes()[i];
+                if (needed[i] && n.op == operation::constant &&
+                    static_cast<std::size_t>(n.index) == k) {
+                    return true;
+                }
+            }
+            return false;
+        });
+        result.derived.push_back({position[d.constant], value, d.always || follows_replaced});
+    }
     auto const moved = [&](std::vector<time_delay> delays) {
         for (auto& d : delays) {
             if (position[d.constant] >= constants.size()) {

@@ -78,36 +78,54 @@ inline double log1p_up(double x) noexcept {
 
 /// \f$ \{e^t : t \in x\} \f$.  Max excess: `excess::exp` floats a side; exp(0) = 1 exactly.
 inline interval exp(interval const& x) noexcept {
-    if (is_empty(x)) return x;
-    detail::nearest_mode const mode;
-    return detail::unchecked_interval(detail::exp_down(x.lower()), detail::exp_up(x.upper()));
+    return detail::in_nearest_mode(
+        [](interval const& t) {
+            if (is_empty(t)) return t;
+            return detail::unchecked_interval(detail::exp_down(t.lower()),
+                                              detail::exp_up(t.upper()));
+        },
+        x);
 }
 
 /// \f$ \{e^t - 1 : t \in x\} \f$.  Max excess: `excess::expm1` floats a side.
 inline interval expm1(interval const& x) noexcept {
-    if (is_empty(x)) return x;
-    detail::nearest_mode const mode;
-    return detail::unchecked_interval(detail::expm1_down(x.lower()), detail::expm1_up(x.upper()));
+    return detail::in_nearest_mode(
+        [](interval const& t) {
+            if (is_empty(t)) return t;
+            return detail::unchecked_interval(detail::expm1_down(t.lower()),
+                                              detail::expm1_up(t.upper()));
+        },
+        x);
 }
 
 /// \f$ \{\ln t : t \in x, t > 0\} \f$; sets `cut` if x has elements <= 0.
 /// Max excess: `excess::log` floats a side; log(1) = 0 exactly.
 inline interval log(interval const& x, bool& cut) noexcept {
-    if (is_empty(x)) return x;
-    if (x.lower() <= 0.0) cut = true;
-    if (x.upper() <= 0.0) return detail::empty_interval();
-    detail::nearest_mode const mode;
-    return detail::unchecked_interval(detail::log_down(x.lower()), detail::log_up(x.upper()));
+    return detail::in_nearest_mode_cut(
+        cut,
+        [](interval const& t, bool& left) {
+            if (is_empty(t)) return t;
+            if (t.lower() <= 0.0) left = true;
+            if (t.upper() <= 0.0) return detail::empty_interval();
+            return detail::unchecked_interval(detail::log_down(t.lower()),
+                                              detail::log_up(t.upper()));
+        },
+        x);
 }
 
 /// \f$ \{\ln(1+t) : t \in x, t > -1\} \f$; sets `cut` if x has elements <= -1.
 /// Max excess: `excess::log1p` floats a side.
 inline interval log1p(interval const& x, bool& cut) noexcept {
-    if (is_empty(x)) return x;
-    if (x.lower() <= -1.0) cut = true;
-    if (x.upper() <= -1.0) return detail::empty_interval();
-    detail::nearest_mode const mode;
-    return detail::unchecked_interval(detail::log1p_down(x.lower()), detail::log1p_up(x.upper()));
+    return detail::in_nearest_mode_cut(
+        cut,
+        [](interval const& t, bool& left) {
+            if (is_empty(t)) return t;
+            if (t.lower() <= -1.0) left = true;
+            if (t.upper() <= -1.0) return detail::empty_interval();
+            return detail::unchecked_interval(detail::log1p_down(t.lower()),
+                                              detail::log1p_up(t.upper()));
+        },
+        x);
 }
 
 // A cut of the domain is silent in the forms without the flag.

@@ -9,7 +9,7 @@
 /// A plain double stands for its exact value. The empty set has NaN bounds; an infinite bound means
 /// unbounded, infinity itself is never a member.
 
-#include <sivid/number/guard.hpp>
+#include <sivid/number/detail/refused_flags.hpp>
 #include <sivid/number/rounding.hpp>
 
 #include <boost/numeric/interval/arith.hpp>
@@ -127,8 +127,36 @@ inline interval bounded(double lo, double hi) noexcept {
     return unchecked_interval(lo, hi);
 }
 
+/// The same interval, computed where this stands between changes of MXCSR.
+[[gnu::always_inline]] inline interval pinned(interval const& x) noexcept {
+    return unchecked_interval(pinned(x.lower()), pinned(x.upper()));
+}
+
 /// The rest of a computation in round-to-nearest, whatever the caller's mode; restored at the end.
 using nearest_mode = with_rounding<direction::nearest>;
+
+/// f(x...) in round-to-nearest, without FTZ and DAZ, whatever the caller's state. Comparisons
+/// belong into f, too: under DAZ a subnormal number equals zero.
+template <class F, class... X>
+[[gnu::always_inline]] inline interval in_nearest_mode(F const& f, X const&... x) noexcept {
+    nearest_mode const mode;
+    return pinned(f(pinned(x)...));
+}
+/// The same for a function that says by its last argument whether its domain was cut.
+template <class F, class... X>
+[[gnu::always_inline]] inline interval in_nearest_mode_cut(bool& cut, F const& f,
+                                                           X const&... x) noexcept {
+    nearest_mode const mode;
+    unsigned flag = 0;
+    {
+        bool left = false;
+        interval const y = pinned(f(pinned(x)..., left));
+        flag = left ? 1 : 0;
+        asm volatile("" : "+r"(flag) : : "memory");
+        if (flag != 0) cut = true;
+        return y;
+    }
+}
 
 } // namespace detail
 
@@ -236,6 +264,15 @@ inline bool operator!=(interval const& a, interval const& b) noexcept { return !
 /// `interval_traits<interval>::bounds` for two exact doubles.
 template <std::floating_point A, std::floating_point B>
 interval hull(A, B) = delete;
+
+// Boost's division asks whether the divisor contains zero before it sets the mode; under DAZ a
+// subnormal divisor would be zero. The other operators of Boost do not depend on such questions.
+inline interval operator/(interval const& x, interval const& y) noexcept {
+    return detail::in_nearest_mode(
+        [](interval const& a, interval const& b) { return boost::numeric::operator/(a, b); }, x, y);
+}
+inline interval operator/(interval const& x, double y) noexcept { return x / interval{y}; }
+inline interval operator/(double x, interval const& y) noexcept { return interval{x} / y; }
 
 // Whole numbers beside intervals are exact (or enclosed above 2^53); Boost offers doubles only.
 // Templates on the interval, since Boost's implicit constructor would let any type convert to it.

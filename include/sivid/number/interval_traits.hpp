@@ -130,10 +130,10 @@ struct interval_traits<interval> {
 
     // Elementary functions.
     static interval sqrt(interval const& a, mask& undefined) noexcept {
-        return sivid::sqrt(a, undefined);
+        return detail::sqrt(a, undefined);
     }
     static interval pown(interval const& a, int n, mask& undefined) noexcept {
-        return sivid::pown(a, n, undefined);
+        return detail::pown(a, n, undefined);
     }
     static interval pow(interval const& a, interval const& b, mask& undefined) noexcept {
         return sivid::pow(a, b, undefined);

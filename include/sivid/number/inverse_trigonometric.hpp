@@ -30,13 +30,13 @@ constexpr double clamp(double x, double lo, double hi) noexcept {
 }
 
 /// Angle of (x, y), y >= 0, (x, y) not the origin, at most one of them infinite; rounded towards D.
+/// @given  round-to-nearest is set
 template <direction D>
 double upper_half_angle(double y, double x) noexcept {
     constexpr bool up = D == direction::up;
     if (is_zero(y)) return x > 0.0 ? 0.0 : up ? pi_up : pi_down;
     if (is_zero(x) || is_infinite(y)) return up ? half_pi_up : half_pi_down;
     if (is_infinite(x)) return x > 0.0 ? 0.0 : up ? pi_up : pi_down;
-    nearest_mode const mode;
     double const angle = pinned(std::atan2(pinned(y), pinned(x)));
     double const moved = step(angle, up ? excess::atan2 : -excess::atan2);
     return x > 0.0 ? clamp(moved, 0.0, half_pi_up) : clamp(moved, half_pi_down, pi_up);
@@ -63,65 +63,83 @@ inline interval upper_half_atan2(interval const& y, interval const& x) noexcept 
     return unchecked_interval(lo, hi);
 }
 
+/// atan2 as below.
+/// @given  round-to-nearest is set
+inline interval nearest_atan2(interval const& y, interval const& x, bool& cut) noexcept {
+    if (is_empty(x) || is_empty(y)) return empty_interval();
+    double const xl = x.lower(), xu = x.upper(), yl = y.lower(), yu = y.upper();
+    bool const x_has_zero = xl <= 0.0 && xu >= 0.0;
+    if (x_has_zero && yl <= 0.0 && yu >= 0.0) cut = true;
+    if (xl == 0.0 && xu == 0.0 && yl == 0.0 && yu == 0.0) return empty_interval();
+    if (yl >= 0.0) return upper_half_atan2(y, x);
+    if (xl < 0.0 && yu >= 0.0) return unchecked_interval(-pi_up, pi_up);
+    if (yu <= 0.0) return neg(upper_half_atan2(neg(y), x));
+    // The right half-plane, both sides of the axis.
+    double const lo = -upper_half_angle<direction::up>(-yl, xl);
+    double const hi = upper_half_angle<direction::up>(yu, xl);
+    return unchecked_interval(lo, hi);
+}
+
 } // namespace detail
 
 /// \f$ \{\arcsin t : t \in x \cap [-1, 1]\} \f$; sets `cut` if x leaves [-1, 1].
 /// Max excess: `excess::asin` floats a side.
 inline interval asin(interval const& x, bool& cut) noexcept {
-    if (is_empty(x)) return x;
-    if (x.lower() < -1.0 || x.upper() > 1.0) cut = true;
-    if (x.upper() < -1.0 || x.lower() > 1.0) return detail::empty_interval();
-    double const a = x.lower() < -1.0 ? -1.0 : x.lower(), b = x.upper() > 1.0 ? 1.0 : x.upper();
-    detail::nearest_mode const mode;
-    double const lo = detail::step(detail::library(detail::library_asin, a), -excess::asin);
-    double const hi = detail::step(detail::library(detail::library_asin, b), excess::asin);
-    constexpr double bound = detail::half_pi_up;
-    return detail::unchecked_interval(a == 0.0 ? 0.0 : detail::clamp(lo, -bound, bound),
-                                      b == 0.0 ? 0.0 : detail::clamp(hi, -bound, bound));
+    return detail::in_nearest_mode_cut(
+        cut,
+        [](interval const& t, bool& left) {
+            if (is_empty(t)) return t;
+            if (t.lower() < -1.0 || t.upper() > 1.0) left = true;
+            if (t.upper() < -1.0 || t.lower() > 1.0) return detail::empty_interval();
+            double const a = detail::at_least(t.lower(), -1.0), b = detail::at_most(t.upper(), 1.0);
+            double const lo = detail::step(detail::library(detail::library_asin, a), -excess::asin);
+            double const hi = detail::step(detail::library(detail::library_asin, b), excess::asin);
+            constexpr double bound = detail::half_pi_up;
+            return detail::unchecked_interval(a == 0.0 ? 0.0 : detail::clamp(lo, -bound, bound),
+                                              b == 0.0 ? 0.0 : detail::clamp(hi, -bound, bound));
+        },
+        x);
 }
 
 /// \f$ \{\arccos t : t \in x \cap [-1, 1]\} \f$; sets `cut` if x leaves [-1, 1].
 /// Max excess: `excess::acos` floats a side.
 inline interval acos(interval const& x, bool& cut) noexcept {
-    if (is_empty(x)) return x;
-    if (x.lower() < -1.0 || x.upper() > 1.0) cut = true;
-    if (x.upper() < -1.0 || x.lower() > 1.0) return detail::empty_interval();
-    double const a = x.lower() < -1.0 ? -1.0 : x.lower(), b = x.upper() > 1.0 ? 1.0 : x.upper();
-    detail::nearest_mode const mode;
-    double const lo = detail::step(detail::library(detail::library_acos, b), -excess::acos);
-    double const hi = detail::step(detail::library(detail::library_acos, a), excess::acos);
-    return detail::unchecked_interval(b == 1.0 ? 0.0 : detail::clamp(lo, 0.0, detail::pi_up),
-                                      a == 1.0 ? 0.0 : detail::clamp(hi, 0.0, detail::pi_up));
+    return detail::in_nearest_mode_cut(
+        cut,
+        [](interval const& t, bool& left) {
+            if (is_empty(t)) return t;
+            if (t.lower() < -1.0 || t.upper() > 1.0) left = true;
+            if (t.upper() < -1.0 || t.lower() > 1.0) return detail::empty_interval();
+            double const a = detail::at_least(t.lower(), -1.0), b = detail::at_most(t.upper(), 1.0);
+            double const lo = detail::step(detail::library(detail::library_acos, b), -excess::acos);
+            double const hi = detail::step(detail::library(detail::library_acos, a), excess::acos);
+            return detail::unchecked_interval(
+                b == 1.0 ? 0.0 : detail::clamp(lo, 0.0, detail::pi_up),
+                a == 1.0 ? 0.0 : detail::clamp(hi, 0.0, detail::pi_up));
+        },
+        x);
 }
 
 /// \f$ \{\arctan t : t \in x\} \f$.  Max excess: `excess::atan` floats a side; atan(0) = 0 exactly.
 inline interval atan(interval const& x) noexcept {
-    if (is_empty(x)) return x;
-    double const a = x.lower(), b = x.upper();
-    detail::nearest_mode const mode;
-    double const lo = detail::step(detail::library(detail::library_atan, a), -excess::atan);
-    double const hi = detail::step(detail::library(detail::library_atan, b), excess::atan);
-    constexpr double bound = detail::half_pi_up;
-    return detail::unchecked_interval(a == 0.0 ? 0.0 : detail::clamp(lo, -bound, bound),
-                                      b == 0.0 ? 0.0 : detail::clamp(hi, -bound, bound));
+    return detail::in_nearest_mode(
+        [](interval const& t) {
+            if (is_empty(t)) return t;
+            double const a = t.lower(), b = t.upper();
+            double const lo = detail::step(detail::library(detail::library_atan, a), -excess::atan);
+            double const hi = detail::step(detail::library(detail::library_atan, b), excess::atan);
+            constexpr double bound = detail::half_pi_up;
+            return detail::unchecked_interval(a == 0.0 ? 0.0 : detail::clamp(lo, -bound, bound),
+                                              b == 0.0 ? 0.0 : detail::clamp(hi, -bound, bound));
+        },
+        x);
 }
 
 /// \f$ \{\mathrm{atan2}(s, t) : s \in y, t \in x, (s, t) \ne (0, 0)\} \f$ in \f$ (-\pi, \pi] \f$;
 /// sets `cut` if the origin is in the box. Across the negative half of the x axis the function
 /// jumps: the result is then the hull [-pi, pi].  Max excess: `excess::atan2` floats a side.
 inline interval atan2(interval const& y, interval const& x, bool& cut) noexcept {
-    if (is_empty(x) || is_empty(y)) return detail::empty_interval();
-    double const xl = x.lower(), xu = x.upper(), yl = y.lower(), yu = y.upper();
-    bool const x_has_zero = xl <= 0.0 && xu >= 0.0;
-    if (x_has_zero && yl <= 0.0 && yu >= 0.0) cut = true;
-    if (xl == 0.0 && xu == 0.0 && yl == 0.0 && yu == 0.0) return detail::empty_interval();
-    if (yl >= 0.0) return detail::upper_half_atan2(y, x);
-    if (xl < 0.0 && yu >= 0.0) return detail::unchecked_interval(-detail::pi_up, detail::pi_up);
-    if (yu <= 0.0) return detail::neg(detail::upper_half_atan2(detail::neg(y), x));
-    // The right half-plane, both sides of the axis.
-    double const lo = -detail::upper_half_angle<detail::direction::up>(-yl, xl);
-    double const hi = detail::upper_half_angle<detail::direction::up>(yu, xl);
-    return detail::unchecked_interval(lo, hi);
+    return detail::in_nearest_mode_cut(cut, detail::nearest_atan2, y, x);
 }
 
 // A cut of the domain is silent in the forms without the flag.

@@ -16,16 +16,27 @@
 
 namespace sivid {
 
-/// \f$ \{t^2 : t \in x\} \f$, tight.
-inline interval sqr(interval const& x) noexcept { return detail::sqr(x); }
+namespace detail {
 
-/// \f$ \{\sqrt t : t \in x, t \ge 0\} \f$, tight; sets `cut` if x has elements < 0.
+/// The arithmetic of the traits: it does not look for FTZ and DAZ.
 inline interval sqrt(interval const& x, bool& cut) noexcept {
     if (is_empty(x)) return x;
     if (x.lower() < 0.0) cut = true;
-    if (x.upper() < 0.0) return detail::empty_interval();
-    return detail::unchecked_interval(x.lower() <= 0.0 ? 0.0 : detail::sqrt_down(x.lower()),
-                                      detail::sqrt_up(x.upper()));
+    if (x.upper() < 0.0) return empty_interval();
+    return unchecked_interval(x.lower() <= 0.0 ? 0.0 : sqrt_down(x.lower()), sqrt_up(x.upper()));
+}
+
+} // namespace detail
+
+/// \f$ \{t^2 : t \in x\} \f$, tight.
+inline interval sqr(interval const& x) noexcept {
+    return detail::in_nearest_mode([](interval const& t) { return detail::sqr(t); }, x);
+}
+
+/// \f$ \{\sqrt t : t \in x, t \ge 0\} \f$, tight; sets `cut` if x has elements < 0.
+inline interval sqrt(interval const& x, bool& cut) noexcept {
+    return detail::in_nearest_mode_cut(
+        cut, [](interval const& t, bool& left) { return detail::sqrt(t, left); }, x);
 }
 
 namespace detail {
@@ -96,37 +107,41 @@ inline interval negative_pown(interval const& x, unsigned n) noexcept {
     return unchecked_interval(-negative_pown_up(-hi, n), -negative_pown_down(-lo, n));
 }
 
+/// The arithmetic of the traits: up to the fourth power it does not look for FTZ and DAZ.
+inline interval pown(interval const& x, int n, bool& cut) noexcept {
+    if (is_empty(x)) return x;
+    if (n == 0) return unchecked_interval(1.0, 1.0);
+    if (n > 0) return positive_pown(x, static_cast<unsigned>(n));
+    if (x.lower() <= 0.0 && x.upper() >= 0.0) cut = true;
+    return negative_pown(x, 0u - static_cast<unsigned>(n));
+}
+
 } // namespace detail
 
 /// \f$ \{t^n : t \in x\} \f$ for an integer n, with \f$ t^0 = 1 \f$; sets `cut` if n < 0 and 0 is
 /// in x. Max excess: 0 for n = 0, 1, 2, -1, two roundings for n = 3, 4, else `excess::pow` floats a
 /// side.
 inline interval pown(interval const& x, int n, bool& cut) noexcept {
-    if (is_empty(x)) return x;
-    if (n == 0) return detail::unchecked_interval(1.0, 1.0);
-    if (n > 0) return detail::positive_pown(x, static_cast<unsigned>(n));
-    if (x.lower() <= 0.0 && x.upper() >= 0.0) cut = true;
-    return detail::negative_pown(x, 0u - static_cast<unsigned>(n));
+    return detail::in_nearest_mode_cut(
+        cut, [n](interval const& t, bool& left) { return detail::pown(t, n, left); }, x);
 }
 
-/// \f$ \{s^t : s \in x, t \in y, s > 0 \text{ or } (s = 0, t > 0)\} \f$; sets `cut` if pairs are
-/// left out. ln(s^t) = t ln s is bilinear, so the extremes are at the corners; at corners out of
-/// the domain the library's pow returns the limits that are needed. Max excess: `excess::pow`
-/// floats a side.
-inline interval pow(interval const& x, interval const& y, bool& cut) noexcept {
-    if (is_empty(x) || is_empty(y)) return detail::empty_interval();
+namespace detail {
+
+/// pow as below.
+inline interval nearest_pow(interval const& x, interval const& y, bool& cut) noexcept {
+    if (is_empty(x) || is_empty(y)) return empty_interval();
     if (x.lower() < 0.0 || (x.lower() <= 0.0 && y.lower() <= 0.0)) cut = true;
-    if (x.upper() < 0.0 || (x.upper() <= 0.0 && y.upper() <= 0.0)) return detail::empty_interval();
-    if (x.upper() <= 0.0) return detail::unchecked_interval(0.0, 0.0);
+    if (x.upper() < 0.0 || (x.upper() <= 0.0 && y.upper() <= 0.0)) return empty_interval();
+    if (x.upper() <= 0.0) return unchecked_interval(0.0, 0.0);
     double const xl = x.lower() <= 0.0 ? 0.0 : x.lower();
-    double lo = detail::infinity, hi = 0.0;
-    detail::nearest_mode const mode;
+    double lo = infinity, hi = 0.0;
     for (double const s : {xl, x.upper()}) {
         for (double const t : {y.lower(), y.upper()}) {
-            double const p = detail::pinned(std::pow(detail::pinned(s), detail::pinned(t)));
-            bool const exact = s == 1.0 || t == 0.0 || detail::is_zero(s) || detail::is_infinite(t);
-            double const below = exact ? p : detail::step(p, -excess::pow);
-            double const above = exact ? p : detail::step(p, excess::pow);
+            double const p = pinned(std::pow(pinned(s), pinned(t)));
+            bool const exact = s == 1.0 || t == 0.0 || is_zero(s) || is_infinite(t);
+            double const below = exact ? p : step(p, -excess::pow);
+            double const above = exact ? p : step(p, excess::pow);
             lo = below < lo ? below : lo;
             hi = above > hi ? above : hi;
         }
@@ -139,7 +154,17 @@ inline interval pow(interval const& x, interval const& y, bool& cut) noexcept {
         (xl >= 1.0 && y.upper() <= 0.0) || (x.upper() <= 1.0 && y.lower() >= 0.0);
     if (above_one && lo < 1.0) lo = 1.0;
     if (below_one && hi > 1.0) hi = 1.0;
-    return detail::bounded(lo, hi);
+    return bounded(lo, hi);
+}
+
+} // namespace detail
+
+/// \f$ \{s^t : s \in x, t \in y, s > 0 \text{ or } (s = 0, t > 0)\} \f$; sets `cut` if pairs are
+/// left out. ln(s^t) = t ln s is bilinear, so the extremes are at the corners; at corners out of
+/// the domain the library's pow returns the limits that are needed. Max excess: `excess::pow`
+/// floats a side.
+inline interval pow(interval const& x, interval const& y, bool& cut) noexcept {
+    return detail::in_nearest_mode_cut(cut, detail::nearest_pow, x, y);
 }
 
 namespace detail {
@@ -162,10 +187,14 @@ double hypot_bound(double a, double b) noexcept {
 
 /// \f$ \{\sqrt{s^2 + t^2} : s \in x, t \in y\} \f$.  Max excess: 2 floats a side.
 inline interval hypot(interval const& x, interval const& y) noexcept {
-    if (is_empty(x) || is_empty(y)) return detail::empty_interval();
-    double const lo = detail::hypot_bound<detail::direction::down>(mig(x), mig(y));
-    double const hi = detail::hypot_bound<detail::direction::up>(mag(x), mag(y));
-    return detail::bounded(lo, hi);
+    return detail::in_nearest_mode(
+        [](interval const& s, interval const& t) {
+            if (is_empty(s) || is_empty(t)) return detail::empty_interval();
+            double const lo = detail::hypot_bound<detail::direction::down>(mig(s), mig(t));
+            double const hi = detail::hypot_bound<detail::direction::up>(mag(s), mag(t));
+            return detail::bounded(lo, hi);
+        },
+        x, y);
 }
 
 // A cut of the domain is silent in the forms without the flag.

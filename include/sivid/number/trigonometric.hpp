@@ -76,6 +76,7 @@ inline constexpr auto library_tan = [](double x) { return std::tan(x); };
 
 /// Values at both ends, widened, and extended to the extrema that may lie between.
 /// `phase`: quarter turns of the maximum; the minimum is half a turn away.
+/// @given  round-to-nearest is set
 template <class Function>
 interval wave(Function const& f, int excess_floats, interval const& x, int phase) noexcept {
     double lo, hi;
@@ -87,13 +88,10 @@ interval wave(Function const& f, int excess_floats, interval const& x, int phase
         has_minimum = may_contain_turn(between.lo, between.hi, phase + 2, 2);
         if (has_maximum && has_minimum) return unchecked_interval(-1.0, 1.0);
     }
-    {
-        nearest_mode const mode;
-        double const first = library(f, x.lower());
-        double const second = is_point(x) ? first : library(f, x.upper());
-        lo = first < second ? first : second;
-        hi = first < second ? second : first;
-    }
+    double const first = library(f, x.lower());
+    double const second = is_point(x) ? first : library(f, x.upper());
+    lo = first < second ? first : second;
+    hi = first < second ? second : first;
     lo = has_minimum ? -1.0 : at_least(step(lo, -excess_floats), -1.0);
     hi = has_maximum ? 1.0 : at_most(step(hi, excess_floats), 1.0);
     return unchecked_interval(lo, hi);
@@ -103,42 +101,55 @@ interval wave(Function const& f, int excess_floats, interval const& x, int phase
 
 /// \f$ \{\sin t : t \in x\} \f$.  Max excess: `excess::sin` floats a side; sin(0) = 0 exactly.
 inline interval sin(interval const& x) noexcept {
-    if (is_empty(x)) return x;
-    interval y = detail::wave(detail::library_sin, excess::sin, x, 1);
-    // |sin t| <= |t|
-    if (x.lower() >= 0.0 && x.upper() <= 1.5)
-        y = detail::unchecked_interval(detail::at_least(y.lower(), 0.0),
-                                       detail::at_most(y.upper(), x.upper()));
-    else if (x.upper() <= 0.0 && x.lower() >= -1.5)
-        y = detail::unchecked_interval(detail::at_least(y.lower(), x.lower()),
-                                       detail::at_most(y.upper(), 0.0));
-    return y;
+    return detail::in_nearest_mode(
+        [](interval const& t) {
+            if (is_empty(t)) return t;
+            interval const y = detail::wave(detail::library_sin, excess::sin, t, 1);
+            // |sin t| <= |t|
+            if (t.lower() >= 0.0 && t.upper() <= 1.5)
+                return detail::unchecked_interval(detail::at_least(y.lower(), 0.0),
+                                                  detail::at_most(y.upper(), t.upper()));
+            if (t.upper() <= 0.0 && t.lower() >= -1.5)
+                return detail::unchecked_interval(detail::at_least(y.lower(), t.lower()),
+                                                  detail::at_most(y.upper(), 0.0));
+            return y;
+        },
+        x);
 }
 
 /// \f$ \{\cos t : t \in x\} \f$.  Max excess: `excess::cos` floats a side; cos(0) = 1 exactly.
 inline interval cos(interval const& x) noexcept {
-    if (is_empty(x)) return x;
-    if (x.lower() == 0.0 && x.upper() == 0.0) return detail::unchecked_interval(1.0, 1.0);
-    return detail::wave(detail::library_cos, excess::cos, x, 0);
+    return detail::in_nearest_mode(
+        [](interval const& t) {
+            if (is_empty(t)) return t;
+            if (t.lower() == 0.0 && t.upper() == 0.0) return detail::unchecked_interval(1.0, 1.0);
+            return detail::wave(detail::library_cos, excess::cos, t, 0);
+        },
+        x);
 }
 
 /// \f$ \{\tan t : t \in x,\ t \ne (k + 1/2)\pi\} \f$; sets `cut` if a pole may lie in x (no double
 /// is a pole).  Max excess: `excess::tan` floats a side; tan(0) = 0 exactly.
 inline interval tan(interval const& x, bool& cut) noexcept {
-    if (is_empty(x)) return x;
-    if (!is_point(x)) {
-        detail::arc const between = detail::arc_of(x);
-        if (between.everything || detail::may_contain_turn(between.lo, between.hi, 1, 1)) {
-            cut = true;
-            return detail::entire_interval();
-        }
-    }
-    // No pole between the ends: increasing.
-    detail::nearest_mode const mode;
-    double const lo = detail::library(detail::library_tan, x.lower());
-    double const hi = detail::library(detail::library_tan, x.upper());
-    return detail::unchecked_interval(x.lower() == 0.0 ? 0.0 : detail::step(lo, -excess::tan),
-                                      x.upper() == 0.0 ? 0.0 : detail::step(hi, excess::tan));
+    return detail::in_nearest_mode_cut(
+        cut,
+        [](interval const& t, bool& left) {
+            if (is_empty(t)) return t;
+            if (!is_point(t)) {
+                detail::arc const between = detail::arc_of(t);
+                if (between.everything || detail::may_contain_turn(between.lo, between.hi, 1, 1)) {
+                    left = true;
+                    return detail::entire_interval();
+                }
+            }
+            // No pole between the ends: increasing.
+            double const lo = detail::library(detail::library_tan, t.lower());
+            double const hi = detail::library(detail::library_tan, t.upper());
+            return detail::unchecked_interval(
+                t.lower() == 0.0 ? 0.0 : detail::step(lo, -excess::tan),
+                t.upper() == 0.0 ? 0.0 : detail::step(hi, excess::tan));
+        },
+        x);
 }
 
 /// A cut of the domain is silent.

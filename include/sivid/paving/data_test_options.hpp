@@ -6,6 +6,7 @@
 #include <sivid/paving/run_options.hpp>
 
 #include <cstddef>
+#include <functional>
 
 namespace sivid {
 
@@ -32,6 +33,15 @@ struct data_test_options {
     /// (Searches for what explains the data have `inversion_options::workers`.)
     executor workers{};
 };
+
+/// The same with all runs asking before each step whether to go on; a run that is ended keeps the
+/// outputs it has, so that what follows from them is still proved.
+/// @param keep_going  for any thread
+[[nodiscard]] inline data_test_options limited(data_test_options test,
+                                               std::function<bool()> const& keep_going) {
+    test.run.enclosure.keep_going = test.witness.enclosure.keep_going = keep_going;
+    return test;
+}
 
 } // namespace sivid
 

@@ -16,7 +16,8 @@ namespace sivid {
 enum class algorithm {
     contracting, ///< contraction by linear programs, smear bisection, largest box first, witness
     report_1,    ///< Algorithm 1 of the report: bisection alone, no outlier allowed
-    report_2     ///< Algorithm 2 of the report with the consistent outlier rule
+    report_2     ///< Algorithm 2 of the report; its threshold is a budget of outliers, see
+                 ///< `outlier_rule::threshold`
 };
 
 struct identify_options {

@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -79,6 +80,8 @@ public:
         find_ticks();
     }
 
+    /// Asked now and then; false ends a run with what is refuted by then.
+    std::function<bool()> keep_going{};
     /// What was found out about up to eight boxes.
     struct finding {
         mask refuted{};
@@ -100,10 +103,9 @@ public:
         std::size_t next = 0;
         auto const look = [&](double t) {
             for (; next < samples_.size() && samples_[next].time == t; ++next) {
-                auto const hopeless = measure(samples_[next], t, level);
+                auto const hopeless = live_ & measure(samples_[next], t, level);
                 for (std::size_t l = 0; l < width; ++l) {
-                    if (((live_ & hopeless) >> l & 1u) == 0) continue;
-                    if (++failed[l] <= experiment_->outliers) continue;
+                    if ((hopeless >> l & 1u) == 0 || ++failed[l] <= experiment_->outliers) continue;
                     result.refuted |= mask{1} << l;
                     result.samples[l] = next + 1;
                     live_ &= ~(mask{1} << l);
@@ -113,6 +115,7 @@ public:
         look(experiment_->begin);
         for (std::size_t k = 0; k + 1 < ticks_.size() && live_ != 0 && next < most; ++k) {
             if (k % 8 == 0) add_influence(ticks_[k], parameters, result);
+            if (k % 32 == 0 && keep_going && !keep_going()) break;
             cross(ticks_[k], ticks_[k + 1]);
             look(ticks_[k + 1]);
         }
@@ -131,14 +134,12 @@ private:
     };
     [[nodiscard]] program program_of(std::vector<node_id> const& outputs) {
         auto const needed = operands_of(model_.g, outputs);
-        program p;
-        p.outputs = outputs;
+        program p{{}, outputs};
         for (std::size_t i = 0; i < needed.size(); ++i) {
             auto const& n = model_.g.nodes()[i];
-            if (!needed[i]) continue;
+            if (!needed[i] || is_leaf(n.op)) continue;
             auto const id = static_cast<node_id>(i);
-            if (!is_leaf(n.op))
-                p.steps.push_back({n.op, n.index, id, n.a, is_binary(n.op) ? n.b : n.a});
+            p.steps.push_back({n.op, n.index, id, n.a, is_binary(n.op) ? n.b : n.a});
         }
         return p;
     }
@@ -211,8 +212,7 @@ private:
         }
         auto slices = static_cast<std::size_t>(
             std::clamp(std::ceil((to - from) * fastest), 1.0, double{most_slices}));
-        double t = from;
-        while (t < to && live_ != 0) {
+        for (double t = from; t < to && live_ != 0;) {
             auto const length = (to - t) / static_cast<double>(slices);
             double const next = slices > 1 ? t + length : to;
             auto const proved = advance(t, next);

@@ -30,7 +30,8 @@ public:
     explicit minimax_fitter(identification_problem const& problem);
     ~minimax_fitter();
 
-    /// @param go_on  false ends the descent with the best point so far
+    /// @param go_on  asked within the simulations; false ends the descent with the best point so
+    ///               far, or with one that has no parameters
     [[nodiscard]] approximate_fit operator()(std::vector<double> const& parameters,
                                              std::vector<std::vector<double>> const& starts,
                                              std::function<bool()> const& go_on = {});

@@ -39,6 +39,7 @@ public:
     /// @returns  true: proved, no parameter has an inflation of at most `level`
     /// @param go_on  false ends the search without a proof
     [[nodiscard]] bool operator()(double level, std::function<bool()> const& go_on) {
+        for (auto& by : observers_) by.observe->keep_going = go_on;
         std::vector<box> open = cover_;
         std::vector<box> refuted;
         while (!open.empty()) {

@@ -2,6 +2,7 @@
 #ifndef SIVID_PAVING_STATIC_INVERSION_HPP
 #define SIVID_PAVING_STATIC_INVERSION_HPP
 
+#include <sivid/number/guard.hpp>
 #include <sivid/number/pack_traits.hpp>
 #include <sivid/paving/flat_paving.hpp>
 #include <sivid/paving/static_judge.hpp>

@@ -56,6 +56,10 @@ template <static_model M>
     }
     expression const t(g, g.leaf(operation::time, 0));
     for (auto const& e : model.observe(t, c)) result.observe.push_back(e.in(g));
+    if constexpr (requires { model.derived(c); }) {
+        for (auto const& d : model.derived(c))
+            model_detail::add_derived(result, d.constant, d.value);
+    }
     return result;
 }
 

@@ -6,6 +6,7 @@
 #include <sivid/diagnosis/broken_relation.hpp>
 #include <sivid/diagnosis/candidate_order.hpp>
 #include <sivid/diagnosis/candidate_verdicts.hpp>
+#include <sivid/diagnosis/claim_review.hpp>
 #include <sivid/diagnosis/describe_candidate.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/diagnosis/gap_proof.hpp>
@@ -15,6 +16,7 @@
 #include <sivid/diagnosis/place_estimate.hpp>
 #include <sivid/diagnosis/place_report.hpp>
 #include <sivid/diagnosis/screening.hpp>
+#include <sivid/diagnosis/sensor_discharge.hpp>
 #include <sivid/diagnosis/verification.hpp>
 
 #include <algorithm>
@@ -55,6 +57,8 @@ public:
             explain(tried.measurements());
             measure_parts();
         }
+        discharge_sensors();
+        settle_claims(run_);
         d.interrupted = effort_.stopped();
         d.seconds = effort_.seconds();
         return std::move(run_);
@@ -147,6 +151,20 @@ private:
         candidate_verdicts(run_, order, effort_, options_)();
         describe_remainder();
         propose(order);
+    }
+
+    /// Proves of places that no sensor of their relation can be what is wrong instead.
+    void discharge_sensors() {
+        auto& d = run_.result;
+        if (d.gap == gap_verdict::none || run_.findings.empty()) return;
+        if (!effort_.go_on("looking whether a sensor may be wrong instead")) return;
+        double const end = effort_.left() - effort_.seconds_of({0, options_.discharge_share});
+        auto const go_on = [this, end] { return effort_.left() >= end && effort_.go_on(); };
+        for (auto& f : run_.findings) {
+            if (!is_about_equation(f, run_.places.places)) continue;
+            f.place = prove_place(run_.base, f, {}, {}, go_on);
+        }
+        d.where = reported(run_.places, run_.findings);
     }
 
     /// The inflation of each scenario and each channel alone.

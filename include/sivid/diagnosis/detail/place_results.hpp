@@ -31,6 +31,7 @@ struct estimated_place {
     std::string law;    ///< "" when none stands out
     std::string regime; ///< "" when everywhere
     std::vector<estimated_rate> rates;
+    std::vector<std::string> sensors{}; ///< of a definition: channels, its own state's first
 };
 
 /// One set of places that was allowed to be wrong.

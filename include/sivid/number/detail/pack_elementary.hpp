@@ -55,42 +55,57 @@ template <class V, class F, class... X>
     return replace_lanes(constant<V>(0.0, 0.0), ~0u, undefined, f, x...);
 }
 
-/// Keeps the kernel's operations between here and there, whatever the mode is elsewhere.
+/// The same numbers, in registers: a kernel's operations stay between here and there, whatever the
+/// mode is elsewhere, and nothing that points to them is handed on. g++ 12 with -flto drops what is
+/// stored to an argument that is handed over by reference when the callee only passes members of it
+/// on, by value, to a function found to be without side effects while linking (its summary of
+/// memory accesses skips those calls; tests/regression/link_time_optimisation.cpp).
 template <class V>
-[[nodiscard]] bounds<V> pinned(bounds<V> const& x) noexcept {
-    if constexpr (!V::keeps_own_mode) {
-        auto lo = x.lo.raw(), hi = x.hi.raw();
+[[nodiscard, gnu::always_inline]] inline bounds<V> in_registers(bounds<V> const& x) noexcept {
+    auto lo = x.lo.raw(), hi = x.hi.raw();
+    if constexpr (!V::keeps_own_mode)
         __asm__ volatile("" : "+x"(lo), "+x"(hi));
-        return {V(lo), V(hi)};
-    } else {
-        return x;
-    }
+    else
+        __asm__("" : "+x"(lo), "+x"(hi));
+    return {V(lo), V(hi)};
 }
 
-/// kernel(x) where the thread rounds to nearest and keeps subnormals; else, and in back ends with
-/// embedded rounding never, lane by lane through the vocabulary type, which sets its own mode.
+/// Whether the kernels prove their bounds in the state that the thread is in: rounding is to
+/// nearest and subnormals are kept. Back ends with embedded rounding do not ask: reading MXCSR
+/// waits for all operations before, which would cost half of exp. FTZ and DAZ are the guard's
+/// there.
+template <class V>
+[[nodiscard]] bool kernels_hold() noexcept {
+    constexpr unsigned rounding_and_flush = 0xE040;
+    return V::keeps_own_mode || (_mm_getcsr() & rounding_and_flush) == 0;
+}
+
+/// kernel(x.lo, x.hi, undefined) where the kernels hold; else lane by lane through the vocabulary
+/// type, which sets its own mode. Comparisons belong into the kernel: under DAZ a subnormal number
+/// equals zero.
 template <class V, class Kernel, class F>
 [[nodiscard]] bounds<V> evaluate(bounds<V> const& x, mask_of<V>& undefined, Kernel const& kernel,
                                  F const& f) noexcept {
-    if constexpr (!V::keeps_own_mode) {
-        constexpr unsigned rounding_and_flush = 0xE040;
-        if ((_mm_getcsr() & rounding_and_flush) != 0) [[unlikely]]
-            return lane_by_lane<V>(undefined, f, x);
-    }
-    return pinned(kernel(pinned(x)));
+    if (!kernels_hold<V>()) [[unlikely]]
+        return lane_by_lane<V>(undefined, f, x);
+    bounds<V> const t = in_registers(x);
+    return in_registers(kernel(t.lo, t.hi, undefined));
 }
+/// The same for functions that are defined everywhere.
 template <class V, class Kernel, class F>
 [[nodiscard]] bounds<V> evaluate(bounds<V> const& x, Kernel const& kernel, F const& f) noexcept {
     mask_of<V> ignored{};
-    return evaluate(x, ignored, kernel, [&](interval const& t, bool&) { return f(t); });
+    return evaluate(
+        x, ignored, [&](V lo, V hi, mask_of<V>&) { return kernel(lo, hi); },
+        [&](interval const& t, bool&) { return f(t); });
 }
 
 template <class V>
 [[nodiscard]] bounds<V> exp(bounds<V> const& x) noexcept {
     return evaluate(
         x,
-        [](bounds<V> const& t) {
-            return bounds<V>{exp_lower(t.lo), exp_upper(t.hi)};
+        [](V lo, V hi) {
+            return bounds<V>{exp_lower(lo), exp_upper(hi)};
         },
         [](interval const& t) { return sivid::exp(t); });
 }
@@ -98,80 +113,82 @@ template <class V>
 [[nodiscard]] bounds<V> expm1(bounds<V> const& x) noexcept {
     return evaluate(
         x,
-        [](bounds<V> const& t) {
-            return bounds<V>{expm1_lower(t.lo), expm1_upper(t.hi)};
+        [](V lo, V hi) {
+            return bounds<V>{expm1_lower(lo), expm1_upper(hi)};
         },
         [](interval const& t) { return sivid::expm1(t); });
 }
 template <class V>
 [[nodiscard]] bounds<V> log(bounds<V> const& x, mask_of<V>& undefined) noexcept {
-    undefined = undefined | (x.lo <= V(0.0));
     return evaluate(
         x, undefined,
-        [](bounds<V> const& t) {
-            return empty_where(t.hi <= V(0.0), bounds<V>{log_lower(t.lo), log_upper(t.hi)});
+        [](V lo, V hi, mask_of<V>& left) {
+            left = left | (lo <= V(0.0));
+            return empty_where(hi <= V(0.0), bounds<V>{log_lower(lo), log_upper(hi)});
         },
         [](interval const& t, bool& cut) { return sivid::log(t, cut); });
 }
 template <class V>
 [[nodiscard]] bounds<V> log1p(bounds<V> const& x, mask_of<V>& undefined) noexcept {
-    undefined = undefined | (x.lo <= V(-1.0));
     return evaluate(
         x, undefined,
-        [](bounds<V> const& t) {
-            return empty_where(t.hi <= V(-1.0), bounds<V>{log1p_lower(t.lo), log1p_upper(t.hi)});
+        [](V lo, V hi, mask_of<V>& left) {
+            left = left | (lo <= V(-1.0));
+            return empty_where(hi <= V(-1.0), bounds<V>{log1p_lower(lo), log1p_upper(hi)});
         },
         [](interval const& t, bool& cut) { return sivid::log1p(t, cut); });
 }
 
-/// Lanes with an end beyond the limit of the trigonometric kernels.
-template <class V>
-[[nodiscard]] unsigned beyond_limit(bounds<V> const& x) noexcept {
-    return (mag(x) > V(trigonometric_limit)).bits();
+/// y, with f in the lanes that have an end beyond the limit of the trigonometric kernels.
+template <class V, class F>
+[[nodiscard]] bounds<V> replace_beyond_limit(bounds<V> const& y, bounds<V> const& x,
+                                             mask_of<V>& undefined, F const& f) noexcept {
+    unsigned const far = (mag(x) > V(trigonometric_limit)).bits();
+    if (far == 0) [[likely]]
+        return y;
+    return replace_lanes(y, far, undefined, f, x);
 }
 template <class V>
 [[nodiscard]] bounds<V> sin(bounds<V> const& x) noexcept {
-    auto const f = [](interval const& t) { return sivid::sin(t); };
-    bounds<V> y = evaluate(
-        x, [](bounds<V> const& t) { return sin_within_limit(t); }, f);
-    if (unsigned const far = beyond_limit(x); far != 0) [[unlikely]] {
-        mask_of<V> ignored{};
-        y = replace_lanes(
-            y, far, ignored, [](interval const& t, bool&) { return sivid::sin(t); }, x);
-    }
-    return y;
+    mask_of<V> ignored{};
+    auto const f = [](interval const& t, bool&) { return sivid::sin(t); };
+    return evaluate(
+        x, ignored,
+        [&](V lo, V hi, mask_of<V>& left) {
+            return replace_beyond_limit(sin_within_limit(lo, hi), bounds<V>{lo, hi}, left, f);
+        },
+        f);
 }
 template <class V>
 [[nodiscard]] bounds<V> cos(bounds<V> const& x) noexcept {
-    auto const f = [](interval const& t) { return sivid::cos(t); };
-    bounds<V> y = evaluate(
-        x, [](bounds<V> const& t) { return cos_within_limit(t); }, f);
-    if (unsigned const far = beyond_limit(x); far != 0) [[unlikely]] {
-        mask_of<V> ignored{};
-        y = replace_lanes(
-            y, far, ignored, [](interval const& t, bool&) { return sivid::cos(t); }, x);
-    }
-    return y;
+    mask_of<V> ignored{};
+    auto const f = [](interval const& t, bool&) { return sivid::cos(t); };
+    return evaluate(
+        x, ignored,
+        [&](V lo, V hi, mask_of<V>& left) {
+            return replace_beyond_limit(cos_within_limit(lo, hi), bounds<V>{lo, hi}, left, f);
+        },
+        f);
 }
 template <class V>
 [[nodiscard]] bounds<V> tan(bounds<V> const& x, mask_of<V>& undefined) noexcept {
     auto const f = [](interval const& t, bool& cut) { return sivid::tan(t, cut); };
-    mask_of<V> ignored{};
-    bounds<V> y = evaluate(
-        x, ignored, [](bounds<V> const& t) { return tan_within_limit(t); }, f);
-    auto const far = mag(x) > V(trigonometric_limit);
-    undefined = undefined | ((y.lo == V(-infinity)) & !far);
-    if (far.bits() != 0) [[unlikely]]
-        y = replace_lanes(y, far.bits(), undefined, f, x);
-    return y;
+    return evaluate(
+        x, undefined,
+        [&](V lo, V hi, mask_of<V>& left) {
+            bounds<V> const t{lo, hi}, y = tan_within_limit(lo, hi);
+            left = left | ((y.lo == V(-infinity)) & !(mag(t) > V(trigonometric_limit)));
+            return replace_beyond_limit(y, t, left, f);
+        },
+        f);
 }
 
 template <class V>
 [[nodiscard]] bounds<V> atan(bounds<V> const& x) noexcept {
     return evaluate(
         x,
-        [](bounds<V> const& t) {
-            return bounds<V>{atan_lower(t.lo), atan_upper(t.hi)};
+        [](V lo, V hi) {
+            return bounds<V>{atan_lower(lo), atan_upper(hi)};
         },
         [](interval const& t) { return sivid::atan(t); });
 }
@@ -189,22 +206,22 @@ template <class V>
 }
 template <class V>
 [[nodiscard]] bounds<V> asin(bounds<V> const& x, mask_of<V>& undefined) noexcept {
-    undefined = undefined | (x.lo < V(-1.0)) | (x.hi > V(1.0));
     return evaluate(
         x, undefined,
-        [](bounds<V> const& t) {
-            auto const c = cut_to_unit(t);
+        [](V lo, V hi, mask_of<V>& left) {
+            left = left | (lo < V(-1.0)) | (hi > V(1.0));
+            auto const c = cut_to_unit(bounds<V>{lo, hi});
             return empty_where(c.outside, bounds<V>{asin_lower(c.x.lo), asin_upper(c.x.hi)});
         },
         [](interval const& t, bool& cut) { return sivid::asin(t, cut); });
 }
 template <class V>
 [[nodiscard]] bounds<V> acos(bounds<V> const& x, mask_of<V>& undefined) noexcept {
-    undefined = undefined | (x.lo < V(-1.0)) | (x.hi > V(1.0));
     return evaluate(
         x, undefined,
-        [](bounds<V> const& t) {
-            auto const c = cut_to_unit(t);
+        [](V lo, V hi, mask_of<V>& left) {
+            left = left | (lo < V(-1.0)) | (hi > V(1.0));
+            auto const c = cut_to_unit(bounds<V>{lo, hi});
             return empty_where(c.outside, bounds<V>{acos_lower(c.x.hi), acos_upper(c.x.lo)});
         },
         [](interval const& t, bool& cut) { return sivid::acos(t, cut); });
@@ -214,8 +231,8 @@ template <class V>
 [[nodiscard]] bounds<V> sinh(bounds<V> const& x) noexcept {
     return evaluate(
         x,
-        [](bounds<V> const& t) {
-            return bounds<V>{sinh_lower(t.lo), sinh_upper(t.hi)};
+        [](V lo, V hi) {
+            return bounds<V>{sinh_lower(lo), sinh_upper(hi)};
         },
         [](interval const& t) { return sivid::sinh(t); });
 }
@@ -223,7 +240,8 @@ template <class V>
 [[nodiscard]] bounds<V> cosh(bounds<V> const& x) noexcept {
     return evaluate(
         x,
-        [](bounds<V> const& t) {
+        [](V lo, V hi) {
+            bounds<V> const t{lo, hi};
             return bounds<V>{cosh_lower(mig(t)), cosh_upper(mag(t))};
         },
         [](interval const& t) { return sivid::cosh(t); });
@@ -232,8 +250,8 @@ template <class V>
 [[nodiscard]] bounds<V> tanh(bounds<V> const& x) noexcept {
     return evaluate(
         x,
-        [](bounds<V> const& t) {
-            return bounds<V>{tanh_lower(t.lo), tanh_upper(t.hi)};
+        [](V lo, V hi) {
+            return bounds<V>{tanh_lower(lo), tanh_upper(hi)};
         },
         [](interval const& t) { return sivid::tanh(t); });
 }

@@ -105,10 +105,10 @@ template <class V>
             half_turn(quadrant(a), 1.0 + shift)};
 }
 
-/// The range of sin(t + shift pi/2), both ends within the limit.
+/// The range of sin(t + shift pi/2) over [lo, hi], both ends within the limit.
 template <class V>
-[[nodiscard]] bounds<V> wave(bounds<V> const& x, double shift) noexcept {
-    wave_end<V> const a = wave_kernel(x.lo, shift), b = wave_kernel(x.hi, shift);
+[[nodiscard]] bounds<V> wave(V lo, V hi, double shift) noexcept {
+    wave_end<V> const a = wave_kernel(lo, shift), b = wave_kernel(hi, shift);
     V const one(1.0), extrema = b.piece - a.piece;
     auto const falling = bit_is_set<0>(a.piece);
     auto const many = extrema > one, any = extrema > V(0.0);
@@ -118,16 +118,16 @@ template <class V>
 }
 
 template <class V>
-[[nodiscard]] bounds<V> sin_within_limit(bounds<V> const& x) noexcept {
-    bounds<V> const y = wave(x, 0.0);
+[[nodiscard]] bounds<V> sin_within_limit(V lo, V hi) noexcept {
+    bounds<V> const y = wave(lo, hi, 0.0);
     // t <= sin t for t in [-inf, 0], and sin t >= 0 on [0, 3]; likewise above.
-    return {select((x.lo <= V(0.0)) & (x.hi <= V(3.0)), max(x.lo, y.lo), y.lo),
-            select((x.hi >= V(0.0)) & (x.lo >= V(-3.0)), min(x.hi, y.hi), y.hi)};
+    return {select((lo <= V(0.0)) & (hi <= V(3.0)), max(lo, y.lo), y.lo),
+            select((hi >= V(0.0)) & (lo >= V(-3.0)), min(hi, y.hi), y.hi)};
 }
 template <class V>
-[[nodiscard]] bounds<V> cos_within_limit(bounds<V> const& x) noexcept {
-    bounds<V> const y = wave(x, 1.0);
-    auto const zero = (x.lo == V(0.0)) & (x.hi == V(0.0));
+[[nodiscard]] bounds<V> cos_within_limit(V lo, V hi) noexcept {
+    bounds<V> const y = wave(lo, hi, 1.0);
+    auto const zero = (lo == V(0.0)) & (hi == V(0.0));
     return {select(zero, V(1.0), y.lo), y.hi};
 }
 
@@ -144,13 +144,13 @@ template <class V>
 /// Rising between poles; everything if a pole lies between the ends. No other result has an
 /// infinite bound.
 template <class V>
-[[nodiscard]] bounds<V> tan_within_limit(bounds<V> const& x) noexcept {
+[[nodiscard]] bounds<V> tan_within_limit(V lo, V hi) noexcept {
     constexpr double delta = kernel_error::tan * unit_roundoff;
-    turn_argument<V> const a = reduce_turns(x.lo), b = reduce_turns(x.hi);
+    turn_argument<V> const a = reduce_turns(lo), b = reduce_turns(hi);
     auto const pole = half_turn(quadrant(a), 1.0) < half_turn(quadrant(b), 1.0);
-    V const lo = lower_bound_of_any(tan_kernel(a), delta);
-    V const hi = upper_bound_of_any(tan_kernel(b), delta);
-    return {select(pole, V(-infinity), lo), select(pole, V(infinity), hi)};
+    V const from = lower_bound_of_any(tan_kernel(a), delta);
+    V const to = upper_bound_of_any(tan_kernel(b), delta);
+    return {select(pole, V(-infinity), from), select(pole, V(infinity), to)};
 }
 
 } // namespace SIVID_PACK_TARGET

@@ -42,6 +42,13 @@ public:
             if (std::abs(found.inflation - best.inflation) < 0.02 * best.inflation) ++agreeing;
             if (found.inflation < best.inflation) best = found;
         }
+        // A motion of many periods has many minima; those beside the right one drive parameters to
+        // the ends of their ranges. Over a short time there is one.
+        for (std::size_t k = 0;
+             k < 4 && best.inflation > 1 && is_at_end(best) && !campaign_.cancelled(); ++k) {
+            auto const found = over_growing_time(start_point(k));
+            if (found.inflation < best.inflation) best = found;
+        }
         return finished(std::move(best));
     }
 
@@ -97,6 +104,39 @@ private:
         return z;
     }
 
+    /// Whether a parameter sits at an end of its range, but for an end of 0.
+    [[nodiscard]] bool is_at_end(descent_point const& here) const {
+        auto const& z = here.at.global;
+        for (Eigen::Index k = 0; k < z.size(); ++k) {
+            double const lo = campaign_.lower().global[k], hi = campaign_.upper().global[k];
+            double const near = 1e-3 * (hi - lo);
+            auto const at = [&](double end) {
+                return std::abs(end) > near && !(std::abs(z[k] - end) > near);
+            };
+            if (at(lo) || at(hi)) return true;
+        }
+        return false;
+    }
+    /// Descends on the first samples of each experiment, then on more and more of them.
+    [[nodiscard]] descent_point over_growing_time(arrow_vector z) {
+        descent down(campaign_);
+        descent_point here;
+        if (!down.evaluate(std::move(z), here)) return here;
+        for (double const share : {0.04, 0.08, 0.16, 0.32, 0.64}) {
+            residual_lists kept;
+            for (std::size_t e = 0; e < campaign_.experiments(); ++e) {
+                auto const& requests = campaign_.requests(e);
+                double const first = requests.empty() ? 0 : requests.front().time;
+                double const end = requests.empty() ? 0 : requests.back().time;
+                auto& own = kept.emplace_back();
+                for (auto const& r : requests) {
+                    own.push_back(r.time <= first + share * (end - first) ? 1 : 0);
+                }
+            }
+            down.run(here, 2, kept, {12, 1e-3});
+        }
+        return from(std::move(here.at));
+    }
     [[nodiscard]] descent_point from(arrow_vector z) {
         descent down(campaign_);
         descent_point here;

@@ -3,6 +3,7 @@
 #define SIVID_PAVING_DETAIL_HOLDOUT_SEARCH_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/number/guard.hpp>
 #include <sivid/paving/box_explorer.hpp>
 #include <sivid/paving/dependence.hpp>
 #include <sivid/paving/inflation.hpp>
@@ -237,6 +238,11 @@ SIVID_ENTRY holdout_bound holdout_inflation(identification_problem const& fit,
     auto const elapsed = [&begin] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     };
+    auto const in_time = [&] {
+        return elapsed() < options.seconds && !options.test.run.enclosure.cancelled();
+    };
+    auto timely = options;
+    timely.test = limited(options.test, in_time);
     holdout_bound result;
     if (fitted.witness) {
         auto there = holdout;
@@ -258,10 +264,9 @@ SIVID_ENTRY holdout_bound holdout_inflation(identification_problem const& fit,
         fitted.hull.size() == fit.prior.size() ? intersect(fitted.hull, fit.prior) : fit.prior;
     paving_detail::holdout_range search(map ? map->problem() : both, fit.experiments.size(),
                                         fitted.value.upper(), map ? map->forward(start) : start,
-                                        options);
-    search.narrow(options.work, [&] {
-        return elapsed() < options.seconds && (!options.keep_going || options.keep_going());
-    });
+                                        timely);
+    search.narrow(options.work,
+                  [&] { return in_time() && (!options.keep_going || options.keep_going()); });
     result.over_fits = search.range();
     if (is_empty(result.over_fits)) result.over_fits = result.at_witness;
     result.boxes += search.tested();

@@ -3,6 +3,7 @@
 #define SIVID_PAVING_DETAIL_INFLATION_WORK_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/number/guard.hpp>
 #include <sivid/paving/dependence.hpp>
 #include <sivid/paving/inflation_search.hpp>
 #include <sivid/paving/minimax_fit.hpp>
@@ -27,9 +28,9 @@ public:
         : problem_(&problem),
           options_(&options),
           everything_(box_explorer::without_limit(problem)),
-          points_(everything_, options.test),
+          points_(everything_, test_within_time()),
           map_(reduction::find(problem, dependence_of(problem))),
-          search_(working(), options.test),
+          search_(working(), test_within_time()),
           fit_(working()) {}
 
     [[nodiscard]] inflation_bound operator()(approximate_fit const* guess) {
@@ -70,7 +71,15 @@ private:
         return search_.integrations() + search_.tested() + points_.integrations();
     }
     [[nodiscard]] bool within_time() const {
-        return elapsed() < options_->seconds && (!options_->keep_going || options_->keep_going());
+        return goes_on() && (!options_->keep_going || options_->keep_going());
+    }
+    /// For any thread, within runs: one of a long record takes seconds.
+    [[nodiscard]] bool goes_on() const {
+        auto const& run = options_->test.run.enclosure;
+        return elapsed() < options_->seconds && !run.cancelled();
+    }
+    [[nodiscard]] data_test_options test_within_time() const {
+        return limited(options_->test, [this] { return goes_on(); });
     }
     /// Asked between steps: a step that work cut short would have worked in vain, and where it was
     /// cut would depend on the threads.

@@ -31,6 +31,7 @@ public:
                                              std::vector<std::vector<double>> const& starts,
                                              std::function<bool()> const& go_on) {
         campaign_.set_accuracy(1e-3); // as what it ends with is judged
+        campaign_.set_keep_going(go_on);
         descent down(campaign_);
         descent_point best;
         if (!down.evaluate(campaign_.variables(parameters, starts), best)) return {};

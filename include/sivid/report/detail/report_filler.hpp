@@ -88,6 +88,9 @@ private:
                           "for the outliers allowed.");
         view_.assumptions.push_back("The constants that are not listed as parameters have exactly "
                                     "their stated values.");
+        for (auto& words : derivation_words(problem_.model, problem_.choice)) {
+            view_.assumptions.push_back(std::move(words));
+        }
         view_.assumptions.insert(view_.assumptions.end(), options_.further_assumptions.begin(),
                                  options_.further_assumptions.end());
         if (found_.fewest) {

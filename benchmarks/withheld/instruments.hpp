@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Faults of instruments by name: "lagging_uv" is a low-pass in the instrument of u and v.
+#ifndef WITHHELD_INSTRUMENTS_HPP
+#define WITHHELD_INSTRUMENTS_HPP
+
+#include "craft.hpp"
+#include "random.hpp"
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace withheld {
+
+/// The channels of a group: "uv", "xy", or one channel's name; none for an unknown one.
+std::vector<std::size_t> channels_of(std::string_view group);
+
+/// What stands behind the underscore of lagging_, late_, drift_, askew_, lever_ or bounds_; empty
+/// for other names.
+std::string instrument_of(std::string_view name);
+
+/// Kinds that are drawn: of the family askew, of the family instrument.
+std::vector<std::string_view> const& askew_kinds();
+std::vector<std::string_view> const& instrument_kinds();
+
+/// @returns false for a name that is no fault of an instrument
+/// @throws std::out_of_range where a value is missing
+bool set_instrument(instrument_faults& all, std::string const& name,
+                    std::vector<double> const& values);
+
+/// Values of a normal size for a kind, as many as `set_instrument` wants.
+std::vector<double> draw_instrument(std::string_view kind, random_source& random);
+
+} // namespace withheld
+
+#endif

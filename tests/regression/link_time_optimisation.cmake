@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: MIT
+# link_time_optimisation.cpp with -flto for each compiler, level and machine, one line each.
+#     cmake -DSOURCE=<repository> -DWORK=<folder> [-DCOMPILERS=g++;clang++] [-DLEVELS=-O1;-O2;-O3;-Os]
+#           [-DMACHINES=-march=x86-64;-march=x86-64-v3;-march=native] -P link_time_optimisation.cmake
+cmake_minimum_required(VERSION 3.22)
+
+if(NOT DEFINED COMPILERS)
+    set(COMPILERS g++ clang++)
+endif()
+if(NOT DEFINED LEVELS)
+    set(LEVELS -O1 -O2 -O3 -Os)
+endif()
+if(NOT DEFINED MACHINES)
+    set(MACHINES -march=x86-64 -march=x86-64-v3 -march=native)
+endif()
+file(MAKE_DIRECTORY "${WORK}")
+set(program "${WORK}/link_time_optimisation")
+file(WRITE "${WORK}/empty.cpp" "int main() { return 0; }\n")
+
+set(count 0)
+foreach(compiler IN LISTS COMPILERS)
+    # Not every linker on the way takes the objects of every compiler.
+    set(linker none)
+    foreach(flag IN ITEMS -flto -fuse-ld=lld)
+        if(linker STREQUAL "none")
+            execute_process(COMMAND ${compiler} -flto ${flag} "${WORK}/empty.cpp" -o "${WORK}/empty"
+                            RESULT_VARIABLE code OUTPUT_QUIET ERROR_QUIET)
+            if(code EQUAL 0)
+                set(linker ${flag})
+            endif()
+        endif()
+    endforeach()
+    if(linker STREQUAL "none")
+        message(STATUS "left out: ${compiler} is not installed or does not link with -flto")
+        continue()
+    endif()
+    foreach(level IN LISTS LEVELS)
+        foreach(machine IN LISTS MACHINES)
+            set(name "${compiler} ${level} -flto ${machine}")
+            execute_process(COMMAND ${compiler} -std=c++20 ${level} ${machine} -flto ${linker} "-I${SOURCE}/include"
+                                    "${SOURCE}/tests/regression/link_time_optimisation.cpp" -o "${program}"
+                            RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE out)
+            if(NOT code EQUAL 0)
+                message(FATAL_ERROR "${name}: not compiled:\n${out}")
+            endif()
+            execute_process(COMMAND "${program}" RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE out)
+            if(code EQUAL 77)
+                message(STATUS "${name}: left out, this machine lacks the instructions")
+            elseif(code EQUAL 0)
+                message(STATUS "${name}: ${out}")
+            else()
+                message(FATAL_ERROR "${name}: ${code}\n${out}")
+            endif()
+            math(EXPR count "${count} + 1")
+        endforeach()
+    endforeach()
+endforeach()
+message(STATUS "${count} builds with link-time optimisation")
