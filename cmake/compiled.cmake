@@ -30,6 +30,21 @@ template std::unique_ptr<continued_run> make_taylor_continuation<${kernel}>(
 ")
 endforeach()
 
+file(STRINGS "${sivid_include_dir}/sivid/paving/detail/make_scalar_run.hpp" kernels
+     REGEX "define SIVID_SCALAR_KERNELS")
+string(REGEX MATCHALL "[0-9]+, [0-9]+" kernels "${kernels}")
+foreach(kernel IN LISTS kernels)
+    string(REPLACE ", " "_" name "${kernel}")
+    sivid_compiled_source(scalar_kernel_${name} "\
+#include <sivid/paving/scalar_run.hpp>
+#include <sivid/paving/detail/make_scalar_run.hpp>
+namespace sivid::paving_detail {
+template std::unique_ptr<experiment_run> make_scalar_taylor_run<${kernel}>(
+    flow const&, experiment const&, record const&, run_options const&);
+}
+")
+endforeach()
+
 sivid_compiled_source(tube "\
 #include <sivid/enclosure/tube.hpp>
 namespace sivid {
@@ -53,6 +68,7 @@ set(entries_enclosure enclosed_motion failure flow simulate)
 set(entries_paving continued_run detail/response_judgement experiment_run fit holdout_inflation identify inflation
                    minimax_fit outlier_budget)
 set(entries_paving_further identifiability online_identification)   # apart: together they need 2 GB
+set(entries_paving_check counterexample scalar_run)
 set(entries_diagnosis affected_problem diagnose diagnosis_run manoeuvre)
 set(entries_io checkpoint checkpoint_reader dataset dataset_digest dataset_writer diagnosis_json exact_decimal
                explaining_motion identification_csv identification_json identification_reader input_error
@@ -63,7 +79,7 @@ set(entries_report bar_chart candidate_chart channel_series comparison_plot diag
                    identification_report identification_words interval_chart legend missing_rate_plot number_text page
                    paving_plot paving_projections paving_raster place_words plane_plot residual_plot rounded_decimal
                    svg table ticks time_plot)
-foreach(group IN ITEMS number measurement model enclosure paving paving_further diagnosis io report)
+foreach(group IN ITEMS number measurement model enclosure paving paving_further paving_check diagnosis io report)
     string(REGEX REPLACE "_.*" "" floor "${group}")
     if(floor MATCHES "^(io|report)$" AND NOT TARGET sivid::${floor})
         continue()

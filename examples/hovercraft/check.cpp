@@ -46,6 +46,7 @@ int exit_code_of(outcome o) {
     case outcome::refuted:
         return console::refuted;
     case outcome::undecided:
+    case outcome::sampled:
         break;
     }
     return console::undecided;
@@ -110,12 +111,16 @@ int run(check_command const& c) {
     }
     std::cout << "  witness and products in " << exact_words << "; boxes in "
               << (c.multiprecision ? exact_words : fast_words)
-              << ", by first-order sets (Lohner), not by the Taylor models that found them\n"
+              << (c.all
+                      ? ": Taylor models in scalars, then first-order sets (Lohner), decided anew\n"
+                      : ", by first-order sets (Lohner), not by the Taylor models that found "
+                        "them\n")
               << data.id << ": "
               << (verdict == outcome::refuted     ? "REFUTED"
                   : verdict == outcome::undecided ? "not verified within the budget"
-                  : c.all                         ? "verified, every box"
-                                                  : "verified, boxes by sample")
+                  : verdict == outcome::sampled
+                      ? "sampled: nothing refuted, not verified; --all proves every claim"
+                      : "verified, every claim")
               << (verdict == outcome::verified ? left : "") << " in "
               << sivid::report::duration_text(seconds) << "\n";
     return exit_code_of(verdict);

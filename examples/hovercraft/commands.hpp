@@ -51,7 +51,8 @@ struct check_command {
     std::optional<double> budget; ///< [s]; by default 10, or 3600 for all
     bool multiprecision = false;  ///< boxes too
 };
-/// Ends with 0 when verified, `undecided` when not within the budget, `refuted` otherwise.
+/// Ends with 0 when every claim was proved anew, `refuted` when one is false, `undecided`
+/// otherwise.
 [[nodiscard]] int run(check_command const& command);
 
 struct diagnose_command {

@@ -286,9 +286,9 @@ int run(identify_command const& c) {
     options.search.accuracy = c.accuracy.value_or(0.003);
     if (c.accuracy) options.search.sufficient_ratio = 1;
     if (c.boxes) options.search.boxes = *c.boxes;
+    if (c.verdict_only) options.search.sufficient_ratio = 1e-300; // any inside box will do
     options.search.seconds = c.compare ? 0.6 * budget : budget;
     options.search.keep_going = wanted;
-    if (c.verdict_only) options.search.sufficient_ratio = 1e-300; // any inside box will do
     bool full = false; // as many boxes as can be written in what is left of the budget
     options.search.progress = [&](sivid::paving_progress const& p) {
         progress.show(console::paving_words(p));
@@ -336,8 +336,9 @@ int run(identify_command const& c) {
                                             : sivid::identify(problem, options);
     progress.finish();
     auto const name_reason = [&full](sivid::identification& of) {
-        if (full && of.reason == sivid::stop_reason::cancelled && !console::interrupted())
-            of.reason = sivid::stop_reason::time_budget;
+        if (!full || of.reason != sivid::stop_reason::cancelled || console::interrupted()) return;
+        of.reason = sivid::stop_reason::time_budget;
+        if (of.effort) of.effort->most_seconds = of.effort->seconds; // the rest is for writing
     };
     name_reason(found);
 

@@ -234,8 +234,9 @@ private:
         s->add_flag("--multiprecision", c.multiprecision,
                     "boxes too in 40 digits: 20 times slower");
         s->footer(
-            "Exit codes: 0 verified, 2 bad input, 3 not verified within the budget, 5 refuted: "
-            "the result is not what its data prove.");
+            "Exit codes: 0 every claim proved anew (--all), 2 bad input, 3 neither verified nor "
+            "refuted (a sample, or not within the budget), 5 refuted: the result is not what its "
+            "data prove.");
         add_variants(*s, shared_);
         s->callback([this] {
             action_ = [this] {

@@ -131,6 +131,7 @@
 #include <sivid/paving/constraint_blocks.hpp>
 #include <sivid/paving/continued_run.hpp>
 #include <sivid/paving/core_box.hpp>
+#include <sivid/paving/counterexample.hpp>
 #include <sivid/paving/cut_certificate.hpp>
 #include <sivid/paving/cut_contraction.hpp>
 #include <sivid/paving/cut_program.hpp>
@@ -138,6 +139,7 @@
 #include <sivid/paving/data_test_options.hpp>
 #include <sivid/paving/dependence.hpp>
 #include <sivid/paving/descent.hpp>
+#include <sivid/paving/exclusion_check.hpp>
 #include <sivid/paving/executor.hpp>
 #include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/explaining_starts.hpp>
@@ -182,6 +184,7 @@
 #include <sivid/paving/residuals.hpp>
 #include <sivid/paving/response.hpp>
 #include <sivid/paving/run_options.hpp>
+#include <sivid/paving/scalar_run.hpp>
 #include <sivid/paving/search_state.hpp>
 #include <sivid/paving/set_test.hpp>
 #include <sivid/paving/start_rule.hpp>
@@ -195,6 +198,7 @@
 #include <sivid/paving/suspect_samples.hpp>
 #include <sivid/paving/taylor_kernels.hpp>
 #include <sivid/paving/verdict.hpp>
+#include <sivid/paving/weighted_outputs.hpp>
 #include <sivid/paving/witness.hpp>
 #include <sivid/paving/work_limit.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>

@@ -85,7 +85,8 @@ TEST_CASE("measurement by measurement, each update is printed, and the result is
                           ContainsSubstring("30 updates, the longest took") &&
                           ContainsSubstring("h3: consistent"));
     CHECK(json_of(fs::path{out} / "result.json")["verdict"] == "consistent");
-    CHECK(run({"check", out, "--sample", "4"}).code == 0);
+    CHECK(run({"check", out, "--sample", "4"}).code == 3); // a sample proves nothing of the rest
+    CHECK(run({"check", out, "--all", "--budget", "300"}).code == 0);
     for (auto const& other : {"--compare", "--algorithm=report-1", "--outliers=auto"}) {
         auto const refused = run({"identify", h3, "--out", out, "--online", other});
         CHECK(refused.code == 2);
@@ -195,6 +196,34 @@ TEST_CASE("bad input or usage: one message, exit code 2, nothing written") {
     CHECK_THAT(r.err, ContainsSubstring("cannot be created"));
 }
 
+TEST_CASE("a forged proof of inconsistency is refuted whatever the seed") {
+    temporary_folder const folder;
+    auto const forge = [&](std::string const& more) {
+        folder.write("out/result.json", R"({
+  "format": "sivid-identification-1", "dataset": "h3", "verdict": "inconsistent",
+  "stop_reason": "every box decided", )" + more +
+                                            R"(
+  "parameters": { "Sv": {"hull": null, "unit": "m^2"}, "Sg": {"hull": null, "unit": "m^2"},
+                  "L": {"hull": null, "unit": "m"} },
+  "combinations": [], "volume": {"inner": [0, 0], "outer": [0, 0], "of": "boxes"},
+  "rows": {"inside": 0, "undecided": 0, "pending": 0}, "witness": null,
+  "assumptions": ["inputs exact"], "outliers": {"budget": {"S3": 0}, "forced": []},
+  "boxes": 69, "integrations": 69, "seconds": 5.0 })");
+        folder.write("out/boxes.csv",
+                     "verdict,Sv_lower,Sv_upper,Sg_lower,Sg_upper,L_lower,L_upper\n");
+    };
+    auto const out = (folder.path() / "out").string();
+    for (std::string const grounds : {"", R"("verdict_rests_on": "excluded boxes",)"}) {
+        forge(grounds);
+        for (int seed = 1; seed <= 7; ++seed) {
+            auto const r = run({"check", out, "--dataset", h3, "--seed", std::to_string(seed)});
+            CAPTURE(seed, r.out);
+            CHECK(r.code == 5);
+            CHECK_THAT(r.out, ContainsSubstring("the contrary holds at Sv=0.2"));
+        }
+    }
+}
+
 TEST_CASE("check verifies what identify wrote, and refutes what was changed since") {
     temporary_folder const folder;
     auto const out = folder.path() / "out";
@@ -205,10 +234,13 @@ TEST_CASE("check verifies what identify wrote, and refutes what was changed sinc
         return run(more);
     };
     auto const good = check({"--budget", "60"});
-    CHECK(good.code == 0);
-    CHECK_THAT(good.out, ContainsSubstring("h3: verified, boxes by sample"));
-    CHECK(check({"--dataset", h3, "--budget", "60"}).code == 0);
+    CHECK(good.code == 3); // a sample is not a proof
+    CHECK_THAT(good.out, ContainsSubstring("h3: sampled: nothing refuted, not verified"));
+    CHECK(check({"--dataset", h3, "--budget", "60"}).code == 3);
     CHECK(check({"--budget", "0"}).code == 3); // nothing of the boxes is proved in no time
+    auto const whole = check({"--all", "--budget", "600"});
+    CHECK(whole.code == 0);
+    CHECK_THAT(whole.out, ContainsSubstring("h3: verified, every claim"));
 
     auto const text_of = [](fs::path const& file) {
         std::ifstream in{file, std::ios::binary};

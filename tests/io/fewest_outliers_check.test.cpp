@@ -28,7 +28,7 @@ outcome check(stored_identification const& stored, std::size_t budget = 2, std::
 
 TEST_CASE("the fewest outliers are proved to be needed, by sample or over the whole prior") {
     CHECK(check({}) == outcome::nothing);
-    CHECK(check(honest()) == outcome::verified);
+    CHECK(check(honest()) == outcome::sampled);
     CHECK(check(honest(), 2, 0) == outcome::verified);
     CHECK(check(honest(), 2, 0, 0) == outcome::undecided);
 }
@@ -39,7 +39,8 @@ TEST_CASE("more outliers than are needed, and numbers that do not fit, are refut
     CHECK(check(stored) == outcome::refuted);    // not the budget
     CHECK(check(stored, 3) == outcome::refuted); // two suffice
     stored.fewest = {2, 3};
-    CHECK(check(stored, 3) == outcome::verified);
+    CHECK(check(stored, 3) == outcome::sampled);
+    CHECK(check(stored, 3, 0) == outcome::verified); // the sum of what each needs
     stored.fewest_alone["run"] = {3, 3};
     CHECK(check(stored, 3) == outcome::refuted);
     stored = honest();

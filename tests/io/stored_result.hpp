@@ -35,8 +35,10 @@ inline std::size_t first_row(std::vector<sivid::paved_box> const& rows, sivid::b
 
 class stored_result {
 public:
-    explicit stored_result(sivid::identification_problem const& problem) {
-        auto const found = two_rates_result(problem);
+    explicit stored_result(sivid::identification_problem const& problem)
+        : stored_result(problem, two_rates_result(problem)) {}
+    stored_result(sivid::identification_problem const& problem,
+                  sivid::identification const& found) {
         json_ = sivid::identification_json(problem, found,
                                            {.dataset = "small",
                                             .source_folder = "../data",

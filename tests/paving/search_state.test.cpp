@@ -47,3 +47,28 @@ TEST_CASE("what cannot be the state of a search is refused") {
     refused([](auto& s) { s.waiting_volume = NAN; });
     refused([](auto& s) { s.batches = 0; });
 }
+
+TEST_CASE("boxes that do not cover the prior, or overlap, are no state of a search") {
+    auto const refused = [](auto const& spoil) {
+        auto s = good();
+        spoil(s);
+        CHECK_THROWS_AS(s.require_valid(), std::invalid_argument);
+    };
+    refused([](auto& s) { // a waiting box removed, the volume adapted
+        s.waiting.pop_back();
+        s.waiting_volume = 0.25;
+    });
+    refused([](auto& s) { s.paved.clear(); });
+    refused([](auto& s) { s.paved[0].set[0] = interval(0, std::nextafter(0.5, 0)); });
+    refused([](auto& s) { s.waiting[1].set[1] = interval(2.5, 4); });
+    refused([](auto& s) { // the same box twice
+        s.paved.push_back(s.paved[0]);
+    });
+    refused([](auto& s) { s.waiting[0].volume = 0.2; });
+    refused([](auto& s) { s.waiting_volume = 0.4; });
+    // Where the outside boxes were not kept, nobody can tell.
+    auto s = good();
+    s.paved.clear();
+    s.outside_kept = false;
+    CHECK_NOTHROW(s.require_valid());
+}

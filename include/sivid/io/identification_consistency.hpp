@@ -126,9 +126,94 @@ inline check_finding agreement(std::string what, std::string const& fault,
                          : stored.rows.empty()              ? verdict::inconsistent
                                                             : verdict::undecided;
     auto const words = std::string{to_string(stored.verdict)};
-    return io_detail::agreement(
-        "verdict", follows == stored.verdict ? "" : "'" + words + "' does not follow from the rest",
-        words + ", given the rest");
+    std::string fault;
+    if (follows != stored.verdict) fault = "'" + words + "' does not follow from the rest";
+    auto const grounds =
+        grounds_for(stored.witness.has_value(), inside || volume, !stored.rows.empty());
+    if (fault.empty() && !stored.grounds.empty() && stored.grounds != to_string(grounds)) {
+        fault = "it is said to rest on " + stored.grounds + ", what is there is " +
+                std::string{to_string(grounds)};
+    }
+    auto found = io_detail::agreement("verdict", fault, words + ", given the rest");
+    if (fault.empty() && stored.grounds.empty()) {
+        return {found.what, check_finding::outcome::undecided, "what it rests on is not stated"};
+    }
+    return found;
+}
+
+/// The tables are those that the result was written with.
+[[nodiscard]] inline check_finding check_files(stored_identification const& stored) {
+    if (stored.stated_files.empty()) {
+        return {"files", check_finding::outcome::undecided,
+                "the result does not state their SHA-256"};
+    }
+    std::string fault;
+    for (auto const& [name, digest] : stored.files) {
+        auto const stated = stored.stated_files.find(name);
+        if (stated == stored.stated_files.end()) {
+            fault = "the result does not know " + name;
+        } else if (stated->second != digest) {
+            fault = name + " is not the one that the result was written with";
+        }
+    }
+    if (stored.stated_files.size() > stored.files.size()) fault = "a table is missing";
+    return io_detail::agreement("files", fault, "the tables of this result, by SHA-256");
+}
+
+/// The assumptions are those of the problem.
+/// @param further  of the program that wrote the result
+[[nodiscard]] inline check_finding check_assumptions(identification_problem const& problem,
+                                                     stored_identification const& stored,
+                                                     std::vector<std::string> const& further) {
+    std::vector<std::string> own{input_assumption(problem.experiments)};
+    own.insert(own.end(), further.begin(), further.end());
+    std::string fault;
+    for (auto const& a : own) {
+        if (std::find(stored.assumptions.begin(), stored.assumptions.end(), a) ==
+            stored.assumptions.end()) {
+            fault = "'" + a + "' is missing";
+        }
+    }
+    if (fault.empty() && stored.assumptions != own) fault = "others than those of the problem";
+    return io_detail::agreement("assumptions", fault, "those of the problem");
+}
+
+/// Whether the reason to stop follows from what was left and from the budgets.
+[[nodiscard]] inline check_finding check_stop(stored_identification const& stored) {
+    auto const& rows = stored.products ? stored.products->rows : stored.rows;
+    auto const any = [&](box_verdict v) {
+        return std::any_of(rows.begin(), rows.end(),
+                           [v](paved_box const& row) { return row.verdict == v; });
+    };
+    bool const pending = any(box_verdict::pending);
+    bool const open = pending || any(box_verdict::undecided);
+    auto const r = stored.reason;
+    bool holds = (r == stop_reason::decided) == !open;
+    bool const by_budget = r == stop_reason::time_budget || r == stop_reason::box_budget ||
+                           r == stop_reason::memory_budget || r == stop_reason::cancelled;
+    holds = holds && (!by_budget || pending || !stored.effort);
+    // Where measurements came one by one, no budget but that of boxes ends anything.
+    holds = holds &&
+            (stored.effort || stored.grounds.empty() || !by_budget || r == stop_reason::box_budget);
+    if (stored.effort && pending) { // otherwise no budget was looked at in the end
+        auto const& e = *stored.effort;
+        bool const time = e.seconds > e.most_seconds, boxes = e.boxes >= e.most_boxes;
+        bool const nearly =
+            e.seconds >= 0.98 * e.most_seconds - 0.1; // an integration was cut short
+        holds =
+            holds && (!time || r == stop_reason::time_budget) &&
+            (r != stop_reason::time_budget || nearly) &&
+            (r == stop_reason::box_budget) == (boxes && !time && r != stop_reason::time_budget) &&
+            (r != stop_reason::memory_budget || e.most_bytes.has_value());
+    }
+    auto const words = std::string{to_string(r)};
+    auto found = io_detail::agreement(
+        "reason to stop", holds ? "" : "'" + words + "' does not follow from boxes and budgets",
+        words + ", given boxes and budgets");
+    if (holds && !stored.effort && stored.grounds.empty()) {
+        return {found.what, check_finding::outcome::undecided, "the budgets are not stated"};
+    }
+    return found;
 }
 
 /// The ranges of the combinations are those over the boxes, evaluated in I.

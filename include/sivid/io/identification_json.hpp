@@ -4,7 +4,9 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/io/identifiability_json.hpp>
+#include <sivid/io/identification_csv.hpp>
 #include <sivid/io/json_writer.hpp>
+#include <sivid/io/sha256.hpp>
 #include <sivid/paving/identify.hpp>
 
 #include <algorithm>
@@ -28,7 +30,8 @@ struct identification_json_options {
     return intersect(volume, interval_traits<interval>::bounds(0, 1));
 }
 
-/// The text of `result.json` in the format sivid-identification-1.
+/// The text of `result.json` in the format sivid-identification-1, with the SHA-256 of the files
+/// beside it.
 /// @guarantee  bounds are printed outward; the witness's numbers read back as the very doubles
 /// that were verified
 [[nodiscard]] SIVID_ENTRY std::string
@@ -53,7 +56,29 @@ SIVID_ENTRY std::string identification_json(identification_problem const& proble
         json.key("sha256").string(options.source_digest).end_object();
     }
     json.key("verdict").string(to_string(found.verdict));
+    bool const inside = found.paving.count(box_verdict::inside) > 0 ||
+                        share_of_whole(found.paving.inner_volume()).lower() > 0;
+    json.key("verdict_rests_on");
+    json.string(
+        to_string(grounds_for(found.witness.has_value(), inside, found.paving.has_outer())));
     json.key("stop_reason").string(to_string(found.reason));
+    if (found.effort) { // what the reason follows from
+        auto const& e = *found.effort;
+        json.key("search").begin_object(layout::one_line);
+        json.key("seconds").nearest(e.seconds).key("most_seconds").nearest(e.most_seconds);
+        json.key("boxes").integer(e.boxes).key("most_boxes").integer(e.most_boxes);
+        json.key("most_bytes");
+        if (e.most_bytes) {
+            json.integer(*e.most_bytes);
+        } else {
+            json.null();
+        }
+        json.end_object();
+    }
+    json.key("files").begin_object();
+    json.key("boxes.csv").string(sha256(boxes_csv(problem, found)));
+    if (found.products) json.key("products.csv").string(sha256(products_csv(found)));
+    json.end_object();
 
     json.key("parameters").begin_object();
     for (std::size_t j = 0; j < names.size(); ++j) {

@@ -3,13 +3,17 @@
 #define SIVID_IO_PAVING_CHECK_HPP
 
 #include <sivid/io/detail/identification_check_options.hpp>
+#include <sivid/io/detail/point_judgement.hpp>
 #include <sivid/io/exact_decimal.hpp>
 #include <sivid/io/identification_consistency.hpp>
 #include <sivid/number/nearest_text.hpp>
 #include <sivid/paving/certificate.hpp>
+#include <sivid/paving/counterexample.hpp>
+#include <sivid/paving/exclusion_check.hpp>
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <random>
 #include <string>
@@ -19,7 +23,8 @@
 namespace sivid {
 
 /// Checks a stored paving against its problem: its boxes cover the prior with what it excludes, and
-/// what it says of boxes is proved anew, for a sample or for all.
+/// what it says of boxes is proved anew, for a sample or for all. Before that, fits look for a
+/// point that contradicts it, in all boxes.
 /// @tparam Fast  interval type of the runs over boxes
 template <class Fast>
 class paving_check {
@@ -54,7 +59,9 @@ public:
             if ((*rows_)[k].verdict == box_verdict::inside) rows.push_back(k);
         }
         auto const total = rows.size();
+        if (total == 0) return {std::move(what), outcome::nothing, ""};
         std::mt19937_64 random(options_->seed);
+        if (auto const at = unexplained_point(rows, random)) return contradicted(what, *at);
         for (std::size_t k = 0; k < rows.size() && (options_->all || k < options_->sample); ++k) {
             if (!options_->all) std::swap(rows[k], rows[k + random() % (rows.size() - k)]);
             claims.push_back(
@@ -67,6 +74,8 @@ public:
     /// ones).
     /// @given  `covering` was called
     [[nodiscard]] check_finding outside(std::string what) {
+        if (gaps_.empty()) return {std::move(what), outcome::nothing, ""};
+        if (auto const at = explaining_point()) return contradicted(what, *at);
         std::vector<box_claim> claims;
         std::vector<double> until;
         double sum = 0;
@@ -94,7 +103,70 @@ public:
         return prove(std::move(what), std::move(claims), gaps_.size());
     }
 
+    /// What the rows leave of the prior, but for rounding.
+    /// @given  `covering` was called
+    [[nodiscard]] std::vector<box> const& gaps() const { return gaps_; }
+
 private:
+    /// Of the time for a claim, the share in which fits look for what contradicts it.
+    static constexpr double share_of_fits = 0.3;
+
+    [[nodiscard]] counterexample_options
+    search(std::function<bool(approximate_fit const&)> confirms) const {
+        counterexample_options how;
+        how.seconds = share_of_fits * std::min(options_->seconds, 60.0);
+        how.keep_going = options_->certificate.keep_going;
+        how.confirms = std::move(confirms);
+        return how;
+    }
+    [[nodiscard]] bool proves(approximate_fit const& f, bool at_its_starts,
+                              run_finding what) const {
+        return io_detail::judge_point<Fast>(*problem_, f, at_its_starts) == what;
+    }
+    /// A point that no row contains and that is proved to explain the data.
+    [[nodiscard]] std::optional<std::vector<double>> explaining_point() const {
+        std::optional<std::vector<double>> point;
+        (void)find_explaining_point(*problem_, gaps_, search([&](approximate_fit const& f) {
+            bool const said = contains(problem_->prior, f.parameters) &&
+                              std::none_of(rows_->begin(), rows_->end(), [&](auto const& row) {
+                                  return contains(row.set, f.parameters);
+                              });
+            if (!said || !proves(f, true, run_finding::explained)) return false;
+            point = f.parameters;
+            return true;
+        }));
+        return point;
+    }
+    /// A point of an inside row that is proved not to.
+    [[nodiscard]] std::optional<std::vector<double>>
+    unexplained_point(std::vector<std::size_t> const& rows, std::mt19937_64 random) const {
+        std::vector<box> inside;
+        for (auto const k : rows) {
+            auto x = intersect((*rows_)[k].set, problem_->prior);
+            if (!is_empty(x)) inside.push_back(std::move(x));
+        }
+        std::shuffle(inside.begin(), inside.end(), random); // should time not suffice for all
+        std::optional<std::vector<double>> point;
+        (void)find_unexplained_point(*problem_, inside, search([&](approximate_fit const& f) {
+            if (!proves(f, false, run_finding::refuted)) return false;
+            point = f.parameters;
+            return true;
+        }));
+        return point;
+    }
+    [[nodiscard]] std::string words_of(std::vector<double> const& point) const {
+        std::string text;
+        for (std::size_t j = 0; j < point.size(); ++j) {
+            text += " " + names_[j] + "=" + exact_decimal::shortest(point[j]).text();
+        }
+        return text;
+    }
+    [[nodiscard]] check_finding contradicted(std::string what,
+                                             std::vector<double> const& at) const {
+        return {std::move(what), outcome::refuted,
+                "found by a fit, proved by a validated run: the contrary holds at" + words_of(at)};
+    }
+
     /// Inside rows are printed inward: a few floats between neighbours are in none, and nothing is
     /// said of them.
     [[nodiscard]] bool is_rounding(box const& gap) const {
@@ -154,6 +226,12 @@ private:
         auto how = options_->certificate;
         how.seconds = options_->seconds;
         if (options_->all) how.runs_per_claim = static_cast<std::size_t>(-1);
+        std::size_t runs = 0;
+        if (options_->all && claims[0].what == box_claim::kind::outside) {
+            exclusion_check<Fast> exclude(*problem_, how);
+            exclude(claims);
+            runs = exclude.runs();
+        }
         claim_checker<Fast> checker(*problem_, starts_, how);
         checker(claims);
         auto const rim = prove_without_rim(claims, checker);
@@ -163,9 +241,9 @@ private:
         };
         auto const proved = count(box_claim::status::proved);
         auto const refuted = count(box_claim::status::refuted);
-        check_finding result{std::move(what), outcome::verified, ""};
+        bool const whole = options_->all && rim.proved == 0 && rim.thin == 0;
+        check_finding result{std::move(what), whole ? outcome::verified : outcome::sampled, ""};
         if (proved + rim.thin < claims.size()) result.found = outcome::undecided;
-        if (proved == 0 && rim.thin == claims.size()) result.found = outcome::nothing;
         if (refuted > 0) result.found = outcome::refuted;
         result.detail = std::to_string(proved - rim.proved) + " of " +
                         std::to_string(claims.size()) + " proved";
@@ -182,14 +260,10 @@ private:
             result.detail +=
                 ", " + std::to_string(rim.thin) + " thinner than " + size + " not examined";
         }
-        result.detail += ", " + std::to_string(checker.runs()) + " runs";
+        result.detail += ", " + std::to_string(runs + checker.runs()) + " runs";
         for (auto const& c : claims) {
             if (c.found != box_claim::status::refuted) continue;
-            result.detail += "; the contrary holds at";
-            for (std::size_t j = 0; j < c.counterexample.size(); ++j) {
-                result.detail +=
-                    " " + names_[j] + "=" + exact_decimal::shortest(c.counterexample[j]).text();
-            }
+            result.detail += "; the contrary holds at" + words_of(c.counterexample);
             break;
         }
         return result;

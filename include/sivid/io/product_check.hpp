@@ -179,7 +179,7 @@ template <class I>
         proved = proved && stated.lower() <= volume.lower() + room &&
                  volume.upper() <= stated.upper() + room;
     }
-    if (!proved) return {what, outcome::nothing, "as found, but the enclosures are too wide"};
+    if (!proved) return {what, outcome::undecided, "as found, but the enclosures are too wide"};
     return {what, outcome::verified,
             "of the preimages of " + std::to_string(left.size()) + " boxes of products"};
 }

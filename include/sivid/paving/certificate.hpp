@@ -44,6 +44,7 @@ public:
 
     [[nodiscard]] std::size_t runs() const { return campaign_.runs(); }
 
+    /// Tries the claims that are open.
     void operator()(std::vector<box_claim>& claims) {
         claims_ = &claims;
         begin_ = clock::now();
@@ -52,7 +53,7 @@ public:
         gave_up_.assign(claims.size(), false);
         group all;
         for (std::size_t k = 0; k < claims.size(); ++k) {
-            claims[k].found = box_claim::status::open;
+            if (claims[k].found != box_claim::status::open) continue;
             left_[k] = 1;
             all.push_back({claims[k].set, k});
         }

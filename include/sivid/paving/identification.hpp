@@ -49,12 +49,20 @@ struct product_paving {
     subpaving paving; ///< of the prior of `map.problem()`
 };
 
+/// How far a search went and how far it might have gone: what its reason to stop follows from.
+struct search_effort {
+    double seconds = 0, most_seconds = 0; ///< of the search alone, when it stopped
+    std::size_t boxes = 0, most_boxes = 0;
+    std::optional<std::size_t> most_bytes; ///< nothing: as many as there are
+};
+
 /// What was found about a problem; everything in it is proved, `guess` excepted.
 struct identification {
     explicit identification(box const& prior) : paving(prior), hull(prior) {}
 
     sivid::verdict verdict = sivid::verdict::undecided;
     stop_reason reason = stop_reason::decided;
+    std::optional<search_effort> effort; ///< nothing where measurements came one by one
     /// Of the prior: inside boxes are proved, what no other box covers is excluded by proof.
     subpaving paving;
     volume_source volumes = volume_source::boxes;

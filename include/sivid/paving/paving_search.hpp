@@ -48,7 +48,8 @@ public:
           waiting_(options.order),
           batches_(test, waiting_, options.workers),
           whole_(prior),
-          rest_{.last = prior} {
+          rest_{.last = prior},
+          outside_kept_(options.keep_outside || options.checkpoint || options.resume) {
         require_sound_environment();
         if (prior.size() == 0 || is_empty(prior))
             throw std::invalid_argument("invert: empty prior");
@@ -72,18 +73,19 @@ public:
         double const inner = paving_.inner_volume().upper();
         double const outer = paving_.outer_volume().upper() + waiting_.volume();
         std::optional<stop_reason> stop;
-        bool const refused =
+        bool const cancelled =
             (options_.progress &&
              !options_.progress({seconds(), tested_, waiting_.size(), inner, outer})) ||
             (options_.keep_going && !options_.keep_going());
-        if (refused) {
-            stop = stop_reason::cancelled;
-        } else if (seconds() > options_.seconds || cut_short()) {
+        double const now = seconds();
+        if (now > options_.seconds || (!cancelled && cut_short())) {
             stop = stop_reason::time_budget;
         } else if (tested_ >= options_.boxes) {
             stop = stop_reason::box_budget;
         } else if (bytes() > options_.memory) {
             stop = stop_reason::memory_budget;
+        } else if (cancelled) {
+            stop = stop_reason::cancelled;
         }
         if (options_.checkpoint && (stop || checkpoint_due())) write_checkpoint();
         if (!stop && hull_rests()) stop = stop_reason::hulls_rest;
@@ -91,7 +93,10 @@ public:
             options_.sufficient_ratio < 1) {
             stop = stop_reason::inside_share;
         }
-        if (stop) reason_ = *stop;
+        if (stop) {
+            reason_ = *stop;
+            stopped_at_ = now;
+        }
         return stop.has_value();
     }
 
@@ -124,7 +129,11 @@ public:
     /// What waits is pending in the result.
     [[nodiscard]] inversion finish() && {
         while (!waiting_.empty()) paving_.add(waiting_.pop().set, box_verdict::pending);
-        return {std::move(paving_), reason_, tested_, cost_, seconds()};
+        double const spent = stopped_at_.value_or(seconds());
+        if (outside_kept_ && !options_.keep_outside) {
+            return {without_outside(paving_), reason_, tested_, cost_, spent};
+        }
+        return {std::move(paving_), reason_, tested_, cost_, spent};
     }
 
     /// Bytes held by boxes and knowledge.
@@ -155,6 +164,7 @@ public:
         s.rested = rest_.rested;
         s.next_look = rest_.next_look;
         s.seconds = seconds();
+        s.outside_kept = outside_kept_;
         return s;
     }
 
@@ -168,6 +178,7 @@ private:
                 throw std::invalid_argument("search state: it is of another search");
             }
             for (auto const& b : s.paved) paving_.add(b.set, b.verdict);
+            outside_kept_ = outside_kept_ && s.outside_kept;
             paving_detail::lesson_restorer<knowledge> known(s, held_);
             std::vector<item> items;
             for (auto const& w : s.waiting) {
@@ -239,7 +250,7 @@ private:
 
     [[nodiscard]] double volume(box const& x) const { return relative_volume(x, prior_).upper(); }
     void decide(box x, box_verdict v) {
-        if (v != box_verdict::outside || options_.keep_outside) paving_.add(std::move(x), v);
+        if (v != box_verdict::outside || outside_kept_) paving_.add(std::move(x), v);
     }
     [[nodiscard]] std::optional<std::size_t> split_side(box const& x,
                                                         std::vector<double> const& smear) {
@@ -375,6 +386,9 @@ private:
     box whole_; ///< what the accuracy is a fraction of
     std::size_t measured_at_ = 0;
     paving_detail::hull_rest rest_;
+    /// A state without them could not be told from one that lost a box.
+    bool outside_kept_;
+    std::optional<double> stopped_at_; ///< when a budget, or what was reached, ended the search
     clock::time_point begin_ = clock::now();
     double earlier_ = 0;    ///< seconds of the runs before
     double written_at_ = 0; ///< of the last checkpoint, and what it took

@@ -5,6 +5,7 @@
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/space/box.hpp>
+#include <sivid/space/box_cover.hpp>
 
 #include <cmath>
 #include <cstddef>
@@ -48,13 +49,16 @@ struct search_state {
     bool rested = false;
     std::size_t next_look = 0;
     double seconds = 0;
+    /// Whether `paved` holds the boxes proved outside, too. Without them nobody can tell whether a
+    /// box is missing.
+    bool outside_kept = true;
 
+    /// All that is open to inspection, the covering included: where the outside boxes were kept,
+    /// paved and waiting boxes together are the prior, exactly on the doubles of their bounds, and
+    /// no two share volume.
     /// @throws std::invalid_argument  when it cannot be the state of a search
     void require_valid() const {
         auto const n = prior.size();
-        auto const require = [](bool holds, char const* what) {
-            if (!holds) throw std::invalid_argument(std::string{"search state: "} + what);
-        };
         auto const in_prior = [&](box const& x) {
             return x.size() == n && !is_empty(x) && subset(x, prior);
         };
@@ -62,7 +66,7 @@ struct search_state {
         for (auto const& side : prior) require(std::isfinite(width(side)), "unbounded prior");
         require(in_prior(whole) && in_prior(last_hull), "a hull outside the prior");
         for (auto const& b : paved) {
-            require(b.set.size() == n && subset(b.set, prior), "a paved box outside the prior");
+            require(in_prior(b.set), "a paved box outside the prior");
         }
         for (auto const& list : lessons) {
             for (auto const& x : list) require(in_prior(x), "a learnt box outside the prior");
@@ -76,6 +80,29 @@ struct search_state {
                     "knowledge of nowhere");
         }
         require(seconds >= 0 && waiting_volume == waiting_volume && batches > 0, "wrong counters");
+        require_volumes();
+        std::vector<box> all;
+        for (auto const& b : paved) all.push_back(b.set);
+        for (auto const& w : waiting) all.push_back(w.set);
+        auto const found = cover(prior, all);
+        require(found.overlaps.empty(), "boxes that overlap");
+        require(!outside_kept || found.gaps.empty(), "the boxes do not cover the prior");
+    }
+
+private:
+    static void require(bool holds, char const* what) {
+        if (!holds) throw std::invalid_argument(std::string{"search state: "} + what);
+    }
+    /// Volumes are redundant, but they decide which box is next and when a search ends.
+    void require_volumes() const {
+        double sum = 0;
+        for (auto const& w : waiting) {
+            double const own = relative_volume(w.set, prior).upper();
+            require(std::abs(w.volume - own) <= 1e-9 * own, "a volume that is not the box's");
+            sum += w.volume;
+        }
+        double const room = 1e-12 * (1 + static_cast<double>(pushed));
+        require(std::abs(waiting_volume - sum) <= room, "a volume that is not that of what waits");
     }
 };
 

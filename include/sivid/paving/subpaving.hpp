@@ -112,6 +112,16 @@ private:
     return result;
 }
 
+/// The same paving, where outside boxes were not kept.
+/// @given  the volumes are those of the boxes
+[[nodiscard]] inline subpaving without_outside(subpaving const& paving) {
+    subpaving result(paving.prior());
+    for (auto const& b : paving.boxes()) {
+        if (b.verdict != box_verdict::outside) result.add(b.set, b.verdict);
+    }
+    return result;
+}
+
 } // namespace sivid
 
 #endif

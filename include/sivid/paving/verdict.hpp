@@ -85,6 +85,34 @@ enum class stop_reason {
     return "";
 }
 
+/// What a verdict rests on: the strongest of what a result shows for it.
+enum class verdict_grounds {
+    witness,        ///< a verified point
+    inside_boxes,   ///< points proved inside, of the prior or of products
+    excluded_boxes, ///< all of the prior is proved outside
+    nothing
+};
+
+[[nodiscard]] constexpr verdict_grounds grounds_for(bool witness, bool inside, bool anything_left) {
+    return witness         ? verdict_grounds::witness
+           : inside        ? verdict_grounds::inside_boxes
+           : anything_left ? verdict_grounds::nothing
+                           : verdict_grounds::excluded_boxes;
+}
+[[nodiscard]] constexpr std::string_view to_string(verdict_grounds g) {
+    switch (g) {
+    case verdict_grounds::witness:
+        return "witness";
+    case verdict_grounds::inside_boxes:
+        return "inside boxes";
+    case verdict_grounds::excluded_boxes:
+        return "excluded boxes";
+    case verdict_grounds::nothing:
+        return "nothing";
+    }
+    return "";
+}
+
 } // namespace sivid
 
 #endif

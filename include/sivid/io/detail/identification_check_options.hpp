@@ -6,6 +6,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace sivid {
 
@@ -18,6 +20,8 @@ struct identification_check_options {
     /// Share of the prior's sides next to a box that is not excluded of which the check may say
     /// nothing.
     double rim = 1e-6;
+    /// What the program that wrote the result assumes beside what the problem says.
+    std::vector<std::string> further_assumptions = {};
     certificate_options certificate;
 };
 

@@ -5,6 +5,7 @@
 #include <sivid/io/detail/check_finding.hpp>
 #include <sivid/io/detail/identification_check_options.hpp>
 #include <sivid/io/detail/stored_identification.hpp>
+#include <sivid/io/drawing_check.hpp>
 #include <sivid/io/fewest_outliers_check.hpp>
 #include <sivid/io/forced_outlier_check.hpp>
 #include <sivid/io/identification_consistency.hpp>
@@ -53,6 +54,9 @@ public:
             add([&] { return check_products(rebuilt, *stored_->products); });
             if (!rebuilt.malformed.empty()) return all;
         }
+        add([&] { return check_files(*stored_); });
+        add([&] { return check_assumptions(*problem_, *stored_, options_.further_assumptions); });
+        add([&] { return check_stop(*stored_); });
         add([&] { return check_verdict(*stored_); });
         add([&] {
             return by_products ? check_hull_of_products<Exact>(*problem_, *stored_, rebuilt)
@@ -82,9 +86,22 @@ public:
         paving_check<Fast> boxes(*problem_, problem_->choice.unknown, stored_->rows, starts_,
                                  options);
         add([&] { return boxes.covering("cover"); });
-        add([&] { return boxes.inside("inside boxes"); });
-        add([&] { return boxes.outside("excluded boxes"); });
-        if (!by_products || !rebuilt.unproved.empty()) return all;
+        bool const drawn = by_products && rebuilt.unproved.empty();
+        std::optional<drawing_check<Exact>> drawing;
+        if (drawn) drawing.emplace(*problem_, *stored_, rebuilt);
+        add([&] {
+            std::string const what = "inside boxes";
+            if (!drawn) return boxes.inside(what);
+            auto found = drawing->inside(what);
+            return found.found == outcome::undecided ? boxes.inside(what) : found;
+        });
+        add([&] {
+            std::string const what = "excluded boxes";
+            if (!drawn) return boxes.outside(what);
+            auto found = drawing->excluded(what, boxes.gaps());
+            return found.found == outcome::undecided ? boxes.outside(what) : found;
+        });
+        if (!drawn) return all;
         paving_check<Fast> products(rebuilt.problem, stored_->products->sides,
                                     stored_->products->rows, starts_, options);
         add([&] { return products.covering("product cover"); });

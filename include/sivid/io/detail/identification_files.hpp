@@ -6,6 +6,8 @@
 #include <sivid/io/csv_table.hpp>
 #include <sivid/io/detail/stored_identification.hpp>
 #include <sivid/io/json_document.hpp>
+#include <sivid/io/sha256.hpp>
+#include <sivid/io/text_file.hpp>
 
 #include <array>
 #include <cmath>
@@ -49,6 +51,14 @@ Word one_of(json_value const& entry, std::initializer_list<Word> words) {
     entry.fail(text_of("unknown word ", in_quotes(entry.string())), "see the format");
 }
 
+inline stop_reason stop_reason_of(json_value const& entry) {
+    for (int k = 0; !to_string(static_cast<stop_reason>(k)).empty(); ++k) {
+        auto const reason = static_cast<stop_reason>(k);
+        if (entry.string() == to_string(reason)) return reason;
+    }
+    entry.fail(text_of("unknown word ", in_quotes(entry.string())), "see the format");
+}
+
 inline void read_result(json_value const& root, stored_identification& result) {
     if (root.at("format").string() != "sivid-identification-1")
         root.at("format").fail(text_of("unknown format ", in_quotes(root.at("format").string())),
@@ -60,6 +70,27 @@ inline void read_result(json_value const& root, stored_identification& result) {
     }
     result.verdict = one_of(root.at("verdict"),
                             {verdict::consistent, verdict::inconsistent, verdict::undecided});
+    if (auto const* grounds = root.find("verdict_rests_on")) {
+        result.grounds = to_string(
+            one_of(*grounds, {verdict_grounds::witness, verdict_grounds::inside_boxes,
+                              verdict_grounds::excluded_boxes, verdict_grounds::nothing}));
+    }
+    result.reason = stop_reason_of(root.at("stop_reason"));
+    if (auto const* search = root.find("search")) {
+        auto const& bytes = search->at("most_bytes");
+        result.effort = search_effort{*nearest(search->at("seconds").number()),
+                                      *nearest(search->at("most_seconds").number()),
+                                      count(search->at("boxes")),
+                                      count(search->at("most_boxes")),
+                                      {}};
+        if (bytes.type() != json_value::kind::null) result.effort->most_bytes = count(bytes);
+    }
+    for (auto const& a : root.at("assumptions").elements())
+        result.assumptions.push_back(a.any_string());
+    if (auto const* files = root.find("files")) {
+        for (std::size_t k = 0; k < files->members().size(); ++k)
+            result.stated_files[files->name_of(k)] = files->members()[k].string();
+    }
     auto const& parameters = root.at("parameters");
     for (std::size_t j = 0; j < parameters.members().size(); ++j)
         result.parameters.push_back({parameters.name_of(j),
@@ -175,7 +206,9 @@ SIVID_ENTRY stored_identification read_identification(std::filesystem::path cons
     std::vector<std::string> names;
     for (auto const& p : result.parameters) names.push_back(p.name);
     result.rows = io_detail::read_rows(csv_table::read(folder / "boxes.csv"), names);
+    result.files["boxes.csv"] = sha256(read_text(folder / "boxes.csv"));
     if (result.products) {
+        result.files["products.csv"] = sha256(read_text(folder / "products.csv"));
         result.products->rows =
             io_detail::read_rows(csv_table::read(folder / "products.csv"), result.products->sides);
     }

@@ -4,6 +4,7 @@
 
 #include <sivid/number/interval.hpp>
 #include <sivid/paving/detail/fewest_outliers.hpp>
+#include <sivid/paving/identification.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/verdict.hpp>
 
@@ -44,6 +45,12 @@ struct stored_identification {
     std::string source_folder; ///< the data set, as seen from the folder of the result; may be ""
     std::string source_digest; ///< of `dataset_digest`; "" when the file has none
     sivid::verdict verdict = sivid::verdict::undecided;
+    std::string grounds; ///< what the verdict is said to rest on; "" in older files
+    stop_reason reason = stop_reason::decided;
+    std::optional<search_effort> effort;
+    std::vector<std::string> assumptions;
+    /// SHA-256 of the tables, by name: as stated, and as they are.
+    std::map<std::string, std::string> stated_files, files;
     std::vector<bound> parameters;
     std::vector<bound> combinations; ///< by formula
     interval inner, outer;

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -123,6 +124,11 @@ SIVID_ENTRY identification identify(identification_problem const& problem,
     }
     result.reason = found.reason;
     result.boxes = found.tested;
+    result.effort = search_effort{
+        found.seconds, std::min(search.seconds, 1e300), found.tested, search.boxes, {}};
+    if (search.memory < std::numeric_limits<std::size_t>::max()) {
+        result.effort->most_bytes = search.memory;
+    }
     if (map) {
         options.search.seconds = limit.seconds();
         options.search.keep_going = limit;

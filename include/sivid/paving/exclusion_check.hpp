@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_EXCLUSION_CHECK_HPP
+#define SIVID_PAVING_EXCLUSION_CHECK_HPP
+
+#include <sivid/paving/certificate.hpp>
+#include <sivid/paving/cut_program.hpp>
+#include <sivid/paving/local_response.hpp>
+#include <sivid/paving/scalar_run.hpp>
+#include <sivid/paving/weighted_outputs.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// Proves that boxes are excluded, by all experiments together: Taylor models in scalars over
+/// regions around many boxes, then for each box weights of the measurements, proposed by a linear
+/// program in doubles and proved by `weighted_outputs` in the arithmetic of I. What a region leaves
+/// open is run again over less.
+///   Neither the packs of the search nor its decisions and its splitting take part.
+/// @guarantee  `proved` claims are; the others are left as they were
+template <class I>
+class exclusion_check {
+public:
+    exclusion_check(identification_problem const& problem, certificate_options options,
+                    run_options how = {})
+        : problem_(&problem), options_(std::move(options)) {
+        samples_.reserve(problem.experiments.size()); // the runs keep references
+        for (auto const& e : problem.experiments) {
+            flows_.push_back(std::make_unique<flow>(problem.model, problem.choice, e.inputs));
+            samples_.push_back(sorted(e.measurements));
+            runs_.push_back(
+                make_scalar_run(*flows_.back(), e, samples_.back(), e.initial, problem.prior, how));
+        }
+    }
+
+    [[nodiscard]] std::size_t runs() const { return count_; }
+
+    /// Tries the claims that are open and say `outside`.
+    void operator()(std::vector<box_claim>& claims) {
+        begin_ = clock::now();
+        claims_ = &claims;
+        left_.assign(claims.size(), 0);
+        group all;
+        for (std::size_t k = 0; k < claims.size(); ++k) {
+            if (claims[k].what != box_claim::kind::outside) continue;
+            if (claims[k].found != box_claim::status::open) continue;
+            left_[k] = 1;
+            all.push_back({claims[k].set, k, 0});
+        }
+        settle(std::move(all));
+    }
+
+private:
+    using clock = std::chrono::steady_clock;
+    struct piece {
+        box set;
+        std::size_t claim;
+        std::size_t cuts; ///< of the claim's box that led to it
+    };
+    using group = std::vector<piece>;
+
+    /// More groups of measurements than this are not tried (`cut_contraction` neither).
+    static constexpr std::size_t most_groups = 8;
+    /// A box is cut so often before it is left to others.
+    static constexpr std::size_t most_cuts = 40;
+
+    [[nodiscard]] bool over() const {
+        if (options_.keep_going && !options_.keep_going()) return true;
+        return std::chrono::duration<double>(clock::now() - begin_).count() > options_.seconds;
+    }
+    [[nodiscard]] static box hull_of(group const& pieces) {
+        auto region = pieces[0].set;
+        for (auto const& p : pieces) region = hull(region, p.set);
+        return region;
+    }
+    void give_up(group const& pieces) {
+        for (auto const& p : pieces) left_[p.claim] = std::numeric_limits<std::size_t>::max();
+    }
+    void prove(piece const& p) {
+        auto& left = left_[p.claim];
+        if (left != std::numeric_limits<std::size_t>::max() && --left == 0) {
+            (*claims_)[p.claim].found = box_claim::status::proved;
+        }
+    }
+
+    /// One region: the experiments in turn, each over what the ones before leave open.
+    void settle(group pieces) {
+        std::erase_if(pieces, [this](piece const& p) {
+            return left_[p.claim] == std::numeric_limits<std::size_t>::max();
+        });
+        if (pieces.empty()) return;
+        if (over()) return give_up(pieces);
+        auto const region = hull_of(pieces);
+        response_list known;
+        for (std::size_t e = 0; e < runs_.size() && !pieces.empty(); ++e) {
+            ++count_;
+            known.push_back((*runs_[e])(problem_->experiments[e].initial, hull_of(pieces)));
+            group open;
+            for (auto& p : pieces) {
+                if (excludes(known, p.set)) {
+                    prove(p);
+                } else {
+                    open.push_back(std::move(p));
+                }
+            }
+            pieces = std::move(open);
+        }
+        if (pieces.empty()) return;
+        auto const rest = hull_of(pieces);
+        if (relative_volume(rest, region).upper() <= 0.5) return settle(std::move(pieces));
+        split(std::move(pieces), rest, known);
+    }
+
+    void split(group pieces, box const& region, response_list const& known) {
+        if (pieces.size() == 1) {
+            auto const side = side_to_cut(pieces[0].set, known);
+            if (!side || ++pieces[0].cuts > most_cuts) return give_up(pieces);
+            auto const& p = pieces[0];
+            auto [low, high] = bisect(p.set, *side, mid(p.set[*side]));
+            ++left_[p.claim];
+            group halves{{std::move(low), p.claim, p.cuts}, {std::move(high), p.claim, p.cuts}};
+            // What is known of the whole may do for a half.
+            std::erase_if(halves, [&](piece const& half) {
+                bool const done = excludes(known, half.set);
+                if (done) prove(half);
+                return done;
+            });
+            for (auto& half : halves) settle({std::move(half)});
+            return;
+        }
+        std::size_t widest = 0;
+        double most = -1;
+        for (std::size_t j = 0; j < region.size(); ++j) {
+            double const whole = width(problem_->prior[j]);
+            if (whole > 0 && width(region[j]) / whole > most) {
+                most = width(region[j]) / whole;
+                widest = j;
+            }
+        }
+        // Boxes that reach far across the middle are cut there: with them no region shrinks.
+        double const middle = mid(region[widest]);
+        group low, high;
+        for (auto& p : pieces) {
+            auto const& side = p.set[widest];
+            bool const across = side.lower() < middle && middle < side.upper() &&
+                                width(side) > 0.5 * width(region[widest]) && p.cuts < most_cuts;
+            if (across) {
+                auto [a, b] = bisect(p.set, widest, middle);
+                ++left_[p.claim];
+                low.push_back({std::move(a), p.claim, p.cuts + 1});
+                high.push_back({std::move(b), p.claim, p.cuts + 1});
+            } else {
+                (mid(side) <= middle ? low : high).push_back(std::move(p));
+            }
+        }
+        if (low.empty() || high.empty()) { // all of them on one side: one by one
+            auto& all = low.empty() ? high : low;
+            auto const half = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+            auto& none = low.empty() ? low : high;
+            none.assign(std::make_move_iterator(half), std::make_move_iterator(all.end()));
+            all.erase(half, all.end());
+        }
+        settle(std::move(low));
+        settle(std::move(high));
+    }
+
+    /// The side along which the outputs spread most, against their bounds.
+    [[nodiscard]] std::optional<std::size_t> side_to_cut(box const& x,
+                                                         response_list const& known) const {
+        std::vector<double> spread(x.size(), 0.0);
+        for (auto const& r : known) {
+            auto const local = expand(*r, x);
+            for (std::size_t j = 0; j < x.size(); ++j) {
+                auto const& side = r->unknowns.parameters[j];
+                if (side.radius == 0) continue;
+                for (std::size_t y = 0; y < r->outputs(); ++y) {
+                    double const slope = std::abs(local.slope[side.variable * r->outputs() + y]) /
+                                         std::max(width(r->bounds[y]), 1e-300);
+                    if (std::isfinite(slope)) spread[j] = std::max(spread[j], slope);
+                }
+            }
+        }
+        std::optional<std::size_t> best;
+        for (std::size_t j = 0; j < x.size(); ++j) {
+            double const middle = mid(x[j]);
+            if (!(x[j].lower() < middle && middle < x[j].upper())) continue;
+            double const own = width(x[j]) / width(problem_->prior[j]);
+            double const rank = spread[j] + 1e-3 * own;
+            if (!best || rank > spread[*best]) {
+                best = j;
+                spread[j] = rank;
+            }
+        }
+        return best;
+    }
+
+    /// Whether no parameter of the part explains the experiments.
+    [[nodiscard]] bool excludes(response_list const& known, box const& part) const {
+        std::vector<minimax_block> blocks;
+        std::vector<std::vector<double>> scales;
+        std::vector<std::size_t> allowance;
+        std::size_t unknowns = part.size(), allowed = 0;
+        for (std::size_t e = 0; e < known.size(); ++e) {
+            auto const& r = *known[e];
+            auto const local = expand(r, part);
+            std::size_t missed = 0;
+            minimax_block block;
+            block.variable.assign(r.table->variables, 0);
+            for (std::size_t j = 0; j < part.size(); ++j) {
+                auto const& side = r.unknowns.parameters[j];
+                if (side.radius > 0) block.variable[side.variable] = j;
+            }
+            for (auto const& side : r.unknowns.initial) {
+                if (side.radius > 0) block.variable[side.variable] = unknowns++;
+            }
+            auto const count = r.outputs();
+            block.slope = local.slope;
+            block.offset.assign(count, 0.0);
+            block.margin.assign(count, std::numeric_limits<double>::infinity());
+            auto& scale = scales.emplace_back(count, 0.0);
+            for (std::size_t y = 0; y < count; ++y) {
+                double affine = 0;
+                for (std::size_t v = 0; v < block.variable.size(); ++v) {
+                    affine += std::abs(local.slope[v * count + y]);
+                }
+                auto const& bound = r.bounds[y];
+                double const spread = affine + local.rest[y], half = 0.5 * width(bound);
+                double const off = local.value[y] - mid(bound);
+                bool const misses = std::abs(off) > spread + half;
+                bool const proved =
+                    misses &&
+                    weighted_outputs<I>(known, part, {{e, y, off > 0 ? 1.0 : -1.0}}).positive();
+                missed += proved ? 1 : 0;
+                if (missed > r.allowed) return true;
+                bool const of_use = std::isfinite(half) && std::isfinite(local.rest[y]) &&
+                                    std::abs(off) + spread > half && !(proved && r.allowed > 0);
+                scale[y] = of_use ? 1 / std::max(half, 1e-100) : 0;
+                for (std::size_t v = 0; v < block.variable.size(); ++v) {
+                    auto& slope = block.slope[v * count + y];
+                    slope = of_use ? slope * scale[y] : 0;
+                }
+                if (!of_use) continue;
+                block.offset[y] = off * scale[y];
+                block.margin[y] = 1 + local.rest[y] * scale[y];
+            }
+            allowance.push_back(r.allowed - missed);
+            allowed += allowance.back();
+            blocks.push_back(std::move(block));
+        }
+        if (allowed >= most_groups) {
+            for (std::size_t e = 0; e < known.size(); ++e) {
+                if (allowance[e] > 0) blocks[e] = {};
+            }
+            allowed = 0;
+        }
+        // With so many outliers left, one of so many groups and one more holds none.
+        for (std::size_t k = 0; k <= allowed; ++k) {
+            auto const cut = cut_program(unknowns, blocks)(0, true);
+            if (!cut.empty || cut.weights.empty()) return false;
+            std::vector<measurement_weight> weights;
+            for (auto const& w : cut.weights) {
+                weights.push_back({w.block, w.function, w.value * scales[w.block][w.function]});
+                if (allowance[w.block] > 0) {
+                    blocks[w.block].margin[w.function] = std::numeric_limits<double>::infinity();
+                }
+            }
+            if (!weighted_outputs<I>(known, part, weights).positive()) return false;
+        }
+        return true;
+    }
+
+    identification_problem const* problem_;
+    certificate_options options_;
+    std::vector<std::unique_ptr<flow>> flows_;
+    std::vector<record> samples_;
+    std::vector<std::unique_ptr<experiment_run>> runs_;
+    std::vector<box_claim>* claims_ = nullptr;
+    std::vector<std::size_t> left_; ///< pieces to prove by claim; the largest number: given up
+    std::size_t count_ = 0;
+    clock::time_point begin_;
+};
+
+} // namespace sivid
+
+#endif

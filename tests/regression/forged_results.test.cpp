@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// Every kind of forgery that a check once accepted: what is stored is altered with its sums and
+// digests adapted, so that nothing but a proof can tell.
+#include <sivid/io/checkpoint.hpp>
+#include <sivid/io/checkpoint_reader.hpp>
+#include <sivid/io/identification_check.hpp>
+#include <sivid/io/problem_digest.hpp>
+#include <sivid/paving/identify.hpp>
+
+#include "io/stored_result.hpp"
+#include "support/catch.hpp"
+
+#ifdef SIVID_HAS_MPFI
+#include <sivid/io/mp_identification_check.hpp>
+#endif
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+using namespace sivid;
+using outcome = check_finding::outcome;
+
+namespace {
+
+outcome checked(identification_problem const& problem, stored_identification const& stored,
+                bool all = false, std::uint64_t seed = 1) {
+    identification_check_options options;
+    options.all = all;
+    options.seed = seed;
+    options.seconds = 60;
+#ifdef SIVID_HAS_MPFI
+    return overall(check_by_proven_functions(problem, stored, options));
+#else
+    return overall(identification_check<interval, interval>(problem, stored, options)());
+#endif
+}
+
+/// All that follows from the rows, as a forger adapts it.
+void adapt(identification_problem const& problem, stored_identification& s) {
+    interval inner{0.0}, outer{0.0};
+    s.stated_rows = {{"inside", 0}, {"undecided", 0}, {"pending", 0}};
+    for (auto const& row : s.rows) {
+        auto const v = relative_volume(row.set, problem.prior);
+        outer = interval_traits<interval>::add(outer, v);
+        if (row.verdict == box_verdict::inside) inner = interval_traits<interval>::add(inner, v);
+        ++s.stated_rows[std::string{to_string(row.verdict)}];
+    }
+    s.inner = inner;
+    s.outer = outer;
+    for (std::size_t j = 0; j < s.parameters.size(); ++j) {
+        auto range = interval_traits<interval>::empty();
+        for (auto const& row : s.rows) range = hull(range, row.set[j]);
+        s.parameters[j].range = range;
+    }
+    s.stated_files = s.files;
+}
+
+} // namespace
+
+TEST_CASE("the result that is forged below is sampled, and verified in the whole") {
+    auto const problem = io_support::one_rate_problem();
+    auto const good = io_support::stored_result(problem).read();
+    CHECK(checked(problem, good) == outcome::sampled);
+    CHECK(checked(problem, good, true) == outcome::verified);
+}
+
+TEST_CASE("consistent data said to be inconsistent are refuted for every seed") {
+    for (bool const reduced : {false, true}) {
+        auto const problem =
+            reduced ? io_support::two_rates_problem() : io_support::one_rate_problem();
+        auto forged = io_support::stored_result(problem).read();
+        forged.verdict = verdict::inconsistent;
+        forged.grounds = to_string(verdict_grounds::excluded_boxes);
+        forged.reason = stop_reason::decided;
+        forged.witness.reset();
+        forged.rows.clear();
+        forged.products.reset();
+        forged.combinations.clear();
+        forged.files.erase("products.csv");
+        adapt(problem, forged);
+        for (std::uint64_t seed = 1; seed <= 7; ++seed) {
+            CAPTURE(reduced, seed);
+            CHECK(checked(problem, forged, false, seed) == outcome::refuted);
+        }
+    }
+}
+
+TEST_CASE("boxes dropped, made larger or relabelled are refuted without luck") {
+    auto const problem = io_support::one_rate_problem();
+    auto const good = io_support::stored_result(problem).read();
+    auto const inside = io_support::first_row(good.rows, box_verdict::inside);
+    for (std::uint64_t seed = 1; seed <= 7; ++seed) {
+        CAPTURE(seed);
+        auto dropped = good;
+        dropped.rows.erase(dropped.rows.begin() + static_cast<std::ptrdiff_t>(inside));
+        adapt(problem, dropped);
+        CHECK(checked(problem, dropped, false, seed) == outcome::refuted);
+        auto wider = good;
+        auto edge = good.rows[inside].set[0];
+        for (auto const& row : good.rows) {
+            if (row.verdict == box_verdict::inside) edge = hull(edge, row.set[0]);
+        }
+        double const more = 1e-3 * width(problem.prior[0]);
+        std::vector<paved_box> rows{
+            {box{interval(edge.lower() - more, edge.upper() + more)}, box_verdict::inside}};
+        wider.rows = rows;
+        adapt(problem, wider);
+        CHECK(checked(problem, wider, false, seed) == outcome::refuted);
+    }
+    auto relabelled = good;
+    for (auto& row : relabelled.rows) row.verdict = box_verdict::inside;
+    adapt(problem, relabelled);
+    if (good.stated_rows.at("inside") < good.rows.size()) {
+        CHECK(checked(problem, relabelled) == outcome::refuted);
+    }
+}
+
+TEST_CASE("what stands beside the boxes is recomputed: assumptions, grounds, reason, tables") {
+    for (bool const reduced : {false, true}) {
+        auto const problem =
+            reduced ? io_support::two_rates_problem() : io_support::one_rate_problem();
+        auto const good = io_support::stored_result(problem).read();
+        auto const refuted = [&](auto const& spoil) {
+            auto bad = good;
+            spoil(bad);
+            return checked(problem, bad) == outcome::refuted;
+        };
+        CAPTURE(reduced);
+        CHECK(refuted([](auto& s) { s.assumptions.clear(); }));
+        CHECK(refuted([](auto& s) { s.assumptions = {"inputs within their stated errors"}; }));
+        CHECK(refuted([](auto& s) { s.assumptions.push_back("the moon is full"); }));
+        for (int k = 0; !to_string(static_cast<stop_reason>(k)).empty(); ++k) {
+            auto const other = static_cast<stop_reason>(k);
+            bool const by_itself =
+                other != stop_reason::decided && other != stop_reason::time_budget &&
+                other != stop_reason::box_budget && other != stop_reason::memory_budget &&
+                other != stop_reason::cancelled;
+            if (other == good.reason || by_itself) continue;
+            CAPTURE(to_string(good.reason), to_string(other));
+            CHECK((refuted([&](auto& s) { s.reason = other; }) || other == stop_reason::cancelled));
+        }
+        REQUIRE(good.witness);
+        CHECK(refuted([](auto& s) { s.witness.reset(); }));
+        CHECK(refuted([](auto& s) { s.grounds = "inside boxes"; }));
+        CHECK(refuted([](auto& s) { s.files["boxes.csv"][0] ^= 1; }));
+        CHECK(refuted([](auto& s) {
+            s.stated_files.erase("boxes.csv");
+            s.stated_files["x"];
+        }));
+        // Where nothing is stated, nothing is verified.
+        auto silent = good;
+        silent.stated_files.clear();
+        CHECK(checked(problem, silent, true) == outcome::undecided);
+        silent = good;
+        silent.grounds.clear();
+        CHECK(checked(problem, silent, true) == outcome::undecided);
+    }
+}
+
+TEST_CASE("an open box dropped with its count adapted is never verified") {
+    auto problem = io_support::one_rate_problem();
+    identify_options options;
+    options.search.accuracy = 1.0 / 128;
+    options.search.boxes = 6;
+    options.search.sufficient_ratio = 1;
+    auto const found = identify(problem, options);
+    io_support::stored_result file(problem, found);
+    auto const good = file.read();
+    std::size_t dropped = 0;
+    for (std::size_t k = 0; k < good.rows.size(); ++k) {
+        if (good.rows[k].verdict == box_verdict::inside) continue;
+        auto bad = good;
+        bad.rows.erase(bad.rows.begin() + static_cast<std::ptrdiff_t>(k));
+        CHECK(checked(problem, bad) == outcome::refuted); // the table is another, or its count
+        adapt(problem, bad);
+        auto const sampled = checked(problem, bad), whole = checked(problem, bad, true);
+        CHECK(sampled != outcome::verified);
+        // Unless no feasible point is in it: then what is said is true.
+        CHECK(whole != outcome::undecided);
+        ++dropped;
+    }
+    CHECK(dropped > 0);
+}
+
+TEST_CASE("a checkpoint that lost boxes is refused although its digest is right") {
+    auto const problem = io_support::two_rates_problem();
+    identify_options options;
+    options.search.accuracy = 1.0 / 256;
+    options.search.sufficient_ratio = 0.97;
+    options.search.boxes = 40;
+    options.search.checkpoint_seconds = 0;
+    auto const digest = problem_digest(problem, options);
+    std::optional<identification_state> saved;
+    options.checkpoint = [&](identification_state const& s) { saved = s; };
+    (void)identify(problem, options);
+    REQUIRE(saved);
+    REQUIRE(saved->search.waiting.size() > 1);
+    auto const accepted = [&](identification_state const& s) {
+        try {
+            (void)parse_checkpoint(checkpoint_text(s, digest), "f", digest);
+            return true;
+        } catch (input_error const&) {
+            return false;
+        }
+    };
+    CHECK(accepted(*saved));
+    for (std::size_t keep = 0; keep < saved->search.waiting.size(); ++keep) {
+        auto bad = *saved;
+        bad.search.waiting.resize(keep);
+        bad.search.waiting_volume = 0;
+        for (auto const& w : bad.search.waiting) bad.search.waiting_volume += w.volume;
+        CHECK_FALSE(accepted(bad));
+    }
+    auto bad = *saved;
+    bad.search.paved.pop_back();
+    CHECK_FALSE(accepted(bad));
+    bad = *saved; // an inside box twice would count its volume twice
+    bad.search.paved.push_back(bad.search.paved.back());
+    CHECK_FALSE(accepted(bad));
+}
