@@ -69,8 +69,10 @@ private:
 
     /// More groups of measurements than this are not tried (`cut_contraction` neither).
     static constexpr std::size_t most_groups = 8;
+    /// So many open pieces are cut further without a run.
+    static constexpr std::size_t most_leaves = 64;
     /// A box is cut so often before it is left to others.
-    static constexpr std::size_t most_cuts = 40;
+    static constexpr std::size_t most_cuts = 200;
 
     [[nodiscard]] bool over() const {
         if (options_.keep_going && !options_.keep_going()) return true;
@@ -113,10 +115,37 @@ private:
             }
             pieces = std::move(open);
         }
+        refine(pieces, known);
         if (pieces.empty()) return;
         auto const rest = hull_of(pieces);
         if (relative_volume(rest, region).upper() <= 0.5) return settle(std::move(pieces));
         split(std::move(pieces), rest, known);
+    }
+
+    /// Cuts what is open as long as what is known proves parts of it: that is cheap against a run.
+    void refine(group& pieces, response_list const& known) {
+        while (!pieces.empty() && pieces.size() <= most_leaves && !over()) {
+            group halves;
+            std::vector<piece> proved;
+            for (auto const& p : pieces) {
+                auto const side = side_to_cut(p.set, known);
+                if (!side || p.cuts >= most_cuts) {
+                    halves.push_back(p);
+                    continue;
+                }
+                auto [low, high] = bisect(p.set, *side, mid(p.set[*side]));
+                for (auto* const half : {&low, &high}) {
+                    piece next{std::move(*half), p.claim, p.cuts + 1};
+                    (excludes(known, next.set) ? proved : halves).push_back(std::move(next));
+                }
+            }
+            if (proved.empty()) return; // nothing was gained: the pieces stay whole
+            for (auto const& p : pieces) --left_[p.claim];
+            for (auto const& p : halves) ++left_[p.claim];
+            for (auto const& p : proved) ++left_[p.claim];
+            for (auto const& p : proved) prove(p);
+            pieces = std::move(halves);
+        }
     }
 
     void split(group pieces, box const& region, response_list const& known) {
