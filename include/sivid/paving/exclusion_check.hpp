@@ -48,6 +48,7 @@ public:
         begin_ = clock::now();
         claims_ = &claims;
         left_.assign(claims.size(), 0);
+        gave_up_.assign(claims.size(), false);
         group all;
         for (std::size_t k = 0; k < claims.size(); ++k) {
             if (claims[k].what != box_claim::kind::outside) continue;
@@ -84,20 +85,17 @@ private:
         return region;
     }
     void give_up(group const& pieces) {
-        for (auto const& p : pieces) left_[p.claim] = std::numeric_limits<std::size_t>::max();
+        for (auto const& p : pieces) gave_up_[p.claim] = true;
     }
     void prove(piece const& p) {
-        auto& left = left_[p.claim];
-        if (left != std::numeric_limits<std::size_t>::max() && --left == 0) {
+        if (--left_[p.claim] == 0 && !gave_up_[p.claim]) {
             (*claims_)[p.claim].found = box_claim::status::proved;
         }
     }
 
     /// One region: the experiments in turn, each over what the ones before leave open.
     void settle(group pieces) {
-        std::erase_if(pieces, [this](piece const& p) {
-            return left_[p.claim] == std::numeric_limits<std::size_t>::max();
-        });
+        std::erase_if(pieces, [this](piece const& p) { return gave_up_[p.claim]; });
         if (pieces.empty()) return;
         if (over()) return give_up(pieces);
         auto const region = hull_of(pieces);
@@ -312,7 +310,8 @@ private:
     std::vector<record> samples_;
     std::vector<std::unique_ptr<experiment_run>> runs_;
     std::vector<box_claim>* claims_ = nullptr;
-    std::vector<std::size_t> left_; ///< pieces to prove by claim; the largest number: given up
+    std::vector<std::size_t> left_; ///< pieces to prove, by claim
+    std::vector<bool> gave_up_;
     std::size_t count_ = 0;
     clock::time_point begin_;
 };
