@@ -35,7 +35,7 @@ struct diagnosis_options {
     step_effort exclusions{36, 0.08}; ///< ... and all of them
     step_effort part{2, 0.01};        ///< the inflation of one scenario or channel ...
     double parts_share = 0.05;        ///< ... and of all of them, see `step_effort::share`
-    double discharge_share = 0.1;     ///< whether a sensor, not its equation, may be wrong
+    double discharge_share = 0.15;     ///< whether a sensor, not its equation, may be wrong
     double places_share = 0.25; ///< where the model, and then where the closest candidate departs
     std::size_t remaining_sets = 30; ///< of places that the closest candidate may have wrong
     screening_options screening{};
