@@ -30,14 +30,14 @@ template std::unique_ptr<continued_run> make_taylor_continuation<${kernel}>(
 ")
 endforeach()
 
-file(STRINGS "${sivid_include_dir}/sivid/paving/detail/make_scalar_run.hpp" kernels
+file(STRINGS "${sivid_include_dir}/sivid/paving/detail/scalar_taylor_run.hpp" kernels
      REGEX "define SIVID_SCALAR_KERNELS")
 string(REGEX MATCHALL "[0-9]+, [0-9]+" kernels "${kernels}")
 foreach(kernel IN LISTS kernels)
     string(REPLACE ", " "_" name "${kernel}")
     sivid_compiled_source(scalar_kernel_${name} "\
 #include <sivid/paving/scalar_run.hpp>
-#include <sivid/paving/detail/make_scalar_run.hpp>
+#include <sivid/paving/detail/scalar_taylor_run.hpp>
 namespace sivid::paving_detail {
 template std::unique_ptr<experiment_run> make_scalar_taylor_run<${kernel}>(
     flow const&, experiment const&, record const&, run_options const&);

@@ -38,8 +38,7 @@ void write_line(std::ostream& lines, double time, sivid::online_update const& no
 sivid::identification identify_online(sivid::identification_problem problem,
                                       sivid::online_options options, sivid::work_limit limit,
                                       std::function<bool()> const& stopped, std::ostream& lines) {
-    options.test.run.enclosure.keep_going = limit;
-    options.test.witness.enclosure.keep_going = limit;
+    options.test = sivid::limited(std::move(options.test), limit);
     std::vector<sivid::online_sample> samples;
     for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
         for (auto const& m : std::exchange(problem.experiments[e].measurements, {})) {

@@ -246,6 +246,7 @@
 #include <sivid/diagnosis/resolve_delays.hpp>
 #include <sivid/diagnosis/screening.hpp>
 #include <sivid/diagnosis/sensor_discharge.hpp>
+#include <sivid/diagnosis/sensor_faults.hpp>
 #include <sivid/diagnosis/sensor_model.hpp>
 #include <sivid/diagnosis/separation.hpp>
 #include <sivid/diagnosis/state_samples.hpp>

@@ -59,3 +59,22 @@ TEST_CASE("a state that starts at an uncertain input starts within its error") {
     CHECK(p.experiments[0].initial[2].lower() == 0.75);
     CHECK(p.experiments[0].initial[2].upper() == 1.25);
 }
+
+TEST_CASE("a state that starts at a derived constant starts where its formula says") {
+    auto base = small_campaign::problem();
+    auto& m = base.model;
+    auto const k = index_of(m.about.constants, "k", "constant");
+    auto const& nominal = m.about.constants[k].nominal;
+    double const twice = 2 * nominal.nearest;
+    m.about.constants.push_back({"h", "1", literal{interval(twice), twice}});
+    model_detail::add_derived(m, "h", 2 * expression(m.g, m.g.leaf(operation::constant, k)));
+    effect e;
+    e.name = "memory";
+    e.on_inputs = [](effect_scope& s) { s.add_state("w", "1", 9, s.constant("h")); };
+    auto const p = affected(base, {e});
+    REQUIRE(p.choice.unknown[0] == "k");
+    CHECK(p.experiments[0].initial[2].lower() <= 2 * p.prior[0].lower());
+    CHECK(p.experiments[0].initial[2].upper() >= 2 * p.prior[0].upper());
+    CHECK(width(p.experiments[0].initial[2]) < 2.001 * width(p.prior[0]));
+    CHECK(width(p.prior[0]) > 0);
+}

@@ -5,7 +5,7 @@
 
 using namespace sivid;
 
-TEST_CASE("a place is called proved where its equation is, with the proof's window") {
+TEST_CASE("a place is called proved where its equation is and with the proof's window") {
     place_estimate estimate;
     estimated_place p;
     p.name = "r";
@@ -103,6 +103,21 @@ TEST_CASE("what is missing and its estimate are of one window and contain no zer
     CHECK_FALSE(place.missing);
     CHECK(place.where.scenario == "E1");
     CHECK(place.estimate == -7.0);
+}
+
+TEST_CASE("no equation is called proved where instruments alone explain the data") {
+    relation_finding f;
+    f.name = "v";
+    f.proved = true;
+    f.place = proved_place{{}, std::nullopt};
+    place_estimate estimate;
+    estimate.places.resize(1);
+    estimate.places[0].name = "v";
+    estimate.tried = {{{}, 3, 9, 0}, {{"sensor u, v", "v"}, 0.8, 9, 2}, {{"sensor r"}, 1.2, 9, 1}};
+    CHECK(reported(estimate, {f})[0].proved);
+    estimate.tried.push_back({{"sensor u, v"}, 0.9, 9, 1});
+    CHECK(instruments_explain(estimate));
+    CHECK_FALSE(reported(estimate, {f})[0].proved);
 }
 
 TEST_CASE("a definition is not blamed but its sensors") {

@@ -58,7 +58,7 @@ TEST_CASE("budgets from counts, shares and thresholds are exact") {
     CHECK(outlier_rule::threshold(dec("0.1")).of(0) == 0);
 }
 
-TEST_CASE("thresholds outside of (0, 1] and negative shares are refused") {
+TEST_CASE("thresholds not between 0 and 1 and negative shares are refused") {
     CHECK_THROWS_AS(outlier_rule::threshold(dec("0")), std::invalid_argument);
     CHECK_THROWS_AS(outlier_rule::threshold(dec("-0.1")), std::invalid_argument);
     CHECK_THROWS_AS(outlier_rule::threshold(dec("1.0000001")), std::invalid_argument);

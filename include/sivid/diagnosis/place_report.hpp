@@ -32,6 +32,17 @@ namespace sivid {
     });
 }
 
+/// Whether faults of sensors or inputs, and of no equation, were found that explain the data: of
+/// several at once, too, such as an instrument of two channels that is mounted askew.
+[[nodiscard]] inline bool instruments_explain(place_estimate const& estimate) {
+    return std::any_of(estimate.tried.begin(), estimate.tried.end(), [](tried_places const& t) {
+        return t.inflation <= 1 && !t.names.empty() &&
+               std::all_of(t.names.begin(), t.names.end(), [](std::string const& name) {
+                   return name.starts_with("sensor ") || name.starts_with("input ");
+               });
+    });
+}
+
 /// The mean of an estimated missing rate over a window; nothing where none was estimated.
 [[nodiscard]] inline std::optional<double> mean_missing(estimated_place const& p,
                                                         relation_window const& w) {
@@ -99,7 +110,8 @@ namespace sivid {
 reported(place_estimate const& estimate, std::vector<relation_finding> const& findings = {}) {
     std::vector<relation_finding> about_equations;
     for (auto const& f : findings) {
-        if (is_about_equation(f, estimate.places)) about_equations.push_back(f);
+        bool const about = is_about_equation(f, estimate.places) && !instruments_explain(estimate);
+        if (about) about_equations.push_back(f);
     }
     std::vector<suspected_place> result;
     for (auto const& p : estimate.places) {

@@ -116,13 +116,15 @@ inline void add_ratios(relation_row& row, graph_range const& atoms) {
     return row;
 }
 
-/// Adds a coefficient within +-most of a difference.
-inline void add_difference(relation_row& row, std::optional<std::size_t> state, double most) {
+/// Adds an unknown coefficient of a difference, see `relation_row::differences`.
+inline void add_difference(relation_row& row, std::optional<std::size_t> state,
+                           interval const& range) {
+    bool const falling = std::abs(range.upper()) < std::abs(range.lower());
     row.differences.push_back(state);
-    row.range.push_back(interval_traits<interval>::bounds(-most, most));
-    row.anchor.push_back(-most);
-    row.width.push_back(2 * most);
-    row.bounded = row.bounded && std::isfinite(most);
+    row.range.push_back(range);
+    row.anchor.push_back(falling ? range.upper() : range.lower());
+    row.width.push_back(falling ? -width(range) : width(range));
+    row.bounded = row.bounded && is_bounded(range);
 }
 
 /// Two inequalities for each window (numbers 2 i and 2 i + 1), then those between coefficients. A

@@ -33,13 +33,12 @@ enum class window_way {
 };
 
 /// A sensor that may be faulty, in a problem whose model takes what it shows for the state: see
-/// `sensor_discharge.hpp`.
+/// `sensor_discharge.hpp`. The state changes by what is shown times 1 + scale, plus drift times the
+/// time, plus shares of what the sensors of other states show.
 struct suspected_sensor {
     std::size_t state = 0; ///< that it shows
-    double scale = 0;      ///< the state's change is what is shown times 1 +- scale, ...
-    double drift = 0;      ///< ... +- drift times the time, ...
-    /// ... +- so much of what the sensors of other states show.
-    std::vector<std::pair<std::size_t, double>> mixing;
+    interval scale{0.0}, drift{0.0};
+    std::vector<std::pair<std::size_t, interval>> mixing;
     /// Declared variations of what is shown, per experiment.
     std::map<std::string, std::vector<rate_variation>> laws;
 };
@@ -233,9 +232,11 @@ private:
         auto& e = rows_[i];
         e.row = make_relation_row(model_.g, model_.rate.at(i), i, problem_->prior);
         if (suspect_ != nullptr && suspect_->state == i) {
-            add_difference(e.row, i, suspect_->scale);
-            add_difference(e.row, std::nullopt, suspect_->drift);
-            for (auto const& [m, most] : suspect_->mixing) add_difference(e.row, m, most);
+            add_difference(e.row, i, traits::neg(suspect_->scale));
+            add_difference(e.row, std::nullopt, traits::neg(suspect_->drift));
+            for (auto const& [m, share] : suspect_->mixing) {
+                add_difference(e.row, m, traits::neg(share));
+            }
         }
         e.set = integrand_set::of(model_.g, e.row.functions, model_.state_count(),
                                   about().inputs.size());

@@ -3,10 +3,7 @@
 #define SIVID_DIAGNOSIS_SENSOR_DISCHARGE_HPP
 
 #include <sivid/diagnosis/broken_relation.hpp>
-#include <sivid/diagnosis/state_samples.hpp>
-#include <sivid/model/rewrite.hpp>
-#include <sivid/model/unit.hpp>
-#include <sivid/number/nearest_text.hpp>
+#include <sivid/diagnosis/sensor_faults.hpp>
 #include <sivid/paving/problem.hpp>
 
 #include <algorithm>
@@ -15,302 +12,197 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace sivid {
 
-/// What a faulty sensor may do: the true x is
-///   \f$ x(t) = (1 + s)\, y(t + \tau) + b + d\, t + \sum_m c_m y_m(t) \f$
-/// of what it shows, y, and what the sensors of other states show, with unknown s, b, d, c in
-/// ranges about 0 and an unknown delay \f$ \tau \f$. Cross-talk c: of channels in the same unit (an
-/// instrument that is mounted askew) and of those whose unit is that by a length (a lever arm).
-struct sensor_fault_ranges {
-    double scale = 0.1;   ///< |s|
-    double offset = 0.1;  ///< |b| and |d t|, each as a share of what the channel's values span
-    double mixing = 0.12; ///< |c| within one unit: 0.12 rad askew
-    double arm = 0.1;     ///< |c| of a lever arm [m]
-    double latency = 0.2; ///< most delay [s]
-    std::size_t most_slices = 40; ///< pieces that the delay is cut into
-};
-
-/// A sensor with the ranges of its faults, in the channel's unit.
-struct faulty_channel {
-    std::size_t state = 0, channel = 0;
-    double scale = 0, offset = 0, drift = 0, latency = 0;
-    std::vector<std::pair<std::size_t, double>> mixing; ///< (state, most)
-};
-
-namespace diagnosis_detail {
-
-/// A unit in which an angle is a number.
-inline unit without_angle(std::string const& text) {
-    auto result = unit(text);
-    for (int n = 1; n <= 4; ++n) { // rad stands in it to a small power, if at all
-        auto const above = result.times(unit("rad"), -1);
-        if (above.text().size() < result.text().size()) result = above;
-        auto const below = result.times(unit("rad"), 1);
-        if (below.text().size() < result.text().size()) result = below;
-    }
-    return result;
-}
-
-} // namespace diagnosis_detail
-
-/// The ranges of one sensor's faults.
-/// @param channels  that show the states
-[[nodiscard]] inline faulty_channel
-faults_of(identification_problem const& problem,
-          std::vector<std::optional<std::size_t>> const& channels, std::size_t state,
-          sensor_fault_ranges const& ranges) {
-    auto const& about = problem.model.about;
-    faulty_channel result{state, *channels[state], ranges.scale, 0, 0, ranges.latency, {}};
-    double low = HUGE_VAL, high = -HUGE_VAL, longest = 0, latest = 0;
-    for (auto const& e : problem.experiments) {
-        for (auto const& m : e.measurements) {
-            if (m.channel != result.channel) continue;
-            low = std::min(low, m.bound.lower());
-            high = std::max(high, m.bound.upper());
-            longest = std::max(longest, m.time - e.begin);
-            latest = std::max(latest, std::abs(e.begin));
+/// Proves of equations that they themselves are broken: that no fault of any one sensor of the row,
+/// within the ranges, repairs the relation. A sensor's faults enter the equations as unknown
+/// coefficients, all at once, its delay in slices. What a single sensor may do at all is first cut
+/// to what the model's definitions (kinematic equations) allow, in which the other sensors are
+/// right: an offset of a gyro, say, to what the heading bears.
+/// @guarantee  see `operator()`
+/// @cost  one examination of an equation (some milliseconds for a few hundred samples) for each
+///        slice, and some tens of them for each sensor, which serve all equations
+class sensor_discharge {
+public:
+    /// @param problem  outlives this object
+    /// @param go_on    asked before each examination; may be empty
+    explicit sensor_discharge(identification_problem const& problem,
+                              sensor_fault_ranges const& ranges = {}, relation_options options = {},
+                              std::function<bool()> go_on = {})
+        : problem_(&problem),
+          ranges_(ranges),
+          options_(std::move(options)),
+          go_on_(std::move(go_on)),
+          base_(problem, options_) {
+        options_.most_windows = std::min<std::size_t>(options_.most_windows, 3000);
+        auto& windows = base_.windows();
+        for (auto const& m : windows.motions()) laws_[m.name] = m.variation;
+        for (std::size_t i = 0; i < base_.equations(); ++i) {
+            if (!windows.obstacle(i).empty() || !windows.channels()[i]) continue;
+            if (windows.row(i).kinematic) definitions_.push_back(i);
         }
     }
-    double const most = ranges.offset * std::max(high - low, 0.0);
-    result.drift = longest > 0 ? most / longest : 0;
-    result.offset = most + result.drift * latest; // the drift counts from the begin
-    auto const own = diagnosis_detail::without_angle(about.channels[result.channel].unit);
-    for (std::size_t m = 0; m < channels.size(); ++m) {
-        if (!channels[m] || m == state) continue;
-        auto const other = diagnosis_detail::without_angle(about.channels[*channels[m]].unit);
-        if (about.channels[*channels[m]].unit == about.channels[result.channel].unit) {
-            result.mixing.emplace_back(m, ranges.mixing);
-        } else if (own == other.times(unit("m"), 1)) {
-            result.mixing.emplace_back(m, ranges.arm);
+
+    /// @param f  proved to be broken together with its sensors, by `examine_relations`
+    /// @returns nothing where some sensor may be what is wrong, where the definitions show that one
+    ///          is, or where the time ended
+    /// @guarantee  otherwise the equation does not hold if the assumptions that are listed do, and
+    ///             lacks `missing` on the average over its window
+    [[nodiscard]] std::optional<proved_place> operator()(relation_finding const& f) {
+        auto& windows = base_.windows();
+        if (!f.proved || f.definition || !windows.obstacle(f.equation).empty() ||
+            !windows.channels()[f.equation] || !definitions_hold()) {
+            return std::nullopt;
         }
-    }
-    return result;
-}
-
-/// A problem about what a faulty sensor shows, re-timed for delays around one value: its model
-/// takes that for the state and corrects it by unknown constants.
-struct suspect_problem {
-    identification_problem problem;
-    suspected_sensor sensor;
-};
-
-/// @param laws         declared variations of the states' rates, per experiment
-/// @param delay, half  the delays delay - half to delay + half
-[[nodiscard]] inline suspect_problem
-suspect_of(identification_problem const& source, faulty_channel const& f,
-           std::map<std::string, std::vector<rate_variation>> const& laws, double delay,
-           double half) {
-    using traits = interval_traits<interval>;
-    suspect_problem result{source, {f.state, f.scale, f.drift, f.mixing, laws}};
-    auto& problem = result.problem;
-    auto& model = problem.model;
-    std::vector<interval> sides(source.prior.begin(), source.prior.end());
-    graph g;
-    auto const unknown = [&](std::string const& name, double most) {
-        model.about.constants.push_back({name, "1", literal{interval(0.0), 0.0}});
-        problem.choice.unknown.push_back(name);
-        sides.push_back(traits::bounds(-most, most));
-        return g.leaf(operation::constant, model.about.constants.size() - 1);
-    };
-    auto const shown = g.leaf(operation::state, f.state);
-    auto state = g.add(shown, g.mul(unknown("sensor scale", f.scale), shown));
-    state = g.add(state, unknown("sensor offset", f.offset));
-    state = g.add(state, g.mul(unknown("sensor drift", f.drift), g.leaf(operation::time, 0)));
-    for (auto const& [m, most] : f.mixing) {
-        auto const share = unknown("sensor share " + model.about.states[m].name, most);
-        state = g.add(state, g.mul(share, g.leaf(operation::state, m)));
-    }
-    auto const plain = [](node const& n, graph& to) {
-        return to.leaf(n.op, static_cast<std::size_t>(n.index));
-    };
-    auto const corrected = [&](node const& n, graph& to) {
-        auto const k = static_cast<std::size_t>(n.index);
-        return n.op == operation::state && k == f.state ? state : to.leaf(n.op, k);
-    };
-    model.rate = copy_into(g, source.model.g, source.model.rate, corrected);
-    model.observe = copy_into(g, source.model.g, source.model.observe, plain);
-    for (auto& a : model.added_states) {
-        a.at_begin = copy_into(g, source.model.g, {a.at_begin}, plain).front();
-    }
-    model.g = std::move(g);
-    problem.prior = box(sides.size());
-    for (std::size_t j = 0; j < sides.size(); ++j) problem.prior[j] = sides[j];
-
-    for (auto& e : problem.experiments) {
-        auto const found = laws.find(e.name);
-        if (found == laws.end()) continue; // it is not used
-        // x' = (1 + s) y' + d + sum c y_m': what y' varies by.
-        auto& law = result.sensor.laws[e.name][f.state];
-        double variation = law.variation;
-        auto start = e.initial[f.state];
-        double off = f.offset + f.drift * std::abs(e.begin);
-        for (auto const& [m, most] : f.mixing) {
-            auto const& other = found->second[m];
-            double const periods = std::ceil(law.period / other.period * (1 - 1e-9));
-            variation += most * other.variation * std::max(1.0, periods);
-            off += most * mag(e.initial[m]);
+        // Where something is missing if all sensors are right.
+        std::vector<missing_rate> missing;
+        auto places = f.windows;
+        if (f.missing) places.insert(places.begin(), f.missing->window);
+        for (auto const& at : places) {
+            auto const found = base_.missing_over(f.equation, at);
+            if (found && !contains(*found, 0)) {
+                missing.push_back({at, *found, windows.rate_unit(f.equation)});
+            }
         }
-        law.variation = std::min(variation / (1 - f.scale) * (1 + 1e-9), 1e100);
-        bool undefined = false;
-        off *= 1 + 1e-9;
-        e.initial[f.state] = traits::div(traits::add(start, traits::bounds(-off, off)),
-                                         traits::bounds(1 - f.scale, 1 + f.scale), undefined);
-        // Late by delay: what is shown at t belongs to t - delay; and may have moved by half.
-        auto const samples = state_samples::sensed(e, f.channel);
-        auto const steepest = [&](double t) {
-            double rate = 0;
-            for (std::size_t k = 0; k + 1 < samples.times.size(); ++k) {
-                double const gap = samples.times[k + 1] - samples.times[k];
-                if (samples.times[k + 1] < t - 1.5 * gap || samples.times[k] > t + 1.5 * gap) {
-                    continue;
+        auto const suspects = suspects_of(f);
+        // The least delays of each first: most sensors that may be wrong show then.
+        for (bool const first : {true, false}) {
+            for (auto const& s : suspects) {
+                auto const [delays, half] = delay_slices(*problem_, s, ranges_.most_slices);
+                for (std::size_t k = first ? 0 : 1; k < (first ? 1 : delays.size()); ++k) {
+                    if (!refuted(f.equation, s, delays[k], half, missing)) return std::nullopt;
                 }
-                rate = std::max(rate, mag((samples.bounds[k + 1] - samples.bounds[k]) / gap));
             }
-            return rate + 2 * law.variation;
-        };
-        record kept;
-        for (auto m : e.measurements) {
-            if (m.channel == f.channel) {
-                double const more = half > 0 ? half * steepest(m.time) * (1 + 1e-9) : 0;
-                m.bound = traits::add(m.bound, traits::bounds(-more, more));
-                m.time -= delay;
-                if (m.time < e.begin) continue;
+        }
+        proved_place result{f.assumptions, std::nullopt};
+        add_assumptions(f, suspects, result);
+        double clearest = 0;
+        for (auto const& m : missing) {
+            if (!is_bounded(m.value) || contains(m.value, 0)) continue;
+            double const clear = std::abs(mid(m.value)) / (width(m.value) + 1e-300);
+            if (!(clear > clearest)) continue;
+            clearest = clear;
+            result.missing = m;
+        }
+        return result;
+    }
+
+private:
+    [[nodiscard]] bool stopped() const { return go_on_ && !go_on_(); }
+
+    /// Whether the sensors do not contradict each other already.
+    [[nodiscard]] bool definitions_hold() {
+        if (!definitions_hold_) {
+            definitions_hold_ = std::none_of(definitions_.begin(), definitions_.end(), [&](auto i) {
+                // Between the sensors, and with the initial states, too.
+                faulty_channel const none{i,
+                                          *base_.windows().channels()[i],
+                                          interval(0.0),
+                                          interval(0.0),
+                                          interval(0.0),
+                                          {},
+                                          0};
+                return stopped() || base_.examine(i).proved || impossible(none, 0, 0);
+            });
+        }
+        return *definitions_hold_;
+    }
+    [[nodiscard]] std::vector<faulty_channel> suspects_of(relation_finding const& f) {
+        auto const& channels = base_.windows().channels();
+        std::vector<faulty_channel> result;
+        for (std::size_t s = 0; s < channels.size(); ++s) {
+            if (!channels[s]) continue;
+            auto const& name = problem_->model.about.channels[*channels[s]].name;
+            if (std::find(f.channels.begin(), f.channels.end(), name) == f.channels.end()) continue;
+            result.push_back(faults_of(*problem_, channels, s, ranges_));
+        }
+        return result;
+    }
+    /// Whether a definition excludes all faults in some ranges.
+    [[nodiscard]] bool impossible(faulty_channel const& s, double delay, double half) const {
+        auto const faulty = suspect_of(*problem_, s, laws_, delay, half);
+        relation_examiner examiner(faulty.problem, options_, &faulty.sensor);
+        return std::any_of(definitions_.begin(), definitions_.end(),
+                           [&](auto i) { return examiner.examine(i).proved; });
+    }
+    /// Cuts off what no fault in the ranges can be, half of a side at a time. Nothing where none is
+    /// possible; ended early, the ranges are what is known by then.
+    [[nodiscard]] std::optional<faulty_channel> possible(faulty_channel s, double delay,
+                                                         double half) {
+        std::pair<std::size_t, double> const key{s.state, delay};
+        if (auto const known = cut_.find(key); known != cut_.end()) return known->second;
+        if (stopped()) return s;
+        if (impossible(s, delay, half)) return cut_[key] = std::nullopt;
+        constexpr int halvings = 6;
+        for (std::size_t k = 0; k < s.size(); ++k) {
+            for (bool const above : {true, false}) {
+                for (int n = 0; n < halvings; ++n) {
+                    if (stopped()) return s;
+                    auto const whole = s.range(k);
+                    double const end = above ? whole.upper() : whole.lower();
+                    if (!(above ? end > 0 : end < 0)) break;
+                    auto part = s;
+                    part.range(k) = above ? interval(end / 2, end) : interval(end, end / 2);
+                    if (!impossible(part, delay, half)) break;
+                    s.range(k) =
+                        above ? interval(whole.lower(), end / 2) : interval(end / 2, whole.upper());
+                }
             }
-            kept.push_back(m);
         }
-        e.measurements = std::move(kept);
+        return cut_[key] = s;
     }
-    return result;
-}
-
-/// Delays that stand for [0, latency], and half of what each one stands for.
-[[nodiscard]] inline std::pair<std::vector<double>, double>
-delay_slices(identification_problem const& problem, faulty_channel const& f,
-             std::size_t most_slices) {
-    if (!(f.latency > 0)) return {{0.0}, 0.0};
-    // As long as the channel takes to move by its error, by the median.
-    std::vector<double> lengths;
-    for (auto const& e : problem.experiments) {
-        auto const s = state_samples::sensed(e, f.channel);
-        for (std::size_t k = 0; k + 1 < s.times.size(); ++k) {
-            double const rate =
-                mag((s.bounds[k + 1] - s.bounds[k])) / (s.times[k + 1] - s.times[k]);
-            lengths.push_back(rad(s.bounds[k]) / std::max(rate, 1e-12));
-        }
-    }
-    double length = f.latency;
-    if (!lengths.empty()) {
-        auto const middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-        std::nth_element(lengths.begin(), middle, lengths.end());
-        length = std::min(length, 2 * *middle);
-    }
-    auto const count = static_cast<std::size_t>(
-        std::clamp(std::ceil(f.latency / length), 1.0, static_cast<double>(most_slices)));
-    double const half = f.latency / static_cast<double>(count) / 2;
-    std::vector<double> delays;
-    for (std::size_t k = 0; k < count; ++k) delays.push_back(half * static_cast<double>(2 * k + 1));
-    return {delays, half * (1 + 1e-9)};
-}
-
-/// What sensors may do where a place is proved, in words.
-[[nodiscard]] inline std::string fault_assumption(identification_problem const& problem,
-                                                  std::vector<faulty_channel> const& all) {
-    auto const& about = problem.model.about;
-    std::string text = "at most one sensor errs beyond its bounds, by no more than";
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        auto const& f = all[k];
-        auto const& c = about.channels[f.channel];
-        text += std::string{k == 0 ? " " : " / "} + c.name + ": scale " + nearest_text(f.scale, 3) +
-                ", offset " + nearest_text(f.offset, 3) + " " + c.unit + ", drift " +
-                nearest_text(f.drift, 3) + " " + c.unit + "/s";
-        for (auto const& [m, most] : f.mixing) {
-            text += ", share of " + about.states[m].name + " " + nearest_text(most, 3);
-        }
-        text += ", delay " + nearest_text(f.latency, 3) + " s";
-    }
-    return text;
-}
-
-/// Tries to prove that an equation itself is what is broken: that no fault of any one sensor of its
-/// row, within the ranges, repairs the relation. Each sensor's faults enter the equation as unknown
-/// coefficients, all at once, its delay in slices.
-/// @param f      proved to be broken together with its sensors, by `examine_relations`
-/// @param go_on  asked before each attempt; may be empty
-/// @returns nothing where some sensor may be what is wrong, or the time ended
-/// @guarantee  otherwise the equation does not hold if the assumptions that it lists do, and lacks
-///             `missing` on the average over its window
-/// @cost  one examination of an equation (some tens of milliseconds) for each sensor and slice, up
-///        to the first that does not refute
-[[nodiscard]] inline std::optional<proved_place>
-prove_place(identification_problem const& problem, relation_finding const& f,
-            sensor_fault_ranges const& ranges = {}, relation_options options = {},
-            std::function<bool()> const& go_on = {}) {
-    auto const stopped = [&go_on] { return go_on && !go_on(); };
-    if (!f.proved || f.definition || stopped()) return std::nullopt;
-    relation_examiner base(problem, options);
-    auto& windows = base.windows();
-    if (!windows.obstacle(f.equation).empty() || !windows.channels()[f.equation]) {
-        return std::nullopt;
-    }
-    std::map<std::string, std::vector<rate_variation>> laws;
-    for (auto const& m : windows.motions()) laws[m.name] = m.variation;
-    // Where something is missing if all sensors are right.
-    struct place_window {
-        relation_window at;
-        interval value;
-    };
-    std::vector<place_window> missing;
-    auto places = f.windows;
-    if (f.missing) places.insert(places.begin(), f.missing->window);
-    for (auto const& at : places) {
-        auto const found = base.missing_over(f.equation, at);
-        if (found && !contains(*found, 0)) missing.push_back({at, *found});
-    }
-    std::vector<faulty_channel> suspects;
-    for (std::size_t s = 0; s < windows.channels().size(); ++s) {
-        auto const& c = windows.channels()[s];
-        if (!c) continue;
-        auto const& name = problem.model.about.channels[*c].name;
-        if (std::find(f.channels.begin(), f.channels.end(), name) == f.channels.end()) continue;
-        suspects.push_back(faults_of(problem, windows.channels(), s, ranges));
-    }
-    options.most_windows = std::min<std::size_t>(options.most_windows, 3000);
-    auto const refuted = [&](faulty_channel const& suspect, double delay, double half) {
-        auto const faulty = suspect_of(problem, suspect, laws, delay, half);
-        relation_examiner examiner(faulty.problem, options, &faulty.sensor);
-        if (!examiner.examine(f.equation).proved) return false;
-        for (auto& w : missing) {
-            auto const found = examiner.missing_over(f.equation, w.at);
-            w.value = found ? hull(w.value, *found) : interval_traits<interval>::entire();
+    /// @param missing  becomes wide enough for these faults
+    [[nodiscard]] bool refuted(std::size_t equation, faulty_channel const& s, double delay,
+                               double half, std::vector<missing_rate>& missing) {
+        auto const left = possible(s, delay, half);
+        if (!left) return true;
+        if (stopped()) return false;
+        auto const faulty = suspect_of(*problem_, *left, laws_, delay, half);
+        relation_examiner examiner(faulty.problem, options_, &faulty.sensor);
+        if (!examiner.examine(equation).proved) return false;
+        for (auto& m : missing) {
+            auto const found = examiner.missing_over(equation, m.window);
+            m.value = found ? hull(m.value, *found) : interval_traits<interval>::entire();
         }
         return true;
-    };
-    // The least delays of each first: most sensors that may be wrong show then.
-    for (bool const first : {true, false}) {
-        for (auto const& suspect : suspects) {
-            auto const [delays, half] = delay_slices(problem, suspect, ranges.most_slices);
-            for (std::size_t k = first ? 0 : 1; k < (first ? 1 : delays.size()); ++k) {
-                if (stopped() || !refuted(suspect, delays[k], half)) return std::nullopt;
-            }
+    }
+    void add_assumptions(relation_finding const& f, std::vector<faulty_channel> const& suspects,
+                         proved_place& result) {
+        auto const add = [&result](std::string const& text) {
+            auto& all = result.assumptions;
+            if (std::find(all.begin(), all.end(), text) == all.end()) all.push_back(text);
+        };
+        auto& windows = base_.windows();
+        std::set<std::size_t> motions;
+        for (std::size_t m = 0; m < windows.motions().size(); ++m) motions.insert(m);
+        relation_finding all;
+        windows.describe(f.equation, window_way::direct, motions, true, all);
+        std::string names;
+        for (auto const i : definitions_) {
+            windows.describe(i, window_way::direct, motions, true, all);
+            names += (names.empty() ? "" : ", ") + problem_->model.about.states[i].name;
         }
+        for (auto const& a : all.assumptions) add(a);
+        if (!names.empty()) add("the definitions of " + names + " hold");
+        add(fault_assumption(*problem_, suspects));
     }
-    proved_place result{f.assumptions, std::nullopt};
-    result.assumptions.push_back(fault_assumption(problem, suspects));
-    double clearest = 0;
-    for (auto const& w : missing) {
-        if (!is_bounded(w.value) || contains(w.value, 0)) continue;
-        double const clear = std::abs(mid(w.value)) / (width(w.value) + 1e-300);
-        if (!(clear > clearest)) continue;
-        clearest = clear;
-        result.missing = missing_rate{w.at, w.value, windows.rate_unit(f.equation)};
-    }
-    return result;
-}
+
+    identification_problem const* problem_;
+    sensor_fault_ranges ranges_;
+    relation_options options_;
+    std::function<bool()> go_on_;
+    relation_examiner base_;
+    std::map<std::string, std::vector<rate_variation>> laws_;
+    std::vector<std::size_t> definitions_;
+    std::optional<bool> definitions_hold_;
+    /// What faults of (state, delay) are possible.
+    std::map<std::pair<std::size_t, double>, std::optional<faulty_channel>> cut_;
+};
 
 } // namespace sivid
 

@@ -192,9 +192,8 @@ inline check_finding agreement(std::string what, std::string const& fault,
     bool const by_budget = r == stop_reason::time_budget || r == stop_reason::box_budget ||
                            r == stop_reason::memory_budget || r == stop_reason::cancelled;
     holds = holds && (!by_budget || pending || !stored.effort);
-    // Where measurements came one by one, no budget but that of boxes ends anything.
-    holds = holds &&
-            (stored.effort || stored.grounds.empty() || !by_budget || r == stop_reason::box_budget);
+    // Where measurements came one by one there is no budget of memory.
+    holds = holds && (stored.effort || stored.grounds.empty() || r != stop_reason::memory_budget);
     if (stored.effort && pending) { // otherwise no budget was looked at in the end
         auto const& e = *stored.effort;
         bool const time = e.seconds > e.most_seconds, boxes = e.boxes >= e.most_boxes;

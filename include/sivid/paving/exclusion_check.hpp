@@ -48,6 +48,7 @@ public:
         begin_ = clock::now();
         claims_ = &claims;
         left_.assign(claims.size(), 0);
+        gave_up_.assign(claims.size(), false);
         group all;
         for (std::size_t k = 0; k < claims.size(); ++k) {
             if (claims[k].what != box_claim::kind::outside) continue;
@@ -69,8 +70,10 @@ private:
 
     /// More groups of measurements than this are not tried (`cut_contraction` neither).
     static constexpr std::size_t most_groups = 8;
+    /// So many open pieces are cut further without a run.
+    static constexpr std::size_t most_leaves = 64;
     /// A box is cut so often before it is left to others.
-    static constexpr std::size_t most_cuts = 40;
+    static constexpr std::size_t most_cuts = 200;
 
     [[nodiscard]] bool over() const {
         if (options_.keep_going && !options_.keep_going()) return true;
@@ -82,20 +85,17 @@ private:
         return region;
     }
     void give_up(group const& pieces) {
-        for (auto const& p : pieces) left_[p.claim] = std::numeric_limits<std::size_t>::max();
+        for (auto const& p : pieces) gave_up_[p.claim] = true;
     }
     void prove(piece const& p) {
-        auto& left = left_[p.claim];
-        if (left != std::numeric_limits<std::size_t>::max() && --left == 0) {
+        if (--left_[p.claim] == 0 && !gave_up_[p.claim]) {
             (*claims_)[p.claim].found = box_claim::status::proved;
         }
     }
 
     /// One region: the experiments in turn, each over what the ones before leave open.
     void settle(group pieces) {
-        std::erase_if(pieces, [this](piece const& p) {
-            return left_[p.claim] == std::numeric_limits<std::size_t>::max();
-        });
+        std::erase_if(pieces, [this](piece const& p) { return gave_up_[p.claim]; });
         if (pieces.empty()) return;
         if (over()) return give_up(pieces);
         auto const region = hull_of(pieces);
@@ -113,10 +113,37 @@ private:
             }
             pieces = std::move(open);
         }
+        refine(pieces, known);
         if (pieces.empty()) return;
         auto const rest = hull_of(pieces);
         if (relative_volume(rest, region).upper() <= 0.5) return settle(std::move(pieces));
         split(std::move(pieces), rest, known);
+    }
+
+    /// Cuts what is open as long as what is known proves parts of it: that is cheap against a run.
+    void refine(group& pieces, response_list const& known) {
+        while (!pieces.empty() && pieces.size() <= most_leaves && !over()) {
+            group halves;
+            std::vector<piece> proved;
+            for (auto const& p : pieces) {
+                auto const side = side_to_cut(p.set, known);
+                if (!side || p.cuts >= most_cuts) {
+                    halves.push_back(p);
+                    continue;
+                }
+                auto [low, high] = bisect(p.set, *side, mid(p.set[*side]));
+                for (auto* const half : {&low, &high}) {
+                    piece next{std::move(*half), p.claim, p.cuts + 1};
+                    (excludes(known, next.set) ? proved : halves).push_back(std::move(next));
+                }
+            }
+            if (proved.empty()) return; // nothing was gained: the pieces stay whole
+            for (auto const& p : pieces) --left_[p.claim];
+            for (auto const& p : halves) ++left_[p.claim];
+            for (auto const& p : proved) ++left_[p.claim];
+            for (auto const& p : proved) prove(p);
+            pieces = std::move(halves);
+        }
     }
 
     void split(group pieces, box const& region, response_list const& known) {
@@ -283,7 +310,8 @@ private:
     std::vector<record> samples_;
     std::vector<std::unique_ptr<experiment_run>> runs_;
     std::vector<box_claim>* claims_ = nullptr;
-    std::vector<std::size_t> left_; ///< pieces to prove by claim; the largest number: given up
+    std::vector<std::size_t> left_; ///< pieces to prove, by claim
+    std::vector<bool> gave_up_;
     std::size_t count_ = 0;
     clock::time_point begin_;
 };

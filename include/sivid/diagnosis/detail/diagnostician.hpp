@@ -206,12 +206,13 @@ private:
     void discharge_sensors() {
         auto& d = run_.result;
         if (d.gap == gap_verdict::none || run_.findings.empty()) return;
+        if (run_.places.places.empty() || instruments_explain(run_.places)) return;
         if (!effort_.go_on("looking whether a sensor may be wrong instead")) return;
         double const end = effort_.left() - effort_.seconds_of({0, options_.discharge_share});
         auto const go_on = [this, end] { return effort_.left() >= end && effort_.go_on(); };
+        sensor_discharge discharged(run_.base, {}, {}, go_on);
         for (auto& f : run_.findings) {
-            if (!is_about_equation(f, run_.places.places)) continue;
-            f.place = prove_place(run_.base, f, {}, {}, go_on);
+            if (is_about_equation(f, run_.places.places)) f.place = discharged(f);
         }
         d.where = reported(run_.places, run_.findings);
     }

@@ -30,42 +30,47 @@ template <class V>
 using mask_of = typename V::mask;
 
 template <class V>
-[[nodiscard]] bounds<V> select(mask_of<V> m, bounds<V> const& yes, bounds<V> const& no) noexcept {
+[[nodiscard, gnu::always_inline]] inline bounds<V> select(mask_of<V> m, bounds<V> const& yes,
+                                                          bounds<V> const& no) noexcept {
     return {select(m, yes.lo, no.lo), select(m, yes.hi, no.hi)};
 }
 template <class V>
-[[nodiscard]] bounds<V> constant(double lo, double hi) noexcept {
+[[nodiscard, gnu::always_inline]] inline bounds<V> constant(double lo, double hi) noexcept {
     return {V(lo), V(hi)};
 }
 template <class V>
-[[nodiscard]] bounds<V> empty_where(mask_of<V> m, bounds<V> const& x) noexcept {
+[[nodiscard, gnu::always_inline]] inline bounds<V> empty_where(mask_of<V> m,
+                                                               bounds<V> const& x) noexcept {
     return select(m, constant<V>(not_a_number, not_a_number), x);
 }
 
 template <class V>
-[[nodiscard]] mask_of<V> is_empty(bounds<V> const& a) noexcept {
+[[nodiscard, gnu::always_inline]] inline mask_of<V> is_empty(bounds<V> const& a) noexcept {
     return unordered(a.lo, a.lo);
 }
 template <class V>
-[[nodiscard]] mask_of<V> either_empty(bounds<V> const& a, bounds<V> const& b) noexcept {
+[[nodiscard, gnu::always_inline]] inline mask_of<V> either_empty(bounds<V> const& a,
+                                                                 bounds<V> const& b) noexcept {
     return unordered(a.lo, b.lo);
 }
 template <class V>
-[[nodiscard]] mask_of<V> contains_zero(bounds<V> const& a) noexcept {
+[[nodiscard, gnu::always_inline]] inline mask_of<V> contains_zero(bounds<V> const& a) noexcept {
     return (a.lo <= V(0.0)) & (a.hi >= V(0.0));
 }
 
 template <class V>
-[[nodiscard]] bounds<V> neg(bounds<V> const& a) noexcept {
+[[nodiscard, gnu::always_inline]] inline bounds<V> neg(bounds<V> const& a) noexcept {
     return {-a.hi, -a.lo};
 }
 template <class V>
-[[nodiscard]] bounds<V> add(bounds<V> const& a, bounds<V> const& b) noexcept {
+[[nodiscard, gnu::always_inline]] inline bounds<V> add(bounds<V> const& a,
+                                                       bounds<V> const& b) noexcept {
     using d = directed<V>;
     return {d::add_down(a.lo, b.lo), d::add_up(a.hi, b.hi)};
 }
 template <class V>
-[[nodiscard]] bounds<V> sub(bounds<V> const& a, bounds<V> const& b) noexcept {
+[[nodiscard, gnu::always_inline]] inline bounds<V> sub(bounds<V> const& a,
+                                                       bounds<V> const& b) noexcept {
     using d = directed<V>;
     return {d::sub_down(a.lo, b.hi), d::sub_up(a.hi, b.lo)};
 }
@@ -77,10 +82,11 @@ template <class V>
                                                        bounds<V> const& b) noexcept {
     using d = directed<V>;
     V l0, l1, l2, l3, u0, u1, u2, u3;
-    d::mul_both(a.lo, b.lo, l0, u0);
-    d::mul_both(a.lo, b.hi, l1, u1);
-    d::mul_both(a.hi, b.lo, l2, u2);
-    d::mul_both(a.hi, b.hi, l3, u3);
+    V const p = a.lo, q = a.hi, r = b.lo, s = b.hi; // copies: see pack_directed.hpp
+    d::mul_both(p, r, l0, u0);
+    d::mul_both(p, s, l1, u1);
+    d::mul_both(q, r, l2, u2);
+    d::mul_both(q, s, l3, u3);
     V const lo = min_number(min_number(l0, l1), min_number(l2, l3));
     V const hi = max_number(max_number(u0, u1), max_number(u2, u3));
     auto const zero = unordered(lo, lo) & !either_empty(a, b);
@@ -112,15 +118,15 @@ template <class V>
 }
 
 template <class V>
-[[nodiscard]] V mig(bounds<V> const& a) noexcept {
+[[nodiscard, gnu::always_inline]] inline V mig(bounds<V> const& a) noexcept {
     return select(contains_zero(a), V(0.0), min(abs(a.lo), abs(a.hi)));
 }
 template <class V>
-[[nodiscard]] V mag(bounds<V> const& a) noexcept {
+[[nodiscard, gnu::always_inline]] inline V mag(bounds<V> const& a) noexcept {
     return max(abs(a.lo), abs(a.hi));
 }
 template <class V>
-[[nodiscard]] bounds<V> abs(bounds<V> const& a) noexcept {
+[[nodiscard, gnu::always_inline]] inline bounds<V> abs(bounds<V> const& a) noexcept {
     return {mig(a), mag(a)};
 }
 template <class V>
@@ -140,19 +146,23 @@ template <class V>
 }
 
 template <class V>
-[[nodiscard]] bounds<V> min(bounds<V> const& a, bounds<V> const& b) noexcept {
+[[nodiscard, gnu::always_inline]] inline bounds<V> min(bounds<V> const& a,
+                                                       bounds<V> const& b) noexcept {
     return empty_where(either_empty(a, b), bounds<V>{min(a.lo, b.lo), min(a.hi, b.hi)});
 }
 template <class V>
-[[nodiscard]] bounds<V> max(bounds<V> const& a, bounds<V> const& b) noexcept {
+[[nodiscard, gnu::always_inline]] inline bounds<V> max(bounds<V> const& a,
+                                                       bounds<V> const& b) noexcept {
     return empty_where(either_empty(a, b), bounds<V>{max(a.lo, b.lo), max(a.hi, b.hi)});
 }
 template <class V>
-[[nodiscard]] bounds<V> hull(bounds<V> const& a, bounds<V> const& b) noexcept {
+[[nodiscard, gnu::always_inline]] inline bounds<V> hull(bounds<V> const& a,
+                                                        bounds<V> const& b) noexcept {
     return {min_number(a.lo, b.lo), max_number(a.hi, b.hi)};
 }
 template <class V>
-[[nodiscard]] bounds<V> intersect(bounds<V> const& a, bounds<V> const& b) noexcept {
+[[nodiscard, gnu::always_inline]] inline bounds<V> intersect(bounds<V> const& a,
+                                                             bounds<V> const& b) noexcept {
     V const lo = max(a.lo, b.lo), hi = min(a.hi, b.hi);
     return empty_where(either_empty(a, b) | (hi < lo), bounds<V>{lo, hi});
 }
@@ -164,7 +174,8 @@ template <class V>
     auto const of = [&](V t) {
         return select(t > zero, one, select(t < zero, -one, select(unordered(t, t), t, zero)));
     };
-    return {of(a.lo), of(a.hi)};
+    V const lo = a.lo, hi = a.hi;
+    return {of(lo), of(hi)};
 }
 
 /// \f$ \{\min(\max(t, l), h)\} \f$
@@ -184,8 +195,9 @@ template <class V>
     auto const clipped = [&](V t, V positive, V negative) { // NaN from inf - inf becomes 0
         return select(t > zero, max(positive, zero), min(negative, zero));
     };
-    bounds<V> const y{clipped(a.lo, d::sub_down(a.lo, most), d::add_down(a.lo, least)),
-                      clipped(a.hi, d::sub_up(a.hi, least), d::add_up(a.hi, most))};
+    V const lo = a.lo, hi = a.hi;
+    bounds<V> const y{clipped(lo, d::sub_down(lo, most), d::add_down(lo, least)),
+                      clipped(hi, d::sub_up(hi, least), d::add_up(hi, most))};
     return empty_where(either_empty(a, half_width) | (most < zero), y);
 }
 

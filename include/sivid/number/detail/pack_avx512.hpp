@@ -159,45 +159,45 @@ struct directed<vector_avx512> {
     static constexpr int down = _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC;
     static constexpr int up = _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC;
 
-    static V add_down(V a, V b) noexcept {
+    [[gnu::always_inline]] static V add_down(V a, V b) noexcept {
         return V{_mm512_maskz_add_round_pd(all_lanes(), a.raw(), b.raw(), down)};
     }
-    static V add_up(V a, V b) noexcept {
+    [[gnu::always_inline]] static V add_up(V a, V b) noexcept {
         return V{_mm512_maskz_add_round_pd(all_lanes(), a.raw(), b.raw(), up)};
     }
-    static V sub_down(V a, V b) noexcept {
+    [[gnu::always_inline]] static V sub_down(V a, V b) noexcept {
         return V{_mm512_maskz_sub_round_pd(all_lanes(), a.raw(), b.raw(), down)};
     }
-    static V sub_up(V a, V b) noexcept {
+    [[gnu::always_inline]] static V sub_up(V a, V b) noexcept {
         return V{_mm512_maskz_sub_round_pd(all_lanes(), a.raw(), b.raw(), up)};
     }
-    static V mul_down(V a, V b) noexcept {
+    [[gnu::always_inline]] static V mul_down(V a, V b) noexcept {
         return V{_mm512_maskz_mul_round_pd(all_lanes(), a.raw(), b.raw(), down)};
     }
-    static V mul_up(V a, V b) noexcept {
+    [[gnu::always_inline]] static V mul_up(V a, V b) noexcept {
         return V{_mm512_maskz_mul_round_pd(all_lanes(), a.raw(), b.raw(), up)};
     }
-    static void mul_both(V a, V b, V& lower, V& upper) noexcept {
+    [[gnu::always_inline]] static void mul_both(V a, V b, V& lower, V& upper) noexcept {
         lower = mul_down(a, b);
         upper = mul_up(a, b);
     }
-    static V div_down(V a, V b) noexcept {
+    [[gnu::always_inline]] static V div_down(V a, V b) noexcept {
         return V{_mm512_maskz_div_round_pd(all_lanes(), a.raw(), b.raw(), down)};
     }
-    static V div_up(V a, V b) noexcept {
+    [[gnu::always_inline]] static V div_up(V a, V b) noexcept {
         return V{_mm512_maskz_div_round_pd(all_lanes(), a.raw(), b.raw(), up)};
     }
-    static V sqrt_down(V a) noexcept {
+    [[gnu::always_inline]] static V sqrt_down(V a) noexcept {
         return V{_mm512_maskz_sqrt_round_pd(all_lanes(), a.raw(), down)};
     }
-    static V sqrt_up(V a) noexcept {
+    [[gnu::always_inline]] static V sqrt_up(V a) noexcept {
         return V{_mm512_maskz_sqrt_round_pd(all_lanes(), a.raw(), up)};
     }
     /// a 2^k, k an integer of any size.
-    static V scale_down(V a, V k) noexcept {
+    [[gnu::always_inline]] static V scale_down(V a, V k) noexcept {
         return V{_mm512_maskz_scalef_round_pd(all_lanes(), a.raw(), k.raw(), down)};
     }
-    static V scale_up(V a, V k) noexcept {
+    [[gnu::always_inline]] static V scale_up(V a, V k) noexcept {
         return V{_mm512_maskz_scalef_round_pd(all_lanes(), a.raw(), k.raw(), up)};
     }
 };

@@ -80,12 +80,13 @@ template <class V>
 /// e^x - 1 = 2^k (head + tail).
 template <class V>
 [[nodiscard]] expansion<V> expm1_kernel(exp_argument<V> const& a) noexcept {
-    V const tail = exp_tail(a.r, a.rest);
-    exact_pair<V> const one_plus_r = fast_two_sum(V(1.0), a.r);
-    V const one = power_of_two(-min(V(1000.0), a.k)); // 2^-k; above k = 1000 without effect
+    V const k = a.k, r = a.r, rest = a.rest; // copies: see pack_directed.hpp
+    V const tail = exp_tail(r, rest);
+    exact_pair<V> const one_plus_r = fast_two_sum(V(1.0), r);
+    V const one = power_of_two(-min(V(1000.0), k)); // 2^-k; above k = 1000 without effect
     exact_pair<V> const d = two_sum(one_plus_r.head, -one);
-    auto const small = a.k == V(0.0);
-    return {select(small, a.r, d.head), select(small, tail, d.tail + (one_plus_r.tail + tail))};
+    auto const small = k == V(0.0);
+    return {select(small, r, d.head), select(small, tail, d.tail + (one_plus_r.tail + tail))};
 }
 template <class V>
 [[nodiscard]] V expm1_lower(V x) noexcept {

@@ -46,18 +46,21 @@ template <class V>
 
 /// With the signs of head and tail turned where `sign` is negative.
 template <class V>
-[[nodiscard]] expansion<V> with_sign(expansion<V> const& y, V sign) noexcept {
+[[nodiscard, gnu::always_inline]] inline expansion<V> with_sign(expansion<V> const& y,
+                                                                V sign) noexcept {
     auto const negative = sign < V(0.0);
     return {negate_where(negative, y.head), negate_where(negative, y.tail)};
 }
 
 /// Bounds of head + tail for results that are zero or at least 2^-900.
 template <class V>
-[[nodiscard]] V lower_bound(expansion<V> const& y, double delta) noexcept {
+[[nodiscard, gnu::always_inline]] inline V lower_bound(expansion<V> const& y,
+                                                       double delta) noexcept {
     return directed<V>::add_down(y.head, y.tail - V(delta) * abs(y.head));
 }
 template <class V>
-[[nodiscard]] V upper_bound(expansion<V> const& y, double delta) noexcept {
+[[nodiscard, gnu::always_inline]] inline V upper_bound(expansion<V> const& y,
+                                                       double delta) noexcept {
     return directed<V>::add_up(y.head, y.tail + V(delta) * abs(y.head));
 }
 
@@ -68,11 +71,13 @@ template <class V>
     return select(head == V(0.0), V(0.0), fma(V(delta), abs(head), V(least_double)));
 }
 template <class V>
-[[nodiscard]] V lower_bound_of_any(expansion<V> const& y, double delta) noexcept {
+[[nodiscard, gnu::always_inline]] inline V lower_bound_of_any(expansion<V> const& y,
+                                                              double delta) noexcept {
     return directed<V>::add_down(y.head, y.tail - margin(y.head, delta));
 }
 template <class V>
-[[nodiscard]] V upper_bound_of_any(expansion<V> const& y, double delta) noexcept {
+[[nodiscard, gnu::always_inline]] inline V upper_bound_of_any(expansion<V> const& y,
+                                                              double delta) noexcept {
     return directed<V>::add_up(y.head, y.tail + margin(y.head, delta));
 }
 
@@ -96,7 +101,7 @@ template <class V>
 
 /// The same sum with |tail| <= 2^-53 |head|, given |tail| <= |head|.
 template <class V>
-[[nodiscard]] expansion<V> normalized(expansion<V> const& y) noexcept {
+[[nodiscard, gnu::always_inline]] inline expansion<V> normalized(expansion<V> const& y) noexcept {
     exact_pair<V> const s = fast_two_sum(y.head, y.tail);
     return {s.head, s.tail};
 }
@@ -105,10 +110,11 @@ template <class V>
 /// 2^-98 |n.head/d.head| + 2^-50 |n.tail/d.head|, apart from the relative errors of n and d.
 template <class V>
 [[nodiscard]] expansion<V> quotient(expansion<V> const& n, expansion<V> const& d) noexcept {
-    V const q = n.head / d.head;
-    exact_pair<V> const p = two_product(q, d.head);
-    V const rest = (n.head - p.head) - p.tail;
-    return {q, (rest + (n.tail - q * d.tail)) / d.head};
+    V const a = n.head, b = d.head; // copies: see pack_directed.hpp
+    V const q = a / b;
+    exact_pair<V> const p = two_product(q, b);
+    V const rest = (a - p.head) - p.tail;
+    return {q, (rest + (n.tail - q * d.tail)) / b};
 }
 
 } // namespace SIVID_PACK_TARGET

@@ -59,8 +59,9 @@ template <class V>
 /// e ln 2 + ln(1 + f) + more.
 template <class V>
 [[nodiscard]] expansion<V> log_kernel(log_argument<V> const& a, V more) noexcept {
-    exact_pair<V> const sum = fast_two_sum(a.e * V(ln2_high), a.f);
-    return {sum.head, sum.tail + fma(a.e, V(ln2_low), log_tail(a.f) + more)};
+    V const e = a.e, f = a.f; // copies: see pack_directed.hpp
+    exact_pair<V> const sum = fast_two_sum(e * V(ln2_high), f);
+    return {sum.head, sum.tail + fma(e, V(ln2_low), log_tail(f) + more)};
 }
 
 template <class V>

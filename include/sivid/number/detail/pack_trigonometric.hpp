@@ -47,7 +47,7 @@ template <class V>
 
 /// floor(x / (pi/2)) + 1.5 2^52. r is never zero for x != 0, and has the sign of the exact rest.
 template <class V>
-[[nodiscard]] V quadrant(turn_argument<V> const& a) noexcept {
+[[nodiscard, gnu::always_inline]] inline V quadrant(turn_argument<V> const& a) noexcept {
     return select(a.r < V(0.0), a.turns - V(1.0), a.turns);
 }
 
@@ -77,10 +77,10 @@ template <class V>
         for (std::size_t i = 0; i < 8; ++i) c[i] = even[i + 1];
         return c;
     }();
-    V const r = a.r, z = r * r, minus_half_z = z * V(-0.5);
-    V const sin_tail = fma(r * z, horner(z, odd), fma(minus_half_z, a.rest, a.rest));
+    V const r = a.r, rest = a.rest, z = r * r, minus_half_z = z * V(-0.5);
+    V const sin_tail = fma(r * z, horner(z, odd), fma(minus_half_z, rest, rest));
     exact_pair<V> const c = fast_two_sum(V(1.0), minus_half_z);
-    V const cos_tail = fma(z * z, horner(z, from_fourth), c.tail - r * a.rest);
+    V const cos_tail = fma(z * z, horner(z, from_fourth), c.tail - r * rest);
     return {{r, sin_tail}, {c.head, cos_tail}};
 }
 
@@ -134,7 +134,8 @@ template <class V>
 template <class V>
 [[nodiscard]] expansion<V> tan_kernel(turn_argument<V> const& a) noexcept {
     sine_pair<V> const y = sine_kernel(a);
-    auto const odd = bit_is_set<0>(a.turns); // -cos/sin
+    V const turns = a.turns;
+    auto const odd = bit_is_set<0>(turns); // -cos/sin
     expansion<V> const n{select(odd, -y.cos.head, y.sin.head),
                          select(odd, -y.cos.tail, y.sin.tail)};
     expansion<V> const d{select(odd, y.sin.head, y.cos.head), select(odd, y.sin.tail, y.cos.tail)};

@@ -53,8 +53,7 @@ SIVID_ENTRY identification identify(identification_problem const& problem,
     double const earlier =
         options.resume ? options.resume->seconds + options.resume->search.seconds : 0;
     work_limit limit(options.search.seconds - earlier, options.search.keep_going);
-    options.test.run.enclosure.keep_going = limit;
-    options.test.witness.enclosure.keep_going = limit;
+    options.test = limited(std::move(options.test), limit);
     auto working = problem;
     if (options.algorithm != algorithm::contracting) {
         options.test.contract = false;

@@ -150,8 +150,7 @@ SIVID_ENTRY smallest_budget smallest_outlier_budget(identification_problem const
     work_limit const limit(asked.seconds, asked.keep_going);
     auto options = asked;
     options.keep_going = limit;
-    options.test.run.enclosure.keep_going = limit;
-    options.test.witness.enclosure.keep_going = limit;
+    options.test = limited(std::move(options.test), limit);
     auto const begin = std::chrono::steady_clock::now();
     auto const elapsed = [&] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
