@@ -267,12 +267,27 @@ interval hull(A, B) = delete;
 
 // Boost's division asks whether the divisor contains zero before it sets the mode; under DAZ a
 // subnormal divisor would be zero. The other operators of Boost do not depend on such questions.
-inline interval operator/(interval const& x, interval const& y) noexcept {
+// Templates on the policies: deduced, so that nothing is converted to an interval for them.
+template <class P>
+    requires std::same_as<boost::numeric::interval<double, P>, interval>
+boost::numeric::interval<double, P>
+operator/(boost::numeric::interval<double, P> const& x,
+          boost::numeric::interval<double, P> const& y) noexcept {
     return detail::in_nearest_mode(
         [](interval const& a, interval const& b) { return boost::numeric::operator/(a, b); }, x, y);
 }
-inline interval operator/(interval const& x, double y) noexcept { return x / interval{y}; }
-inline interval operator/(double x, interval const& y) noexcept { return interval{x} / y; }
+template <class P>
+    requires std::same_as<boost::numeric::interval<double, P>, interval>
+boost::numeric::interval<double, P> operator/(boost::numeric::interval<double, P> const& x,
+                                              double y) noexcept {
+    return x / interval{y};
+}
+template <class P>
+    requires std::same_as<boost::numeric::interval<double, P>, interval>
+boost::numeric::interval<double, P>
+operator/(double x, boost::numeric::interval<double, P> const& y) noexcept {
+    return interval{x} / y;
+}
 
 // Whole numbers beside intervals are exact (or enclosed above 2^53); Boost offers doubles only.
 // Templates on the interval, since Boost's implicit constructor would let any type convert to it.
