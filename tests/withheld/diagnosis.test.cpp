@@ -35,7 +35,7 @@ bool diagnosed(fs::path const& at, std::string const& which, std::string& score)
                               " --results " + quoted(at / "results") + " --data " +
                               quoted(at / "campaigns") + " > " + quoted(at / "score.txt")) == 0;
     std::ifstream text(at / "score.txt");
-    score.assign(std::istreambuf_iterator<char>(text), {});
+    score.assign(std::istreambuf_iterator<char>(text), std::istreambuf_iterator<char>{});
     return passed;
 }
 

@@ -155,7 +155,7 @@ TEST_CASE("what each family is about") {
                 hidden = std::max(hidden, std::abs(plan.rudder.at(t - share * period) -
                                                    (1 - share) * plan.rudder.at(t) -
                                                    share * plan.rudder.at(t - period)));
-        CHECK(hidden > 0.05);
+        CHECK(hidden > 0.03);
         CHECK(plan.rudder.largest_magnitude() < 1); // within the prior of a saturation
         CHECK((alias.effects.empty() || alias.effects[0].starts_with("bounds_")) == (i % 4 == 3));
 
