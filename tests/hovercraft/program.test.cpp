@@ -369,7 +369,7 @@ TEST_CASE("bundled campaigns do not tell their answers") {
     CHECK_THAT(text, ContainsSubstring("yard_test\tsingle\trudder_lag("));
 }
 
-TEST_CASE("diagnose says where, which and how far; it ends with 0 whatever it finds and with 3 "
+TEST_CASE("diagnose says where, which and how far, ends with 0 whatever it finds and with 3 "
           "when open") {
     temporary_folder const folder;
     auto const out = folder.path() / "out";
