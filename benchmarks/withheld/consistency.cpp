@@ -130,15 +130,13 @@ private:
     /// A witness that explains the data lies in the hulls; its hold-out figure among all fits'.
     void witness(told_cause const& c) {
         auto const values = member(member(c.about, "witness"), "parameters");
-        for (auto const* list : {"parameters", "constants"}) {
-            auto const hulls = member(c.about, list);
-            for (auto const& [name, range] : hulls.items()) {
-                auto const hull = bounds_in(range);
-                auto const value = value_in(member(values, name));
-                if (c.verdict != "explains" || !hull || !value) continue;
-                if (!hull->contains(*value, digits * (1 + std::abs(*value))))
-                    add("hull", name + " in " + text_of(*hull) + ", witness " + short_text(*value));
-            }
+        if (c.verdict == "explains") hulls(member(c.about, "parameters"), values);
+        auto const answer = member(*d_, "answer");
+        bool const answered =
+            member(answer, "kind") == "effects" && names_in(member(answer, "effects")) == c.effects;
+        if (answered) {
+            hulls(member(answer, "constants"), values);
+            verified_constants(answer, values);
         }
         auto const holdout = member(c.about, "holdout");
         for (std::string const when : {"before", "after"}) {
@@ -148,6 +146,28 @@ private:
                 (over->lower > at->upper + digits || over->upper < at->lower - digits))
                 add("holdout", joined(c.effects) + ' ' + when + ", at the witness " + text_of(*at) +
                                    ", over all fits " + text_of(*over));
+        }
+    }
+
+    void hulls(json const& all, json const& values) {
+        for (auto const& [name, range] : all.items()) {
+            auto const hull = hull_in(range);
+            auto const value = value_in(member(values, name));
+            if (hull && value && !hull->contains(*value, digits * (1 + std::abs(*value))))
+                add("hull", name + " in " + text_of(*hull) + ", witness " + short_text(*value));
+        }
+    }
+
+    /// Constants that are called verified are those of the witness.
+    void verified_constants(json const& answer, json const& witness) {
+        if (member(answer, "verified") != true) return;
+        auto const constants = member(answer, "constants");
+        for (auto const& [name, about] : constants.items()) {
+            auto const told = value_in(member(about, "value")),
+                       at = value_in(member(witness, name));
+            if (told && at && std::abs(*told - *at) > digits * (1 + std::abs(*at)))
+                add("witness",
+                    name + " told " + short_text(*told) + ", verified " + short_text(*at));
         }
     }
 

@@ -39,8 +39,8 @@ std::vector<std::string_view> const& askew_kinds() {
 // Late positions are in the catalogue.
 std::vector<std::string_view> const& instrument_kinds() {
     static std::vector<std::string_view> const all{
-        "lagging_uv", "lagging_r", "lagging_psi", "lagging_xy", "late_uv",  "late_r",
-        "late_psi",   "drift_r",   "drift_psi",   "drift_uv",   "lever_uv", "lever_xy"};
+        "lagging_uv", "lagging_r", "lagging_psi", "lagging_xy", "late_uv", "late_r",
+        "late_psi",   "drift_r",   "drift_psi",   "drift_uv",   "lever_v", "lever_xy"};
     return all;
 }
 
@@ -56,7 +56,7 @@ bool set_instrument(instrument_faults& all, std::string const& name,
     }
     if (name == "askew_uv") all.velocity_turn = values.at(0);
     if (name == "askew_xy") all.position_turn = values.at(0);
-    if (name == "lever_uv") all.velocity_arm = values.at(0);
+    if (name == "lever_v") all.velocity_arm = values.at(0);
     if (name == "lever_xy") {
         all.antenna_x = values.at(0);
         all.antenna_y = values.at(1);

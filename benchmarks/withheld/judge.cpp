@@ -131,21 +131,17 @@ void judge_parameters(label const& l, json const& cause, judgement& j) {
 }
 
 /// Hulls contain every value that explains the data: those of the truth and of the fits known.
-void judge_hulls(known_fits const& known, json const& cause, names const& effects, judgement& j) {
-    for (auto const* list : {"parameters", "constants"}) {
-        auto const hulls = member(cause, list);
-        for (auto const& [name, range] : hulls.items()) {
-            auto const hull = bounds_in(range);
-            if (!hull) continue;
-            for (auto const& f : known.all()) {
-                auto const value = f.values.find(name);
-                bool const comparable = f.effects == effects && f.inflation <= 1 - 1e-6;
-                if (!comparable || value == f.values.end()) continue;
-                ++j.hulls_checked;
-                j.proof(hull->contains(value->second, 1e-7 * (1 + std::abs(value->second))), "hull",
-                        name + " in " + text_of(*hull) + ", explains at " +
-                            short_text(value->second));
-            }
+void judge_hulls(known_fits const& known, json const& hulls, names const& effects, judgement& j) {
+    for (auto const& [name, range] : hulls.items()) {
+        auto const hull = hull_in(range);
+        if (!hull) continue;
+        for (auto const& f : known.all()) {
+            auto const value = f.values.find(name);
+            bool const comparable = f.effects == effects && f.inflation <= 1 - 1e-6;
+            if (!comparable || value == f.values.end()) continue;
+            ++j.hulls_checked;
+            j.proof(hull->contains(value->second, 1e-7 * (1 + std::abs(value->second))), "hull",
+                    name + " in " + text_of(*hull) + ", explains at " + short_text(value->second));
         }
     }
 }
@@ -162,7 +158,7 @@ void judge_causes(label const& l, known_fits const& known, json const& d, judgem
                 j.truth_explains = true;
                 judge_parameters(l, c, j);
             }
-            judge_hulls(known, c, effects, j);
+            judge_hulls(known, member(c, "parameters"), effects, j);
         }
         if (verdict == "excluded")
             j.proof(!explains && !(least && *least <= 1 - 1e-6), "excluded", joined(effects));
@@ -210,7 +206,10 @@ judgement judge(label const& l, json const& d, json const& baseline) {
     judge_relations(l, d, j);
     judge_places(l, d, j);
     judge_causes(l, known, d, j);
+    if (kind != "unexplained" && kind != "open")
+        judge_hulls(known, member(answer, "constants"), names_in(member(answer, "effects")), j);
     judge_shrink(l, d, j);
+    j.withdrawn = member(d, "withdrawn").size();
     j.contradictions = contradictions_in(d);
     if (auto const s = member(d, "seconds"); s.is_number()) j.seconds = s.get<double>();
     return j;

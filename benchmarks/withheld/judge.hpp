@@ -30,6 +30,7 @@ struct judgement {
     std::optional<bool> place_right; // of the first place; without effect: that there is none
     std::vector<finding> false_proofs;
     std::vector<finding> contradictions; // within the file, whatever the truth is
+    std::size_t withdrawn = 0;           // claims that the program found in doubt itself
     std::size_t proofs = 0;              // claims that could have been false
     bool gap_certified = false, relation_proved = false;
     std::optional<bool> truth_explains; // is the truth among the causes proved to explain?

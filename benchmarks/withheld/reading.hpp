@@ -64,6 +64,11 @@ inline std::optional<bounds> bounds_in(json const& pair) {
     return b;
 }
 
+/// A hull by itself, or the member of that name.
+inline std::optional<bounds> hull_in(json const& j) {
+    return bounds_in(j.is_object() ? member(j, "hull") : j);
+}
+
 /// A number, or the middle of an interval.
 inline std::optional<double> value_in(json const& j) {
     if (j.is_number()) return j.get<double>();

@@ -155,12 +155,14 @@ std::string complaints(std::vector<judgement> const& all) {
 std::string measures(std::vector<judgement> const& all) {
     std::vector<double> width, slack, shrink, shrink_error, seconds;
     counted relations, certified, sound, shrink_held;
-    std::size_t witnesses = 0, rates = 0, hulls = 0, intervals = 0, hold = 0, contradictory = 0;
+    std::size_t witnesses = 0, rates = 0, hulls = 0, intervals = 0, hold = 0, contradictory = 0,
+                withdrawn = 0;
     for (auto const& j : all) {
         witnesses += j.witnesses_checked;
         rates += j.rates_checked;
         hulls += j.hulls_checked;
         contradictory += j.contradictions.empty() ? 0U : 1U;
+        withdrawn += j.withdrawn;
         intervals += j.intervals;
         hold += j.intervals_hold;
         if (j.seconds) seconds.push_back(*j.seconds);
@@ -197,6 +199,7 @@ std::string measures(std::vector<judgement> const& all) {
          << "missing rates simulated:         " << rates << '\n'
          << "explaining values held to hulls: " << hulls << '\n'
          << "files that contradict themselves: " << contradictory << " of " << all.size() << '\n'
+         << "claims that the program withdrew: " << withdrawn << '\n'
          << "effect parameters in their intervals: " << hold << '/' << intervals << '\n';
     return text.str();
 }

@@ -9,7 +9,7 @@
 using namespace sivid;
 using support::draws;
 
-TEST_CASE("a point that explains is found in boxes that are said to be excluded, and in no other") {
+TEST_CASE("a point that explains is found in boxes that are said to be excluded and in no other") {
     draws d(911);
     for (std::size_t model = 0; model < support::planted_models; ++model) {
         for (double const spread : {0.0, 0.03}) {

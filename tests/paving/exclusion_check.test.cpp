@@ -26,7 +26,7 @@ std::vector<box_claim> excluded(identification_problem const& problem,
 
 } // namespace
 
-TEST_CASE("what is excluded is proved next to the feasible set, what is feasible never") {
+TEST_CASE("what is excluded is proved next to the feasible set and what is feasible never") {
     for (std::size_t const outliers : {0U, 2U}) {
         auto const problem = plain_problem::make(outliers, outliers);
         auto const f = plain_problem::feasible();
@@ -47,7 +47,7 @@ TEST_CASE("what is excluded is proved next to the feasible set, what is feasible
     CHECK(excluded(plain_problem::make(), {outside(0.9, 1)}, none)[0].found == status::open);
 }
 
-TEST_CASE("no box with a planted truth is excluded, most without one are") {
+TEST_CASE("no box with a planted truth is excluded but most without one are") {
     draws d(4471);
     std::size_t proved = 0, all = 0;
     for (std::size_t model = 0; model < support::planted_models; ++model) {

@@ -48,7 +48,7 @@ TEST_CASE("what cannot be the state of a search is refused") {
     refused([](auto& s) { s.batches = 0; });
 }
 
-TEST_CASE("boxes that do not cover the prior, or overlap, are no state of a search") {
+TEST_CASE("boxes that do not cover the prior or overlap are no state of a search") {
     auto const refused = [](auto const& spoil) {
         auto s = good();
         spoil(s);

@@ -11,7 +11,7 @@ using namespace sivid;
 using support::draws;
 using support::polynomial_experiments;
 
-TEST_CASE("whatever the weights, a certificate excludes no feasible point, and it does exclude") {
+TEST_CASE("a certificate of any weights excludes no feasible point and does exclude others") {
     draws d(2113);
     int excluded = 0, also = 0;
     for (int trial = 0; trial < 400; ++trial) {

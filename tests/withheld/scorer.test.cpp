@@ -266,7 +266,7 @@ TEST_CASE("hulls and parts against values that explain the data") {
     CHECK(false_proofs(lag, d).empty());
     auto known = lag;
     known.constants_true["Sv"] = 0.22;
-    d["causes"][0]["constants"] = {{"Sv", {0.2, 0.21}}};
+    d["answer"]["constants"]["Sv"] = {{"value", 0.205}, {"hull", {0.2, 0.21}}};
     CHECK(false_proofs(known, d) == strings{"hull"});
     d = good();
     json const baseline{{"causes",
@@ -347,6 +347,13 @@ TEST_CASE("contradictions within a file") {
     d = good();
     d["causes"][0]["witness"]["parameters"]["rudder_lag.tau"] = 0.2;
     CHECK(contradictions(d) == strings{"hull"});
+    d = good();
+    d["causes"][0]["witness"]["parameters"]["Sv"] = 0.22;
+    d["answer"]["verified"] = true;
+    d["answer"]["constants"]["Sv"] = {{"value", 0.22}, {"hull", {0.21, 0.23}}};
+    CHECK(contradictions(d).empty());
+    d["answer"]["constants"]["Sv"] = {{"value", 0.225}, {"hull", {0.224, 0.23}}};
+    CHECK(contradictions(d) == strings{"hull", "witness"});
 
     d = good();
     d["answer"] = {{"kind", "unexplained"}, {"effects", json::array()}};

@@ -200,7 +200,7 @@ suspect_of(identification_problem const& source, faulty_channel const& f,
 delay_slices(identification_problem const& problem, faulty_channel const& f,
              std::size_t most_slices) {
     if (!(f.latency > 0)) return {{0.0}, 0.0};
-    // As long as the channel takes to move by its error, by the median.
+    // As long as the channel takes to move by its error where it is fast.
     std::vector<double> lengths;
     for (auto const& e : problem.experiments) {
         auto const s = state_samples::sensed(e, f.channel);
@@ -212,12 +212,13 @@ delay_slices(identification_problem const& problem, faulty_channel const& f,
     }
     double length = f.latency;
     if (!lengths.empty()) {
-        auto const middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+        auto const middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 4);
         std::nth_element(lengths.begin(), middle, lengths.end());
         length = std::min(length, 2 * *middle);
     }
     auto const count = static_cast<std::size_t>(
-        std::clamp(std::ceil(f.latency / length), 1.0, static_cast<double>(most_slices)));
+        std::clamp(std::ceil(f.latency / length), std::min(10.0, static_cast<double>(most_slices)),
+                   static_cast<double>(most_slices)));
     double const half = f.latency / static_cast<double>(count) / 2;
     std::vector<double> delays;
     for (std::size_t k = 0; k < count; ++k) delays.push_back(half * static_cast<double>(2 * k + 1));

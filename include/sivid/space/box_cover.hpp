@@ -22,8 +22,9 @@ struct box_cover {
 };
 
 /// Subtracts a family of boxes from a whole by recursive cuts along their faces.
-///   A cell that no box meets is a gap; a cell inside one box is covered; any other is cut at a
-///   face, few boxes by few.
+///   A cell that no box meets is a gap. Any other is narrowed to the hull of what the boxes cover
+///   of it, what that leaves being gaps; a single box then covers it, several are parted by a cut
+///   at a face.
 class box_subtraction {
 public:
     /// @param tolerance  overlaps up to this share of a side's magnitude are rounding
@@ -116,21 +117,32 @@ private:
         return best;
     }
 
-    void divide(box const& cell, std::vector<std::size_t> const& from) {
+    void divide(box cell, std::vector<std::size_t> const& from) {
         std::vector<std::size_t> list;
+        box around;
         for (auto const k : from) {
-            if (meets(cell, (*family_)[k])) list.push_back(k);
+            if (!meets(cell, (*family_)[k])) continue;
+            auto const part = intersect(cell, (*family_)[k]);
+            around = list.empty() ? part : hull(around, part);
+            list.push_back(k);
         }
-        if (list.size() <= few) {
-            note_overlaps(list);
-            subtract(cell, list);
+        if (list.empty()) {
+            result_.gaps.push_back(std::move(cell));
             return;
         }
+        // What lies beyond all of them is few large gaps; cuts through it would make many.
+        for (auto& beyond : difference(cell, around)) result_.gaps.push_back(std::move(beyond));
+        cell = std::move(around);
+        if (list.size() == 1) return;
         auto const cut = best_cut(cell, list);
         if (!cut) { // every box covers more of the cell than a cut could part
-            for (std::size_t k = 1; k < list.size(); ++k) {
-                if (overlap((*family_)[list[0]], (*family_)[list[k]])) {
-                    result_.overlaps.emplace_back(list[0], list[k]);
+            if (list.size() <= few) {
+                note_overlaps(list);
+            } else {
+                for (std::size_t k = 1; k < list.size(); ++k) {
+                    if (overlap((*family_)[list[0]], (*family_)[list[k]])) {
+                        result_.overlaps.emplace_back(list[0], list[k]);
+                    }
                 }
             }
             subtract(cell, list);
