@@ -41,9 +41,6 @@ public:
     friend expression operator/(expression const& a, expression const& b) {
         return binary(operation::div, a, b);
     }
-    // Intervals divide by doubles, too, and Boost lets any type convert to an interval.
-    friend expression operator/(expression const& a, double b) { return a / expression(b); }
-    friend expression operator/(double a, expression const& b) { return expression(a) / b; }
     expression& operator+=(expression const& b) { return *this = *this + b; }
     expression& operator-=(expression const& b) { return *this = *this - b; }
     expression& operator*=(expression const& b) { return *this = *this * b; }
