@@ -174,5 +174,5 @@ TEST_CASE("diagnosis words: shares no finer than a reader wants") {
     CHECK(shrink_text({-7.86e-8, 7.86e-8}) == "\xE2\x88\x92"
                                               "0.1 to 0.1\xC2\xA0%");
     CHECK(shrink_text({0, 0.0004}) == "0 to 0.1\xC2\xA0%");
-    CHECK(shrink_text({0.493, 0.494}) == "49.3 to 49.4\xC2\xA0%");
+    CHECK(shrink_text({0.4931, 0.4939}) == "49.3 to 49.4\xC2\xA0%");
 }

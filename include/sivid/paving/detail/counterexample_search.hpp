@@ -4,7 +4,6 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/paving/campaign.hpp>
-#include <sivid/paving/counterexample.hpp>
 #include <sivid/paving/descent.hpp>
 #include <sivid/paving/detail/fit_at.hpp>
 #include <sivid/paving/fit.hpp>

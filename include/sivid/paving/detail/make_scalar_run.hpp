@@ -5,7 +5,6 @@
 #include <sivid/compiled.hpp>
 #include <sivid/paving/detail/doubleton_run.hpp>
 #include <sivid/paving/detail/scalar_taylor_run.hpp>
-#include <sivid/paving/scalar_run.hpp>
 
 #include <memory>
 
