@@ -10,7 +10,7 @@
 namespace sivid {
 
 struct outlier_search_options {
-    data_test_options test;
+    data_test_options test{};
     double seconds = 10;
     std::size_t boxes = 20'000;
     /// No side is split below this share of the prior.
