@@ -251,7 +251,7 @@ TEST_CASE("an empty name is no folder for results") {
     temporary_folder const folder;
     for (auto const& start :
          std::vector<std::vector<std::string>>{{"identify", h3.string()},
-                                               {"generate", "--scenario", "S3"},
+                                               {"generate", "--scenario", "S3", "--relative", "0.1"},
                                                {"rank"},
                                                {"simulate", "--scenario", "S1"}}) {
         auto arguments = start;

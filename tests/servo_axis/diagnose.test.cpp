@@ -51,7 +51,9 @@ TEST_CASE("the real axis: offset and friction explain most, the direction the re
     auto const d = nlohmann::json::parse(text_of(out / "diagnosis.json"));
     CHECK(d["gap"]["verdict"] == "certified");
     CHECK(d["where"][0]["name"] == "force balance");
-    CHECK(d["where"][0]["proved"] == true);
+    // Proved is that the equation and its sensor cannot both hold; which of them is an estimate.
+    CHECK(d["relations"][0]["equation"] == "force balance");
+    CHECK(d["relations"][0]["proved"] == true);
     CHECK(d["answer"]["kind"] == "effects");
     auto const* const all = cause_of(d, {"dry_friction", "offset", "directional_friction"});
     REQUIRE(all != nullptr);

@@ -39,6 +39,9 @@ public:
     /// The same, but it may be empty.
     [[nodiscard]] std::string const& any_string() const;
 
+    /// The text as it is, whatever its characters: not to be printed.
+    [[nodiscard]] std::string const& raw_string() const;
+
     /// Whether the text is the second of two words.
     [[nodiscard]] bool is_second_of(char const* first, char const* second) const {
         auto const& text = string();

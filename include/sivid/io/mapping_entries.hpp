@@ -78,7 +78,7 @@ namespace sivid::mapping_entries {
 /// A text of one character.
 [[nodiscard]] inline char character(json_value const& entry, std::string const& allowed,
                                     char const* remedy) {
-    auto const& text = entry.any_string();
+    auto const& text = entry.raw_string();
     if (text.size() != 1 || allowed.find(text.front()) == std::string::npos)
         entry.fail(text_of("found ", in_quotes(text)), remedy);
     return text.front();

@@ -26,6 +26,11 @@ SIVID_ENTRY std::string const& json_value::string() const {
     return any_string();
 }
 
+SIVID_ENTRY std::string const& json_value::raw_string() const {
+    expect(kind::string, "a text in quotes");
+    return text_;
+}
+
 SIVID_ENTRY std::string const& json_value::any_string() const {
     expect(kind::string, "a text in quotes");
     if (auto const what = unprintable_in(text_); !what.empty())

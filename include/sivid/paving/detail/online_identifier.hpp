@@ -37,6 +37,7 @@ public:
             if (e.measurements.empty()) {
                 e.measurements.push_back({e.begin, 0, interval_traits<interval>::entire()});
             }
+            e.outliers = 0; // more may be allowed than there are measurements yet
         }
         checked.require_valid();
         for (auto& e : problem_.experiments) first.push_back(std::exchange(e.measurements, {}));
