@@ -249,11 +249,11 @@ TEST_CASE("texts of a data set neither steer a terminal nor fill it") {
 
 TEST_CASE("an empty name is no folder for results") {
     temporary_folder const folder;
-    for (auto const& start :
-         std::vector<std::vector<std::string>>{{"identify", h3.string()},
-                                               {"generate", "--scenario", "S3", "--relative", "0.1"},
-                                               {"rank"},
-                                               {"simulate", "--scenario", "S1"}}) {
+    for (auto const& start : std::vector<std::vector<std::string>>{
+             {"identify", h3.string()},
+             {"generate", "--scenario", "S3", "--relative", "0.1"},
+             {"rank"},
+             {"simulate", "--scenario", "S1"}}) {
         auto arguments = start;
         arguments.insert(arguments.end(), {"--out", ""});
         auto const r = run(arguments);
