@@ -61,13 +61,11 @@ std::string result(std::string const& name, std::string const& status) {
 
 } // namespace
 
-TEST_CASE("a named case that does nothing") { SUCCEED(); }
-
 TEST_CASE("a filter that matches nothing fails") {
-    CHECK(run_with("'a named case that does nothing'") == 0);
-    CHECK(run_with("'a named case'") != 0);
+    CHECK(run_with("'cases that are listed and did not run are an error'") == 0);
+    CHECK(run_with("'cases that are listed'") != 0);
     CHECK(run_with("'[no such tag]'") != 0);
-    CHECK(run_with("'a named case that does nothing,and a second one'") != 0);
+    CHECK(run_with("'cases that are listed,and a second one'") != 0);
     CHECK(run_with("--help") == 0);
 }
 
