@@ -7,11 +7,11 @@
 // side held (N = 0: none); NAME is a part of a campaign's name.
 #include "model.hpp"
 
+#include <sivid/approximate/fit/fit.hpp>
+#include <sivid/approximate/fit/minimax_fit.hpp>
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
-#include <sivid/paving/fit.hpp>
 #include <sivid/paving/identify.hpp>
-#include <sivid/paving/minimax_fit.hpp>
 
 #include <algorithm>
 #include <cstdio>

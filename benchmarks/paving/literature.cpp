@@ -6,7 +6,7 @@
 // say; neither is proved. Seconds are of the processor, the median of the runs.
 #include "classics.hpp"
 
-#include <sivid/paving/fit.hpp>
+#include <sivid/approximate/fit/fit.hpp>
 #include <sivid/paving/identify.hpp>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Published estimation problems with a known truth: what is proved of them, against simulation.
-#include <sivid/paving/fit.hpp>
+#include <sivid/approximate/fit/fit.hpp>
 #include <sivid/paving/identify.hpp>
 
 #include "../../benchmarks/paving/classics.hpp"

@@ -6,8 +6,8 @@
 
 #include "support/problems.hpp"
 
-#include <sivid/paving/fit.hpp>
-#include <sivid/paving/minimax_fit.hpp>
+#include <sivid/approximate/fit/fit.hpp>
+#include <sivid/approximate/fit/minimax_fit.hpp>
 
 #include <algorithm>
 #include <cstddef>

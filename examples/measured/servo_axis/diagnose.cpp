@@ -7,8 +7,8 @@
 #include "console/thorough_diagnosis.hpp"
 #include "windows.hpp"
 
+#include <sivid/approximate/fit/fit.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>
-#include <sivid/paving/fit.hpp>
 #include <sivid/report/table.hpp>
 
 #include <algorithm>

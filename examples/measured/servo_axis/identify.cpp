@@ -4,9 +4,9 @@
 #include "model.hpp"
 #include "windows.hpp"
 
+#include <sivid/approximate/fit/fit.hpp>
 #include <sivid/enclosure/simulate.hpp>
 #include <sivid/paving/data_test.hpp>
-#include <sivid/paving/fit.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/witness.hpp>
 

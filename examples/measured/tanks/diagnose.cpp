@@ -6,8 +6,8 @@
 #include "console/threads.hpp"
 #include "effects.hpp"
 
+#include <sivid/approximate/fit/fit.hpp>
 #include <sivid/diagnosis/verification.hpp>
-#include <sivid/paving/fit.hpp>
 #include <sivid/paving/inflation.hpp>
 #include <sivid/paving/observer_refutation.hpp>
 #include <sivid/report/table.hpp>

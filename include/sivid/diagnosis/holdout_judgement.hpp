@@ -2,6 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_HOLDOUT_JUDGEMENT_HPP
 #define SIVID_DIAGNOSIS_HOLDOUT_JUDGEMENT_HPP
 
+#include <sivid/approximate/fit/fit.hpp>
 #include <sivid/diagnosis/detail/holdout_results.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/holdout.hpp>
@@ -9,7 +10,6 @@
 #include <sivid/diagnosis/verification.hpp>
 #include <sivid/paving/box_explorer.hpp>
 #include <sivid/paving/data_test.hpp>
-#include <sivid/paving/fit.hpp>
 #include <sivid/paving/holdout_inflation.hpp>
 
 #include <cmath>

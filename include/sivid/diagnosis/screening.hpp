@@ -2,12 +2,12 @@
 #ifndef SIVID_DIAGNOSIS_SCREENING_HPP
 #define SIVID_DIAGNOSIS_SCREENING_HPP
 
+#include <sivid/approximate/fit/fit.hpp>
+#include <sivid/approximate/fit/minimax_fit.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/candidate.hpp>
 #include <sivid/diagnosis/detail/screened.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
-#include <sivid/paving/fit.hpp>
-#include <sivid/paving/minimax_fit.hpp>
 
 #include <algorithm>
 #include <chrono>

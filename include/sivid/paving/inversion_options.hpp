@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_INVERSION_OPTIONS_HPP
 #define SIVID_PAVING_INVERSION_OPTIONS_HPP
 
-#include <sivid/paving/executor.hpp>
+#include <sivid/executor.hpp>
 #include <sivid/paving/frontier.hpp>
 #include <sivid/paving/search_state.hpp>
 #include <sivid/paving/subpaving.hpp>

@@ -2,11 +2,11 @@
 #ifndef SIVID_PAVING_DETAIL_INFLATION_WORK_HPP
 #define SIVID_PAVING_DETAIL_INFLATION_WORK_HPP
 
+#include <sivid/approximate/fit/minimax_fit.hpp>
 #include <sivid/compiled.hpp>
 #include <sivid/number/guard.hpp>
 #include <sivid/paving/dependence.hpp>
 #include <sivid/paving/inflation_search.hpp>
-#include <sivid/paving/minimax_fit.hpp>
 #include <sivid/paving/witness.hpp>
 
 #include <algorithm>

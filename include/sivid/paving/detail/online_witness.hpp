@@ -2,12 +2,12 @@
 #ifndef SIVID_PAVING_DETAIL_ONLINE_WITNESS_HPP
 #define SIVID_PAVING_DETAIL_ONLINE_WITNESS_HPP
 
+#include <sivid/approximate/fit/fit.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/continued_run.hpp>
 #include <sivid/paving/data_test.hpp>
 #include <sivid/paving/detail/doubleton_continuation.hpp>
-#include <sivid/paving/fit.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/problem.hpp>
 
 #include <algorithm>
 #include <cmath>

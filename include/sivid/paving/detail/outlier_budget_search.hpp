@@ -2,12 +2,12 @@
 #ifndef SIVID_PAVING_DETAIL_OUTLIER_BUDGET_SEARCH_HPP
 #define SIVID_PAVING_DETAIL_OUTLIER_BUDGET_SEARCH_HPP
 
+#include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/dependence.hpp>
-#include <sivid/paving/fit.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/outlier_count.hpp>
-#include <sivid/paving/problem.hpp>
 #include <sivid/paving/reduction.hpp>
 #include <sivid/paving/witness.hpp>
 #include <sivid/paving/work_limit.hpp>
