@@ -105,11 +105,15 @@
 #include <sivid/approximate/place/place_search.hpp>
 #include <sivid/approximate/place/sensor_model.hpp>
 #include <sivid/approximate/residuals.hpp>
-#include <sivid/approximate/simulate/forward_sensitivity.hpp>
+#include <sivid/approximate/simulate/approximate_simulator.hpp>
 #include <sivid/approximate/simulate/late_signal.hpp>
+#include <sivid/approximate/simulate/named_steps.hpp>
+#include <sivid/approximate/simulate/odeint_stepping.hpp>
 #include <sivid/approximate/simulate/plain_model.hpp>
-#include <sivid/approximate/simulate/sensitive_simulator.hpp>
+#include <sivid/approximate/simulate/sensitive_rate.hpp>
+#include <sivid/approximate/simulate/simulate.hpp>
 #include <sivid/approximate/simulate/simulation_mesh.hpp>
+#include <sivid/approximate/simulate/stepping.hpp>
 #include <sivid/enclosure/derivative_set.hpp>
 #include <sivid/enclosure/dissipative_step.hpp>
 #include <sivid/enclosure/domain_edge.hpp>
@@ -137,7 +141,6 @@
 #include <sivid/enclosure/runge_kutta.hpp>
 #include <sivid/enclosure/sensitive_flow.hpp>
 #include <sivid/enclosure/sensitivity_tube.hpp>
-#include <sivid/enclosure/simulate.hpp>
 #include <sivid/enclosure/stepper.hpp>
 #include <sivid/enclosure/tableau.hpp>
 #include <sivid/enclosure/trajectory.hpp>

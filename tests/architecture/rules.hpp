@@ -121,6 +121,7 @@ inline bool may_include_approximate(std::string_view other, std::string_view inc
         {"sivid/diagnosis/claim_review.hpp", {"fit/campaign.hpp"}},
         {"sivid/diagnosis/detail/manoeuvre_choice.hpp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/detail/diagnostician.hpp", {"place/place_estimate.hpp"}},
+        {"sivid/report/scenario_report.hpp", {"simulate/simulate.hpp"}},
         {"sivid/io/paving_check.hpp", {"fit/counterexample.hpp"}},
         {"sivid/io/fewest_outliers_check.hpp", {"fit/counterexample.hpp"}}};
     std::string_view const floor = "sivid/approximate/";

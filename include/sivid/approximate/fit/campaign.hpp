@@ -4,7 +4,7 @@
 
 #include <sivid/approximate/fit/arrow_system.hpp>
 #include <sivid/approximate/residuals.hpp>
-#include <sivid/approximate/simulate/sensitive_simulator.hpp>
+#include <sivid/approximate/simulate/approximate_simulator.hpp>
 #include <sivid/executor.hpp>
 #include <sivid/model/problem.hpp>
 
@@ -290,7 +290,7 @@ private:
 
     identification_problem const* problem_;
     std::vector<std::shared_ptr<plain_model const>> models_;
-    std::vector<sensitive_simulator> simulators_;
+    std::vector<approximate_simulator> simulators_;
     std::vector<std::vector<double>> centres_, radii_;
     std::vector<std::size_t> outliers_, free_, starts_;
     std::vector<sensitivity_layout> layouts_;

@@ -61,15 +61,11 @@ public:
         for (auto const& d : input_delays_) {
             seen[d.index] = sampled_signal({0.0}, {0.0}, interpolation::linear);
         }
-        auto const bound = sivid::bind(prompt, choice, seen);
-        shape_ = {bound.state_count(), inputs.size(), bound.parameter_count()};
-        channels_ = bound.channel_count();
-        for (std::size_t i = 0; i < inputs.size(); ++i) {
-            if (std::holds_alternative<sampled_signal>(seen[i])) used_.push_back(i);
-        }
-        rate_ = function_of(bound, bound.rate, bound.rate_dx, bound.rate_dp);
-        observe_ = function_of(bound, bound.observe, bound.observe_dx, bound.observe_dp);
+        *this = plain_model(sivid::bind(prompt, choice, seen), std::move(input_delays_),
+                            std::move(channel_delays_));
     }
+    /// A model that is bound already; it has no delays.
+    explicit plain_model(bound_model const& bound) : plain_model(bound, {}, {}) {}
 
     [[nodiscard]] std::size_t states() const { return shape_.states; }
     [[nodiscard]] std::size_t parameters() const { return shape_.constants; }
@@ -83,6 +79,16 @@ public:
     [[nodiscard]] std::vector<std::size_t> const& used_inputs() const { return used_; }
 
 private:
+    plain_model(bound_model const& bound, std::vector<plain_delay> of_inputs,
+                std::vector<plain_delay> of_channels)
+        : shape_{bound.state_count(), bound.about.inputs.size(), bound.parameter_count()},
+          channels_(bound.channel_count()),
+          used_(bound.sampled),
+          input_delays_(std::move(of_inputs)),
+          channel_delays_(std::move(of_channels)),
+          rate_(function_of(bound, bound.rate, bound.rate_dx, bound.rate_dp)),
+          observe_(function_of(bound, bound.observe, bound.observe_dx, bound.observe_dp)) {}
+
     [[nodiscard]] static std::vector<plain_delay> delays_of(recorded_model const& model,
                                                             parameter_choice const& choice,
                                                             std::vector<time_delay> const& delays) {

@@ -54,6 +54,7 @@ public:
         if (!moved) return;
         double end = begin_;
         for (auto const& r : requests_) end = std::max(end, r.time);
+        if (requests_.empty() && !knots_.empty()) end = std::max(end, knots_.back());
         times_ = {begin_, end};
         auto const within = [&](double t) {
             if (begin_ < t && t < end) times_.push_back(t);

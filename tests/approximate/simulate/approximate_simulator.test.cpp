@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/approximate/simulate/sensitive_simulator.hpp>
+#include <sivid/approximate/simulate/approximate_simulator.hpp>
 
 #include "support/catch.hpp"
 #include "support/models.hpp"
@@ -45,7 +45,7 @@ struct swing {
         layout.first_disturbance = 6;
         layout.columns = 6 + knots.size();
     }
-    [[nodiscard]] sensitive_simulator simulator(signal const& u) const {
+    [[nodiscard]] approximate_simulator simulator(signal const& u) const {
         parameter_choice choice;
         choice.unknown = {"p0", "p1", "p2", "p3"};
         auto const plain = std::make_shared<plain_model const>(model, choice, std::vector{u});
@@ -100,7 +100,7 @@ TEST_CASE("plain simulations follow the reference, over knots of inputs too") {
         sensitivity_layout layout;
         layout.parameter_column.assign(p.size(), sensitivity_layout::none);
         layout.start_column.assign(x0.size(), sensitivity_layout::none);
-        sensitive_simulator run(plain, inputs, 0, requests, std::vector<double>(x0.size(), 1e-6));
+        approximate_simulator run(plain, inputs, 0, requests, std::vector<double>(x0.size(), 1e-6));
         simulated_outputs out;
         REQUIRE(run(x0, p, {}, layout, false, out));
         auto const exact = support::reference_states(system.rate, support::extend(x0),
@@ -137,7 +137,7 @@ TEST_CASE("a stiff phase is stepped stably and a blow-up is reported") {
     layout.start_column = {sensitivity_layout::none};
     layout.columns = 1;
     simulated_outputs out;
-    sensitive_simulator run(
+    approximate_simulator run(
         std::make_shared<plain_model const>(stiff, choice, std::vector<signal>{}), {}, 0, {{1, 0}},
         {1e-5});
     REQUIRE(run({0}, {2000}, {}, layout, true, out));
@@ -147,7 +147,7 @@ TEST_CASE("a stiff phase is stepped stably and a blow-up is reported") {
         support::model_of({1, 1}, [](auto const&, auto const& x, auto const& p, auto const&) {
             return std::vector{p[0] * x[0] * x[0]};
         });
-    sensitive_simulator burst(
+    approximate_simulator burst(
         std::make_shared<plain_model const>(blow, choice, std::vector<signal>{}), {}, 0, {{1, 0}},
         {1e-5});
     CHECK_FALSE(burst({1}, {5}, {}, layout, true, out));

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/enclosure/simulate.hpp>
+#include <sivid/approximate/simulate/simulate.hpp>
+
+#include <sivid/approximate/simulate/odeint_stepping.hpp>
 
 #include "support/catch.hpp"
+#include "support/flow_simulation.hpp"
 #include "support/random.hpp"
 #include "support/reference.hpp"
 #include "support/systems.hpp"
@@ -15,7 +18,7 @@ TEST_CASE("simulations follow the reference, over knots of inputs too") {
     draws d(261);
     support::for_each_system([&](auto const& system) {
         auto const f = system.flow();
-        approximate_simulator simulate(*f);
+        support::flow_simulation const simulate(*f);
         auto const x0 = d.in(system.initial);
         auto const p = d.in(system.parameters);
         std::vector<double> times{0};
@@ -45,7 +48,7 @@ TEST_CASE("a held input has its new value at a knot") {
         [](auto const&, auto const&, auto const&, auto const& u) { return std::vector{u[0]}; });
     auto const f =
         support::flow_of(model, {sampled_signal({0, 1, 2}, {1, -2, 5}, interpolation::hold)});
-    approximate_simulator simulate(*f);
+    support::flow_simulation const simulate(*f);
     auto const found = simulate({0}, {}, 0, {0, 0.5, 1, 2, 3});
     double const outputs[] = {1, 1, -2, 5, 5};
     double const states[] = {0, 0.5, 1, -1, 4};
@@ -60,7 +63,7 @@ TEST_CASE("a simulation that blows up ends") {
         support::model_of({1, 0}, [](auto const&, auto const& x, auto const&, auto const&) {
             return std::vector{sqr(x[0])};
         }));
-    approximate_simulator simulate(*f);
+    support::flow_simulation const simulate(*f);
     double last = 0;
     try {
         last = simulate({1}, {}, 0, {0.5, 2}).states.back()[0];
@@ -76,8 +79,25 @@ TEST_CASE("a simulation that is told to stop says so") {
             return std::vector{-x[0]};
         }));
     int asked = 0;
-    CHECK_THROWS_AS(
-        approximate_simulator(*f)({1}, {}, 0, {1e6}, 1e-12, [&asked] { return ++asked < 100; }),
-        std::runtime_error);
+    auto const told = [&asked] { return ++asked < 100; };
+    CHECK_THROWS_WITH(simulate(std::make_shared<plain_model const>(f->model()), {}, {1}, {}, 0,
+                               {1e6}, {1e-12, told}),
+                      ContainsSubstring("told to stop"));
     CHECK(asked == 100);
+}
+
+TEST_CASE("a channel that is late is looked at where it left the model") {
+    auto model = support::model_of({1, 1, 0}, [](auto const&, auto const& x, auto const&,
+                                                 auto const&) { return std::vector{-x[0]}; });
+    model.channel_delays = {{0, 0}};
+    parameter_choice choice;
+    choice.unknown = {"p0"};
+    auto const found =
+        simulate(std::make_shared<plain_model const>(model, choice, std::vector<signal>{}), {}, {1},
+                 {0.25}, 0, {0.1, 1, 2});
+    CHECK_THAT(found.outputs[0][0], WithinAbs(1, 1e-8)); // nothing is older than the start
+    for (std::size_t k : {1, 2}) {
+        CHECK_THAT(found.states[k][0], WithinAbs(std::exp(-found.times[k]), 1e-8));
+        CHECK_THAT(found.outputs[k][0], WithinAbs(std::exp(0.25 - found.times[k]), 1e-8));
+    }
 }
