@@ -64,7 +64,7 @@ sivid_compiled_source(flags "\
 set(entries_number decimal decimal_output decimal_text kernel_trial)
 set(entries_measurement signal)
 set(entries_model bound_model describe effect effects expression graph graph_listing model to_dot unit)
-set(entries_approximate fit/counterexample fit/fit fit/minimax_fit simulate/named_steps)
+set(entries_approximate fit/counterexample fit/fit simulate/named_steps)
 set(entries_enclosure enclosed_motion failure flow)
 set(entries_paving continued_run detail/response_judgement experiment_run holdout_inflation identify inflation
                    outlier_budget)

@@ -40,7 +40,7 @@ bool fits(classic const& c, std::size_t j, double value) {
     auto pinned = c.problem;
     pinned.prior[j] = sivid::interval(value);
     sivid::fitter fit(pinned);
-    return fit().inflation <= 1 || fit(c.truth).inflation <= 1;
+    return fit().inflation <= 1 || fit({c.truth}).inflation <= 1;
 }
 
 /// How far the set reaches towards `end`, by fits: first some value that fits, then bisection.

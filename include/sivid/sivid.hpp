@@ -91,7 +91,6 @@
 #include <sivid/approximate/fit/descent.hpp>
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/approximate/fit/minimax.hpp>
-#include <sivid/approximate/fit/minimax_fit.hpp>
 #include <sivid/approximate/fit/suspect_samples.hpp>
 #include <sivid/approximate/place/estimated_place.hpp>
 #include <sivid/approximate/place/knot_trace.hpp>

@@ -66,7 +66,7 @@ std::vector<double> spanned(classic const& c, identification const& found) {
                 pinned.prior[j] = interval(value);
                 fitter fit(pinned);
                 auto here = fit();
-                if (!(here.inflation < 0.9999)) here = fit(c.truth);
+                if (!(here.inflation < 0.9999)) here = fit({c.truth});
                 if (!(here.inflation < 0.9999)) continue;
                 CHECK(is_left(found, here.parameters));
                 ends[side] = value;

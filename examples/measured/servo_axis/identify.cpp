@@ -59,11 +59,11 @@ public:
     }
 
     [[nodiscard]] sivid::approximate_fit operator()() {
-        auto best = sivid::fitter(points_)(sivid::mid(problem_.prior));
+        auto best = sivid::fitter(points_)({sivid::mid(problem_.prior)});
         for (int round = 0; round < 4 && best.inflation > 0.98; ++round) {
             if (best.parameters.empty()) break;
             move_starts(best.parameters);
-            auto next = sivid::fitter(points_)(best.parameters);
+            auto next = sivid::fitter(points_)({best.parameters});
             if (!(next.inflation < best.inflation)) break;
             bool const little = next.inflation > 0.97 * best.inflation;
             best = std::move(next);

@@ -22,7 +22,7 @@ TEST_CASE("Chebyshev steps end at an optimum: no point nearby is better") {
         double const squares = here.inflation;
         auto unit = c.upper();
         unit.for_each([](double& u, double lo) { u -= lo; }, c.lower());
-        minimax(c).run(here, unit, 20, 1e-4);
+        minimax(c).run(here, unit, {.rounds = 20, .enough = 1e-4});
         CHECK(here.inflation < squares);
         for (int trial = 0; trial < 300; ++trial) {
             auto near = here.at;

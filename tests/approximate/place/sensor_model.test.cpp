@@ -29,7 +29,7 @@ TEST_CASE("faulty sensors have neutral faults and explain their data") {
     CHECK(extended.problem.model.channel_delays.size() == 6);
     fitter fit(extended.problem);
     std::vector<double> neutral(extended.problem.prior.size(), 0.0);
-    auto const plain = fitter(problem)(mid(problem.prior));
+    auto const plain = fitter(problem)({mid(problem.prior)});
     std::copy(plain.parameters.begin(), plain.parameters.end(), neutral.begin());
     CHECK_THAT(fit.at(neutral, plain.starts).inflation, WithinAbs(plain.inflation, 1e-3));
     CHECK(plain.inflation > 1);

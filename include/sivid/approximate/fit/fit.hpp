@@ -16,10 +16,29 @@ namespace approximate_detail {
 class fit_search;
 }
 
-/// Minimises the inflation: least squares that leave out what looks like an outlier, then a higher
-/// power, then Chebyshev steps on the largest residuals, without the q largest of each experiment.
-/// Models with delays are welcome. All in plain doubles.
-/// @cost  about twenty simulations with sensitivities
+/// What a fit makes small, each without the q largest residuals of an experiment that its outlier
+/// budget allows.
+enum class fit_norm {
+    largest, ///< the inflation: the largest residual
+    squares  ///< the sum of squares
+};
+
+/// Where a fit begins. What lies outside of the prior and the boxes of starts is moved to their
+/// edge.
+struct fit_start {
+    std::vector<double> parameters{};          ///< empty: chosen by the fit
+    std::vector<std::vector<double>> starts{}; ///< an initial state per experiment; empty: middles
+};
+
+/// Fits problems in plain doubles, by simulations with sensitivities. Models with delays are
+/// welcome. How the inflation is made small depends on what is known of the start:
+///  - nothing: descents from the middle of the prior and, when that fails, from a few points spread
+///    over it and over growing times;
+///  - parameters: one descent. Least squares that leave out what looks like an outlier, then a
+///    higher power, then Chebyshev steps on the largest residuals;
+///  - parameters and starts: Chebyshev steps from there to a local minimum, a kink, sharply.
+/// @guarantee  none; the point lies in the prior, the starts in their boxes
+/// @cost  about twenty simulations with sensitivities a descent
 class fitter {
 public:
     /// @param problem     outlives this object
@@ -31,13 +50,8 @@ public:
     fitter& operator=(fitter&&) noexcept;
     ~fitter();
 
-    /// From the centre of the prior and, when that fails, from a few points spread over it.
-    [[nodiscard]] approximate_fit operator()();
-    /// From a point given for the parameters.
-    [[nodiscard]] approximate_fit operator()(std::vector<double> const& parameters);
-    /// Minimises the sum of squared residuals instead, without the q largest of each experiment.
-    /// @param parameters  where to begin; empty: at the centre of the prior
-    [[nodiscard]] approximate_fit least_squares(std::vector<double> const& parameters = {});
+    [[nodiscard]] approximate_fit operator()(fit_start const& start = {},
+                                             fit_norm norm = fit_norm::largest);
     /// The residuals at a point, without any descent.
     [[nodiscard]] approximate_fit at(std::vector<double> const& parameters,
                                      std::vector<std::vector<double>> const& starts);
@@ -45,6 +59,14 @@ public:
 private:
     std::unique_ptr<approximate_detail::fit_search> work_;
 };
+
+/// One fit: see `fitter`.
+[[nodiscard]] inline approximate_fit fit(identification_problem const& problem,
+                                         fit_norm norm = fit_norm::largest,
+                                         fit_start const& start = {},
+                                         std::function<bool()> keep_going = nullptr) {
+    return fitter(problem, std::move(keep_going))(start, norm);
+}
 
 } // namespace sivid
 

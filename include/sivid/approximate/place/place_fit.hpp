@@ -90,7 +90,7 @@ public:
             }
             if (best.inflation > 1 && best.inflation < 1.2) {
                 auto polish = best;
-                minimax(campaign_).run(polish, units(), 8, 2e-3, 0.999);
+                minimax(campaign_).run(polish, units(), {.rounds = 8, .reached = 0.999});
                 if (polish.inflation < best.inflation) best = std::move(polish);
             }
         }

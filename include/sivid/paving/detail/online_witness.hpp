@@ -72,7 +72,7 @@ public:
                       [](experiment const& e) { return e.measurements.empty(); });
         if (known.experiments.empty()) return;
         fitter fit(known, options_.enclosure.keep_going);
-        auto guess = last_.empty() ? fit() : fit(last_);
+        auto guess = fit({last_});
         if (!(guess.inflation < 1) && !last_.empty()) guess = fit();
         if (guess.parameters.empty()) return;
         last_ = guess.parameters;

@@ -74,7 +74,7 @@ public:
             problem_.experiments[e].outliers =
                 std::min(budgets_[e], problem_.experiments[e].measurements.size() / 2);
         }
-        if (propose(fitter(problem_, keep_going_)(parameters)) && total() < before) decrease();
+        if (propose(fitter(problem_, keep_going_)({parameters})) && total() < before) decrease();
     }
 
 private:
@@ -91,7 +91,7 @@ private:
                 for (std::size_t k = 0; k < budgets_.size(); ++k) {
                     problem_.experiments[k].outliers = budgets_[k] - (k == e ? 1 : 0);
                 }
-                better = propose(fitter(problem_, keep_going_)(witness_->parameters));
+                better = propose(fitter(problem_, keep_going_)({witness_->parameters}));
             }
         }
     }

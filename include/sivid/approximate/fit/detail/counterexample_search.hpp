@@ -90,13 +90,13 @@ private:
     /// What explains the data at this point best.
     [[nodiscard]] approximate_fit at(std::vector<double> const& p,
                                      std::vector<std::vector<double>> const& starts) {
-        if (free_starts_) return fitter(within(*problem_, point_box(p)))(p);
+        if (free_starts_) return fitter(within(*problem_, point_box(p)))({p});
         descent_point here;
         if (!descent(campaign_).evaluate(campaign_.variables(p, starts), here)) return {};
         return fit_at(campaign_, std::move(here));
     }
     [[nodiscard]] std::vector<std::vector<double>> starts_at(std::vector<double> const& p) {
-        if (free_starts_) return fitter(within(*problem_, point_box(p)))(p).starts;
+        if (free_starts_) return fitter(within(*problem_, point_box(p)))({p}).starts;
         std::vector<std::vector<double>> result;
         for (auto const& e : problem_->experiments) result.push_back(mid(e.initial));
         return result;
@@ -186,7 +186,7 @@ SIVID_ENTRY bool find_explaining_point(identification_problem const& problem,
             if (clock.over()) return false;
             auto const own = within(problem, excluded[c.box]);
             if (near && best.parameters.empty()) continue;
-            if (explains(near ? fitter(own)(nearest_in(own.prior, best.parameters))
+            if (explains(near ? fitter(own)({nearest_in(own.prior, best.parameters)})
                               : fitter(own)())) {
                 return true;
             }

@@ -12,12 +12,15 @@
 
 namespace sivid {
 
+/// Share of the descents' tolerances with which their results are simulated.
+inline constexpr double judged_accuracy = 1e-3;
+
 /// What a descent came to, simulated once more with care; only infinite figures where it came to
 /// nothing.
 [[nodiscard]] inline approximate_fit fit_at(campaign& c, descent_point here) {
     approximate_fit result;
     if (!std::isfinite(here.inflation)) return result;
-    c.set_accuracy(1e-3);
+    c.set_accuracy(judged_accuracy);
     residual_lists fine;
     if (c.residuals(here.at, fine)) here.residuals = std::move(fine);
     c.set_accuracy(1);

@@ -30,7 +30,26 @@ public:
         campaign_.set_keep_going(std::move(keep_going));
     }
 
-    [[nodiscard]] approximate_fit operator()() {
+    [[nodiscard]] approximate_fit operator()(fit_start const& start, fit_norm norm) {
+        if (norm == fit_norm::squares) return least_squares(begin_at(start));
+        if (!start.starts.empty()) return sharpened(begin_at(start));
+        if (!start.parameters.empty()) return finished(from(begin_at(start)));
+        return search();
+    }
+
+    [[nodiscard]] approximate_fit at(std::vector<double> const& parameters,
+                                     std::vector<std::vector<double>> const& starts) {
+        descent_point here;
+        if (!descent(campaign_).evaluate(campaign_.variables(parameters, starts), here)) {
+            return {};
+        }
+        return finished(std::move(here));
+    }
+
+private:
+    static constexpr double hopeless_inflation = 4;
+
+    [[nodiscard]] approximate_fit search() {
         descent_point best;
         int agreeing = 0;
         for (std::size_t k = 0;
@@ -52,30 +71,32 @@ public:
         return finished(std::move(best));
     }
 
-    [[nodiscard]] approximate_fit operator()(std::vector<double> const& parameters) {
-        return finished(from(middle_at(parameters)));
-    }
-
-    [[nodiscard]] approximate_fit least_squares(std::vector<double> const& parameters) {
+    [[nodiscard]] approximate_fit least_squares(arrow_vector z) {
         descent down(campaign_);
         descent_point here;
-        if (!down.evaluate(middle_at(parameters), here)) return {};
+        if (!down.evaluate(std::move(z), here)) return {};
         down.run(here, 2, {}, {40, 1e-6});
         squares_ = squares_of(here);
         return finished(std::move(here));
     }
 
-    [[nodiscard]] approximate_fit at(std::vector<double> const& parameters,
-                                     std::vector<std::vector<double>> const& starts) {
-        descent_point here;
-        if (!descent(campaign_).evaluate(campaign_.variables(parameters, starts), here)) {
-            return {};
+    /// Stays near: nothing but what makes the inflation less, in simulations as they are judged.
+    [[nodiscard]] approximate_fit sharpened(arrow_vector z) {
+        campaign_.set_accuracy(judged_accuracy);
+        descent down(campaign_);
+        descent_point best;
+        if (down.evaluate(std::move(z), best)) {
+            if (any_outliers()) {
+                // Which samples are left out is a matter of where one stands: nearer first.
+                auto nearer = best;
+                down.run(nearer, 1.2, without_suspects(campaign_), {12, 1e-3}, &best);
+            }
+            minimax(campaign_).run(best, sides(), minimax_options::sharp());
         }
-        return finished(std::move(here));
+        auto result = finished(std::move(best));
+        campaign_.set_accuracy(1);
+        return result;
     }
-
-private:
-    static constexpr double hopeless_inflation = 4;
 
     /// The centre, then points of a low-discrepancy sequence.
     [[nodiscard]] arrow_vector start_point(std::size_t k) const {
@@ -92,16 +113,27 @@ private:
         return z;
     }
 
-    /// The centre, but for the parameters that are given.
-    [[nodiscard]] arrow_vector middle_at(std::vector<double> const& parameters) const {
+    /// The centre, but for what is given.
+    [[nodiscard]] arrow_vector begin_at(fit_start const& start) const {
         auto z = start_point(0);
+        if (!start.starts.empty()) z = campaign_.variables(campaign_.parameters(z), start.starts);
         auto const& free = campaign_.free_parameters();
         for (std::size_t k = 0; k < free.size(); ++k) {
-            if (free[k] < parameters.size()) {
-                z.global[static_cast<Eigen::Index>(k)] = parameters[free[k]];
+            if (free[k] < start.parameters.size()) {
+                z.global[static_cast<Eigen::Index>(k)] = start.parameters[free[k]];
             }
         }
         return z;
+    }
+    [[nodiscard]] bool any_outliers() const {
+        auto const& q = campaign_.outliers();
+        return std::any_of(q.begin(), q.end(), [](auto most) { return most > 0; });
+    }
+    /// Of the box of the variables.
+    [[nodiscard]] arrow_vector sides() const {
+        auto unit = campaign_.upper();
+        unit.for_each([](double& u, double lo) { u = std::max(u - lo, 1e-12); }, campaign_.lower());
+        return unit;
     }
 
     /// Whether a parameter sits at an end of its range, but for an end of 0.
@@ -142,8 +174,7 @@ private:
         descent_point here;
         if (!down.evaluate(std::move(z), here)) return here;
         auto best = here;
-        auto const& outliers = campaign_.outliers();
-        if (std::any_of(outliers.begin(), outliers.end(), [](auto q) { return q > 0; })) {
+        if (any_outliers()) {
             auto const kept = without_suspects(campaign_);
             down.run(here, 1.2, kept, {12, 1e-3}, &best);
         }
@@ -151,9 +182,7 @@ private:
         squares_ = std::min(squares_, squares_of(here));
         if (best.inflation < 0.7) return best;
         down.run(here, 8, {}, {6, 1e-2}, &best);
-        auto unit = campaign_.upper();
-        unit.for_each([](double& u, double lo) { u = std::max(u - lo, 1e-12); }, campaign_.lower());
-        minimax(campaign_).run(best, unit);
+        minimax(campaign_).run(best, sides());
         return best;
     }
 
@@ -185,12 +214,8 @@ SIVID_ENTRY fitter::fitter(identification_problem const& problem, std::function<
 SIVID_ENTRY fitter::fitter(fitter&&) noexcept = default;
 SIVID_ENTRY fitter& fitter::operator=(fitter&&) noexcept = default;
 SIVID_ENTRY fitter::~fitter() = default;
-SIVID_ENTRY approximate_fit fitter::operator()() { return (*work_)(); }
-SIVID_ENTRY approximate_fit fitter::operator()(std::vector<double> const& parameters) {
-    return (*work_)(parameters);
-}
-SIVID_ENTRY approximate_fit fitter::least_squares(std::vector<double> const& parameters) {
-    return work_->least_squares(parameters);
+SIVID_ENTRY approximate_fit fitter::operator()(fit_start const& start, fit_norm norm) {
+    return (*work_)(start, norm);
 }
 SIVID_ENTRY approximate_fit fitter::at(std::vector<double> const& parameters,
                                        std::vector<std::vector<double>> const& starts) {
