@@ -11,9 +11,12 @@
 #include <sivid/number/interval.hpp>
 #include <sivid/number/rounding.hpp>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -36,6 +39,11 @@ SIVID_ENTRY std::string layout(digit_string d);
 
 /// The first `count` digits, the rest cut off or carried up.
 SIVID_ENTRY digit_string shortened(digit_string const& all, std::size_t count, bool up);
+
+/// No decimal of fewer digits lies between a finite x > 0 (with these digits) and its neighbour on
+/// one side: one with the digits that the two share, or fewer, is at the neighbour or beyond,
+/// unless it is x itself.
+SIVID_ENTRY std::size_t fewest_digits(double x, digit_string const& all, bool up);
 
 /// The shortest decimal on one side of a finite x > 0, less than one float away from it.
 SIVID_ENTRY std::string shortest_magnitude(double x, bool up);
@@ -123,10 +131,22 @@ SIVID_ENTRY digit_string shortened(digit_string const& all, std::size_t count, b
     return d;
 }
 
+SIVID_ENTRY std::size_t fewest_digits(double x, digit_string const& all, bool up) {
+    double const next = std::nextafter(x, up ? std::numeric_limits<double>::infinity() : 0.0);
+    if (is_zero(next) || is_infinite(next)) return 1;
+    digit_string const other = exact_digits(next);
+    if (other.point != all.point) return 1;
+    std::size_t const significant = all.digits.find_last_not_of('0') + 1;
+    std::size_t const same = static_cast<std::size_t>(
+        std::mismatch(all.digits.begin(), all.digits.end(), other.digits.begin()).first -
+        all.digits.begin());
+    return std::min(significant, same + 1);
+}
+
 SIVID_ENTRY std::string shortest_magnitude(double x, bool up) {
     digit_string const all = exact_digits(x);
     // 17 digits always suffice: their spacing is below the spacing of doubles.
-    for (std::size_t count = 1; count < 17; ++count) {
+    for (std::size_t count = fewest_digits(x, all, up); count < 17; ++count) {
         std::string text = layout(shortened(all, count, up));
         number_text const n = scan_number(text);
         interval const seen = enclose_text(text, n, false);
