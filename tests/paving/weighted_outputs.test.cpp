@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/paving/weighted_outputs.hpp>
 
+#include <sivid/paving/inflation_certificate.hpp>
+
 #include "support/catch.hpp"
 #include "support/polynomial_experiments.hpp"
 
