@@ -112,8 +112,9 @@ public:
 private:
     /// Of the time for a claim, the share in which fits look for what contradicts it.
     static constexpr double share_of_fits = 0.3;
-    /// So many excluded boxes are simulated, the largest; in all of the prior one fit looks.
-    static constexpr std::size_t most_fitted = 1024;
+    /// So many boxes are simulated, of excluded ones the largest, beside one fit in all of the
+    /// prior. Where all is to be proved few will do.
+    [[nodiscard]] std::size_t most_fitted() const { return options_->all ? 16 : 1024; }
 
     [[nodiscard]] counterexample_options
     search(std::function<bool(approximate_fit const&)> confirms) const {
@@ -130,16 +131,15 @@ private:
     /// A point that no row contains and that is proved to explain the data.
     [[nodiscard]] std::optional<std::vector<double>> explaining_point() const {
         std::optional<std::vector<double>> point;
-        auto largest = gaps_;
-        if (largest.size() > most_fitted) {
-            auto const end = largest.begin() + static_cast<std::ptrdiff_t>(most_fitted);
-            std::nth_element(largest.begin(), end, largest.end(),
-                             [this](auto const& a, auto const& b) {
-                                 return relative_volume(a, problem_->prior).upper() >
-                                        relative_volume(b, problem_->prior).upper();
-                             });
-            largest.erase(end, largest.end());
+        std::vector<std::pair<double, std::size_t>> order;
+        for (std::size_t k = 0; k < gaps_.size(); ++k) {
+            order.emplace_back(-relative_volume(gaps_[k], problem_->prior).upper(), k);
         }
+        auto const count = std::min(order.size(), most_fitted());
+        std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count),
+                          order.end());
+        std::vector<box> largest;
+        for (std::size_t k = 0; k < count; ++k) largest.push_back(gaps_[order[k].second]);
         (void)find_explaining_point(*problem_, largest, search([&](approximate_fit const& f) {
             bool const said = contains(problem_->prior, f.parameters) &&
                               std::none_of(rows_->begin(), rows_->end(), [&](auto const& row) {
@@ -160,6 +160,9 @@ private:
             if (!is_empty(x)) inside.push_back(std::move(x));
         }
         std::shuffle(inside.begin(), inside.end(), random); // should time not suffice for all
+        if (inside.size() > most_fitted()) {
+            inside.erase(inside.begin() + static_cast<std::ptrdiff_t>(most_fitted()), inside.end());
+        }
         std::optional<std::vector<double>> point;
         (void)find_unexplained_point(*problem_, inside, search([&](approximate_fit const& f) {
             if (!proves(f, false, run_finding::refuted)) return false;
