@@ -70,7 +70,7 @@ set(entries_paving continued_run detail/response_judgement experiment_run fit ho
 set(entries_paving_further identifiability online_identification)   # apart: together they need 2 GB
 set(entries_paving_check counterexample scalar_run)
 set(entries_diagnosis affected_problem diagnose diagnosis_run manoeuvre)
-set(entries_io checkpoint checkpoint_reader dataset dataset_digest dataset_writer diagnosis_json exact_decimal
+set(entries_io certificates_csv checkpoint checkpoint_reader dataset dataset_digest dataset_writer diagnosis_json exact_decimal
                explaining_motion identification_csv identification_json identification_reader input_error
                json_document model_names problem_digest problem_from_dataset same_problem text_file)
 set(entries_report bar_chart candidate_chart channel_series comparison_plot diagnosis_figures diagnosis_page

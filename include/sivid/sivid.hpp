@@ -140,6 +140,7 @@
 #include <sivid/paving/dependence.hpp>
 #include <sivid/paving/descent.hpp>
 #include <sivid/paving/exclusion_check.hpp>
+#include <sivid/paving/exclusion_proof.hpp>
 #include <sivid/paving/executor.hpp>
 #include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/explaining_starts.hpp>
@@ -179,10 +180,12 @@
 #include <sivid/paving/preimage_paving.hpp>
 #include <sivid/paving/preimage_volume.hpp>
 #include <sivid/paving/problem.hpp>
+#include <sivid/paving/proof_walk.hpp>
 #include <sivid/paving/reduction.hpp>
 #include <sivid/paving/relaxed_intersection.hpp>
 #include <sivid/paving/residuals.hpp>
 #include <sivid/paving/response.hpp>
+#include <sivid/paving/response_audit.hpp>
 #include <sivid/paving/run_options.hpp>
 #include <sivid/paving/scalar_run.hpp>
 #include <sivid/paving/search_state.hpp>

@@ -75,6 +75,13 @@ SIVID_ENTRY std::string identification_json(identification_problem const& proble
         }
         json.end_object();
     }
+    json.key("enclosures").begin_object(layout::one_line); // of the search, for certificates.csv
+    json.key("set").string(found.run.set == carried_set::taylor_model ? "taylor-model"
+                                                                      : "first-order");
+    json.key("order").integer(found.run.enclosure.order);
+    json.key("tolerance").nearest(found.run.enclosure.tolerance);
+    json.key("relative_tolerance").nearest(found.run.enclosure.relative_tolerance);
+    json.key("minimum_step").nearest(found.run.enclosure.minimum_step).end_object();
     json.key("files").begin_object();
     json.key("boxes.csv").string(sha256(boxes_csv(problem, found)));
     if (found.products) json.key("products.csv").string(sha256(products_csv(found)));

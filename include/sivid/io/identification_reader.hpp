@@ -10,7 +10,8 @@
 
 namespace sivid {
 
-/// Reads result.json, boxes.csv and, where the search ran in products, products.csv of a folder.
+/// Reads result.json, boxes.csv and, where there are such, products.csv and certificates.csv of a
+/// folder.
 ///   Bounds and boxes are read outward: a row becomes the smallest box of doubles around its
 ///   decimals, so that neighbours whose common face was rounded inward still meet.
 /// @throws input_error  for what is missing or malformed; that it is true is for others to check

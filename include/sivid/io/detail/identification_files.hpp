@@ -3,6 +3,7 @@
 #define SIVID_IO_DETAIL_IDENTIFICATION_FILES_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/io/certificates_csv.hpp>
 #include <sivid/io/csv_table.hpp>
 #include <sivid/io/detail/stored_identification.hpp>
 #include <sivid/io/json_document.hpp>
@@ -85,6 +86,8 @@ inline void read_result(json_value const& root, stored_identification& result) {
                                       {}};
         if (bytes.type() != json_value::kind::null) result.effort->most_bytes = count(bytes);
     }
+    if (auto const* enclosures = root.find("enclosures"))
+        result.tolerance = *nearest(enclosures->at("tolerance").number());
     for (auto const& a : root.at("assumptions").elements())
         result.assumptions.push_back(a.any_string());
     if (auto const* files = root.find("files")) {
@@ -212,6 +215,8 @@ SIVID_ENTRY stored_identification read_identification(std::filesystem::path cons
         result.products->rows =
             io_detail::read_rows(csv_table::read(folder / "products.csv"), result.products->sides);
     }
+    if (std::filesystem::exists(folder / "certificates.csv"))
+        result.proof = read_certificates(csv_table::read(folder / "certificates.csv"));
     return result;
 }
 

@@ -123,6 +123,9 @@ SIVID_ENTRY identification identify(identification_problem const& problem,
         }
     }
     result.reason = found.reason;
+    result.proof = std::move(found.proof);
+    result.run = options.test.run;
+    result.run.enclosure.keep_going = nullptr; // it is this call's
     result.boxes = found.tested;
     result.effort = search_effort{
         found.seconds, std::min(search.seconds, 1e300), found.tested, search.boxes, {}};

@@ -29,6 +29,7 @@ SIVID_ENTRY response_judgement judge_by_responses(response_list const& all,
         auto const says = assess(*all[e], narrowed);
         if (says.refuted) {
             result.verdict = box_verdict::outside;
+            result.proof.push_back({proof_step::kind::empty});
             return result;
         }
         bool holds = says.explained;
@@ -43,14 +44,17 @@ SIVID_ENTRY response_judgement judge_by_responses(response_list const& all,
                 result.share = std::numeric_limits<double>::infinity();
             }
         }
-        if (contract) rest = std::move(narrowed);
+        if (contract) {
+            add_cuts(result.proof, rest, narrowed);
+            rest = std::move(narrowed);
+        }
         for (std::size_t j = 0; j < rest.size(); ++j) result.smear[j] += says.smear[j];
     }
     bool const inside = std::all_of(open.begin(), open.end(), [&](std::size_t e) {
         return contract && explaining_starts(*all[e], rest)().has_value();
     });
     result.verdict = inside ? box_verdict::inside : box_verdict::undecided;
-    if (!inside && contract && cut && !cut_contraction()(all, rest)) {
+    if (!inside && contract && cut && !cut_contraction()(all, rest, &result.proof)) {
         result.verdict = box_verdict::outside;
         result.share = 0;
     }

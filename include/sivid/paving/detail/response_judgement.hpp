@@ -3,6 +3,7 @@
 #define SIVID_PAVING_DETAIL_RESPONSE_JUDGEMENT_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/paving/exclusion_proof.hpp>
 #include <sivid/paving/response.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/space/box.hpp>
@@ -19,6 +20,7 @@ struct response_judgement {
     /// Largest share of an undecided output's width that does not shrink with the part; infinite
     /// where outputs were not reached.
     double share = 0;
+    exclusion_proof proof = {}; ///< of the contraction, or that nothing is left
 };
 
 /// Decides and contracts a part by responses alone; nothing is integrated.
