@@ -64,11 +64,12 @@ sivid_compiled_source(flags "\
 set(entries_number decimal decimal_output decimal_text kernel_trial)
 set(entries_measurement signal)
 set(entries_model bound_model describe effect effects expression graph graph_listing model to_dot unit)
-set(entries_enclosure enclosed_motion failure flow simulate)
-set(entries_paving continued_run detail/response_judgement experiment_run fit holdout_inflation identify inflation
-                   minimax_fit outlier_budget)
+set(entries_approximate fit/counterexample fit/fit simulate/named_steps)
+set(entries_enclosure enclosed_motion failure flow)
+set(entries_paving continued_run detail/response_judgement experiment_run holdout_inflation identify inflation
+                   outlier_budget)
 set(entries_paving_further identifiability online_identification)   # apart: together they need 2 GB
-set(entries_paving_check counterexample scalar_run)
+set(entries_paving_check scalar_run)
 set(entries_diagnosis affected_problem diagnose diagnosis_run manoeuvre)
 set(entries_io certificates_csv checkpoint checkpoint_reader dataset dataset_digest dataset_writer diagnosis_json exact_decimal
                explaining_motion identification_csv identification_json identification_reader input_error
@@ -79,7 +80,7 @@ set(entries_report bar_chart candidate_chart channel_series comparison_plot diag
                    identification_report identification_words interval_chart legend missing_rate_plot number_text page
                    paving_plot paving_projections paving_raster place_words plane_plot residual_plot rounded_decimal
                    svg table ticks time_plot)
-foreach(group IN ITEMS number measurement model enclosure paving paving_further paving_check diagnosis io report)
+foreach(group IN ITEMS number measurement model approximate enclosure paving paving_further paving_check diagnosis io report)
     string(REGEX REPLACE "_.*" "" floor "${group}")
     if(floor MATCHES "^(io|report)$" AND NOT TARGET sivid::${floor})
         continue()

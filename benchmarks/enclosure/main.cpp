@@ -9,7 +9,6 @@
 
 #include <sivid/enclosure/implicit_tableau.hpp>
 #include <sivid/enclosure/parametric_cover.hpp>
-#include <sivid/enclosure/simulate.hpp>
 #include <sivid/enclosure/tube.hpp>
 #include <sivid/number/decimal.hpp>
 

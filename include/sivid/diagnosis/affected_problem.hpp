@@ -5,7 +5,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/model/arithmetic.hpp>
 #include <sivid/model/effect.hpp>
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 
 #include <algorithm>
 #include <cstddef>

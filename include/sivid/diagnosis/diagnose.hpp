@@ -5,7 +5,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/model/effect.hpp>
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 
 #include <vector>
 

@@ -2,12 +2,12 @@
 #ifndef SIVID_DIAGNOSIS_DIAGNOSIS_RUN_HPP
 #define SIVID_DIAGNOSIS_DIAGNOSIS_RUN_HPP
 
+#include <sivid/approximate/place/estimated_place.hpp>
 #include <sivid/compiled.hpp>
 #include <sivid/diagnosis/candidate.hpp>
 #include <sivid/diagnosis/detail/gap_options.hpp>
 #include <sivid/diagnosis/detail/holdout_results.hpp>
 #include <sivid/diagnosis/detail/manoeuvre_settings.hpp>
-#include <sivid/diagnosis/detail/place_results.hpp>
 #include <sivid/diagnosis/detail/screened.hpp>
 #include <sivid/diagnosis/detail/verified_inflation.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
@@ -15,8 +15,8 @@
 #include <sivid/diagnosis/holdout.hpp>
 #include <sivid/diagnosis/relation_finding.hpp>
 #include <sivid/model/effect.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/data_test_options.hpp>
-#include <sivid/paving/problem.hpp>
 
 #include <cstddef>
 #include <functional>

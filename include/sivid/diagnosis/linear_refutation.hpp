@@ -3,7 +3,7 @@
 #define SIVID_DIAGNOSIS_LINEAR_REFUTATION_HPP
 
 #include <sivid/number/interval_traits.hpp>
-#include <sivid/paving/constraint_blocks.hpp>
+#include <sivid/space/constraint_blocks.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/LU>

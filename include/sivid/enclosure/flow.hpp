@@ -53,6 +53,8 @@ public:
     }
 
     [[nodiscard]] sampled_signal const& input(std::size_t i) const { return signals_[i]; }
+    /// All of them; those that are formulas, which stand in the model already, are empty.
+    [[nodiscard]] std::vector<signal> inputs() const { return {signals_.begin(), signals_.end()}; }
     [[nodiscard]] std::vector<std::size_t> const& sampled_inputs() const { return model_.sampled; }
     /// Whether an input has an error bound: each trajectory of the flow then stands for all those
     /// that the inputs within their bounds cause.

@@ -4,9 +4,9 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/measurement/record.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/number/interval.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/problem.hpp>
 
 #include <algorithm>
 #include <cstddef>

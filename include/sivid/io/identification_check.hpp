@@ -7,8 +7,8 @@
 #include <sivid/io/detail/identification_check_options.hpp>
 #include <sivid/io/detail/stored_identification.hpp>
 #include <sivid/io/same_problem.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/number/interval.hpp>
-#include <sivid/paving/problem.hpp>
 
 #include <functional>
 #include <type_traits>

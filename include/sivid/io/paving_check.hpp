@@ -2,13 +2,13 @@
 #ifndef SIVID_IO_PAVING_CHECK_HPP
 #define SIVID_IO_PAVING_CHECK_HPP
 
+#include <sivid/approximate/fit/counterexample.hpp>
 #include <sivid/io/detail/identification_check_options.hpp>
 #include <sivid/io/detail/point_judgement.hpp>
 #include <sivid/io/exact_decimal.hpp>
 #include <sivid/io/identification_consistency.hpp>
 #include <sivid/number/nearest_text.hpp>
 #include <sivid/paving/certificate.hpp>
-#include <sivid/paving/counterexample.hpp>
 #include <sivid/paving/exclusion_check.hpp>
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include <sivid/diagnosis/holdout.hpp>
 #include <sivid/io/dataset_value.hpp>
 #include <sivid/io/outlier_rule.hpp>
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 
 #include <cstddef>
 #include <optional>

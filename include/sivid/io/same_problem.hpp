@@ -5,7 +5,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/io/detail/stored_identification.hpp>
 #include <sivid/io/input_error.hpp>
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 
 #include <filesystem>
 

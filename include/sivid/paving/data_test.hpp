@@ -2,13 +2,13 @@
 #ifndef SIVID_PAVING_DATA_TEST_HPP
 #define SIVID_PAVING_DATA_TEST_HPP
 
+#include <sivid/model/problem.hpp>
 #include <sivid/model/smoothed.hpp>
 #include <sivid/paving/data_test_options.hpp>
 #include <sivid/paving/detail/response_judgement.hpp>
 #include <sivid/paving/detail/run_pool.hpp>
 #include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/local_response.hpp>
-#include <sivid/paving/problem.hpp>
 #include <sivid/paving/set_test.hpp>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/enclosure/flow.hpp>
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/response.hpp>
 #include <sivid/paving/run_options.hpp>
 

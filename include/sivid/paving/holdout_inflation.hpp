@@ -3,9 +3,9 @@
 #define SIVID_PAVING_HOLDOUT_INFLATION_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/number/interval.hpp>
 #include <sivid/paving/inflation.hpp>
-#include <sivid/paving/problem.hpp>
 
 #include <cstddef>
 

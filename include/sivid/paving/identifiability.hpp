@@ -4,9 +4,9 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/enclosure/options.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/model/symmetry.hpp>
 #include <sivid/paving/detail/unknown_quantity.hpp>
-#include <sivid/paving/problem.hpp>
 #include <sivid/space/box.hpp>
 
 #include <cstddef>

@@ -2,8 +2,8 @@
 #ifndef SIVID_PAVING_IDENTIFICATION_HPP
 #define SIVID_PAVING_IDENTIFICATION_HPP
 
+#include <sivid/approximate/approximate_fit.hpp>
 #include <sivid/model/combination.hpp>
-#include <sivid/paving/approximate_fit.hpp>
 #include <sivid/paving/detail/fewest_outliers.hpp>
 #include <sivid/paving/exclusion_proof.hpp>
 #include <sivid/paving/reduction.hpp>

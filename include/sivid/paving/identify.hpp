@@ -3,9 +3,9 @@
 #define SIVID_PAVING_IDENTIFY_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/identify_options.hpp>
-#include <sivid/paving/problem.hpp>
 
 namespace sivid {
 

@@ -2,12 +2,12 @@
 #ifndef SIVID_PAVING_INFLATION_HPP
 #define SIVID_PAVING_INFLATION_HPP
 
+#include <sivid/approximate/approximate_fit.hpp>
 #include <sivid/compiled.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/number/interval.hpp>
-#include <sivid/paving/approximate_fit.hpp>
 #include <sivid/paving/data_test_options.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/problem.hpp>
 #include <sivid/space/box.hpp>
 
 #include <cstddef>

@@ -2,8 +2,8 @@
 #ifndef SIVID_PAVING_INVERSION_OPTIONS_HPP
 #define SIVID_PAVING_INVERSION_OPTIONS_HPP
 
+#include <sivid/executor.hpp>
 #include <sivid/paving/exclusion_proof.hpp>
-#include <sivid/paving/executor.hpp>
 #include <sivid/paving/frontier.hpp>
 #include <sivid/paving/search_state.hpp>
 #include <sivid/paving/subpaving.hpp>

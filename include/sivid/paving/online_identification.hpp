@@ -3,9 +3,9 @@
 #define SIVID_PAVING_ONLINE_IDENTIFICATION_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/detail/online_update.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/problem.hpp>
 
 #include <memory>
 #include <vector>

@@ -3,10 +3,10 @@
 #define SIVID_PAVING_OUTLIER_BUDGET_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/detail/fewest_outliers.hpp>
 #include <sivid/paving/detail/outlier_search_options.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/problem.hpp>
 
 #include <cstddef>
 #include <optional>

@@ -2,10 +2,10 @@
 #ifndef SIVID_REPORT_DIAGNOSIS_PLOT_DATA_HPP
 #define SIVID_REPORT_DIAGNOSIS_PLOT_DATA_HPP
 
+#include <sivid/approximate/approximate_fit.hpp>
 #include <sivid/compiled.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/number/interval.hpp>
-#include <sivid/paving/approximate_fit.hpp>
-#include <sivid/paving/problem.hpp>
 #include <sivid/report/channel_series.hpp>
 
 #include <algorithm>

@@ -5,8 +5,8 @@
 #include <sivid/compiled.hpp>
 #include <sivid/io/explaining_motion.hpp>
 #include <sivid/io/identification_json.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/problem.hpp>
 #include <sivid/report/detail/plane_channels.hpp>
 #include <sivid/report/identification_view.hpp>
 

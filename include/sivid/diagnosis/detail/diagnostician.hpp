@@ -2,6 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_DETAIL_DIAGNOSTICIAN_HPP
 #define SIVID_DIAGNOSIS_DETAIL_DIAGNOSTICIAN_HPP
 
+#include <sivid/approximate/place/place_estimate.hpp>
 #include <sivid/compiled.hpp>
 #include <sivid/diagnosis/broken_relation.hpp>
 #include <sivid/diagnosis/candidate_order.hpp>
@@ -13,7 +14,6 @@
 #include <sivid/diagnosis/manoeuvre.hpp>
 #include <sivid/diagnosis/opening_words.hpp>
 #include <sivid/diagnosis/part_inflation.hpp>
-#include <sivid/diagnosis/place_estimate.hpp>
 #include <sivid/diagnosis/place_report.hpp>
 #include <sivid/diagnosis/screening.hpp>
 #include <sivid/diagnosis/sensor_discharge.hpp>

@@ -2,11 +2,11 @@
 #ifndef SIVID_DIAGNOSIS_DETAIL_MANOEUVRE_CHOICE_HPP
 #define SIVID_DIAGNOSIS_DETAIL_MANOEUVRE_CHOICE_HPP
 
+#include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>
 #include <sivid/diagnosis/detail/manoeuvre_settings.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/screening.hpp>
-#include <sivid/paving/fit.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include <sivid/compiled.hpp>
 #include <sivid/enclosure/observation.hpp>
 #include <sivid/enclosure/tube.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/problem.hpp>
 #include <sivid/space/box.hpp>
 
 #include <cmath>

@@ -6,8 +6,8 @@
 #include <sivid/io/detail/stored_identification.hpp>
 #include <sivid/io/input_error.hpp>
 #include <sivid/io/product_formula.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/model/unit.hpp>
-#include <sivid/paving/problem.hpp>
 
 #include <cstddef>
 #include <filesystem>

@@ -2,9 +2,9 @@
 #ifndef SIVID_PAVING_DETAIL_BOX_BATCHES_HPP
 #define SIVID_PAVING_DETAIL_BOX_BATCHES_HPP
 
+#include <sivid/executor.hpp>
 #include <sivid/number/guard.hpp>
 #include <sivid/paving/detail/lesson.hpp>
-#include <sivid/paving/executor.hpp>
 #include <sivid/paving/frontier.hpp>
 #include <sivid/paving/set_test.hpp>
 

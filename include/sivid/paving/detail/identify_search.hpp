@@ -2,12 +2,12 @@
 #ifndef SIVID_PAVING_DETAIL_IDENTIFY_SEARCH_HPP
 #define SIVID_PAVING_DETAIL_IDENTIFY_SEARCH_HPP
 
+#include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>
 #include <sivid/paving/core_box.hpp>
 #include <sivid/paving/data_test.hpp>
 #include <sivid/paving/dependence.hpp>
 #include <sivid/paving/detail/drawing.hpp>
-#include <sivid/paving/fit.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/identify_options.hpp>
 #include <sivid/paving/invert.hpp>

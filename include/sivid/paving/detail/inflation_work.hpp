@@ -2,11 +2,11 @@
 #ifndef SIVID_PAVING_DETAIL_INFLATION_WORK_HPP
 #define SIVID_PAVING_DETAIL_INFLATION_WORK_HPP
 
+#include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>
 #include <sivid/number/guard.hpp>
 #include <sivid/paving/dependence.hpp>
 #include <sivid/paving/inflation_search.hpp>
-#include <sivid/paving/minimax_fit.hpp>
 #include <sivid/paving/witness.hpp>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ public:
           points_(everything_, test_within_time()),
           map_(reduction::find(problem, dependence_of(problem))),
           search_(working(), test_within_time()),
-          fit_(working()) {}
+          fit_(working(), [this] { return within_time(); }) {}
 
     [[nodiscard]] inflation_bound operator()(approximate_fit const* guess) {
         std::vector<std::vector<double>> starts;
@@ -111,7 +111,7 @@ private:
     /// Descends from a point of the working problem and verifies where that leads.
     void improve(std::vector<double> const& point, std::vector<std::vector<double>> const& starts) {
         ++descents_;
-        auto const better = fit_(point, starts, [this] { return within_time(); });
+        auto const better = fit_({point, starts});
         if (better.parameters.empty()) {
             verify(point, starts);
         } else if (better.inflation < upper_) {
@@ -158,7 +158,7 @@ private:
     data_test points_;
     std::optional<reduction> map_;
     inflation_search search_;
-    minimax_fitter fit_;
+    fitter fit_;
     double upper_ = detail::infinity;
     std::size_t descents_ = 0;
     std::size_t most_work_ = std::max(options_->work, options_->further_work);

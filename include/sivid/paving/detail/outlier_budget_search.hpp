@@ -2,12 +2,12 @@
 #ifndef SIVID_PAVING_DETAIL_OUTLIER_BUDGET_SEARCH_HPP
 #define SIVID_PAVING_DETAIL_OUTLIER_BUDGET_SEARCH_HPP
 
+#include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/dependence.hpp>
-#include <sivid/paving/fit.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/outlier_count.hpp>
-#include <sivid/paving/problem.hpp>
 #include <sivid/paving/reduction.hpp>
 #include <sivid/paving/witness.hpp>
 #include <sivid/paving/work_limit.hpp>
@@ -74,7 +74,7 @@ public:
             problem_.experiments[e].outliers =
                 std::min(budgets_[e], problem_.experiments[e].measurements.size() / 2);
         }
-        if (propose(fitter(problem_, keep_going_)(parameters)) && total() < before) decrease();
+        if (propose(fitter(problem_, keep_going_)({parameters})) && total() < before) decrease();
     }
 
 private:
@@ -91,7 +91,7 @@ private:
                 for (std::size_t k = 0; k < budgets_.size(); ++k) {
                     problem_.experiments[k].outliers = budgets_[k] - (k == e ? 1 : 0);
                 }
-                better = propose(fitter(problem_, keep_going_)(witness_->parameters));
+                better = propose(fitter(problem_, keep_going_)({witness_->parameters}));
             }
         }
     }

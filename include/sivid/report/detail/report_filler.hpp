@@ -4,8 +4,8 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/io/explaining_motion.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/problem.hpp>
 #include <sivid/report/identification_view.hpp>
 #include <sivid/report/identification_words.hpp>
 #include <sivid/report/paving_projections.hpp>
