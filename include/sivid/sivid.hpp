@@ -39,10 +39,12 @@
 #include <sivid/number/trigonometric.hpp>
 #include <sivid/number/twofold.hpp>
 #include <sivid/number/univariate_taylor.hpp>
+#include <sivid/space/basis_factors.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/space/box_cover.hpp>
 #include <sivid/space/certified_rank.hpp>
 #include <sivid/space/common_frame.hpp>
+#include <sivid/space/dual_simplex.hpp>
 #include <sivid/space/eigen_support.hpp>
 #include <sivid/space/matrix.hpp>
 #include <sivid/space/orthogonal_frame.hpp>
@@ -167,6 +169,7 @@
 #include <sivid/paving/minimax_fit.hpp>
 #include <sivid/paving/minimax_lp.hpp>
 #include <sivid/paving/misfit.hpp>
+#include <sivid/paving/misfit_block.hpp>
 #include <sivid/paving/observer_refutation.hpp>
 #include <sivid/paving/online_identification.hpp>
 #include <sivid/paving/outlier_budget.hpp>
