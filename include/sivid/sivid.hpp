@@ -46,6 +46,7 @@
 #include <sivid/space/common_frame.hpp>
 #include <sivid/space/dual_simplex.hpp>
 #include <sivid/space/eigen_support.hpp>
+#include <sivid/space/integer_span.hpp>
 #include <sivid/space/matrix.hpp>
 #include <sivid/space/orthogonal_frame.hpp>
 #include <sivid/space/rational_basis.hpp>
@@ -68,6 +69,7 @@
 #include <sivid/model/graph_listing.hpp>
 #include <sivid/model/homogeneity.hpp>
 #include <sivid/model/model.hpp>
+#include <sivid/model/normal_form.hpp>
 #include <sivid/model/operation.hpp>
 #include <sivid/model/parameter_choice.hpp>
 #include <sivid/model/plain_program.hpp>

@@ -2,6 +2,7 @@
 // Parameters were called entangled, and motions symmetries, because a rank was counted in doubles
 // and exponents wrapped around at 2^32: theorems that are wrong.
 #include <sivid/model/find_combinations.hpp>
+#include <sivid/model/homogeneity.hpp>
 #include <sivid/model/symmetry.hpp>
 
 #include "support/catch.hpp"
@@ -61,6 +62,7 @@ TEST_CASE("a parameter to the power of 2^32 is not absent") {
     });
     CHECK(find_combinations({&model}).entangled.empty());
     CHECK_FALSE(is_symmetry(model, {motion_kind::scaling, {1, 0}, {0}}));
+    CHECK_FALSE(is_scale_invariant(model, {1, 0}));
     auto const both = bound(2, [](auto const&, auto const& x, auto const& p, auto const&) {
         return std::vector{large_power(p[0]) * p[1] * x[0]};
     });
