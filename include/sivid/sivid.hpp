@@ -73,6 +73,7 @@
 #include <sivid/model/operation.hpp>
 #include <sivid/model/parameter_choice.hpp>
 #include <sivid/model/plain_program.hpp>
+#include <sivid/model/program.hpp>
 #include <sivid/model/recorded_map.hpp>
 #include <sivid/model/rewrite.hpp>
 #include <sivid/model/series.hpp>
