@@ -39,12 +39,15 @@
 #include <sivid/number/trigonometric.hpp>
 #include <sivid/number/twofold.hpp>
 #include <sivid/number/univariate_taylor.hpp>
+#include <sivid/space/basis_factors.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/space/box_cover.hpp>
 #include <sivid/space/certified_rank.hpp>
 #include <sivid/space/common_frame.hpp>
 #include <sivid/space/constraint_blocks.hpp>
+#include <sivid/space/dual_simplex.hpp>
 #include <sivid/space/eigen_support.hpp>
+#include <sivid/space/integer_span.hpp>
 #include <sivid/space/matrix.hpp>
 #include <sivid/space/minimax_lp.hpp>
 #include <sivid/space/orthogonal_frame.hpp>
@@ -68,10 +71,12 @@
 #include <sivid/model/graph_listing.hpp>
 #include <sivid/model/homogeneity.hpp>
 #include <sivid/model/model.hpp>
+#include <sivid/model/normal_form.hpp>
 #include <sivid/model/operation.hpp>
 #include <sivid/model/parameter_choice.hpp>
 #include <sivid/model/plain_program.hpp>
 #include <sivid/model/problem.hpp>
+#include <sivid/model/program.hpp>
 #include <sivid/model/recorded_map.hpp>
 #include <sivid/model/rewrite.hpp>
 #include <sivid/model/series.hpp>
@@ -183,6 +188,7 @@
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/mean_value_cut.hpp>
 #include <sivid/paving/misfit.hpp>
+#include <sivid/paving/misfit_block.hpp>
 #include <sivid/paving/observer_refutation.hpp>
 #include <sivid/paving/online_identification.hpp>
 #include <sivid/paving/outlier_budget.hpp>

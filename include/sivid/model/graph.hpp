@@ -106,23 +106,14 @@ private:
     std::map<std::tuple<double, double>, node_id> literal_ids_;
 };
 
-/// Value of one operation on arithmetic A (see `evaluate.hpp`); leaves are not handled.
+namespace model_detail {
+
+/// The rest of `apply`, apart: it would make loops over operations large and slow.
 template <class A>
-typename A::value_type apply(operation op, typename A::value_type const& a,
-                             typename A::value_type const& b, int n, typename A::mask& undefined) {
+[[gnu::noinline]] typename A::value_type
+apply_function(operation op, typename A::value_type const& a, typename A::value_type const& b,
+               int n, typename A::mask& undefined) {
     switch (op) {
-    case operation::neg:
-        return A::neg(a);
-    case operation::add:
-        return A::add(a, b);
-    case operation::sub:
-        return A::sub(a, b);
-    case operation::mul:
-        return A::mul(a, b);
-    case operation::div:
-        return A::div(a, b, undefined);
-    case operation::sqr:
-        return A::sqr(a);
     case operation::pown:
         return A::pown(a, n, undefined);
     case operation::sqrt:
@@ -149,14 +140,33 @@ typename A::value_type apply(operation op, typename A::value_type const& a,
         return A::min(a, b);
     case operation::max:
         return A::max(a, b);
-    case operation::literal:
-    case operation::time:
-    case operation::state:
-    case operation::constant:
-    case operation::input:
-        break;
+    default:
+        return a;
     }
-    return a;
+}
+
+} // namespace model_detail
+
+/// Value of one operation on arithmetic A (see `program.hpp`); leaves are not handled.
+template <class A>
+typename A::value_type apply(operation op, typename A::value_type const& a,
+                             typename A::value_type const& b, int n, typename A::mask& undefined) {
+    switch (op) {
+    case operation::neg:
+        return A::neg(a);
+    case operation::add:
+        return A::add(a, b);
+    case operation::sub:
+        return A::sub(a, b);
+    case operation::mul:
+        return A::mul(a, b);
+    case operation::div:
+        return A::div(a, b, undefined);
+    case operation::sqr:
+        return A::sqr(a);
+    default:
+        return model_detail::apply_function<A>(op, a, b, n, undefined);
+    }
 }
 
 #if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_GRAPH)

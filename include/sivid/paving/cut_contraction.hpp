@@ -5,6 +5,7 @@
 #include <sivid/paving/cut_certificate.hpp>
 #include <sivid/paving/cut_program.hpp>
 #include <sivid/paving/local_response.hpp>
+#include <sivid/paving/misfit_block.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>
@@ -107,36 +108,20 @@ private:
         auto const& r = *(*known_)[s];
         auto const local = expand(r, part);
         auto const ranges = output_ranges(r, local);
-        minimax_block block;
-        for (auto const& p : unknowns.places[s]) block.variable.push_back(p.unknown);
-        auto const count = r.outputs();
-        block.slope = local.slope;
-        block.offset.assign(count, 0.0);
-        block.margin.assign(count, std::numeric_limits<double>::infinity());
-        auto& scale = scales_.emplace_back(count, 0.0);
         std::size_t failed = 0;
-        for (std::size_t y = 0; y < count; ++y) {
+        auto misfits = misfits_of(r, local, unknowns.places[s], 1, [&](std::size_t y) {
             bool const fails = disjoint(ranges[y], r.bounds[y]);
             failed += fails ? 1 : 0;
             if (fails && r.allowed > 0) {
                 bool const above = ranges[y].lower() > r.bounds[y].upper();
                 failing_.push_back({s, y, above ? 1.0 : -1.0});
             }
-            double const e = 0.5 * width(r.bounds[y]);
-            bool const of_use = std::isfinite(e) && std::isfinite(local.rest[y]) &&
-                                !subset(ranges[y], r.bounds[y]) && !(fails && r.allowed > 0);
-            scale[y] = of_use ? 1 / std::max(e, 1e-100) : 0;
-            for (std::size_t v = 0; v < block.variable.size(); ++v) {
-                auto& slope = block.slope[v * count + y];
-                slope = of_use ? slope * scale[y] : 0;
-            }
-            if (!of_use) continue;
-            block.offset[y] = (local.value[y] - mid(r.bounds[y])) * scale[y];
-            block.margin[y] = 1 + local.rest[y] * scale[y];
-        }
+            return !subset(ranges[y], r.bounds[y]) && !(fails && r.allowed > 0);
+        });
         // Measurements that certainly fail have used up a part of the budget.
         allowance_.push_back(r.allowed - std::min(r.allowed, failed));
-        blocks_.push_back(std::move(block));
+        scales_.push_back(std::move(misfits.scale));
+        blocks_.push_back(std::move(misfits.functions));
     }
 
     /// What the weakest of `allowed` + 1 groups proves; `nowhere` when all prove that nothing is

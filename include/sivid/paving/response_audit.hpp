@@ -3,7 +3,7 @@
 #define SIVID_PAVING_RESPONSE_AUDIT_HPP
 
 #include <sivid/paving/plain_run.hpp>
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/response.hpp>
 
 #include <algorithm>
