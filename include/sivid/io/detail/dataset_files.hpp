@@ -130,7 +130,10 @@ private:
         if (!(result.duration > 0))
             entry.at("duration").fail("the duration is not above 0", "state it in seconds");
 
-        auto const kind = entry.at("interpolation").is_second_of("linear", "hold")
+        // A model without inputs needs no file of them.
+        bool const driven = !model_.inputs.empty() || entry.find("inputs") != nullptr;
+        auto const* between = driven ? &entry.at("interpolation") : entry.find("interpolation");
+        auto const kind = between != nullptr && between->is_second_of("linear", "hold")
                               ? interpolation::hold
                               : interpolation::linear;
         auto const file = [&](char const* key) {
@@ -141,10 +144,12 @@ private:
                            "check the name");
             return path;
         };
-        auto const inputs = file("inputs");
         auto const measurements = file("measurements");
         read_initial(entry.at("initial"), result);
-        result.inputs = read_inputs(csv_table::read(inputs), model_, kind, result.duration);
+        if (driven) {
+            result.inputs =
+                read_inputs(csv_table::read(file("inputs")), model_, kind, result.duration);
+        }
         read_measurements(csv_table::read(measurements), model_, result);
         if (result.measurements.empty())
             entry.at("measurements")
