@@ -2,6 +2,7 @@
 // What stands in certificates.csv is never believed: whatever is forged there and in the tables, a
 // false result is not verified, and a true one loses time at most.
 #include <sivid/io/identification_check.hpp>
+#include <sivid/io/paving_check.hpp>
 #include <sivid/paving/identify.hpp>
 
 #include "io/stored_result.hpp"
