@@ -90,8 +90,8 @@ public:
             auto& s = tried_[k];
             double const before = s.figures.inflation;
             if (!(before > 1 && before < close) || !in_time()) return;
-            auto better = fit(s.problem, fit_norm::largest, {s.fit.parameters, s.fit.starts},
-                              [this] { return in_time(); });
+            auto better = sivid::fit(s.problem, fit_norm::largest, {s.fit.parameters, s.fit.starts},
+                                     [this] { return in_time(); });
             if (!(better.inflation < before)) return;
             better.squares = s.fit.squares;
             s.fit = std::move(better);
