@@ -32,6 +32,8 @@ inline void collect_monomials(bound_model const& model, monomial_set& found) {
                                                      {std::numeric_limits<std::size_t>::max(), 64});
     std::vector<node_id> open = model.rate;
     open.insert(open.end(), model.observe.begin(), model.observe.end());
+    for (auto const i : open) (void)multiplied(i);
+    open.insert(open.end(), multiplied.opaque().begin(), multiplied.opaque().end());
     std::set<node_id> seen;
     while (!open.empty()) {
         auto const i = open.back();
@@ -52,7 +54,6 @@ inline void collect_monomials(bound_model const& model, monomial_set& found) {
             }
             found.insert(std::move(exponents));
         }
-        open.insert(open.end(), multiplied.opaque().begin(), multiplied.opaque().end());
     }
     found.erase(std::vector<int>(model.parameter_count(), 0));
 }
