@@ -31,14 +31,14 @@ struct response_judgement {
 /// @guarantee  outside: no parameter of the part is feasible for any starts; inside: all are, for
 ///             the chosen starts or for others that depend on the parameter; `rest` keeps every
 ///             feasible parameter
-[[nodiscard]] SIVID_ENTRY response_judgement judge_by_responses(response_list const& all,
+[[nodiscard]] SIVID_DECL response_judgement judge_by_responses(response_list const& all,
                                                                 response_list const& chosen,
                                                                 box part, bool contract, bool cut);
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_JUDGE_BY_RESPONSES)
-#include <sivid/paving/detail/judge_by_responses.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/paving/impl/response_judgement.ipp>
 #endif
 
 #endif
