@@ -39,12 +39,15 @@
 #include <sivid/number/trigonometric.hpp>
 #include <sivid/number/twofold.hpp>
 #include <sivid/number/univariate_taylor.hpp>
+#include <sivid/space/basis_factors.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/space/box_cover.hpp>
 #include <sivid/space/certified_rank.hpp>
 #include <sivid/space/common_frame.hpp>
 #include <sivid/space/constraint_blocks.hpp>
+#include <sivid/space/dual_simplex.hpp>
 #include <sivid/space/eigen_support.hpp>
+#include <sivid/space/integer_span.hpp>
 #include <sivid/space/matrix.hpp>
 #include <sivid/space/minimax_lp.hpp>
 #include <sivid/space/orthogonal_frame.hpp>
@@ -68,10 +71,12 @@
 #include <sivid/model/graph_listing.hpp>
 #include <sivid/model/homogeneity.hpp>
 #include <sivid/model/model.hpp>
+#include <sivid/model/normal_form.hpp>
 #include <sivid/model/operation.hpp>
 #include <sivid/model/parameter_choice.hpp>
 #include <sivid/model/plain_program.hpp>
 #include <sivid/model/problem.hpp>
+#include <sivid/model/program.hpp>
 #include <sivid/model/recorded_map.hpp>
 #include <sivid/model/rewrite.hpp>
 #include <sivid/model/series.hpp>
@@ -122,7 +127,6 @@
 #include <sivid/enclosure/failure.hpp>
 #include <sivid/enclosure/failure_advice.hpp>
 #include <sivid/enclosure/flow.hpp>
-#include <sivid/enclosure/framed_radii.hpp>
 #include <sivid/enclosure/implicit_runge_kutta.hpp>
 #include <sivid/enclosure/implicit_stages.hpp>
 #include <sivid/enclosure/implicit_tableau.hpp>
@@ -138,7 +142,6 @@
 #include <sivid/enclosure/perturbation_bound.hpp>
 #include <sivid/enclosure/perturbed_step.hpp>
 #include <sivid/enclosure/runge_kutta.hpp>
-#include <sivid/enclosure/sensitive_flow.hpp>
 #include <sivid/enclosure/sensitivity_tube.hpp>
 #include <sivid/enclosure/stepper.hpp>
 #include <sivid/enclosure/tableau.hpp>
@@ -160,6 +163,7 @@
 #include <sivid/paving/data_test_options.hpp>
 #include <sivid/paving/dependence.hpp>
 #include <sivid/paving/exclusion_check.hpp>
+#include <sivid/paving/exclusion_proof.hpp>
 #include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/explaining_starts.hpp>
 #include <sivid/paving/flat_paving.hpp>
@@ -182,6 +186,7 @@
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/mean_value_cut.hpp>
 #include <sivid/paving/misfit.hpp>
+#include <sivid/paving/misfit_block.hpp>
 #include <sivid/paving/observer_refutation.hpp>
 #include <sivid/paving/online_identification.hpp>
 #include <sivid/paving/outlier_budget.hpp>
@@ -193,9 +198,11 @@
 #include <sivid/paving/plain_start_rule.hpp>
 #include <sivid/paving/preimage_paving.hpp>
 #include <sivid/paving/preimage_volume.hpp>
+#include <sivid/paving/proof_walk.hpp>
 #include <sivid/paving/reduction.hpp>
 #include <sivid/paving/relaxed_intersection.hpp>
 #include <sivid/paving/response.hpp>
+#include <sivid/paving/response_audit.hpp>
 #include <sivid/paving/run_options.hpp>
 #include <sivid/paving/scalar_run.hpp>
 #include <sivid/paving/search_state.hpp>

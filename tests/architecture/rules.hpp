@@ -112,15 +112,15 @@ inline bool may_include_approximate(std::string_view other, std::string_view inc
     static std::set<std::string_view> const results{"approximate_fit.hpp", "residuals.hpp",
                                                     "place/estimated_place.hpp"};
     static std::map<std::string_view, std::set<std::string_view>> const starters{
-        {"sivid/paving/detail/identify_search.hpp", {"fit/fit.hpp"}},
+        {"sivid/paving/impl/identify.ipp", {"fit/fit.hpp"}},
         {"sivid/paving/detail/online_witness.hpp", {"fit/fit.hpp"}},
-        {"sivid/paving/detail/outlier_budget_search.hpp", {"fit/fit.hpp"}},
-        {"sivid/paving/detail/inflation_work.hpp", {"fit/fit.hpp"}},
+        {"sivid/paving/impl/outlier_budget.ipp", {"fit/fit.hpp"}},
+        {"sivid/paving/impl/inflation.ipp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/screening.hpp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/holdout_judgement.hpp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/claim_review.hpp", {"fit/campaign.hpp"}},
-        {"sivid/diagnosis/detail/manoeuvre_choice.hpp", {"fit/fit.hpp"}},
-        {"sivid/diagnosis/detail/diagnostician.hpp", {"place/place_estimate.hpp"}},
+        {"sivid/diagnosis/impl/manoeuvre.ipp", {"fit/fit.hpp"}},
+        {"sivid/diagnosis/impl/diagnose.ipp", {"place/place_estimate.hpp"}},
         {"sivid/report/scenario_report.hpp", {"simulate/simulate.hpp"}},
         {"sivid/io/paving_check.hpp", {"fit/counterexample.hpp"}},
         {"sivid/io/fewest_outliers_check.hpp", {"fit/counterexample.hpp"}}};
@@ -203,6 +203,7 @@ inline std::vector<finding> check(fs::path const& tree) {
     auto const include = tree / "include";
     std::map<std::string, std::vector<std::string>> graph; // header -> headers included
     std::set<std::string> umbrella_members, core_headers;
+    std::set<std::string> listed, definitions_of_floors; // .ipp in sivid/impl, and all of them
 
     for (auto const& entry : fs::recursive_directory_iterator{include / "sivid"}) {
         if (!entry.is_regular_file()) continue;
@@ -212,25 +213,29 @@ inline std::vector<finding> check(fs::path const& tree) {
         auto const report = [&](std::string rule, std::string what) {
             findings.push_back({std::move(rule), "include/" + name, std::move(what)});
         };
-        if (path.extension() != ".hpp") {
-            report("extension", "only .hpp files belong here");
+        bool const definitions = path.parent_path().filename() == "impl";
+        if (path.extension() != ".hpp" && !(definitions && path.extension() == ".ipp")) {
+            report("extension", "only .hpp files belong here, and .ipp files in impl");
             continue;
         }
 
         auto part = std::next(relative.begin());
-        bool const at_root = std::next(part) == relative.end();
+        // sivid/impl lists what is compiled once, of all floors
+        bool const at_root = std::next(part) == relative.end() || *part == "impl";
         std::string const floor = at_root ? "" : part->string();
         auto const rank = rank_of(floor);
         if (!at_root && rank == floors.size()) {
             report("floor", "unknown floor '" + floor + "'");
             continue;
         }
-        bool const internal = name.find("/detail/") != std::string::npos;
+        bool const internal = definitions || name.find("/detail/") != std::string::npos;
         auto const file = path.filename().string();
         bool const optional =
             floor == "number" &&
             (starts_with(file, "mp_") || starts_with(file, "mpfr_") || file == "format.hpp");
         if (!at_root && !internal && !optional && rank < core_floors) core_headers.insert(name);
+
+        if (definitions && !at_root) definitions_of_floors.insert(name);
 
         auto const lines = lines_of(path);
         if (lines.size() > hard_line_limit) report("size", std::to_string(lines.size()) + " lines");
@@ -256,7 +261,10 @@ inline std::vector<finding> check(fs::path const& tree) {
                 report("include form", "\"" + other + "\" instead of <sivid/floor/file.hpp>");
             if (!package_allowed(other, floor, file)) report("package", "includes <" + other + ">");
             if (!starts_with(other, "sivid/")) continue;
-            graph[name].push_back(other);
+            // A header and its definitions include each other: what it declares is complete there.
+            bool const to_definitions = other.find("/impl/") != std::string::npos;
+            if (to_definitions && at_root) listed.insert(other);
+            if (!to_definitions) graph[name].push_back(other);
             if (name == "sivid/sivid.hpp") umbrella_members.insert(other);
             if (!fs::exists(include / other))
                 report("missing", "includes <" + other + ">, which does not exist");
@@ -292,6 +300,11 @@ inline std::vector<finding> check(fs::path const& tree) {
         if (!umbrella_members.empty() && umbrella_members.count(header) == 0)
             findings.push_back(
                 {"umbrella", "include/" + header, "not in sivid.hpp (scripts/update-umbrella)"});
+
+    for (auto const& d : definitions_of_floors)
+        if (fs::exists(include / "sivid/impl/src.hpp") && listed.count(d) == 0 &&
+            d.find("impl/check_") == std::string::npos) // MPFI's
+            findings.push_back({"definitions", "include/" + d, "in no list of sivid/impl"});
 
     check_test_names(tree, findings);
 

@@ -11,11 +11,7 @@ namespace {
 std::vector<minimax_block> const blocks{{{0, 2}, {2, 0, -1, 1}, {1, -3}, {0.5, 0}},
                                         {{1}, {4}, {0}, {1}}};
 
-Eigen::VectorXd point(double a, double b, double c) {
-    Eigen::VectorXd p(3);
-    p << a, b, c;
-    return p;
-}
+std::vector<double> point(double a, double b, double c) { return {a, b, c}; }
 
 } // namespace
 
@@ -35,31 +31,31 @@ TEST_CASE("the worst function and the worst bound at a point") {
 TEST_CASE("a constraint says that its normal times d stays within its reach") {
     constraint_blocks all(3, blocks);
     signed_constraint const below{false, 0, 0, false};
-    auto const normal = all.normal(below, 4);
-    CHECK(normal.size() == 4);
+    half_space h;
+    all.write(below, h, 4);
     // -(1 + 2 d0 - d2) <= 0.5
-    CHECK((normal[0] == -2 && normal[1] == 0 && normal[2] == 1 && normal[3] == 0));
-    CHECK(all.reach(below) == 1.5);
+    CHECK(h.normal == std::vector<double>{-2, 0, 1, 0});
+    CHECK(h.reach == 1.5);
     signed_constraint const side{true, 0, 2, false};
-    CHECK(all.normal(side, 3)[2] == -1);
-    CHECK(all.reach(side) == 1);
+    auto const function = h.name;
+    all.write(side, h, 3);
+    CHECK(h.normal == std::vector<double>{0, 0, -1});
+    CHECK(h.reach == 1);
+    CHECK(h.name != function);
 }
 
-TEST_CASE("the member that leaves a basis is driven to zero first") {
-    CHECK(leaving_member(point(1, 2, -1), point(1, 1, 1)) == 1);
-    CHECK(leaving_member(point(-1, 0, -1), point(1, 1, 1)) == -1);
-    CHECK(leaving_member(point(1, 2, 0), point(0, 0, 0)) == 1); // of equals the steeper one
-    double const nan = std::numeric_limits<double>::quiet_NaN();
-    CHECK(leaving_member(point(nan, 1, 1), point(1, 1, 1)) < 3);
-}
-
-TEST_CASE("only functions with positive multipliers join a proof") {
-    std::vector<minimax_weight> weights;
-    add_weight(weights, {true, 0, 1, true}, 1);
-    add_weight(weights, {false, 0, 1, true}, 0);
-    add_weight(weights, {false, 0, 1, true}, std::numeric_limits<double>::infinity());
-    CHECK(weights.empty());
-    add_weight(weights, {false, 1, 0, false}, 0.25);
-    REQUIRE(weights.size() == 1);
+TEST_CASE("the functions of a combination take part in a proof, bounds do not") {
+    constraint_blocks all(3, blocks);
+    std::vector<std::pair<std::uint64_t, double>> combination;
+    for (signed_constraint const m :
+         {signed_constraint{true, 0, 1, true}, signed_constraint{false, 1, 0, false},
+          signed_constraint{false, 0, 1, true}}) {
+        half_space h;
+        all.write(m, h, 3);
+        combination.emplace_back(h.name, 0.25);
+    }
+    auto const weights = constraint_blocks::weights(combination);
+    REQUIRE(weights.size() == 2);
     CHECK((weights[0].block == 1 && weights[0].function == 0 && weights[0].value == -0.25));
+    CHECK((weights[1].block == 0 && weights[1].function == 1 && weights[1].value == 0.25));
 }

@@ -73,13 +73,13 @@ struct diagnosis_run {
 /// Judges the model and the answer of a diagnosis by hold-out data and adds the figures: the only
 /// place where such data are read, after everything is chosen.
 /// @param seconds, boxes  what all of it may spend, see `step_effort`
-SIVID_ENTRY void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds = 6,
+SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds = 6,
                                   data_test_options const& test = {}, std::size_t boxes = 24);
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_JUDGE_BY_HOLDOUT)
-#include <sivid/diagnosis/detail/run_judgement.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/diagnosis/impl/diagnosis_run.ipp>
 #endif
 
 #endif

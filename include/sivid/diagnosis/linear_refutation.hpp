@@ -3,14 +3,12 @@
 #define SIVID_DIAGNOSIS_LINEAR_REFUTATION_HPP
 
 #include <sivid/number/interval_traits.hpp>
-#include <sivid/space/constraint_blocks.hpp>
-
-#include <Eigen/Core>
-#include <Eigen/LU>
+#include <sivid/space/dual_simplex.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -85,89 +83,66 @@ struct approximate_relaxation {
     refutation multipliers; ///< at most n + 1 inequalities
 };
 
-/// Solves min t by the simplex method on the dual
-/// \f$ \min b^T y + 1^T \mu : A^T y + \mu - \nu = 0, s^T y = 1, y, \mu, \nu \ge 0 \f$, which has
-/// n + 1 rows only; a basis is at hand: one inequality and a bound of each unknown. Whatever basis
-/// it stops at gives multipliers for `proved_margin`.
-/// @cost  O(n size) for each of some tens of pivots; n is expected to be small
+/// Solves min t by `dual_simplex` in (z, t); a basis is at hand: one inequality and a bound of each
+/// unknown. Whatever basis it stops at gives multipliers for `proved_margin`.
+/// @cost  O(n size) for each of some tens of exchanges; n is expected to be small
 [[nodiscard]] inline approximate_relaxation least_relaxation(linear_system const& system,
-                                                             std::size_t most_pivots = 500) {
+                                                             std::size_t most_exchanges = 500) {
     auto const n = system.unknowns();
     auto const rows = system.size();
     approximate_relaxation result;
-    std::size_t first = rows;
-    for (std::size_t i = 0; i < rows && first == rows; ++i) {
-        if (system.weight(i) > 0) first = i;
-    }
+    std::size_t first = 0;
+    while (first < rows && !(system.weight(first) > 0)) ++first;
     if (first == rows) return result;
-
-    using vector = Eigen::VectorXd;
-    auto const last = static_cast<Eigen::Index>(n);
-    // Columns: inequalities, then the lower and the upper bound of each unknown.
-    auto const column = [&](std::size_t k) {
-        vector c = vector::Zero(last + 1);
+    // Names: inequalities, then the lower and the upper bound of each unknown.
+    auto const write = [&](std::size_t k, half_space& to) {
+        to.name = k;
+        to.normal.assign(n + 1, 0.0);
         if (k < rows) {
-            std::copy(system.row(k), system.row(k) + n, c.data());
-            c[last] = system.weight(k);
+            std::copy(system.row(k), system.row(k) + n, to.normal.begin());
+            to.normal[n] = -system.weight(k);
+            to.reach = system.bound(k);
         } else {
-            c[static_cast<Eigen::Index>((k - rows) % n)] = k - rows < n ? -1 : 1;
+            bool const lower = k - rows < n;
+            to.normal[(k - rows) % n] = lower ? -1 : 1;
+            to.reach = lower ? 0 : 1;
         }
-        return c;
     };
-    auto const cost = [&](std::size_t k) {
-        return k < rows ? system.bound(k) : k - rows < n ? 0.0 : 1.0;
-    };
-    // Right-hand sides a little off zero, each by its own, so that no pivot is degenerate (which
-    // could go in circles).
-    vector target = vector::Ones(last + 1);
-    for (Eigen::Index j = 0; j < last; ++j) target[j] = 1e-10 * static_cast<double>(j + 1);
-    std::vector<std::size_t> basis{first};
+    std::vector<half_space> basis(n + 1);
+    write(first, basis[n]);
     for (std::size_t j = 0; j < n; ++j) {
-        bool const above =
-            system.row(first)[j] / system.weight(first) > target[static_cast<Eigen::Index>(j)];
-        basis.push_back(rows + (above ? j : n + j));
+        write(rows + (basis[n].normal[j] > 0 ? j : n + j), basis[j]);
     }
-    Eigen::MatrixXd columns(last + 1, last + 1);
-    vector costs(last + 1);
-    Eigen::PartialPivLU<Eigen::MatrixXd> factors;
-    for (std::size_t pivot = 0; pivot < most_pivots; ++pivot) {
-        for (Eigen::Index k = 0; k <= last; ++k) {
-            columns.col(k) = column(basis[static_cast<std::size_t>(k)]);
-            costs[k] = cost(basis[static_cast<std::size_t>(k)]);
-        }
-        factors.compute(columns);
-        vector const y = factors.solve(target);
-        vector const pi = factors.transpose().solve(costs); // (z, -t)
-        if (!y.allFinite() || !pi.allFinite()) break;
-        result.t = -pi[last];
-        result.z.assign(pi.data(), pi.data() + last);
-        result.multipliers.multipliers.clear();
-        for (std::size_t k = 0; k <= n; ++k) {
-            double const size = y[static_cast<Eigen::Index>(k)];
-            if (basis[k] < rows && size > 0) {
-                result.multipliers.multipliers.emplace_back(basis[k], size);
-            }
-        }
-        // Entering: the inequality that the current z, t violates most, in its own weight.
+    std::vector<double> goal(n + 1, 0.0);
+    goal[n] = -1;
+    dual_simplex program;
+    if (!program.start(std::move(goal), std::move(basis))) return result;
+    // The inequality that is violated most, in its own weight.
+    auto const worst = [&](std::vector<double> const& x, half_space& enters) {
         double most = 1e-9;
         std::size_t entering = rows + 2 * n;
         for (std::size_t i = 0; i < rows; ++i) {
             double const* const a = system.row(i);
             double const w = system.weight(i);
-            double violation = pi[last] * w - system.bound(i);
-            for (std::size_t j = 0; j < n; ++j) violation += a[j] * result.z[j];
+            double violation = -x[n] * w - system.bound(i);
+            for (std::size_t j = 0; j < n; ++j) violation += a[j] * x[j];
             if (w > 0) violation /= w;
             if (violation > most) most = violation, entering = i;
         }
         for (std::size_t j = 0; j < n; ++j) {
-            if (-result.z[j] > most) most = -result.z[j], entering = rows + j;
-            if (result.z[j] - 1 > most) most = result.z[j] - 1, entering = rows + n + j;
+            if (-x[j] > most) most = -x[j], entering = rows + j;
+            if (x[j] - 1 > most) most = x[j] - 1, entering = rows + n + j;
         }
-        if (entering == rows + 2 * n) break;
-        auto const leaving = leaving_member(factors.solve(column(entering)), y);
-        if (leaving < 0) break;
-        basis[static_cast<std::size_t>(leaving)] = entering;
+        if (entering == rows + 2 * n) return false;
+        write(entering, enters);
+        return true;
+    };
+    auto const how = program.run(worst, most_exchanges);
+    for (auto const& [k, size] : program.combination()) {
+        if (k < rows) result.multipliers.multipliers.emplace_back(k, size);
     }
+    result.t = how == dual_simplex::outcome::empty ? HUGE_VAL : -program.value();
+    result.z.assign(program.point().begin(), program.point().end() - 1);
     for (auto& z : result.z) z = std::clamp(z, 0.0, 1.0);
     return result;
 }

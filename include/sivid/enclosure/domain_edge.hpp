@@ -6,6 +6,7 @@
 #include <sivid/enclosure/failure.hpp>
 #include <sivid/enclosure/flow.hpp>
 #include <sivid/model/arithmetic.hpp>
+#include <sivid/model/program.hpp>
 #include <sivid/model/rewrite.hpp>
 #include <sivid/space/box.hpp>
 
@@ -32,33 +33,18 @@ find_domain_edge(flow const& f, Start const& start, T const& times, States const
     auto const& model = f.model();
     auto const& g = model.g;
     input_pieces<T> const inputs(f, start, times);
-    std::vector<T> value(g.size(), A::point(0.0));
+    auto const all = program::marked(g, std::vector<bool>(g.size(), true));
+    auto value = all.template memory<A>();
+    all.read(value, [&](operation op, std::size_t index) -> T {
+        return op == operation::time       ? times
+               : op == operation::state    ? T(x[index])
+               : op == operation::constant ? T(parameters[index])
+                                           : T(inputs(index, 0));
+    });
     std::vector<bool> leaves(g.size(), false); // its domain
-    for (std::size_t k = 0; k < g.size(); ++k) {
-        auto const& n = g[static_cast<node_id>(k)];
-        auto const index = static_cast<std::size_t>(n.index);
-        typename A::mask undefined{};
-        switch (n.op) {
-        case operation::literal:
-            value[k] = A::enclose(g.value(n));
-            break;
-        case operation::time:
-            value[k] = times;
-            break;
-        case operation::state:
-            value[k] = x[index];
-            break;
-        case operation::constant:
-            value[k] = parameters[index];
-            break;
-        case operation::input:
-            value[k] = inputs(index, 0);
-            break;
-        default:
-            value[k] = apply<A>(n.op, value[n.a], value[n.b], n.index, undefined);
-            leaves[k] = is_set(undefined);
-        }
-    }
+    all.template run<A>(value, [&](program::step const& s, typename A::mask const& undefined) {
+        leaves[s.target] = is_set(undefined);
+    });
     for (bool const derivative : {false, true}) {
         for (std::size_t i = 0; i < f.states(); ++i) {
             std::vector<node_id> of{model.rate[i]};

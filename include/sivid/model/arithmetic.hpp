@@ -69,7 +69,14 @@ struct approximate_arithmetic {
     static double div(double a, double b, bool&) { return a / b; }
     static double over(double a, std::size_t k) { return a / static_cast<double>(k); }
     static double sqr(double a) { return a * a; }
-    static double pown(double a, int n, bool&) { return std::pow(a, n); }
+    static double pown(double a, int n, bool&) {
+        double result = 1;
+        auto k = n < 0 ? 0u - static_cast<unsigned>(n) : static_cast<unsigned>(n);
+        for (; k > 0; k /= 2, a *= a) {
+            if (k % 2 == 1) result *= a;
+        }
+        return n < 0 ? 1 / result : result;
+    }
     static double sqrt(double a, bool&) { return std::sqrt(a); }
     static double exp(double a) { return std::exp(a); }
     static double log(double a, bool&) { return std::log(a); }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace sivid {
@@ -24,14 +25,15 @@ namespace sivid {
     auto outputs = model.rate;
     outputs.insert(outputs.end(), model.observe.begin(), model.observe.end());
     auto const needed = operands_of(g, outputs);
-    std::vector<int> degree(g.size(), 0);
+    std::vector<std::int64_t> degree(g.size(), 0);
+    constexpr std::int64_t most = std::int64_t{1} << 31; // of what is known, so nothing overflows
     for (std::size_t k = 0; k < g.size(); ++k) {
         if (!needed[k]) continue;
         auto const& n = g.nodes()[k];
         if (n.op == operation::constant) degree[k] = weights[static_cast<std::size_t>(n.index)];
         if (is_leaf(n.op)) continue;
-        int const a = degree[n.a];
-        int const b = is_binary(n.op) ? degree[n.b] : 0;
+        auto const a = degree[n.a];
+        auto const b = is_binary(n.op) ? degree[n.b] : 0;
         switch (n.op) {
         case operation::neg:
             degree[k] = a;
@@ -56,6 +58,7 @@ namespace sivid {
         default:
             if (a != 0 || b != 0) return false;
         }
+        if (degree[k] > most || degree[k] < -most) return false;
     }
     return std::all_of(outputs.begin(), outputs.end(), [&](node_id i) { return degree[i] == 0; });
 }

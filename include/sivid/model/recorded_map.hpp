@@ -4,6 +4,7 @@
 
 #include <sivid/model/expression.hpp>
 #include <sivid/model/graph.hpp>
+#include <sivid/model/program.hpp>
 #include <sivid/model/rewrite.hpp>
 #include <sivid/space/box.hpp>
 
@@ -28,6 +29,7 @@ public:
         for (expression const& y : f(static_cast<std::vector<expression> const&>(x))) {
             values_.push_back(y.in(g_));
         }
+        program_ = program(g_, values_);
     }
 
     [[nodiscard]] std::size_t arguments() const { return arguments_; }
@@ -35,23 +37,10 @@ public:
 
     /// A box that contains all values over x; nothing where one is not defined on all of x.
     [[nodiscard]] std::optional<box> over(box const& x) const {
-        using arithmetic = proven_arithmetic<interval>;
-        std::vector<interval> value(g_.size(), interval(0.0));
-        auto const needed = operands_of(g_, values_);
         require(x.size());
-        bool undefined = false;
-        for (std::size_t k = 0; k < g_.size(); ++k) {
-            auto const& n = g_.nodes()[k];
-            if (!needed[k]) continue;
-            if (n.op == operation::literal) {
-                value[k] = arithmetic::enclose(g_.value(n));
-            } else if (is_leaf(n.op)) {
-                value[k] = x[static_cast<std::size_t>(n.index)];
-            } else {
-                value[k] = apply<arithmetic>(n.op, value[n.a], value[n.b], n.index, undefined);
-            }
-        }
-        if (undefined) return std::nullopt;
+        auto value = program_.memory<proven_arithmetic<interval>>();
+        program_.read(value, [&x](operation, std::size_t i) { return x[i]; });
+        if (program_.run<proven_arithmetic<interval>>(value)) return std::nullopt;
         box result(values_.size());
         for (std::size_t i = 0; i < values_.size(); ++i) result[i] = value[values_[i]];
         return result;
@@ -74,6 +63,7 @@ private:
     std::size_t arguments_;
     graph g_;
     std::vector<node_id> values_;
+    program program_;
 };
 
 } // namespace sivid

@@ -3,12 +3,12 @@
 #define SIVID_MODEL_SYMMETRY_HPP
 
 #include <sivid/model/bound_model.hpp>
+#include <sivid/model/normal_form.hpp>
 #include <sivid/model/rewrite.hpp>
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -65,144 +65,49 @@ private:
     static bool limited(std::int64_t x) { return x > -(std::int64_t{1} << 62); }
 };
 
-/// A polynomial with fractions as coefficients in nodes of a graph and their reciprocals, the
-/// nodes taken for independent variables. What is 0 here is 0 for all values of the leaves.
-class node_polynomial {
+/// Fractions as coefficients and all other nodes as factors, which are taken for independent: what
+/// is 0 then is 0 for all values of the leaves.
+class fraction_coefficients {
 public:
-    using monomial = std::vector<std::pair<node_id, int>>; ///< nodes with powers, increasing
+    using value = small_fraction;
+    using result = std::optional<small_fraction>;
 
-    static node_polynomial constant(small_fraction c) {
-        node_polynomial r;
-        if (c.above != 0) r.terms_[{}] = c;
-        return r;
-    }
-    static node_polynomial node(node_id i) {
-        node_polynomial r;
-        r.terms_[{{i, 1}}] = {1, 1};
-        return r;
-    }
-    [[nodiscard]] bool is_zero() const { return terms_.empty(); }
-    [[nodiscard]] std::size_t size() const { return terms_.size(); }
+    explicit fraction_coefficients(graph const& g) : g_(&g) {}
 
-    /// this + factor * other. @returns false where integers would overflow
-    [[nodiscard]] bool add(node_polynomial const& other, small_fraction factor = {1, 1}) {
-        for (auto const& [m, c] : other.terms_) {
-            auto const scaled = small_fraction::product(c, factor);
-            if (!scaled || !add_term(m, *scaled)) return false;
+    [[nodiscard]] graph const& g() const { return *g_; }
+    /// Multiples of 1/1024, and not too large.
+    [[nodiscard]] result known(node_id i) const {
+        if (!g_->is_literal(i)) return std::nullopt;
+        auto const& literal = g_->value((*g_)[i]).enclosure;
+        double const scaled = literal.lower() * 1024;
+        if (!is_point(literal) || !(std::abs(scaled) < 1e9) || scaled != std::round(scaled)) {
+            return std::nullopt;
         }
-        return true;
+        return small_fraction::of(static_cast<std::int64_t>(scaled), 1024);
     }
-    [[nodiscard]] static std::optional<node_polynomial> product(node_polynomial const& a,
-                                                                node_polynomial const& b) {
-        node_polynomial r;
-        for (auto const& [m, c] : a.terms_) {
-            for (auto const& [n, d] : b.terms_) {
-                auto const both = small_fraction::product(c, d);
-                if (!both || !r.add_term(joined(m, n), *both)) return std::nullopt;
-            }
-        }
-        return r;
+    [[nodiscard]] bool is_variable(node_id) const { return true; }
+    [[nodiscard]] small_fraction whole(node_id) const { return one(); } // never asked for
+    [[nodiscard]] small_fraction one() const { return {1, 1}; }
+    [[nodiscard]] bool is_zero(small_fraction v) const { return v.above == 0; }
+    [[nodiscard]] result neg(small_fraction v) const { return product(v, {-1, 1}); }
+    [[nodiscard]] result sum(small_fraction v, small_fraction w) const {
+        return small_fraction::sum(v, w);
     }
-    /// 1 / this. @given  a single term
-    [[nodiscard]] std::optional<node_polynomial> reciprocal() const {
-        if (terms_.size() != 1) return std::nullopt;
-        auto const& [factors, c] = *terms_.begin();
-        auto inverted = factors;
-        for (auto& factor : inverted) factor.second = -factor.second;
-        node_polynomial r;
-        auto const inverse = small_fraction::of(c.below, c.above);
-        if (!inverse || !r.add_term(inverted, *inverse)) return std::nullopt;
+    [[nodiscard]] result product(small_fraction v, small_fraction w) const {
+        return small_fraction::product(v, w);
+    }
+    [[nodiscard]] result quotient(small_fraction v, small_fraction w) const {
+        auto const inverse = small_fraction::of(w.below, w.above);
+        return inverse && w.above != 0 ? product(v, *inverse) : std::nullopt;
+    }
+    [[nodiscard]] result power(small_fraction v, int n) const {
+        result r = one();
+        for (int k = 0; k < n && r; ++k) r = product(*r, v);
         return r;
     }
 
 private:
-    static monomial joined(monomial const& a, monomial const& b) {
-        std::map<node_id, int> powers(a.begin(), a.end());
-        for (auto const& [node, power] : b) powers[node] += power;
-        monomial r;
-        for (auto const& f : powers) {
-            if (f.second != 0) r.push_back(f);
-        }
-        return r;
-    }
-    bool add_term(monomial const& m, small_fraction c) {
-        auto const [at, fresh] = terms_.try_emplace(m, c);
-        if (!fresh) {
-            auto const sum = small_fraction::sum(at->second, c);
-            if (!sum) return false;
-            at->second = *sum;
-        }
-        if (at->second.above == 0) terms_.erase(at);
-        return true;
-    }
-
-    std::map<monomial, small_fraction> terms_;
-};
-
-/// The nodes of a graph multiplied out, as far as that stays small; what does not is a variable.
-class multiplied_out {
-public:
-    explicit multiplied_out(graph const& g) : g_(&g) {}
-
-    node_polynomial const& operator()(node_id i) {
-        if (auto const known = done_.find(i); known != done_.end()) return known->second;
-        auto found = expand(i);
-        if (!found || found->size() > most_terms) found = node_polynomial::node(i);
-        return done_[i] = std::move(*found);
-    }
-
-private:
-    static constexpr std::size_t most_terms = 200;
-
-    std::optional<node_polynomial> expand(node_id i) {
-        auto const& n = (*g_)[i];
-        switch (n.op) {
-        case operation::literal: {
-            auto const& value = g_->value(n).enclosure;
-            double const scaled = value.lower() * 1024;
-            if (is_point(value) && std::abs(scaled) < 1e9 && scaled == std::round(scaled)) {
-                auto const c = small_fraction::of(static_cast<std::int64_t>(scaled), 1024);
-                return c ? std::optional(node_polynomial::constant(*c)) : std::nullopt;
-            }
-            return std::nullopt;
-        }
-        case operation::neg:
-            return sum(node_polynomial{}, n.a, -1);
-        case operation::add:
-            return sum((*this)(n.a), n.b, 1);
-        case operation::sub:
-            return sum((*this)(n.a), n.b, -1);
-        case operation::mul:
-            return product((*this)(n.a), (*this)(n.b));
-        case operation::sqr:
-            return product((*this)(n.a), (*this)(n.a));
-        case operation::pown: {
-            auto result = std::optional((*this)(n.a));
-            for (int k = 1; k < n.index && result; ++k) result = product(*result, (*this)(n.a));
-            return n.index > 0 ? result : std::nullopt;
-        }
-        case operation::div: {
-            auto below = (*this)(n.b).reciprocal();
-            if (!below && !(*this)(n.b).is_zero()) below = node_polynomial::node(n.b).reciprocal();
-            if (!below) return std::nullopt;
-            return product((*this)(n.a), *below);
-        }
-        default:
-            return std::nullopt;
-        }
-    }
-    std::optional<node_polynomial> sum(node_polynomial a, node_id b, std::int64_t sign) {
-        if (!a.add((*this)(b), {sign, 1})) return std::nullopt;
-        return a;
-    }
-    static std::optional<node_polynomial> product(node_polynomial const& a,
-                                                  node_polynomial const& b) {
-        if (a.size() * b.size() > 20 * most_terms) return std::nullopt;
-        return node_polynomial::product(a, b);
-    }
-
     graph const* g_;
-    std::map<node_id, node_polynomial> done_;
 };
 
 /// Whether a function that jumps depends on something that moves.
@@ -250,25 +155,28 @@ inline bool jumps_along(bound_model const& model, model_motion const& motion) {
     for (std::size_t j = 0; j < model.parameter_count(); ++j) {
         p.push_back(g.leaf(operation::constant, j));
     }
-    multiplied_out multiplied(g);
+    multiplied_out<fraction_coefficients> multiplied(fraction_coefficients(g), {200, 4000});
+    using terms = multiplied_out<fraction_coefficients>::terms;
     // Adds w v(leaf) times the derivative.
-    auto const along = [&](node_polynomial& sum, int w, node_id leaf, node_id derivative) {
+    auto const along = [&](terms& sum, int w, node_id leaf, node_id derivative) {
         if (w == 0) return true;
         auto term = std::optional(multiplied(derivative));
-        if (scales) term = node_polynomial::product(*term, multiplied(leaf));
-        return term && sum.add(*term, {w, 1});
+        if (scales) term = multiplied.product(*term, multiplied(leaf));
+        return term && multiplied.add(sum, *term, {w, 1});
     };
     auto const holds = [&](node_id f, std::vector<node_id> const& dx,
                            std::vector<node_id> const& dp, int weight) {
-        node_polynomial sum;
+        terms sum;
         for (std::size_t j = 0; j < p.size(); ++j) {
             if (!along(sum, motion.parameters[j], p[j], dp[j])) return false;
         }
         for (std::size_t i = 0; i < x.size(); ++i) {
             if (!along(sum, motion.states[i], x[i], dx[i])) return false;
         }
-        if (scales && weight != 0 && !sum.add(multiplied(f), {-weight, 1})) return false;
-        return sum.is_zero();
+        if (scales && weight != 0 && !multiplied.add(sum, multiplied(f), {-weight, 1})) {
+            return false;
+        }
+        return sum.empty();
     };
     for (std::size_t i = 0; i < model.rate.size(); ++i) {
         if (!holds(model.rate[i], model.rate_dx[i], model.rate_dp[i], motion.states[i])) {

@@ -4,10 +4,8 @@
 
 #include <sivid/space/constraint_blocks.hpp>
 
-#include <Eigen/Core>
-#include <Eigen/LU>
-
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace sivid {
@@ -22,74 +20,44 @@ struct approximate_cut {
 };
 
 /// Maximises \f$ \pm d_j \f$ over \f$ d \in [-1,1]^n \f$ with \f$ |f_y(d)| \le margin_y \f$ for all
-/// functions of some blocks: the dual simplex method, which starts at a corner of the box and takes
-/// in the constraint that is violated most. Every basis bounds \f$ d_j \f$ already, so stopping
-/// early is safe.
+/// functions of some blocks, by `dual_simplex` from the corner of the box that is farthest. Every
+/// basis bounds \f$ d_j \f$ already, so stopping early is safe.
 /// @guarantee  none: doubles. The multipliers are for \f$ certified_reach \f$, which proves.
-/// @cost  about n exchanges, each O(n^3 + functions * columns)
+/// @cost  about n exchanges, each O(n^2 + functions * columns)
 class cut_program {
 public:
     /// @param blocks  kept by reference; an infinite margin takes a function out
     cut_program(std::size_t unknowns, std::vector<minimax_block> const& blocks)
-        : constraints_(unknowns, blocks), n_(static_cast<Eigen::Index>(unknowns)) {}
+        : constraints_(unknowns, blocks) {}
 
     /// @param upwards  maximise \f$ d_j \f$, else \f$ -d_j \f$
     [[nodiscard]] approximate_cut operator()(std::size_t j, bool upwards) {
-        approximate_cut result;
-        start(static_cast<Eigen::Index>(j), upwards);
-        auto const limit = 20 * (constraints_.unknowns() + 2);
-        for (; result.exchanges < limit; ++result.exchanges) {
-            factors_.compute(basis_);
-            point_ = factors_.transpose().solve(reach_);
-            if (!point_.allFinite()) break;
-            auto enters = constraints_.worst_function(point_);
-            auto const bound = constraints_.worst_bound(point_);
-            if (bound.excess > enters.excess) enters = bound;
-            if (!(enters.excess > 1e-9)) break;
-            auto const normal = constraints_.normal(enters, n_);
-            Eigen::VectorXd const direction = factors_.solve(normal);
-            auto const leaves = leaving_member(direction, factors_.solve(goal_));
-            if (leaves < 0) {
-                if (direction.allFinite()) take(result, -direction);
-                add_weight(result.weights, enters, 1);
-                result.empty = true;
-                return result;
-            }
-            members_[static_cast<std::size_t>(leaves)] = enters;
-            basis_.col(leaves) = normal;
-            reach_[leaves] = constraints_.reach(enters);
+        auto const n = constraints_.unknowns();
+        std::vector<double> goal(n, 0.0);
+        goal[j] = upwards ? 1 : -1;
+        std::vector<half_space> corner(n);
+        for (std::size_t v = 0; v < n; ++v) {
+            constraints_.write({true, 0, v, upwards || v != j}, corner[v], n);
         }
-        factors_.compute(basis_);
-        take(result, factors_.solve(goal_));
+        dual_simplex program;
+        approximate_cut result;
+        if (!program.start(std::move(goal), std::move(corner))) return result;
+        auto const violated = [this, n](auto const& x, half_space& enters) {
+            auto worst = constraints_.worst_function(x);
+            auto const bound = constraints_.worst_bound(x);
+            if (bound.excess > worst.excess) worst = bound;
+            if (!(worst.excess > 1e-9)) return false;
+            constraints_.write(worst, enters, n);
+            return true;
+        };
+        result.empty = program.run(violated, 20 * (n + 2)) == dual_simplex::outcome::empty;
+        result.exchanges = program.exchanges();
+        result.weights = constraints_.weights(program.combination());
         return result;
     }
 
 private:
-    /// The corner of the box that is farthest in the direction asked for.
-    void start(Eigen::Index j, bool upwards) {
-        goal_ = Eigen::VectorXd::Zero(n_);
-        goal_[j] = upwards ? 1 : -1;
-        basis_ = Eigen::MatrixXd::Identity(n_, n_);
-        reach_ = Eigen::VectorXd::Ones(n_);
-        members_.clear();
-        for (std::size_t v = 0; v < constraints_.unknowns(); ++v) members_.push_back({true, 0, v});
-        if (upwards) return;
-        members_[static_cast<std::size_t>(j)].positive = false;
-        basis_(j, j) = -1;
-    }
-
-    void take(approximate_cut& result, Eigen::VectorXd const& multipliers) const {
-        for (std::size_t k = 0; k < members_.size(); ++k) {
-            add_weight(result.weights, members_[k], multipliers[static_cast<Eigen::Index>(k)]);
-        }
-    }
-
     constraint_blocks constraints_;
-    Eigen::Index n_;
-    std::vector<signed_constraint> members_;
-    Eigen::MatrixXd basis_;
-    Eigen::VectorXd reach_, goal_, point_;
-    Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
 };
 
 } // namespace sivid

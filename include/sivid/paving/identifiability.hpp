@@ -91,14 +91,14 @@ struct identifiability_options {
 ///             the sensitivities lie in the enclosure); `proved` motions change no output anywhere
 /// @cost  one integration with sensitivities for each experiment at `at`, its middle and two points
 /// @ref   Walter and Pronzato, Identification of Parametric Models from Experimental Data (1997)
-[[nodiscard]] SIVID_ENTRY identifiability
+[[nodiscard]] SIVID_DECL identifiability
 identifiability_of(identification_problem const& problem, box const& at,
                    identifiability_options const& options = {});
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_IDENTIFIABILITY_OF)
-#include <sivid/paving/detail/identifiability_analysis.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/paving/impl/identifiability.ipp>
 #endif
 
 #endif

@@ -14,13 +14,13 @@ namespace sivid {
 ///             `hull`, `paving`, `combinations` contain every feasible parameter; inside boxes are
 ///             feasible throughout. All under the listed assumptions.
 /// @cost  dominated by the integrations: boxes times experiments
-[[nodiscard]] SIVID_ENTRY identification identify(identification_problem const& problem,
+[[nodiscard]] SIVID_DECL identification identify(identification_problem const& problem,
                                                   identify_options options = {});
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_IDENTIFY)
-#include <sivid/paving/detail/identify_search.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/paving/impl/identify.ipp>
 #endif
 
 #endif

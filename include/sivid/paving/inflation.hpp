@@ -73,14 +73,14 @@ template <class Keep>
 /// @param guess  where the upper bound may start; without it the search proposes points itself
 /// @guarantee  `value` contains the inflation whenever the search ends
 /// @cost  dominated by integrations over boxes; some tens for a few parameters that the data fix
-[[nodiscard]] SIVID_ENTRY inflation_bound bound_inflation(identification_problem const& problem,
+[[nodiscard]] SIVID_DECL inflation_bound bound_inflation(identification_problem const& problem,
                                                           approximate_fit const* guess = nullptr,
                                                           inflation_options const& options = {});
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_BOUND_INFLATION)
-#include <sivid/paving/detail/inflation_work.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/paving/impl/inflation.ipp>
 #endif
 
 #endif

@@ -5,6 +5,7 @@
 #include <sivid/paving/inflation_certificate.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/misfit.hpp>
+#include <sivid/paving/misfit_block.hpp>
 #include <sivid/paving/response.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/space/minimax_lp.hpp>
@@ -91,28 +92,11 @@ private:
 
     void linearise(std::size_t s) {
         auto const& r = *(*known_)[s];
-        auto const& places = unknowns_.places[s];
         auto const& local = locals_.emplace_back(expand(r, *part_));
-        minimax_block block;
-        for (auto const& p : places) block.variable.push_back(p.unknown);
-        auto const count = r.outputs();
-        block.slope = local.slope;
-        block.offset.resize(count);
-        block.margin.resize(count);
-        auto& scale = scales_.emplace_back(count, 0.0);
-        for (std::size_t y = 0; y < count; ++y) {
-            double const e = 0.5 * width(r.bounds[y]);
-            scale[y] = std::isfinite(e) ? 1 / std::max(e, 1e-100) : 0;
-            bool const of_use = scale[y] > 0 && std::isfinite(local.rest[y]);
-            block.offset[y] = of_use ? (local.value[y] - mid(r.bounds[y])) * scale[y] : 0;
-            block.margin[y] =
-                of_use ? local.rest[y] * scale[y] : std::numeric_limits<double>::infinity();
-            for (std::size_t v = 0; v < places.size(); ++v) {
-                auto& slope = block.slope[v * count + y];
-                slope = of_use ? slope * scale[y] : 0;
-            }
-        }
-        blocks_.push_back(std::move(block));
+        auto misfits =
+            misfits_of(r, local, unknowns_.places[s], 0, [](std::size_t) { return true; });
+        scales_.push_back(std::move(misfits.scale));
+        blocks_.push_back(std::move(misfits.functions));
     }
 
     /// The experiments that allow no outlier.

@@ -5,6 +5,7 @@
 #include <sivid/model/arithmetic.hpp>
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/problem.hpp>
+#include <sivid/model/program.hpp>
 #include <sivid/number/pack_traits.hpp>
 #include <sivid/paving/misfit.hpp>
 
@@ -47,32 +48,24 @@ public:
     interval_observer(identification_problem const& problem, std::size_t index)
         : experiment_(&problem.experiments[index]),
           model_(bind(problem.model, problem.choice, experiment_->inputs)),
-          samples_(sorted(experiment_->measurements)),
-          memory_(model_.g.size(), traits::point(0.0)) {
+          samples_(sorted(experiment_->measurements)) {
         auto const n = model_.state_count();
-        for (std::size_t i = 0; i < model_.g.size(); ++i) {
-            auto const& node = model_.g.nodes()[i];
-            auto const leaf =
-                std::pair{static_cast<node_id>(i), static_cast<std::size_t>(node.index)};
-            if (node.op == operation::literal) {
-                memory_[i] = proven_arithmetic<number>::enclose(model_.g.value(node));
-            } else if (node.op == operation::time) {
-                times_.push_back(leaf);
-            } else if (node.op == operation::state) {
-                states_.push_back(leaf);
-            } else if (node.op == operation::input) {
-                inputs_.push_back(leaf);
-            } else if (node.op == operation::constant) {
-                parameters_.push_back(leaf);
-            }
+        auto const all = program::marked(model_.g, std::vector<bool>(model_.g.size(), true));
+        memory_ = all.memory<arithmetic>();
+        for (auto const& leaf : all.leaves()) {
+            auto& list = leaf.op == operation::time       ? times_
+                         : leaf.op == operation::state    ? states_
+                         : leaf.op == operation::constant ? parameters_
+                                                          : inputs_;
+            list.emplace_back(leaf.target, leaf.index);
         }
         for (std::size_t i = 0; i < n; ++i) rates_.push_back(program_of({model_.rate[i]}));
         for (std::size_t y = 0; y < model_.channel_count(); ++y) {
             outputs_.push_back(program_of({model_.observe[y]}));
             slopes_.push_back(program_of(model_.observe_dx[y]));
-            auto const& steps = outputs_.back().steps;
+            auto const& steps = outputs_.back().code.steps();
             is_smooth_.push_back(std::none_of(
-                steps.begin(), steps.end(), [](step const& s) { return s.op == operation::sign; }));
+                steps.begin(), steps.end(), [](auto const& s) { return s.op == operation::sign; }));
         }
         for (auto const& rows : model_.rate_dp) influences_.push_back(program_of(rows));
         for (auto* bounds : {&low_, &high_, &rise_low_, &rise_high_}) bounds->resize(n);
@@ -123,35 +116,16 @@ public:
     }
 
 private:
-    struct step {
-        operation op;
-        int index;
-        node_id target, a, b;
-    };
-    struct program {
-        std::vector<step> steps;
+    using arithmetic = proven_arithmetic<number>;
+    struct formula {
+        program code;
         std::vector<node_id> outputs;
     };
-    [[nodiscard]] program program_of(std::vector<node_id> const& outputs) {
-        auto const needed = operands_of(model_.g, outputs);
-        program p{{}, outputs};
-        for (std::size_t i = 0; i < needed.size(); ++i) {
-            auto const& n = model_.g.nodes()[i];
-            if (!needed[i] || is_leaf(n.op)) continue;
-            auto const id = static_cast<node_id>(i);
-            p.steps.push_back({n.op, n.index, id, n.a, is_binary(n.op) ? n.b : n.a});
-        }
-        return p;
+    [[nodiscard]] formula program_of(std::vector<node_id> const& outputs) const {
+        return {program(model_.g, outputs), outputs};
     }
     /// @returns where something is not defined
-    mask run(program const& p) {
-        mask undefined{};
-        for (auto const& s : p.steps) {
-            memory_[s.target] = apply<proven_arithmetic<number>>(s.op, memory_[s.a], memory_[s.b],
-                                                                 s.index, undefined);
-        }
-        return undefined;
-    }
+    mask run(formula const& f) { return f.code.run<arithmetic>(memory_); }
     /// Nodes that are written, and which state, input or parameter each is.
     using leaf_list = std::vector<std::pair<node_id, std::size_t>>;
     template <class Value>
@@ -388,7 +362,7 @@ private:
     std::vector<double> ticks_;
     std::vector<number> memory_;
     leaf_list times_, states_, inputs_, parameters_;
-    std::vector<program> rates_, outputs_, slopes_, influences_;
+    std::vector<formula> rates_, outputs_, slopes_, influences_;
     std::vector<bool> is_smooth_; ///< per channel: the mean value theorem holds
     std::vector<lane_values> low_, high_, rise_low_, rise_high_; ///< bounds of the states, slopes
     std::vector<number> box_;                                    ///< the states during a slice

@@ -57,8 +57,8 @@ private:
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_ONLINE_IDENTIFICATION)
-#include <sivid/paving/detail/online_identifier.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/paving/impl/online_identification.ipp>
 #endif
 
 #endif

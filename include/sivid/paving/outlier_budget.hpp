@@ -35,13 +35,13 @@ struct smallest_budget : fewest_outliers {
 /// the
 ///             smallest ones
 /// @cost  a fit for each outlier removed, and a set inversion with q-relaxed tests
-[[nodiscard]] SIVID_ENTRY smallest_budget smallest_outlier_budget(
+[[nodiscard]] SIVID_DECL smallest_budget smallest_outlier_budget(
     identification_problem const& problem, outlier_search_options const& options = {});
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_SMALLEST_OUTLIER_BUDGET)
-#include <sivid/paving/detail/outlier_budget_search.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/paving/impl/outlier_budget.ipp>
 #endif
 
 #endif

@@ -112,11 +112,12 @@ private:
         rows_.clear();
         unknowns = static_cast<std::size_t>(s_ * (1 + p_));
         auto at = start;
+        minimax_solver growing(unknowns, blocks);
         for (int round = 0; round < rounds; ++round) {
             if (!add_violated(blocks, at, slope, round == 0 ? -infinity : solved.value)) {
                 break;
             }
-            solved = minimax_solver(unknowns, blocks)();
+            solved = growing();
             if (!(solved.value <= 0)) {
                 return may_leave_out ? blocking(solved, unknowns, blocks) : none;
             }

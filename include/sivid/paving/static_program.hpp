@@ -4,13 +4,12 @@
 
 #include <sivid/model/arithmetic.hpp>
 #include <sivid/model/bound_model.hpp>
+#include <sivid/model/program.hpp>
 #include <sivid/model/rewrite.hpp>
 #include <sivid/paving/static_problem.hpp>
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace sivid {
@@ -38,25 +37,21 @@ public:
             values.push_back(images[0]);
             slopes.emplace_back(images.begin() + 1, images.end());
         }
-        for (std::size_t i = 0; i < g_.size(); ++i) {
-            auto const& n = g_.nodes()[i];
-            if (n.op != operation::constant) continue;
-            leaves_.emplace_back(i, static_cast<std::size_t>(n.index));
-        }
+        leaves_ = program::marked(g_, leaves_of());
         std::vector<std::size_t> users(g_.size(), 0);
         std::vector<std::vector<bool>> below;
         for (auto const v : values) {
             below.push_back(reachable(g_, {v}));
             for (std::size_t i = 0; i < g_.size(); ++i) users[i] += below.back()[i] ? 1 : 0;
         }
-        add_block(common_, [&](std::size_t i) { return users[i] > 1; });
+        common_ = block([&](std::size_t i) { return users[i] > 1; });
         for (std::size_t k = 0; k < values.size(); ++k) {
             auto& o = outputs_.emplace_back();
             o.value = values[k];
             o.slopes = slopes[k];
-            add_block(o.value_steps, [&](std::size_t i) { return below[k][i] && users[i] == 1; });
+            o.value_steps = block([&](std::size_t i) { return below[k][i] && users[i] == 1; });
             auto const wanted = reachable(g_, slopes[k]);
-            add_block(o.slope_steps, [&](std::size_t i) {
+            o.slope_steps = block([&](std::size_t i) {
                 return wanted[i] && users[i] < 2 && !(below[k][i] && users[i] == 1);
             });
             count_uses(o, below[k]);
@@ -74,26 +69,21 @@ public:
     /// Memory for one evaluation at a time.
     template <class I>
     [[nodiscard]] std::vector<I> memory() const {
-        std::vector<I> m(g_.size(), interval_traits<I>::point(0.0));
-        for (std::size_t i = 0; i < g_.size(); ++i) {
-            auto const& n = g_.nodes()[i];
-            if (n.op == operation::literal) m[i] = proven_arithmetic<I>::enclose(g_.value(n));
-        }
-        return m;
+        return leaves_.template memory<proven_arithmetic<I>>();
     }
     /// Writes the parameters and runs the common part.
     /// @returns where that is not defined
     template <class I, class Parameter>
     typename interval_traits<I>::mask start(std::vector<I>& m, Parameter const& parameter) const {
-        for (auto const& [slot, j] : leaves_) m[slot] = parameter(j);
-        return run(common_, m);
+        leaves_.read(m, [&](operation, std::size_t j) { return parameter(j); });
+        return common_.run<proven_arithmetic<I>>(m);
     }
     /// Output k over the parameters; `undefined` is set where it is not defined.
     template <class I>
     I const& value(std::vector<I>& m, std::size_t k,
                    typename interval_traits<I>::mask& undefined) const {
-        undefined = static_cast<typename interval_traits<I>::mask>(undefined |
-                                                                   run(outputs_[k].value_steps, m));
+        undefined = static_cast<typename interval_traits<I>::mask>(
+            undefined | outputs_[k].value_steps.template run<proven_arithmetic<I>>(m));
         return m[outputs_[k].value];
     }
     /// What `value` gave last.
@@ -105,8 +95,8 @@ public:
     template <class I>
     void differentiate_at(std::vector<I>& m, std::size_t k,
                           typename interval_traits<I>::mask& undefined) const {
-        undefined = static_cast<typename interval_traits<I>::mask>(undefined |
-                                                                   run(outputs_[k].slope_steps, m));
+        undefined = static_cast<typename interval_traits<I>::mask>(
+            undefined | outputs_[k].slope_steps.template run<proven_arithmetic<I>>(m));
     }
     template <class I>
     I const& slope(std::vector<I> const& m, std::size_t k, std::size_t j) const {
@@ -114,26 +104,25 @@ public:
     }
 
 private:
-    struct step {
-        operation op;
-        std::int32_t index;
-        node_id target, a, b;
-    };
     struct output {
         node_id value = 0;
         std::vector<node_id> slopes;
-        std::vector<step> value_steps, slope_steps;
+        program value_steps, slope_steps;
         bool differentiable = true, repeats = false;
     };
 
+    /// The wanted operations.
     template <class Wanted>
-    void add_block(std::vector<step>& block, Wanted const& wanted) const {
-        for (std::size_t i = 0; i < g_.size(); ++i) {
-            auto const& n = g_.nodes()[i];
-            if (is_leaf(n.op) || !wanted(i)) continue;
-            block.push_back(
-                {n.op, n.index, static_cast<node_id>(i), n.a, is_binary(n.op) ? n.b : n.a});
-        }
+    [[nodiscard]] program block(Wanted const& wanted) const {
+        auto operations = leaves_of();
+        operations.flip();
+        for (std::size_t i = 0; i < g_.size(); ++i) operations[i] = operations[i] && wanted(i);
+        return program::marked(g_, operations);
+    }
+    [[nodiscard]] std::vector<bool> leaves_of() const {
+        std::vector<bool> leaves;
+        for (auto const& n : g_.nodes()) leaves.push_back(is_leaf(n.op));
+        return leaves;
     }
     /// How often parameters are read on the way to an output.
     void count_uses(output& o, std::vector<bool> const& below) const {
@@ -152,21 +141,10 @@ private:
             if (is_binary(n.op)) more(n.b);
         }
     }
-    template <class I>
-    static typename interval_traits<I>::mask run(std::vector<step> const& steps,
-                                                 std::vector<I>& m) {
-        typename interval_traits<I>::mask undefined{};
-        for (auto const& s : steps) {
-            m[s.target] = apply<proven_arithmetic<I>>(s.op, m[s.a], m[s.b], s.index, undefined);
-        }
-        return undefined;
-    }
-
     graph g_;
     std::size_t parameters_ = 0;
-    std::vector<step> common_;
+    program leaves_, common_;
     std::vector<output> outputs_;
-    std::vector<std::pair<std::size_t, std::size_t>> leaves_; ///< node and parameter
 };
 
 } // namespace sivid

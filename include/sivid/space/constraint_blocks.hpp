@@ -2,12 +2,13 @@
 #ifndef SIVID_SPACE_CONSTRAINT_BLOCKS_HPP
 #define SIVID_SPACE_CONSTRAINT_BLOCKS_HPP
 
-#include <Eigen/Core>
+#include <sivid/space/dual_simplex.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace sivid {
@@ -40,24 +41,24 @@ struct signed_constraint {
     double excess = -std::numeric_limits<double>::infinity(); ///< at the point it was looked up for
 };
 
-/// The constraints of some blocks, for simplex methods that keep a basis of them. Plain doubles.
+/// The constraints of some blocks, for a `dual_simplex`. Plain doubles.
 class constraint_blocks {
 public:
-    /// @param blocks  kept by reference
+    /// @param blocks  kept by reference; more may follow, and functions may join the last one
     constraint_blocks(std::size_t unknowns, std::vector<minimax_block> const& blocks)
         : n_(unknowns), blocks_(&blocks) {}
 
     [[nodiscard]] std::size_t unknowns() const { return n_; }
 
     /// The function with the largest |f| - margin.
-    [[nodiscard]] signed_constraint worst_function(Eigen::VectorXd const& point) {
+    [[nodiscard]] signed_constraint worst_function(std::vector<double> const& point) {
         signed_constraint worst;
         for (std::size_t b = 0; b < blocks_->size(); ++b) {
             auto const& block = (*blocks_)[b];
             auto const count = block.functions();
             value_.assign(block.offset.begin(), block.offset.end());
             for (std::size_t v = 0; v < block.variable.size(); ++v) {
-                double const d = point[static_cast<Eigen::Index>(block.variable[v])];
+                double const d = point[block.variable[v]];
                 double const* const slope = &block.slope[v * count];
                 for (std::size_t y = 0; y < count; ++y) value_[y] += slope[y] * d;
             }
@@ -69,68 +70,55 @@ public:
         return worst;
     }
     /// The unknown with the largest |d| - 1.
-    [[nodiscard]] signed_constraint worst_bound(Eigen::VectorXd const& point) const {
+    [[nodiscard]] signed_constraint worst_bound(std::vector<double> const& point) const {
         signed_constraint worst;
         for (std::size_t v = 0; v < n_; ++v) {
-            double const d = point[static_cast<Eigen::Index>(v)];
+            double const d = point[v];
             if (std::abs(d) - 1 > worst.excess) worst = {true, 0, v, d > 0, std::abs(d) - 1};
         }
         return worst;
     }
 
-    /// Its normal, in the first n entries of a vector of `size`; the others are zero.
-    [[nodiscard]] Eigen::VectorXd normal(signed_constraint const& m, Eigen::Index size) const {
-        Eigen::VectorXd c = Eigen::VectorXd::Zero(size);
+    /// Writes a constraint down; its normal in the first n entries of `size`, the others are zero.
+    void write(signed_constraint const& m, half_space& to, std::size_t size) const {
+        to.name = name_of(m);
+        to.normal.assign(size, 0.0);
         double const sign = m.positive ? 1 : -1;
         if (m.is_bound) {
-            c[static_cast<Eigen::Index>(m.index)] = sign;
-            return c;
+            to.normal[m.index] = sign;
+            to.reach = 1;
+            return;
         }
         auto const& block = (*blocks_)[m.block];
         for (std::size_t v = 0; v < block.variable.size(); ++v) {
-            c[static_cast<Eigen::Index>(block.variable[v])] +=
-                sign * block.slope[v * block.functions() + m.index];
+            to.normal[block.variable[v]] += sign * block.slope[v * block.functions() + m.index];
         }
-        return c;
+        to.reach = block.margin[m.index] - sign * block.offset[m.index];
     }
-    /// How large normal * d may be.
-    [[nodiscard]] double reach(signed_constraint const& m) const {
-        if (m.is_bound) return 1;
-        auto const& block = (*blocks_)[m.block];
-        return block.margin[m.index] - (m.positive ? 1 : -1) * block.offset[m.index];
+
+    /// The functions of a combination of half-spaces, with signed multipliers.
+    [[nodiscard]] static std::vector<minimax_weight>
+    weights(std::vector<std::pair<std::uint64_t, double>> const& combination) {
+        std::vector<minimax_weight> result;
+        for (auto const& [name, size] : combination) {
+            auto const block = static_cast<std::size_t>(name >> 32);
+            auto const index = static_cast<std::size_t>((name & 0xffffffffu) >> 1);
+            if (block > 0) result.push_back({block - 1, index, (name & 1) != 0 ? size : -size});
+        }
+        return result;
     }
 
 private:
+    /// Block (0: bounds), function or unknown, sign.
+    static std::uint64_t name_of(signed_constraint const& m) {
+        auto const block = m.is_bound ? std::uint64_t{0} : std::uint64_t{m.block} + 1;
+        return block << 32 | std::uint64_t{m.index} << 1 | (m.positive ? 1u : 0u);
+    }
+
     std::size_t n_;
     std::vector<minimax_block> const* blocks_;
     std::vector<double> value_;
 };
-
-/// The member of a basis whose multiplier is first driven to zero when another one enters.
-/// @param direction  how the multipliers fall, @param present  what they are
-/// @returns -1 when none falls
-[[nodiscard]] inline Eigen::Index leaving_member(Eigen::VectorXd const& direction,
-                                                 Eigen::VectorXd const& present) {
-    double const least = 1e-11 * direction.cwiseAbs().maxCoeff();
-    Eigen::Index leaves = -1;
-    double step = std::numeric_limits<double>::infinity();
-    for (Eigen::Index k = 0; k < direction.size(); ++k) {
-        if (!(direction[k] > least)) continue;
-        double const ratio = std::max(present[k], 0.0) / direction[k];
-        bool const ties = leaves >= 0 && ratio == step;
-        if (ratio < step || (ties && direction[k] > direction[leaves])) {
-            step = ratio;
-            leaves = k;
-        }
-    }
-    return leaves;
-}
-
-/// The functions of a basis with their multipliers, signed.
-inline void add_weight(std::vector<minimax_weight>& to, signed_constraint const& m, double size) {
-    if (m.is_bound || !(size > 0) || !std::isfinite(size)) return;
-    to.push_back({m.block, m.index, m.positive ? size : -size});
-}
 
 } // namespace sivid
 

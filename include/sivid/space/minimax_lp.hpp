@@ -4,13 +4,11 @@
 
 #include <sivid/space/constraint_blocks.hpp>
 
-#include <Eigen/Core>
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace sivid {
@@ -23,104 +21,71 @@ struct approximate_minimax {
     std::size_t exchanges = 0;
 };
 
-/// Solves the minimax problem by the simplex method on its dual, one exchange after the other: the
+/// Solves the minimax problem as a linear program in d and the height, by `dual_simplex`: the
 /// function that is largest at the present point enters the proof, and another one leaves it. Every
 /// basis is a proof of some lower bound already, so stopping early is safe.
 /// @guarantee  none: doubles. The multipliers are for \f$ combined_polynomial \f$, which proves.
-/// @cost  a few times n exchanges, each O(n^3 + functions * columns)
+/// @cost  a few times n exchanges, each O(n^2 + functions * columns)
 /// @ref   E. Stiefel, Numerische Mathematik 2 (1960): exchange and simplex method
 class minimax_solver {
 public:
     /// @param blocks  kept by reference
     minimax_solver(std::size_t unknowns, std::vector<minimax_block> const& blocks)
-        : constraints_(unknowns, blocks), n_(static_cast<Eigen::Index>(unknowns)) {}
+        : constraints_(unknowns, blocks), n_(unknowns) {}
 
+    /// A second call goes on where the first one ended, with functions that have come meanwhile;
+    /// none may be changed or taken out.
     [[nodiscard]] approximate_minimax operator()() {
         approximate_minimax result;
-        result.point.assign(constraints_.unknowns(), 0.0);
-        point_ = Eigen::VectorXd::Zero(n_ + 1);
-        auto const first = constraints_.worst_function(point_);
-        if (!(first.excess > -std::numeric_limits<double>::infinity())) return result;
-        start(first);
-        auto const limit = 40 * (constraints_.unknowns() + 2);
-        for (; result.exchanges < limit; ++result.exchanges) {
-            factors_.compute(basis_);
-            point_ = factors_.transpose().solve(cost_);
-            point_.head(n_) *= -1;
-            auto enters = constraints_.worst_function(point_);
-            enters.excess -= point_[n_];
-            auto const bound = constraints_.worst_bound(point_);
-            if (bound.excess > enters.excess) enters = bound;
-            double const scale = 1 + std::abs(point_[n_]);
-            if (!(enters.excess > 1e-9 * scale) || !exchange(enters)) break;
+        result.point.assign(n_, 0.0);
+        if (!program_.started()) {
+            std::vector<double> const middle(n_ + 1, 0.0);
+            auto const first = constraints_.worst_function(middle);
+            if (!(first.excess > -std::numeric_limits<double>::infinity())) return result;
+            start(first);
         }
-        finish(result);
+        auto const before = program_.exchanges();
+        (void)program_.run([this](auto const& x, half_space& enters) { return worst(x, enters); },
+                           40 * (n_ + 2));
+        result.exchanges = program_.exchanges() - before;
+        for (std::size_t v = 0; v < n_; ++v) {
+            double const d = program_.point()[v];
+            result.point[v] = std::isfinite(d) ? std::clamp(d, -1.0, 1.0) : 0.0;
+        }
+        result.value = -program_.value();
+        result.weights = constraints_.weights(program_.combination());
         return result;
     }
 
 private:
-    /// Its column of the dual constraints.
-    [[nodiscard]] Eigen::VectorXd column(signed_constraint const& m) const {
-        auto c = constraints_.normal(m, n_ + 1);
-        c[n_] = m.is_bound ? 0 : 1;
-        return c;
+    void write(signed_constraint const& m, half_space& to) const {
+        constraints_.write(m, to, n_ + 1);
+        to.normal[n_] = m.is_bound ? 0 : -1; // f - height <= margin
     }
-
     /// One function, balanced by the bounds of the unknowns.
     void start(signed_constraint const& first) {
-        members_.clear();
-        basis_.setZero(n_ + 1, n_ + 1);
-        cost_.setConstant(n_ + 1, -1.0);
-        auto const balanced = column(first);
-        for (Eigen::Index v = 0; v < n_; ++v) {
-            bool const positive = balanced[v] <= 0;
-            members_.push_back({true, 0, static_cast<std::size_t>(v), positive});
-            basis_(v, v) = positive ? 1 : -1;
+        std::vector<half_space> basis(n_ + 1);
+        write(first, basis[n_]);
+        for (std::size_t v = 0; v < n_; ++v) {
+            write({true, 0, v, basis[n_].normal[v] <= 0}, basis[v]);
         }
-        members_.push_back(first);
-        basis_.col(n_) = balanced;
-        cost_[n_] = -constraints_.reach(first);
+        std::vector<double> goal(n_ + 1, 0.0);
+        goal[n_] = -1;
+        (void)program_.start(std::move(goal), std::move(basis));
     }
-
-    [[nodiscard]] Eigen::VectorXd multipliers() const {
-        Eigen::VectorXd one = Eigen::VectorXd::Zero(n_ + 1);
-        one[n_] = 1;
-        return factors_.solve(one);
-    }
-
-    /// Takes a member in for the one whose multiplier it first drives to zero.
-    [[nodiscard]] bool exchange(signed_constraint const& enters) {
-        auto const new_column = column(enters);
-        Eigen::VectorXd const direction = factors_.solve(new_column);
-        Eigen::VectorXd const present = multipliers();
-        if (!direction.allFinite() || !present.allFinite()) return false;
-        auto const leaves = leaving_member(direction, present);
-        if (leaves < 0) return false;
-        members_[static_cast<std::size_t>(leaves)] = enters;
-        basis_.col(leaves) = new_column;
-        cost_[leaves] = -constraints_.reach(enters);
+    bool worst(std::vector<double> const& x, half_space& enters) {
+        auto worst = constraints_.worst_function(x);
+        worst.excess -= x[n_];
+        auto const bound = constraints_.worst_bound(x);
+        if (bound.excess > worst.excess) worst = bound;
+        if (!(worst.excess > 1e-9 * (1 + std::abs(x[n_])))) return false;
+        write(worst, enters);
         return true;
     }
 
-    void finish(approximate_minimax& result) {
-        factors_.compute(basis_);
-        Eigen::VectorXd const w = multipliers();
-        for (std::size_t v = 0; v < result.point.size(); ++v) {
-            double const d = point_[static_cast<Eigen::Index>(v)];
-            result.point[v] = std::isfinite(d) ? std::clamp(d, -1.0, 1.0) : 0.0;
-        }
-        result.value = w.dot(cost_);
-        for (std::size_t k = 0; k < members_.size(); ++k) {
-            add_weight(result.weights, members_[k], w[static_cast<Eigen::Index>(k)]);
-        }
-    }
-
     constraint_blocks constraints_;
-    Eigen::Index n_;
-    std::vector<signed_constraint> members_;
-    Eigen::MatrixXd basis_;
-    Eigen::VectorXd cost_, point_;
-    Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
+    std::size_t n_;
+    dual_simplex program_;
 };
 
 } // namespace sivid

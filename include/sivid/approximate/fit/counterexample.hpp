@@ -29,7 +29,7 @@ struct counterexample_options {
 ///   thousandth of it.
 /// @returns whether a point was confirmed. That none was says nothing.
 /// @cost  in plain doubles: one fit, one simulation for each box, `fits` fits
-[[nodiscard]] SIVID_ENTRY bool find_explaining_point(identification_problem const& problem,
+[[nodiscard]] SIVID_DECL bool find_explaining_point(identification_problem const& problem,
                                                      std::vector<box> const& excluded,
                                                      counterexample_options const& options);
 
@@ -39,14 +39,14 @@ struct counterexample_options {
 /// @returns whether a point was confirmed. That none was says nothing.
 /// @cost  in plain doubles: a simulation with sensitivities for each box, and a few simulations for
 /// each experiment; fits instead where starts are not known
-[[nodiscard]] SIVID_ENTRY bool find_unexplained_point(identification_problem const& problem,
+[[nodiscard]] SIVID_DECL bool find_unexplained_point(identification_problem const& problem,
                                                       std::vector<box> const& inside,
                                                       counterexample_options const& options);
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_COUNTEREXAMPLE)
-#include <sivid/approximate/fit/detail/counterexample_search.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/approximate/fit/impl/counterexample.ipp>
 #endif
 
 #endif

@@ -70,8 +70,8 @@ private:
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_FITTER)
-#include <sivid/approximate/fit/detail/fit_search.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/approximate/fit/impl/fit.ipp>
 #endif
 
 #endif

@@ -11,14 +11,14 @@ namespace sivid {
 
 /// The classical method of order 4 with an estimate of its error (`embedded_runge_kutta4`): the
 /// cheapest where steps end at samples.
-[[nodiscard]] SIVID_ENTRY std::unique_ptr<stepping> classical_steps();
+[[nodiscard]] SIVID_DECL std::unique_ptr<stepping> classical_steps();
 /// Dormand and Prince's method of order 5, for long steps and small tolerances.
-[[nodiscard]] SIVID_ENTRY std::unique_ptr<stepping> dormand_prince_steps();
+[[nodiscard]] SIVID_DECL std::unique_ptr<stepping> dormand_prince_steps();
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_NAMED_STEPS)
-#include <sivid/approximate/simulate/detail/named_steps.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/approximate/simulate/impl/named_steps.ipp>
 #endif
 
 #endif

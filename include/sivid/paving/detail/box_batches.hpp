@@ -27,6 +27,19 @@ struct knowledge_of<Test> {
     using type = typename Test::knowledge;
 };
 
+/// Bytes that knowledge of a box takes.
+template <class Test>
+[[nodiscard]] std::size_t bytes_of(Test const& test, box const& x,
+                                   typename knowledge_of<Test>::type const& found) {
+    using knowledge = typename knowledge_of<Test>::type;
+    auto const frame = sizeof(learnt<knowledge>) + sizeof(box) + x.size() * sizeof(interval);
+    if constexpr (measured_set_test<Test>) {
+        return frame + test.bytes(found);
+    } else {
+        return frame + sizeof(knowledge);
+    }
+}
+
 /// What waits with a box.
 template <class Knowledge>
 struct companion {

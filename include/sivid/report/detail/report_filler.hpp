@@ -279,7 +279,7 @@ private:
 
 } // namespace detail
 
-SIVID_ENTRY identification_view view_of(identification_problem const& problem,
+SIVID_DECL identification_view view_of(identification_problem const& problem,
                                         identification const& found,
                                         explaining_motion const* motion,
                                         identification_report_options const& options) {
