@@ -127,6 +127,7 @@
 #include <sivid/enclosure/failure.hpp>
 #include <sivid/enclosure/failure_advice.hpp>
 #include <sivid/enclosure/flow.hpp>
+#include <sivid/enclosure/framed_radii.hpp>
 #include <sivid/enclosure/implicit_runge_kutta.hpp>
 #include <sivid/enclosure/implicit_stages.hpp>
 #include <sivid/enclosure/implicit_tableau.hpp>
@@ -142,6 +143,7 @@
 #include <sivid/enclosure/perturbation_bound.hpp>
 #include <sivid/enclosure/perturbed_step.hpp>
 #include <sivid/enclosure/runge_kutta.hpp>
+#include <sivid/enclosure/sensitive_flow.hpp>
 #include <sivid/enclosure/sensitivity_tube.hpp>
 #include <sivid/enclosure/stepper.hpp>
 #include <sivid/enclosure/tableau.hpp>
