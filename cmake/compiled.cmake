@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # sivid::compiled: what most of the compile time goes into, compiled once instead of in every source that uses it: the
-# integrators behind identification and the functions marked SIVID_ENTRY. Programs that link to it find them declared
+# integrators behind identification and the functions that are defined in impl/*.ipp. Programs that link to it find them declared
 # only; they have to be compiled with the same flags. Without it everything comes from the headers.
 #
 # Included by sivid's own tree and, where it is installed, by find_package(sivid COMPONENTS compiled): either way it is
@@ -53,57 +53,17 @@ template tube<interval> integrate(
 }
 ")
 
-# What each source that links to the library asks for: the machine and the layouts that both were compiled for.
-sivid_compiled_source(flags "\
-#define SIVID_COMPILE_LIBRARY_FOR
-#include <sivid/compiled.hpp>
-#include <sivid/space/detail/compiled_eigen.hpp>
-")
-
-# Headers with functions that are compiled once; those of one floor share most of their code.
-set(entries_number decimal decimal_output decimal_text kernel_trial)
-set(entries_measurement signal)
-set(entries_model bound_model describe effect effects expression graph graph_listing model to_dot unit)
-set(entries_enclosure enclosed_motion failure flow simulate)
-set(entries_paving continued_run detail/response_judgement experiment_run fit holdout_inflation identify inflation
-                   minimax_fit outlier_budget)
-set(entries_paving_further identifiability online_identification)   # apart: together they need 2 GB
-set(entries_paving_check counterexample scalar_run)
-set(entries_diagnosis affected_problem diagnose diagnosis_run manoeuvre)
-set(entries_io checkpoint checkpoint_reader dataset dataset_digest dataset_writer diagnosis_json exact_decimal
-               explaining_motion identification_csv identification_json identification_reader input_error
-               json_document model_names problem_digest problem_from_dataset same_problem text_file)
-set(entries_report bar_chart candidate_chart channel_series comparison_plot diagnosis_figures diagnosis_page
-                   diagnosis_plot_data diagnosis_report diagnosis_tables diagnosis_words escape heat_map
-                   holdout_tables identifiability_words identification_page identification_parameters
-                   identification_report identification_words interval_chart legend missing_rate_plot number_text page
-                   paving_plot paving_projections paving_raster place_words plane_plot residual_plot rounded_decimal
-                   svg table ticks time_plot)
-foreach(group IN ITEMS number measurement model enclosure paving paving_further paving_check diagnosis io report)
-    string(REGEX REPLACE "_.*" "" floor "${group}")
-    if(floor MATCHES "^(io|report)$" AND NOT TARGET sivid::${floor})
-        continue()
-    endif()
-    set(macros "")
-    set(includes "")
-    foreach(header IN LISTS entries_${group})
-        file(STRINGS "${sivid_include_dir}/sivid/${floor}/${header}.hpp" condition REGEX "SIVID_COMPILE_[A-Z_]+")
-        string(REGEX MATCH "SIVID_COMPILE_[A-Z_]+" macro "${condition}")
-        string(APPEND macros "#define ${macro}\n")
-        string(APPEND includes "#include <sivid/${floor}/${header}.hpp>\n")
-    endforeach()
-    sivid_compiled_source(${group} "${macros}${includes}")
-endforeach()
-
+# Each part of include/sivid/impl is one source: they are compiled side by side, and none takes more than 2 GB.
+set(parts library number measurement model approximate enclosure paving paving_further paving_check diagnosis)
 if(TARGET sivid::io)
-    sivid_compiled_source(check "\
-#define SIVID_COMPILE_IDENTIFICATION_CHECK
-#include <sivid/io/identification_check.hpp>
-namespace sivid {
-template class identification_check<interval, interval>;
-}
-")
+    list(APPEND parts io io_check)
 endif()
+if(TARGET sivid::report)
+    list(APPEND parts report)
+endif()
+foreach(part IN LISTS parts)
+    sivid_compiled_source(${part} "#include <sivid/impl/${part}.ipp>\n")
+endforeach()
 
 add_library(sivid_compiled STATIC EXCLUDE_FROM_ALL ${sivid_compiled_sources})
 add_library(sivid::compiled ALIAS sivid_compiled)
@@ -123,8 +83,7 @@ mark_as_advanced(SIVID_GMP SIVID_MPFR SIVID_MPFI SIVID_MPFI_INCLUDE)
 if(TARGET sivid::io AND SIVID_GMP AND SIVID_MPFR AND SIVID_MPFI AND SIVID_MPFI_INCLUDE)
     set(sivid_compiled_sources "")
     foreach(function IN ITEMS check_by_proven_functions check_in_multiprecision)
-        string(TOUPPER "SIVID_COMPILE_${function}" macro)
-        sivid_compiled_source(${function} "#define ${macro}\n#include <sivid/io/mp_identification_check.hpp>\n")
+        sivid_compiled_source(${function} "#include <sivid/io/impl/${function}.ipp>\n")
     endforeach()
     add_library(sivid_compiled_mpfi STATIC EXCLUDE_FROM_ALL ${sivid_compiled_sources})
     add_library(sivid::compiled_mpfi ALIAS sivid_compiled_mpfi)

@@ -7,7 +7,7 @@ endif()
 find_package(Boost 1.74 REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 
-set(sivid_core_folders number space measurement model enclosure paving diagnosis)
+set(sivid_core_folders number space measurement model approximate enclosure paving diagnosis)
 set(sivid_include_dir "${PROJECT_SOURCE_DIR}/include")
 set(sivid_components "")
 
@@ -17,7 +17,8 @@ function(sivid_add_library name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "FOLDERS;FILES;LINK")
     set(headers "")
     foreach(folder IN LISTS arg_FOLDERS)
-        file(GLOB_RECURSE found CONFIGURE_DEPENDS "${sivid_include_dir}/sivid/${folder}/*.hpp")
+        file(GLOB_RECURSE found CONFIGURE_DEPENDS "${sivid_include_dir}/sivid/${folder}/*.hpp"
+            "${sivid_include_dir}/sivid/${folder}/*.ipp")
         list(APPEND headers ${found})
     endforeach()
     foreach(file IN LISTS arg_FILES)
@@ -39,7 +40,7 @@ function(sivid_add_library name)
     set(sivid_components ${sivid_components} ${name} PARENT_SCOPE)
 endfunction()
 
-sivid_add_library(sivid FOLDERS ${sivid_core_folders} FILES sivid.hpp compiled.hpp version.hpp
+sivid_add_library(sivid FOLDERS ${sivid_core_folders} impl FILES sivid.hpp compiled.hpp executor.hpp version.hpp
                   LINK Boost::headers Eigen3::Eigen)
 
 find_package(nlohmann_json 3.9 QUIET)

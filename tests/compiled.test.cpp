@@ -9,7 +9,7 @@
 #define SIVID_TEXT(x) #x
 
 TEST_CASE("entry functions are inline but where a library defines them") {
-    std::string const specifier = "" SIVID_TEXT_OF(SIVID_ENTRY);
+    std::string const specifier = "" SIVID_TEXT_OF(SIVID_DECL);
 #ifdef SIVID_COMPILED
     CHECK(specifier.empty());
 #else

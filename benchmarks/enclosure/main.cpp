@@ -9,7 +9,6 @@
 
 #include <sivid/enclosure/implicit_tableau.hpp>
 #include <sivid/enclosure/parametric_cover.hpp>
-#include <sivid/enclosure/simulate.hpp>
 #include <sivid/enclosure/tube.hpp>
 #include <sivid/number/decimal.hpp>
 
@@ -180,10 +179,6 @@ int main(int argc, char** argv) {
 
     std::printf("\n");
     benchmark::sensitivities_at_a_point(hovercraft_problem("H3-point, sensitivities", 0));
-    benchmark::sensitivities_over_a_box<3, 2>(hovercraft_problem("H3 w=0.01, sensitivities", 0.01),
-                                              {8, 1e-6, 1e-4});
-    benchmark::sensitivities_over_a_box<3, 3>(hovercraft_problem("H3 w=0.05, sensitivities", 0.05),
-                                              {6, 1e-5, 1e-4});
     std::printf("\n");
 
     auto const vdp = autonomous<problems::van_der_pol>(

@@ -4,8 +4,8 @@
 #ifndef SIVID_BENCHMARKS_ENCLOSURE_MEASURE_HPP
 #define SIVID_BENCHMARKS_ENCLOSURE_MEASURE_HPP
 
+#include <sivid/approximate/simulate/simulate.hpp>
 #include <sivid/enclosure/parametric_cover.hpp>
-#include <sivid/enclosure/simulate.hpp>
 #include <sivid/enclosure/tube.hpp>
 
 #include <algorithm>
@@ -49,7 +49,7 @@ template <class Cover>
 sampled sample(problem const& p, Cover const& cover, std::size_t count) {
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> unit(0, 1);
-    sivid::approximate_simulator simulate(*p.flow);
+    auto const model = std::make_shared<sivid::plain_model const>(p.flow->model());
     auto const n = p.initial.size();
     auto const side_of = [&](std::size_t i) -> interval const& {
         return i < n ? p.initial[i] : p.parameters[i - n];
@@ -72,7 +72,8 @@ sampled sample(problem const& p, Cover const& cover, std::size_t count) {
                 k < corners ? static_cast<double>((k >> bit[i]) & 1U) : unit(random);
             (i < n ? x0 : c).push_back(inside(side_of(i), share));
         }
-        auto const end = simulate(x0, c, 0, {p.end}, 1e-11).states.back();
+        auto const end =
+            sivid::simulate(model, p.flow->inputs(), x0, c, 0, {p.end}, {1e-11}).states.back();
         bool found = false, inside_one = false;
         for (auto const& part : cover.parts) {
             bool member = true;

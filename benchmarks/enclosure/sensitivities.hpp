@@ -5,7 +5,6 @@
 
 #include "measure.hpp"
 
-#include <sivid/enclosure/sensitive_flow.hpp>
 #include <sivid/enclosure/sensitivity_tube.hpp>
 
 namespace benchmark {
@@ -32,8 +31,7 @@ inline double widest(sivid::interval_matrix<interval> const& s) {
     return w;
 }
 
-/// The doubleton and the Taylor-model flow, with and without derivatives; the two enclosures of the
-/// derivatives have to meet.
+/// Doubletons with and without derivatives.
 inline void sensitivities_at_a_point(problem const& p) {
     if (!asked.wants(p.name)) return;
     for (std::size_t const order : {16, 20}) {
@@ -53,98 +51,7 @@ inline void sensitivities_at_a_point(problem const& p) {
         std::printf(
             "%-26s doubleton   K%-2zu %6.3f ms (states alone %.3f ms), derivatives %.1e wide\n",
             p.name.c_str(), order, both, alone, widest(s));
-        sivid::sensitive_flow<1, 0> run(*p.flow, o);
-        auto const carried = [&] {
-            run.begin(0, p.initial, p.parameters);
-            while (run.time() < p.end && run.step(p.end)) {
-            }
-        };
-        double const carried_time = least_time(carried);
-        double w = 0;
-        bool meet = run.known();
-        for (std::size_t i = 0; i < p.initial.size(); ++i) {
-            for (std::size_t c = 0; c < run.columns(); ++c) {
-                auto const d = range(run.derivative(i, c));
-                w = std::max(w, sivid::width(d));
-                meet = meet && !sivid::disjoint(d, s(i, c));
-            }
-        }
-        std::printf("%-26s D0          K%-2zu %6.3f ms, derivatives %.1e wide, %s\n",
-                    p.name.c_str(), order, carried_time, w,
-                    meet ? "meet the doubleton's" : "DISJOINT FROM THE DOUBLETON'S");
     }
-    std::fflush(stdout);
-}
-
-/// Derivatives over a box against those of sampled members, each enclosed at its own point.
-template <std::size_t N, std::size_t D>
-void sensitivities_over_a_box(problem const& p, setting const& s) {
-    if (!asked.wants(p.name)) return;
-    auto const o = s.options();
-    sivid::sensitive_flow<N, D> run(*p.flow, o);
-    sivid::parametric_flow<N, D> states(*p.flow, o);
-    double const both = least_time([&] {
-        run.begin(0, p.initial, p.parameters);
-        while (run.time() < p.end && run.step(p.end)) {
-        }
-    });
-    double const alone = least_time([&] {
-        states.begin(0, p.initial, p.parameters);
-        while (states.time() < p.end && states.step(p.end)) {
-        }
-    });
-    std::printf("%-26s D%zu K%zu %6.3f ms (states alone %.3f ms)  ", p.name.c_str(), D, s.order,
-                both, alone);
-    if (!run.known() || run.time() < p.end) {
-        std::printf("not enclosed\n");
-        return;
-    }
-    auto const n = p.initial.size();
-    std::vector<double> low(n * run.columns(), HUGE_VAL), high(n * run.columns(), -HUGE_VAL);
-    std::size_t missed = 0;
-    std::size_t const samples = asked.more ? 1000 : 200;
-    std::mt19937_64 random(9);
-    std::uniform_real_distribution<double> unit(0, 1);
-    sivid::enclosure_options sharp;
-    sharp.order = sharp.variational_order = 16;
-    for (std::size_t k = 0; k < samples; ++k) {
-        box c(p.parameters.size());
-        for (std::size_t j = 0; j < c.size(); ++j) {
-            double const share = k < 16 ? static_cast<double>((k >> j) & 1U) : unit(random);
-            c[j] = interval(inside(p.parameters[j], share));
-        }
-        auto const exact =
-            sivid::integrate_with_sensitivities<interval>(p.flow, p.initial, c, 0, p.end, sharp)
-                .at(p.end);
-        bool all = true;
-        for (std::size_t i = 0; i < n; ++i) {
-            for (std::size_t j = 0; j < run.columns(); ++j) {
-                auto const d = range(run.derivative(i, j));
-                all = all && subset(exact(i, j), d);
-                auto const m = i * run.columns() + j;
-                low[m] = std::min(low[m], mid(exact(i, j)));
-                high[m] = std::max(high[m], mid(exact(i, j)));
-            }
-        }
-        missed += all ? 0 : 1;
-    }
-    // Entries that vary by less than a thousandth of their size have no useful ratio of widths.
-    double over = 0, beyond = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t j = 0; j < run.columns(); ++j) {
-            auto const m = i * run.columns() + j;
-            double const seen = high[m] - low[m];
-            double const size = std::max(std::abs(high[m]), std::abs(low[m]));
-            if (size == 0) continue;
-            double const found = sivid::width(range(run.derivative(i, j)));
-            beyond = std::max(beyond, (found - seen) / size);
-            if (seen > 1e-3 * size) over = std::max(over, found / seen);
-        }
-    }
-    std::printf(
-        "derivatives at most %.3f x the sampled range and %.1e of their size beyond it, %zu "
-        "of %zu missed\n",
-        over, beyond, missed, samples);
     std::fflush(stdout);
 }
 

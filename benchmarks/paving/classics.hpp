@@ -4,7 +4,7 @@
 #define SIVID_BENCHMARKS_PAVING_CLASSICS_HPP
 
 #include <sivid/model/model.hpp>
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 
 #include <cmath>
 #include <cstddef>

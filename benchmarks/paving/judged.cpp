@@ -7,11 +7,10 @@
 // side held (N = 0: none); NAME is a part of a campaign's name.
 #include "model.hpp"
 
+#include <sivid/approximate/fit/fit.hpp>
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
-#include <sivid/paving/fit.hpp>
 #include <sivid/paving/identify.hpp>
-#include <sivid/paving/minimax_fit.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -46,7 +45,7 @@ box reached_hull(sivid::identification_problem const& problem, sivid::approximat
                 held.prior[j] = interval(at);
                 auto p = best.parameters;
                 p[j] = at;
-                auto fit = sivid::minimax_fitter(held)(p, best.starts);
+                auto fit = sivid::fitter(held)({p, best.starts});
                 if (fit.inflation <= 1) {
                     fit.parameters[j] = at;
                     found = hull(found, sivid::point_box(fit.parameters));

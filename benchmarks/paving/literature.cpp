@@ -6,7 +6,7 @@
 // say; neither is proved. Seconds are of the processor, the median of the runs.
 #include "classics.hpp"
 
-#include <sivid/paving/fit.hpp>
+#include <sivid/approximate/fit/fit.hpp>
 #include <sivid/paving/identify.hpp>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ bool fits(classic const& c, std::size_t j, double value) {
     auto pinned = c.problem;
     pinned.prior[j] = sivid::interval(value);
     sivid::fitter fit(pinned);
-    return fit().inflation <= 1 || fit(c.truth).inflation <= 1;
+    return fit().inflation <= 1 || fit({c.truth}).inflation <= 1;
 }
 
 /// How far the set reaches towards `end`, by fits: first some value that fits, then bisection.

@@ -2,7 +2,7 @@
 #ifndef EXAMPLES_CONSOLE_THREADS_HPP
 #define EXAMPLES_CONSOLE_THREADS_HPP
 
-#include <sivid/paving/executor.hpp>
+#include <sivid/executor.hpp>
 
 #ifdef SIVID_HAS_TBB
 #include <sivid/parallel/tbb_executor.hpp>

@@ -10,6 +10,7 @@
 #include <sivid/io/checkpoint_reader.hpp>
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset_digest.hpp>
+#include <sivid/io/certificates_csv.hpp>
 #include <sivid/io/file_set.hpp>
 #include <sivid/io/identification_csv.hpp>
 #include <sivid/io/identification_json.hpp>
@@ -398,6 +399,11 @@ int run(identify_command const& c) {
             files.add("products.csv", sivid::products_csv(found));
         } else {
             files.drop("products.csv"); // of an earlier result
+        }
+        if (found.proof.empty()) {
+            files.drop("certificates.csv");
+        } else {
+            files.add("certificates.csv", sivid::certificates_csv(found.proof));
         }
         files.add("outputs.csv", sivid::outputs_csv(problem, found, nullptr));
         files.add("report.html", report::identification_page(view).str());

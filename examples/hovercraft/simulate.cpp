@@ -3,8 +3,8 @@
 #include "console/console.hpp"
 #include "console/program.hpp"
 
+#include <sivid/approximate/simulate/simulate.hpp>
 #include <sivid/enclosure/enclosed_motion.hpp>
-#include <sivid/enclosure/simulate.hpp>
 #include <sivid/io/file_set.hpp>
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/report/page.hpp>
@@ -50,7 +50,9 @@ public:
         }
         auto times = sample_times(s.duration, c.rate, 6, true);
         if (times.back() < s.duration) times.push_back(s.duration);
-        line_ = sivid::approximate_simulator(*flow_)(middle, {}, 0, times, 1e-10);
+        line_ =
+            sivid::simulate(std::make_shared<sivid::plain_model const>(model, constants, inputs),
+                            inputs, middle, {}, 0, times, {1e-10});
         if (!c.validated) return;
         sivid::enclosure_options options;
         options.maximum_step = s.duration / 300;

@@ -3,20 +3,20 @@
 #define SIVID_COMPILED_HPP
 
 /// @file
-/// Before the few functions that most of the compile time goes into.
-/// sivid is header only. Where SIVID_COMPILED is defined these functions, and the kernels of
-/// `taylor_kernels.hpp`, are declared alone, and a library that was compiled with the same flags
-/// defines them (CMake: sivid::compiled); each of its sources defines SIVID_COMPILE_<FUNCTION>.
+/// sivid is header only: a header `x.hpp` declares, and includes `impl/x.ipp` at its end, which
+/// defines what is no template. Where SIVID_COMPILED is defined headers declare only; one source of
+/// the program then includes <sivid/impl/src.hpp>, or the program links to a library that was
+/// compiled with the same flags (CMake: sivid::compiled).
 #ifdef SIVID_COMPILED
-#define SIVID_ENTRY
+#define SIVID_DECL
 #else
-#define SIVID_ENTRY inline
+#define SIVID_DECL inline
 #endif
 /// The same for what needs MPFI, too (CMake: sivid::compiled_mpfi).
 #ifdef SIVID_COMPILED_MPFI
-#define SIVID_MPFI_ENTRY
+#define SIVID_MPFI_DECL
 #else
-#define SIVID_MPFI_ENTRY inline
+#define SIVID_MPFI_DECL inline
 #endif
 
 #ifdef SIVID_COMPILED
@@ -50,10 +50,6 @@ template <class Containers>
 struct library_for {
     static char const sivid_compiled_has_other_machine_flags;
 };
-#ifdef SIVID_COMPILE_LIBRARY_FOR
-template <class Containers>
-char const library_for<Containers>::sivid_compiled_has_other_machine_flags = 0;
-#endif
 
 } // namespace SIVID_PACK_TARGET
 

@@ -42,6 +42,15 @@ public:
         write(fs::path{"tests/" + name}.replace_extension(".test.cpp"),
               "// a comment\n#include <sivid/" + name + ">\n");
     }
+    /// An umbrella of all headers.
+    void umbrella() const {
+        std::string body;
+        for (auto const& entry : fs::recursive_directory_iterator{root_ / "include/sivid"})
+            if (entry.is_regular_file() && entry.path().filename() != "sivid.hpp")
+                body += "#include <" +
+                        fs::relative(entry.path(), root_ / "include").generic_string() + ">\n";
+        write("include/sivid/sivid.hpp", wrapped("sivid/sivid.hpp", body));
+    }
     void remove(fs::path const& file) const { fs::remove(root_ / file); }
 
     std::string findings() const {
@@ -74,6 +83,28 @@ TEST_CASE("planted breaches are found") {
                    ContainsSubstring(
                        "upward: include/sivid/number/low.hpp: includes <sivid/space/high.hpp>"));
         CHECK_THAT(tree.findings(), ContainsSubstring("cycle: "));
+    }
+    SECTION("a proof that knows more of a fit than its result") {
+        tree.header("approximate/approximate_fit.hpp", "");
+        tree.header("approximate/fit/fit.hpp", "#include <sivid/approximate/approximate_fit.hpp>\n"
+                                               "#include <sivid/executor.hpp>\n");
+        tree.write("include/sivid/executor.hpp", planted_tree::wrapped("sivid/executor.hpp", ""));
+        tree.write("tests/executor.test.cpp", "#include <sivid/executor.hpp>\n");
+        tree.header("paving/proof.hpp", "#include <sivid/approximate/approximate_fit.hpp>\n");
+        tree.header("paving/impl/identify.ipp",
+                    "#include <sivid/approximate/fit/fit.hpp>\n");
+        tree.umbrella();
+        CHECK(tree.findings() == "");
+        tree.header("paving/proof.hpp", "#include <sivid/approximate/fit/fit.hpp>\n");
+        CHECK_THAT(tree.findings(), ContainsSubstring("unproved: include/sivid/paving/proof.hpp"));
+    }
+    SECTION("a test in another folder than its header") {
+        tree.header("approximate/fit/fit.hpp", "");
+        tree.umbrella();
+        CHECK(tree.findings() == "");
+        tree.remove("tests/approximate/fit/fit.test.cpp");
+        tree.write("tests/approximate/fit.test.cpp", "#include <sivid/approximate/fit/fit.hpp>\n");
+        CHECK_THAT(tree.findings(), ContainsSubstring("no tests/approximate/fit/fit.test.cpp"));
     }
     SECTION("the umbrella counts as upward") {
         tree.header("number/low.hpp", "#include <sivid/sivid.hpp>\n");

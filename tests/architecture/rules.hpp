@@ -20,10 +20,13 @@ namespace architecture {
 
 namespace fs = std::filesystem;
 
-inline constexpr std::array<std::string_view, 10> floors{
-    "number", "space",     "measurement", "model",  "enclosure",
+inline constexpr std::array<std::string_view, 11> floors{
+    "number", "space",     "measurement", "model",  "approximate", "enclosure",
     "paving", "diagnosis", "io",          "report", "parallel"};
-inline constexpr std::size_t core_floors = 7;
+inline constexpr std::size_t core_floors = 8;
+/// Headers outside of floors that each floor may include.
+inline constexpr std::array<std::string_view, 3> common{"sivid/version.hpp", "sivid/compiled.hpp",
+                                                        "sivid/executor.hpp"};
 inline constexpr std::size_t hard_line_limit = 400;
 
 /// One breach: which rule, in which file (relative to the tree), and what.
@@ -103,6 +106,32 @@ inline bool package_allowed(std::string_view name, std::string_view floor, std::
     return processor.count(name) > 0;
 }
 
+/// What the floors of the proofs may know of the floor `approximate`: what its fits and estimates
+/// return. Where one is *started* is said here.
+inline bool may_include_approximate(std::string_view other, std::string_view includer) {
+    static std::set<std::string_view> const results{"approximate_fit.hpp", "residuals.hpp",
+                                                    "place/estimated_place.hpp"};
+    static std::map<std::string_view, std::set<std::string_view>> const starters{
+        {"sivid/paving/impl/identify.ipp", {"fit/fit.hpp"}},
+        {"sivid/paving/detail/online_witness.hpp", {"fit/fit.hpp"}},
+        {"sivid/paving/impl/outlier_budget.ipp", {"fit/fit.hpp"}},
+        {"sivid/paving/impl/inflation.ipp", {"fit/fit.hpp"}},
+        {"sivid/diagnosis/screening.hpp", {"fit/fit.hpp"}},
+        {"sivid/diagnosis/holdout_judgement.hpp", {"fit/fit.hpp"}},
+        {"sivid/diagnosis/claim_review.hpp", {"fit/campaign.hpp"}},
+        {"sivid/diagnosis/impl/manoeuvre.ipp", {"fit/fit.hpp"}},
+        {"sivid/diagnosis/impl/diagnose.ipp", {"place/place_estimate.hpp"}},
+        {"sivid/report/scenario_report.hpp", {"simulate/simulate.hpp"}},
+        {"sivid/io/paving_check.hpp", {"fit/counterexample.hpp"}},
+        {"sivid/io/fewest_outliers_check.hpp", {"fit/counterexample.hpp"}}};
+    std::string_view const floor = "sivid/approximate/";
+    if (!starts_with(other, floor) || starts_with(includer, floor)) return true;
+    auto const what = other.substr(floor.size());
+    auto const starter = starters.find(includer);
+    return results.count(what) > 0 ||
+           (starter != starters.end() && starter->second.count(what) > 0);
+}
+
 /// Whether a header declares options and nothing that runs: a test could but repeat its defaults.
 /// What they do is tested where they are used.
 inline bool only_options(std::string const& stem, std::vector<std::string> const& lines) {
@@ -174,6 +203,7 @@ inline std::vector<finding> check(fs::path const& tree) {
     auto const include = tree / "include";
     std::map<std::string, std::vector<std::string>> graph; // header -> headers included
     std::set<std::string> umbrella_members, core_headers;
+    std::set<std::string> listed, definitions_of_floors; // .ipp in sivid/impl, and all of them
 
     for (auto const& entry : fs::recursive_directory_iterator{include / "sivid"}) {
         if (!entry.is_regular_file()) continue;
@@ -183,25 +213,29 @@ inline std::vector<finding> check(fs::path const& tree) {
         auto const report = [&](std::string rule, std::string what) {
             findings.push_back({std::move(rule), "include/" + name, std::move(what)});
         };
-        if (path.extension() != ".hpp") {
-            report("extension", "only .hpp files belong here");
+        bool const definitions = path.parent_path().filename() == "impl";
+        if (path.extension() != ".hpp" && !(definitions && path.extension() == ".ipp")) {
+            report("extension", "only .hpp files belong here, and .ipp files in impl");
             continue;
         }
 
         auto part = std::next(relative.begin());
-        bool const at_root = std::next(part) == relative.end();
+        // sivid/impl lists what is compiled once, of all floors
+        bool const at_root = std::next(part) == relative.end() || *part == "impl";
         std::string const floor = at_root ? "" : part->string();
         auto const rank = rank_of(floor);
         if (!at_root && rank == floors.size()) {
             report("floor", "unknown floor '" + floor + "'");
             continue;
         }
-        bool const internal = name.find("/detail/") != std::string::npos;
+        bool const internal = definitions || name.find("/detail/") != std::string::npos;
         auto const file = path.filename().string();
         bool const optional =
             floor == "number" &&
             (starts_with(file, "mp_") || starts_with(file, "mpfr_") || file == "format.hpp");
         if (!at_root && !internal && !optional && rank < core_floors) core_headers.insert(name);
+
+        if (definitions && !at_root) definitions_of_floors.insert(name);
 
         auto const lines = lines_of(path);
         if (lines.size() > hard_line_limit) report("size", std::to_string(lines.size()) + " lines");
@@ -227,21 +261,27 @@ inline std::vector<finding> check(fs::path const& tree) {
                 report("include form", "\"" + other + "\" instead of <sivid/floor/file.hpp>");
             if (!package_allowed(other, floor, file)) report("package", "includes <" + other + ">");
             if (!starts_with(other, "sivid/")) continue;
-            graph[name].push_back(other);
+            // A header and its definitions include each other: what it declares is complete there.
+            bool const to_definitions = other.find("/impl/") != std::string::npos;
+            if (to_definitions && at_root) listed.insert(other);
+            if (!to_definitions) graph[name].push_back(other);
             if (name == "sivid/sivid.hpp") umbrella_members.insert(other);
             if (!fs::exists(include / other))
                 report("missing", "includes <" + other + ">, which does not exist");
             auto const slash = other.find('/', 6);
             if (slash == std::string::npos) {
-                if (!at_root && other != "sivid/version.hpp" && other != "sivid/compiled.hpp")
+                if (!at_root && std::find(common.begin(), common.end(), other) == common.end())
                     report("upward", "includes <" + other + ">");
             } else if (!at_root && rank_of(other.substr(6, slash - 6)) > rank) {
                 report("upward", "includes <" + other + ">");
             }
+            if (!at_root && !may_include_approximate(other, name))
+                report("unproved", "includes <" + other + ">, which is no result of a fit");
         }
 
         if (!internal) {
-            auto const test = tree / "tests" / floor / (path.stem().string() + ".test.cpp");
+            auto const place = fs::relative(path, include / "sivid").parent_path();
+            auto const test = tree / "tests" / place / (path.stem().string() + ".test.cpp");
             if (!fs::exists(test)) {
                 if (!only_options(path.stem().string(), lines))
                     report("test",
@@ -260,6 +300,11 @@ inline std::vector<finding> check(fs::path const& tree) {
         if (!umbrella_members.empty() && umbrella_members.count(header) == 0)
             findings.push_back(
                 {"umbrella", "include/" + header, "not in sivid.hpp (scripts/update-umbrella)"});
+
+    for (auto const& d : definitions_of_floors)
+        if (fs::exists(include / "sivid/impl/src.hpp") && listed.count(d) == 0 &&
+            d.find("impl/check_") == std::string::npos) // MPFI's
+            findings.push_back({"definitions", "include/" + d, "in no list of sivid/impl"});
 
     check_test_names(tree, findings);
 

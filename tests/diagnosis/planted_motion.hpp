@@ -7,7 +7,7 @@
 #include "support/models.hpp"
 #include "support/random.hpp"
 
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #define SIVID_TESTS_DIAGNOSIS_SMALL_CAMPAIGN_HPP
 
 #include <sivid/model/effects.hpp>
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 // The reference example: facts of the scenarios, widths as a point problem, random parameters and
 // times.
 #include "support/catch.hpp"
+#include "support/flow_simulation.hpp"
 #include "support/models.hpp"
 #include "support/random.hpp"
 #include "support/reference.hpp"
@@ -9,7 +10,6 @@
 #include "../../examples/hovercraft/model.hpp"
 
 #include <sivid/enclosure/parametric_flow.hpp>
-#include <sivid/enclosure/simulate.hpp>
 #include <sivid/enclosure/tube.hpp>
 
 #include <cmath>
@@ -113,7 +113,7 @@ TEST_CASE("the scenarios end where the reference page says") {
         auto const x =
             support::reference_states(reference_rate(s), exact_start(s), exact_truth, 0, {s.end});
         auto const f = flow_of(s);
-        approximate_simulator simulate(*f);
+        support::flow_simulation simulate(*f);
         auto const y = simulate({s.speed, 0, 0, 0, 0, 0}, {0.22, 0.04, 0.30}, 0, {s.end});
         for (std::size_t i = 0; i < 6; ++i) {
             CAPTURE(k, i);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "support/catch.hpp"
+#include "support/flow_simulation.hpp"
 #include "support/models.hpp"
 #include "support/random.hpp"
 
 #include <sivid/enclosure/parametric_cover.hpp>
-#include <sivid/enclosure/simulate.hpp>
 
 #include <cmath>
 #include <cstddef>
@@ -53,7 +53,7 @@ std::size_t check(box const& x0, box const& p, double end, std::size_t halvings)
     }
     CHECK_THAT(covered, WithinRel(volume(x0, p), 1e-12));
     draws d(3);
-    approximate_simulator simulate(*f);
+    support::flow_simulation simulate(*f);
     auto const hull = all.hull();
     for (int sample = 0; sample < 300; ++sample) {
         auto const x = d.in(x0);

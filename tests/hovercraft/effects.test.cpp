@@ -3,11 +3,11 @@
 
 #include "hovercraft/model.hpp"
 #include "support/catch.hpp"
+#include "support/flow_simulation.hpp"
 #include "support/random.hpp"
 
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/enclosure/expansion.hpp>
-#include <sivid/enclosure/simulate.hpp>
 #include <sivid/model/bound_model.hpp>
 
 #include <cmath>
@@ -203,7 +203,7 @@ TEST_CASE("neutral effects change nothing") {
         sampled_signal({0.0}, {80.0}, interpolation::hold),
         sampled_signal({0.0, 2.0}, {-0.4, 0.4}, interpolation::linear)};
     flow const base(record_model(hovercraft{}), {}, inputs), affected(plain, {}, inputs);
-    approximate_simulator run(base), run_affected(affected);
+    support::flow_simulation run(base), run_affected(affected);
     std::vector<double> const start{2, 0.1, 0, 0, 0, 0};
     auto const a = run(start, {}, 0, {1, 2});
     auto const b = run_affected(start, {}, 0, {1, 2});

@@ -4,8 +4,8 @@
 #include "scenario.hpp"
 
 #include "support/catch.hpp"
+#include "support/flow_simulation.hpp"
 
-#include <sivid/enclosure/simulate.hpp>
 #include <sivid/enclosure/tube.hpp>
 #include <sivid/io/model_names.hpp>
 
@@ -36,7 +36,7 @@ struct run {
         for (auto const& s : scenario.initial) start.push_back(mid(s.enclosure));
     }
     std::vector<double> simulated(double t) const {
-        return sivid::approximate_simulator(*f)(start, {}, 0, {t}, 1e-10).states[0];
+        return support::flow_simulation(*f)(start, {}, 0, {t}, 1e-10).states[0];
     }
     sivid::tube<interval> enclosed(sivid::enclosure_options const& options = {}) const {
         return sivid::integrate<interval>(f, sivid::point_box(start), sivid::box{}, 0,
@@ -168,7 +168,7 @@ TEST_CASE("the facts that fix the readings of the report") {
     sivid::flow const slower(first.model, {},
                              {sivid::sampled_signal({0}, {132.6}, sivid::interpolation::hold),
                               sivid::sampled_signal({0}, {0.0}, sivid::interpolation::hold)});
-    auto const end = sivid::approximate_simulator(slower)(first.start, {}, 0, {1}, 1e-10);
+    auto const end = support::flow_simulation(slower)(first.start, {}, 0, {1}, 1e-10);
     CHECK_THAT(end.states[0][0], WithinAbs(2.0, 0.002));
 }
 
@@ -204,7 +204,7 @@ TEST_CASE("random truths lie in the tube of their parameters' box at random time
     sivid::box const p{interval(0.2195, 0.2205), interval(0.0395, 0.0405), interval(0.298, 0.302)};
     auto const tube = sivid::integrate<interval>(f, sivid::point_box(r.start), p, 0, 3);
     REQUIRE(tube.complete());
-    sivid::approximate_simulator simulate(*f);
+    support::flow_simulation simulate(*f);
     std::mt19937_64 random(1);
     auto const share = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
     for (int k = 0; k < 1000; ++k) {

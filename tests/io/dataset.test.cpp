@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/io/dataset.hpp>
+#include <sivid/io/dataset_digest.hpp>
 
 #include "io/support.hpp"
 #include "support/catch.hpp"
@@ -109,6 +110,23 @@ TEST_CASE("the outlier budget is exact in decimals") {
     CHECK(data.outlier_budget(s) == 28);
     data.max_outlier_fraction = dec("0.999999999999999999999999");
     CHECK(data.outlier_budget(s) == 98);
+}
+
+TEST_CASE("a model without inputs needs no file of them") {
+    temporary_folder const folder;
+    auto model = io_support::hovercraft_names();
+    model.inputs.clear();
+    folder.write("dataset.json",
+                 R"({"format": "sivid-dataset-1", "id": "free", "model": "hovercraft",
+        "parameters": {"Sv": {"prior": [0.2, 0.25], "unit": "m^2"}}, "max_outlier_fraction": 0,
+        "scenarios": [{"name": "S1", "role": "fit", "duration": 1, "measurements": "S1.csv", "initial": {}}]})");
+    folder.write("S1.csv", "t,u,u_err\n0.5,1,0.1\n");
+    auto const data = read_dataset(folder.path(), model);
+    CHECK(data.scenarios[0].inputs.empty());
+    CHECK(data.scenarios[0].measurements.size() == 1);
+    CHECK_FALSE(dataset_digest(folder.path()).empty());
+    // one with inputs does
+    CHECK_THROWS_AS(read_dataset(folder.path(), io_support::hovercraft_names()), input_error);
 }
 
 TEST_CASE("byte-order marks, CRLF, comments and free spacing are accepted") {

@@ -6,6 +6,7 @@
 #include "io/small_identification.hpp"
 #include "io/support.hpp"
 
+#include <sivid/io/certificates_csv.hpp>
 #include <sivid/io/identification_csv.hpp>
 #include <sivid/io/identification_json.hpp>
 #include <sivid/io/identification_reader.hpp>
@@ -45,6 +46,7 @@ public:
                                             .source_digest = std::string(64, '0')});
         csv_ = sivid::boxes_csv(problem, found);
         products_ = sivid::products_csv(found);
+        if (!found.proof.empty()) certificates_ = sivid::certificates_csv(found.proof);
     }
     [[nodiscard]] std::string const& json() const { return json_; }
     [[nodiscard]] std::string const& csv() const { return csv_; }
@@ -62,6 +64,7 @@ public:
         folder.write("result.json", json_);
         folder.write("boxes.csv", csv_);
         if (!products_.empty()) folder.write("products.csv", products_);
+        if (!certificates_.empty()) folder.write("certificates.csv", certificates_);
         return sivid::read_identification(folder.path());
     }
 
@@ -72,7 +75,7 @@ private:
         text.replace(at, from.size(), to);
         return true;
     }
-    std::string json_, csv_, products_;
+    std::string json_, csv_, products_, certificates_;
 };
 
 } // namespace io_support

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Published estimation problems with a known truth: what is proved of them, against simulation.
-#include <sivid/paving/fit.hpp>
+#include <sivid/approximate/fit/fit.hpp>
 #include <sivid/paving/identify.hpp>
 
 #include "../../benchmarks/paving/classics.hpp"
@@ -66,7 +66,7 @@ std::vector<double> spanned(classic const& c, identification const& found) {
                 pinned.prior[j] = interval(value);
                 fitter fit(pinned);
                 auto here = fit();
-                if (!(here.inflation < 0.9999)) here = fit(c.truth);
+                if (!(here.inflation < 0.9999)) here = fit({c.truth});
                 if (!(here.inflation < 0.9999)) continue;
                 CHECK(is_left(found, here.parameters));
                 ends[side] = value;

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
+#include <sivid/paving/data_test.hpp>
 #include <sivid/paving/exclusion_check.hpp>
+#include <sivid/paving/identify_options.hpp>
+#include <sivid/paving/invert.hpp>
 
 #include "paving/plain_problem.hpp"
 #include "support/catch.hpp"
 #include "support/problems.hpp"
 
+#include <algorithm>
 #include <cstddef>
+#include <random>
+#include <utility>
 #include <vector>
 
 using namespace sivid;
@@ -87,4 +93,68 @@ TEST_CASE("no box with a planted truth is excluded but most without one are") {
         }
     }
     CHECK(proved > all / 4);
+}
+
+TEST_CASE("a proof is followed and whatever is forged in it no feasible point is lost") {
+    draws d(4472);
+    std::size_t by_weights = 0, steps = 0, whole = 0;
+    for (std::size_t model = 0; model < support::planted_models; ++model) {
+        auto const planted = support::plant(d, model,
+                                            {.experiments = 2,
+                                             .samples = 12,
+                                             .outliers = model % 2,
+                                             .spread = model % 3 == 0 ? 0.02 : 0.0});
+        auto problem = planted.problem;
+        auto const& prior = problem.prior;
+        identify_options options;
+        options.search.seconds = 2;
+        options.search.boxes = 60;
+        data_test test(problem, options.test);
+        options.search.proof_bytes = 1U << 24;
+        auto const found = invert(test, prior, options.search);
+        REQUIRE_FALSE(found.proof.empty());
+        std::vector<box> rows, without;
+        for (auto const& b : found.paving.boxes()) {
+            if (b.verdict == box_verdict::outside) continue;
+            rows.push_back(b.set);
+            if (!contains(b.set, planted.truth)) without.push_back(b.set);
+        }
+        certificate_options effort;
+        effort.seconds = 5;
+        run_options fine;
+        fine.enclosure.tolerance = 1e-9;
+        fine.enclosure.relative_tolerance = 1e-6;
+        exclusion_check<interval> check(problem, effort, fine);
+        whole += check.follow(found.proof, rows).empty() ? 1 : 0;
+        by_weights += check.by_weights();
+        steps += check.steps();
+        CHECK(check.contradictions() == 0);
+        for (int forgery = 0; forgery < 12; ++forgery) {
+            auto proof = found.proof;
+            auto const chance = [&] { return d.below(3) == 0; };
+            for (auto& s : proof) {
+                if (forgery < 2) break; // the very proof, rows apart
+                if (s.what == proof_step::kind::leaf) s.what = proof_step::kind::empty;
+                if (chance()) s.at += d.uniform(-0.3, 0.3) * width(prior[s.index % prior.size()]);
+                if (chance()) s.upper = !s.upper;
+                if (s.what != proof_step::kind::run && chance()) s.index = d.below(4);
+                for (auto& group : s.why) {
+                    for (auto& w : group) {
+                        if (chance()) w.value *= d.uniform(-2, 2);
+                        if (chance()) w.experiment = d.below(3);
+                        if (chance()) w.output = d.below(13);
+                    }
+                }
+                if (chance()) std::swap(s.why, proof[d.below(proof.size())].why);
+            }
+            if (forgery > 6) std::shuffle(proof.begin(), proof.end(), std::mt19937(forgery));
+            exclusion_check<interval> forged(problem, effort);
+            auto const open = forged.follow(proof, without);
+            REQUIRE(std::any_of(open.begin(), open.end(),
+                                [&](box const& x) { return contains(x, planted.truth); }));
+        }
+    }
+    CAPTURE(by_weights, steps, whole);
+    CHECK(3 * by_weights > steps);
+    CHECK(whole > 0);
 }

@@ -5,8 +5,6 @@
 #include "support/inflations.hpp"
 #include "support/problems.hpp"
 
-#include <sivid/enclosure/simulate.hpp>
-
 #include <cmath>
 #include <string>
 

@@ -4,7 +4,7 @@
 #define SIVID_TESTS_PAVING_PLAIN_PROBLEM_HPP
 
 #include <sivid/model/model.hpp>
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 
 #include <algorithm>
 #include <cmath>

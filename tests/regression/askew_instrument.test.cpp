@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // An instrument of u and v mounted askew: the sway equation, exactly right, was called proved to
 // lack something, because no sensor was estimated to be wrong.
-#include <sivid/diagnosis/place_estimate.hpp>
+#include <sivid/approximate/place/place_estimate.hpp>
 #include <sivid/diagnosis/place_report.hpp>
 #include <sivid/diagnosis/sensor_discharge.hpp>
 

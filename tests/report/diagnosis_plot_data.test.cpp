@@ -3,7 +3,7 @@
 #include "report/well_formed.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/paving/fit.hpp>
+#include <sivid/approximate/fit/fit.hpp>
 #include <sivid/report/diagnosis_plot_data.hpp>
 #include <sivid/report/diagnosis_report.hpp>
 

@@ -90,11 +90,7 @@ TEST_CASE("the balance holds where the axis rests", "[servo_axis]") {
     std::vector<double> const truth{100, 100, 50, 0};
     servo_test::simulated_axis axis(truth, 1.0);
     for (auto& f : axis.force) f *= 0.2;
-    sivid::flow const equations(
-        sivid::record_model(servo_axis{}), {{"M", "F_v", "F_c", "offset"}, {}},
-        {sivid::sampled_signal(axis.time, axis.force, sivid::interpolation::linear)});
-    auto const line =
-        sivid::approximate_simulator(equations)({0.1, 0.02}, truth, 0, axis.time, 1e-11);
+    auto const line = axis.simulated({0.1, 0.02}, truth);
     for (std::size_t k = 0; k < axis.time.size(); ++k) {
         axis.position[k] = line.states[k][0];
         axis.velocity[k] = line.states[k][1];

@@ -5,7 +5,7 @@
 
 #include "model.hpp"
 
-#include <sivid/enclosure/simulate.hpp>
+#include <sivid/approximate/simulate/simulate.hpp>
 #include <sivid/model/bound_model.hpp>
 
 #include <cmath>
@@ -28,14 +28,22 @@ struct simulated_axis {
             double const f = 100 * std::sin(4.2 * t + phase) + 30 * std::sin(17 * t) + p[3];
             force.push_back(std::round(1e4 * f) / 1e4);
         }
-        sivid::flow const axis(sivid::record_model(servo_axis{}),
-                               {{"M", "F_v", "F_c", "offset"}, {}},
-                               {sivid::sampled_signal(time, force, sivid::interpolation::linear)});
-        auto const line = sivid::approximate_simulator(axis)({0.1, 0.05}, p, 0, time, 1e-11);
+        auto const line = simulated({0.1, 0.05}, p);
         for (auto const& x : line.states) {
             position.push_back(x[0]);
             velocity.push_back(x[1]);
         }
+    }
+
+    /// The motion under the force.
+    [[nodiscard]] sivid::approximate_trajectory simulated(std::vector<double> const& start,
+                                                          std::vector<double> const& p) const {
+        std::vector<sivid::signal> const inputs{
+            sivid::sampled_signal(time, force, sivid::interpolation::linear)};
+        sivid::parameter_choice const unknown{{"M", "F_v", "F_c", "offset"}, {}};
+        return sivid::simulate(std::make_shared<sivid::plain_model const>(
+                                   sivid::record_model(servo_axis{}), unknown, inputs),
+                               inputs, start, p, 0, time, {1e-11});
     }
 
     [[nodiscard]] std::string csv() const {

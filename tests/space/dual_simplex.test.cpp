@@ -113,7 +113,7 @@ listed random_program(draws& d, std::size_t n, std::size_t rows, bool small_inte
 
 } // namespace
 
-TEST_CASE("the best vertex is found or that nothing is left, and the multipliers show it") {
+TEST_CASE("the best vertex is found, or that nothing is left, and the multipliers show it") {
     draws d(41);
     int solved = 0, empty = 0;
     for (bool const small_integers : {false, true}) { // these are degenerate most of the time

@@ -8,7 +8,7 @@
 #include "support/random.hpp"
 #include "support/reference.hpp"
 
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 
 #include <algorithm>
 #include <cmath>

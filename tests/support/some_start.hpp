@@ -6,8 +6,7 @@
 
 #include "support/problems.hpp"
 
-#include <sivid/paving/fit.hpp>
-#include <sivid/paving/minimax_fit.hpp>
+#include <sivid/approximate/fit/fit.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -55,7 +54,7 @@ inline bool some_start_explains(planted_problem const& planted, std::size_t e,
                 auto& bounds = held.experiments[0].measurements;
                 bounds = kept;
                 for (int round = 0; round < 3; ++round) {
-                    auto const fit = sivid::minimax_fitter(held)(p, {start});
+                    auto const fit = sivid::fitter(held)({p, {start}});
                     if (fit.starts.empty()) break;
                     if (explains(fit.starts[0])) return true;
                     // Where bounds are narrower than the fit's simulation is exact they are moved

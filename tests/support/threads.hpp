@@ -2,7 +2,7 @@
 #ifndef SIVID_TESTS_SUPPORT_THREADS_HPP
 #define SIVID_TESTS_SUPPORT_THREADS_HPP
 
-#include <sivid/paving/executor.hpp>
+#include <sivid/executor.hpp>
 
 #include <atomic>
 #include <cstddef>

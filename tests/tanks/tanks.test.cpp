@@ -6,8 +6,8 @@
 #include "support/catch.hpp"
 #include "support/child_program.hpp"
 
+#include <sivid/approximate/fit/fit.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>
-#include <sivid/paving/fit.hpp>
 
 #include <nlohmann/json.hpp>
 

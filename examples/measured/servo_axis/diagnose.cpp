@@ -7,8 +7,8 @@
 #include "console/thorough_diagnosis.hpp"
 #include "windows.hpp"
 
+#include <sivid/approximate/fit/fit.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>
-#include <sivid/paving/fit.hpp>
 #include <sivid/report/table.hpp>
 
 #include <algorithm>
@@ -83,7 +83,8 @@ public:
         chain_link link;
         for (auto const& e : effects) link.effects.push_back(e.name);
         link.parameters =
-            sivid::fitter(sivid::affected(fitted_, effects)).least_squares(from).parameters;
+            sivid::fit(sivid::affected(fitted_, effects), sivid::fit_norm::squares, {from})
+                .parameters;
         for (auto const& p : used_) link.estimation.push_back(misses(p, effects, link.parameters));
         for (auto const& p : kept_) link.validation.push_back(misses(p, effects, link.parameters));
         return link;
@@ -225,7 +226,7 @@ void add_starts(report::page& page, sivid::diagnosis_run const& run,
                 double const centre = sivid::mid(e.initial[1]);
                 e.initial[1] = sivid::interval(centre - v, centre + v);
             }
-            auto const fit = sivid::fitter(problem)(link.parameters);
+            auto const fit = sivid::fitter(problem)({link.parameters});
             double const bound = sivid::rad(problem.experiments.front().measurements[0].bound);
             row.push_back(millimetres(bound * fit.inflation));
         }

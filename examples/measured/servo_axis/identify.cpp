@@ -4,9 +4,9 @@
 #include "model.hpp"
 #include "windows.hpp"
 
-#include <sivid/enclosure/simulate.hpp>
+#include <sivid/approximate/fit/fit.hpp>
+#include <sivid/approximate/simulate/simulate.hpp>
 #include <sivid/paving/data_test.hpp>
-#include <sivid/paving/fit.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/witness.hpp>
 
@@ -59,11 +59,11 @@ public:
     }
 
     [[nodiscard]] sivid::approximate_fit operator()() {
-        auto best = sivid::fitter(points_)(sivid::mid(problem_.prior));
+        auto best = sivid::fitter(points_)({sivid::mid(problem_.prior)});
         for (int round = 0; round < 4 && best.inflation > 0.98; ++round) {
             if (best.parameters.empty()) break;
             move_starts(best.parameters);
-            auto next = sivid::fitter(points_)(best.parameters);
+            auto next = sivid::fitter(points_)({best.parameters});
             if (!(next.inflation < best.inflation)) break;
             bool const little = next.inflation > 0.97 * best.inflation;
             best = std::move(next);
@@ -78,11 +78,11 @@ private:
         for (std::size_t e = 0; e < points_.experiments.size(); ++e) {
             auto one = points_;
             one.experiments = {points_.experiments[e]};
-            sivid::flow const axis(one.model, one.choice, one.experiments[0].inputs);
-            sivid::approximate_simulator simulate(axis);
+            auto const axis = std::make_shared<sivid::plain_model const>(one.model, one.choice,
+                                                                         one.experiments[0].inputs);
             auto const& side = problem_.experiments[e].initial[1];
             auto const largest = [&](double v) {
-                return misfit_of(simulate, one.experiments[0], parameters, v);
+                return misfit_of(axis, one.experiments[0], parameters, v);
             };
             // A little within, so that the point stays in the box whatever the rounding.
             double low = side.lower() + 1e-3 * sivid::width(side);
@@ -108,11 +108,13 @@ private:
             points_.experiments[e].initial[1] = interval(at_a < at_b ? a : b);
         }
     }
-    static double misfit_of(sivid::approximate_simulator& simulate, sivid::experiment const& e,
-                            std::vector<double> const& parameters, double v) {
+    static double misfit_of(std::shared_ptr<sivid::plain_model const> const& axis,
+                            sivid::experiment const& e, std::vector<double> const& parameters,
+                            double v) {
         std::vector<double> times;
         for (auto const& m : e.measurements) times.push_back(m.time);
-        auto const line = simulate({sivid::mid(e.initial[0]), v}, parameters, e.begin, times, 1e-7);
+        auto const line = sivid::simulate(axis, e.inputs, {sivid::mid(e.initial[0]), v}, parameters,
+                                          e.begin, times, {1e-7});
         double worst = 0;
         for (std::size_t i = 0; i < times.size(); ++i) {
             worst =
@@ -177,15 +179,16 @@ std::vector<misfit> approximate_misfits(posed_problem const& posed, recording co
                                         std::vector<sample_range> const& windows,
                                         std::vector<double> const& parameters) {
     std::vector<misfit> result;
-    sivid::flow const axis(posed.problem.model, posed.problem.choice,
-                           {sivid::sampled_signal(r.time, r.force, sivid::interpolation::linear)});
-    sivid::approximate_simulator simulate(axis);
+    std::vector<sivid::signal> const inputs{
+        sivid::sampled_signal(r.time, r.force, sivid::interpolation::linear)};
+    auto const axis = std::make_shared<sivid::plain_model const>(posed.problem.model,
+                                                                 posed.problem.choice, inputs);
     for (auto const& w : windows) {
         std::vector<double> times;
         for (auto k = w.from + 1; k <= w.to; ++k) times.push_back(r.time[k]);
         std::vector<double> const start{r.nearest_position[w.from],
                                         approximate_velocity(r, w.from, posed.filter_half)};
-        auto const line = simulate(start, parameters, r.time[w.from], times);
+        auto const line = sivid::simulate(axis, inputs, start, parameters, r.time[w.from], times);
         misfit m{.start = r.time[w.from]};
         for (std::size_t i = 0; i < times.size(); ++i) {
             double const e = line.outputs[i][0] - r.nearest_position[w.from + 1 + i];

@@ -3,6 +3,7 @@
 #include "console/console.hpp"
 #include "console/program.hpp"
 
+#include <sivid/io/certificates_csv.hpp>
 #include <sivid/io/explaining_motion.hpp>
 #include <sivid/io/file_set.hpp>
 #include <sivid/io/identification_csv.hpp>
@@ -317,6 +318,7 @@ int run(command const& c) {
     } else {
         files.drop("products.csv"); // of an earlier result
     }
+    files.add("certificates.csv", sivid::certificates_csv(o.found.proof));
     files.add("outputs.csv",
               sivid::outputs_csv(posed.problem, o.found, motion ? &*motion : nullptr));
     files.add("report.html", page.str());

@@ -5,7 +5,7 @@
 #include "linear_axis.hpp"
 #include "record.hpp"
 
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 
 #include <cstddef>
 #include <string>

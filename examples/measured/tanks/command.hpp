@@ -3,7 +3,7 @@
 #define TANKS_COMMAND_HPP
 
 #include <sivid/io/exact_decimal.hpp>
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 
 #include <filesystem>
 #include <string>

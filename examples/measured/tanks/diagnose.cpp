@@ -6,8 +6,8 @@
 #include "console/threads.hpp"
 #include "effects.hpp"
 
+#include <sivid/approximate/fit/fit.hpp>
 #include <sivid/diagnosis/verification.hpp>
-#include <sivid/paving/fit.hpp>
 #include <sivid/paving/inflation.hpp>
 #include <sivid/paving/observer_refutation.hpp>
 #include <sivid/report/table.hpp>
@@ -45,8 +45,8 @@ struct chain_link {
 sivid::approximate_fit squares_of(sivid::identification_problem const& problem,
                                   std::vector<double> const& from) {
     sivid::fitter fit(problem);
-    auto best = fit.least_squares(from);
-    auto other = sivid::fitter(problem).least_squares();
+    auto best = fit({from}, sivid::fit_norm::squares);
+    auto other = sivid::fit(problem, sivid::fit_norm::squares);
     return other.squares < best.squares ? other : best;
 }
 
@@ -90,7 +90,7 @@ std::vector<chain_link> chain_of(sivid::diagnosis_run const& run, sivid::holdout
                 judged.prior[j] = sivid::interval(fit.parameters[j]);
             }
             link.validation = console::root_mean_square(
-                judged, sivid::fitter(judged).least_squares(fit.parameters));
+                judged, sivid::fit(judged, sivid::fit_norm::squares, {fit.parameters}));
         }
         chain.push_back(std::move(link));
     }

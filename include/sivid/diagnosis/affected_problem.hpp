@@ -5,7 +5,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/model/arithmetic.hpp>
 #include <sivid/model/effect.hpp>
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -86,26 +86,13 @@ inline void start_added_states(identification_problem& problem) {
 /// further unknowns, with the effects' priors.
 ///   A parameter that is feasible for `base` is feasible here with all effects neutral.
 /// @throws std::invalid_argument as `with`
-[[nodiscard]] SIVID_ENTRY identification_problem affected(identification_problem const& base,
+[[nodiscard]] SIVID_DECL identification_problem affected(identification_problem const& base,
                                                           std::vector<effect> const& effects);
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_AFFECTED)
-SIVID_ENTRY identification_problem affected(identification_problem const& base,
-                                            std::vector<effect> const& effects) {
-    identification_problem result{with(base.model, effects), base.choice, {}, base.experiments};
-    std::vector<interval> prior(base.prior.begin(), base.prior.end());
-    for (auto const& e : effects) {
-        for (auto const& p : e.parameters) {
-            result.choice.unknown.push_back(e.name + "." + p.name);
-            prior.push_back(hull(enclose(p.lower), enclose(p.upper)));
-        }
-    }
-    result.prior = box(std::move(prior));
-    start_added_states(result);
-    return result;
-}
-#endif
-
 } // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/diagnosis/impl/affected_problem.ipp>
+#endif
 
 #endif

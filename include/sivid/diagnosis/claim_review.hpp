@@ -2,12 +2,12 @@
 #ifndef SIVID_DIAGNOSIS_CLAIM_REVIEW_HPP
 #define SIVID_DIAGNOSIS_CLAIM_REVIEW_HPP
 
+#include <sivid/approximate/fit/campaign.hpp>
 #include <sivid/diagnosis/describe_candidate.hpp>
 #include <sivid/diagnosis/diagnosis_consistency.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/diagnosis/place_report.hpp>
 #include <sivid/diagnosis/untouched_relation.hpp>
-#include <sivid/paving/campaign.hpp>
 
 #include <algorithm>
 #include <cstddef>

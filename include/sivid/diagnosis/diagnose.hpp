@@ -5,7 +5,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/model/effect.hpp>
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 
 #include <vector>
 
@@ -14,14 +14,14 @@ namespace sivid {
 /// Says whether a model explains a campaign; if not, by how much it misses, and which effects of a
 /// catalogue explain what is missing.
 /// @guarantee  see `diagnosis`
-[[nodiscard]] SIVID_ENTRY diagnosis_run diagnose(identification_problem problem,
+[[nodiscard]] SIVID_DECL diagnosis_run diagnose(identification_problem problem,
                                                  std::vector<effect> catalogue,
                                                  diagnosis_options options = {});
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_DIAGNOSE)
-#include <sivid/diagnosis/detail/diagnostician.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/diagnosis/impl/diagnose.ipp>
 #endif
 
 #endif

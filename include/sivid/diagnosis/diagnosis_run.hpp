@@ -2,12 +2,12 @@
 #ifndef SIVID_DIAGNOSIS_DIAGNOSIS_RUN_HPP
 #define SIVID_DIAGNOSIS_DIAGNOSIS_RUN_HPP
 
+#include <sivid/approximate/place/estimated_place.hpp>
 #include <sivid/compiled.hpp>
 #include <sivid/diagnosis/candidate.hpp>
 #include <sivid/diagnosis/detail/gap_options.hpp>
 #include <sivid/diagnosis/detail/holdout_results.hpp>
 #include <sivid/diagnosis/detail/manoeuvre_settings.hpp>
-#include <sivid/diagnosis/detail/place_results.hpp>
 #include <sivid/diagnosis/detail/screened.hpp>
 #include <sivid/diagnosis/detail/verified_inflation.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
@@ -15,8 +15,8 @@
 #include <sivid/diagnosis/holdout.hpp>
 #include <sivid/diagnosis/relation_finding.hpp>
 #include <sivid/model/effect.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/data_test_options.hpp>
-#include <sivid/paving/problem.hpp>
 
 #include <cstddef>
 #include <functional>
@@ -73,13 +73,13 @@ struct diagnosis_run {
 /// Judges the model and the answer of a diagnosis by hold-out data and adds the figures: the only
 /// place where such data are read, after everything is chosen.
 /// @param seconds, boxes  what all of it may spend, see `step_effort`
-SIVID_ENTRY void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds = 6,
+SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds = 6,
                                   data_test_options const& test = {}, std::size_t boxes = 24);
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_JUDGE_BY_HOLDOUT)
-#include <sivid/diagnosis/detail/run_judgement.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/diagnosis/impl/diagnosis_run.ipp>
 #endif
 
 #endif

@@ -2,8 +2,8 @@
 #ifndef SIVID_DIAGNOSIS_HARDEST_EXPERIMENTS_HPP
 #define SIVID_DIAGNOSIS_HARDEST_EXPERIMENTS_HPP
 
-#include <sivid/paving/fit.hpp>
-#include <sivid/paving/problem.hpp>
+#include <sivid/approximate/approximate_fit.hpp>
+#include <sivid/model/problem.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_HOLDOUT_JUDGEMENT_HPP
 #define SIVID_DIAGNOSIS_HOLDOUT_JUDGEMENT_HPP
 
+#include <sivid/approximate/fit/fit.hpp>
 #include <sivid/diagnosis/detail/holdout_results.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/holdout.hpp>
@@ -9,7 +10,6 @@
 #include <sivid/diagnosis/verification.hpp>
 #include <sivid/paving/box_explorer.hpp>
 #include <sivid/paving/data_test.hpp>
-#include <sivid/paving/fit.hpp>
 #include <sivid/paving/holdout_inflation.hpp>
 
 #include <cmath>
@@ -66,7 +66,7 @@ inline void add_tube(identification_problem const& judged, box const& parameters
     auto there = judged;
     for (std::size_t j = 0; j < p.size(); ++j) there.prior[j] = interval(p[j]);
     start_added_states(there);
-    result.run = fitter(there, search.test.run.enclosure.keep_going)(p);
+    result.run = fitter(there, search.test.run.enclosure.keep_going)({p});
     bool const known_starts =
         std::all_of(there.experiments.begin(), there.experiments.end(), [](experiment const& e) {
             return std::all_of(e.initial.begin(), e.initial.end(),

@@ -20,15 +20,15 @@ namespace sivid {
 /// @param go_on   asked before and within simulations; false ends with the best found by then; may
 ///                be empty
 /// @returns nothing when there are fewer than two candidates or no manoeuvre can be simulated
-[[nodiscard]] SIVID_ENTRY std::optional<next_experiment>
+[[nodiscard]] SIVID_DECL std::optional<next_experiment>
 propose_experiment(std::vector<screened const*> candidates, std::vector<manoeuvre> const& menu,
                    std::vector<double> errors, double period,
                    std::function<bool()> const& go_on = {});
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_PROPOSE_EXPERIMENT)
-#include <sivid/diagnosis/detail/manoeuvre_choice.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/diagnosis/impl/manoeuvre.ipp>
 #endif
 
 #endif

@@ -10,7 +10,7 @@
 #include <sivid/diagnosis/state_samples.hpp>
 #include <sivid/diagnosis/time_grid.hpp>
 #include <sivid/model/bound_model.hpp>
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 
 #include <algorithm>
 #include <cmath>

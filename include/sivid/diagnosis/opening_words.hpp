@@ -2,11 +2,11 @@
 #ifndef SIVID_DIAGNOSIS_OPENING_WORDS_HPP
 #define SIVID_DIAGNOSIS_OPENING_WORDS_HPP
 
+#include <sivid/approximate/approximate_fit.hpp>
+#include <sivid/approximate/residuals.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/measurement/record.hpp>
-#include <sivid/paving/approximate_fit.hpp>
-#include <sivid/paving/problem.hpp>
-#include <sivid/paving/residuals.hpp>
+#include <sivid/model/problem.hpp>
 
 #include <cmath>
 #include <cstddef>

@@ -2,8 +2,8 @@
 #ifndef SIVID_DIAGNOSIS_PLACE_REPORT_HPP
 #define SIVID_DIAGNOSIS_PLACE_REPORT_HPP
 
+#include <sivid/approximate/place/estimated_place.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
-#include <sivid/diagnosis/place_estimate.hpp>
 #include <sivid/diagnosis/relation_finding.hpp>
 
 #include <algorithm>

@@ -8,10 +8,10 @@
 #include <sivid/diagnosis/relation_row.hpp>
 #include <sivid/diagnosis/weak_windows.hpp>
 #include <sivid/diagnosis/window_integrals.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/model/unit.hpp>
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/number/nearest_text.hpp>
-#include <sivid/paving/problem.hpp>
 
 #include <algorithm>
 #include <cmath>

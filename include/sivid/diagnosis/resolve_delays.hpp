@@ -2,7 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_RESOLVE_DELAYS_HPP
 #define SIVID_DIAGNOSIS_RESOLVE_DELAYS_HPP
 
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -2,12 +2,11 @@
 #ifndef SIVID_DIAGNOSIS_SCREENING_HPP
 #define SIVID_DIAGNOSIS_SCREENING_HPP
 
+#include <sivid/approximate/fit/fit.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/candidate.hpp>
 #include <sivid/diagnosis/detail/screened.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
-#include <sivid/paving/fit.hpp>
-#include <sivid/paving/minimax_fit.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -91,8 +90,8 @@ public:
             auto& s = tried_[k];
             double const before = s.figures.inflation;
             if (!(before > 1 && before < close) || !in_time()) return;
-            auto better = minimax_fitter(s.problem)(s.fit.parameters, s.fit.starts,
-                                                    [this] { return in_time(); });
+            auto better = sivid::fit(s.problem, fit_norm::largest, {s.fit.parameters, s.fit.starts},
+                                     [this] { return in_time(); });
             if (!(better.inflation < before)) return;
             better.squares = s.fit.squares;
             s.fit = std::move(better);
@@ -296,9 +295,9 @@ private:
                 from = parameters;
             }
         }
-        auto found = descend(from);
+        auto found = descend({from});
         if (!awake.empty() && awake != from) {
-            auto other = descend(awake);
+            auto other = descend({awake});
             if (other.inflation < found.inflation) found = std::move(other);
         }
         constexpr double promising = 3; // of more effects than one
@@ -306,7 +305,7 @@ private:
             // What sits at the end of its prior may be stuck there.
             auto const freed = away_from_ends(problem, found.parameters);
             if (freed != found.parameters) {
-                auto other = descend(freed);
+                auto other = descend({freed});
                 if (other.inflation < found.inflation) found = std::move(other);
             }
         }

@@ -4,7 +4,7 @@
 
 #include <sivid/diagnosis/broken_relation.hpp>
 #include <sivid/diagnosis/sensor_faults.hpp>
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 
 #include <algorithm>
 #include <cmath>

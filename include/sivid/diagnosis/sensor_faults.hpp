@@ -4,10 +4,10 @@
 
 #include <sivid/diagnosis/relation_windows.hpp>
 #include <sivid/diagnosis/state_samples.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/model/rewrite.hpp>
 #include <sivid/model/unit.hpp>
 #include <sivid/number/nearest_text.hpp>
-#include <sivid/paving/problem.hpp>
 
 #include <algorithm>
 #include <cmath>

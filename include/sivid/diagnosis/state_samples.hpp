@@ -3,8 +3,8 @@
 #define SIVID_DIAGNOSIS_STATE_SAMPLES_HPP
 
 #include <sivid/model/bound_model.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/number/interval_traits.hpp>
-#include <sivid/paving/problem.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,13 +2,13 @@
 #ifndef SIVID_DIAGNOSIS_VERIFICATION_HPP
 #define SIVID_DIAGNOSIS_VERIFICATION_HPP
 
+#include <sivid/approximate/approximate_fit.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/detail/verified_inflation.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/resolve_delays.hpp>
 #include <sivid/paving/box_explorer.hpp>
 #include <sivid/paving/data_test.hpp>
-#include <sivid/paving/fit.hpp>
 #include <sivid/paving/inflation.hpp>
 #include <sivid/paving/witness.hpp>
 

@@ -61,14 +61,14 @@ private:
 /// `explain_failure` for the sets that an `enclosed_motion` carries: what could help it.
 /// @returns nothing when the enclosure reaches `to`
 /// @cost  see there
-[[nodiscard]] SIVID_ENTRY std::optional<advised_failure>
+[[nodiscard]] SIVID_DECL std::optional<advised_failure>
 explain_enclosed_motion(flow const& f, box const& initial, box const& parameters, double from,
                         double to, enclosure_options const& options = {});
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_ENCLOSED_MOTION)
-#include <sivid/enclosure/detail/enclosed_motion_tube.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/enclosure/impl/enclosed_motion.ipp>
 #endif
 
 #endif

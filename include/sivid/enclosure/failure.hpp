@@ -116,7 +116,7 @@ enum class advice {
 [[nodiscard]] inline std::string short_text(double x) { return nearest_text(x, 6); }
 
 /// The same, never above x: what was proved up to x was proved up to that.
-[[nodiscard]] SIVID_ENTRY std::string short_text_down(double x);
+[[nodiscard]] SIVID_DECL std::string short_text_down(double x);
 
 /// A function of a model that is not defined on all of its argument.
 struct domain_edge {
@@ -177,68 +177,10 @@ private:
     [[nodiscard]] static std::string what(remedy_trial const& t);
 };
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_FAILURE)
-SIVID_ENTRY std::string short_text_down(double x) {
-    for (int digits = 6;; ++digits) {
-        auto text = nearest_text(x, digits);
-        double value = 0;
-        std::from_chars(text.data(), text.data() + text.size(), value);
-        if (!(value > x) || digits >= 17) return text;
-    }
-}
-
-SIVID_ENTRY std::string domain_edge::text() const {
-    std::string const of =
-        function == operation::div ? "division by" : std::string(name(function)) + " of";
-    return of + " a value in [" + short_text(lower) + ", " + short_text(upper) + "]" +
-           (derivative ? ", in a derivative" : "");
-}
-
-SIVID_ENTRY std::string enclosure_failure::message(std::string_view state) const {
-    return "enclosure stopped at t = " + short_text_down(time) + " s (state " + std::string(state) +
-           (until > time ? ", last step tried of " + short_text(until - time) + " s" : "") +
-           "): " + std::string(to_string(reason)) + (edge ? " (" + edge->text() + ")" : "") + "; " +
-           std::string(to_string(help));
-}
-
-SIVID_ENTRY std::string advised_failure::message(std::string_view state) const {
-    std::string text = failure.message(state);
-    std::string tried;
-    auto const to = [this](double t) {
-        return t >= end ? std::string("the end") : "t = " + short_text_down(t) + " s";
-    };
-    auto const add = [&tried](std::string const& what) {
-        tried += (tried.empty() ? "" : "; ") + what;
-    };
-    for (std::size_t k = 0; k < members.size(); ++k) {
-        add((k == 0 ? "a single trajectory from the middle gets to " : "from a corner to ") +
-            to(members[k]));
-    }
-    for (auto const& t : trials) add(what(t) + " to " + to(t.reached));
-    return tried.empty() ? text : text + ". Tried: " + tried;
-}
-
-SIVID_ENTRY std::string advised_failure::what(remedy_trial const& t) {
-    auto const& o = t.options;
-    switch (t.remedy) {
-    case advice::higher_order:
-        return (o.method ? o.method->name : "order " + std::to_string(o.order)) +
-               " with tolerance " + short_text(o.tolerance) + " and steps down to " +
-               short_text(o.minimum_step) + " s";
-    case advice::shorter_steps:
-        return "steps down to " + short_text(o.minimum_step) + " s";
-    case advice::more_steps:
-        return std::to_string(o.maximum_steps) + " steps";
-    case advice::other_method:
-        return o.method->name;
-    case advice::other_set:
-        return "the other set";
-    default:
-        return "parts 1/" + short_text(1 / t.share) + " as wide";
-    }
-}
-#endif
-
 } // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/enclosure/impl/failure.ipp>
+#endif
 
 #endif

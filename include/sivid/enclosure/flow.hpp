@@ -53,6 +53,8 @@ public:
     }
 
     [[nodiscard]] sampled_signal const& input(std::size_t i) const { return signals_[i]; }
+    /// All of them; those that are formulas, which stand in the model already, are empty.
+    [[nodiscard]] std::vector<signal> inputs() const { return {signals_.begin(), signals_.end()}; }
     [[nodiscard]] std::vector<std::size_t> const& sampled_inputs() const { return model_.sampled; }
     /// Whether an input has an error bound: each trajectory of the flow then stands for all those
     /// that the inputs within their bounds cause.
@@ -119,22 +121,10 @@ private:
     std::vector<bool> sensitive_;
 };
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_FLOW)
-SIVID_ENTRY flow::flow(recorded_model const& model, parameter_choice const& choice,
-                       std::vector<signal> const& inputs)
-    : model_(bind(model, choice, inputs)), signals_(inputs.size()) {
-    for (auto const i : model_.sampled) signals_[i] = std::get<sampled_signal>(inputs[i]);
-    rate_ = tape(model_.g, model_.rate);
-    rate_state_jacobian_ = with_jacobian(model_.rate, model_.rate_dx, {}, entries_);
-    state_entries_ = std::exchange(entries_, {}).size();
-    rate_jacobian_ = with_jacobian(model_.rate, model_.rate_dx, model_.rate_dp, entries_);
-    observe_ = tape(model_.g, model_.observe);
-    observe_jacobian_ =
-        with_jacobian(model_.observe, model_.observe_dx, model_.observe_dp, observe_entries_);
-    find_structure();
-}
-#endif
-
 } // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/enclosure/impl/flow.ipp>
+#endif
 
 #endif

@@ -115,16 +115,13 @@ inline void put(checkpoint_lines& line, search_state const& s) {
 /// Writes a checkpoint so that a kill at any moment, or a loss of power, leaves this one or the one
 /// before.
 /// @throws output_error
-SIVID_ENTRY void write_checkpoint(std::filesystem::path const& file,
+SIVID_DECL void write_checkpoint(std::filesystem::path const& file,
                                   identification_state const& state, std::string const& problem);
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_WRITE_CHECKPOINT)
-SIVID_ENTRY void write_checkpoint(std::filesystem::path const& file,
-                                  identification_state const& state, std::string const& problem) {
-    write_durably(file, checkpoint_text(state, problem));
-}
-#endif
-
 } // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/io/impl/checkpoint.ipp>
+#endif
 
 #endif // SIVID_IO_CHECKPOINT_HPP

@@ -16,13 +16,13 @@ namespace sivid {
 /// anywhere
 /// @throws input_error  for the first defect found, with file, place and remedy
 /// @cost  linear in the size of the files
-[[nodiscard]] SIVID_ENTRY dataset read_dataset(std::filesystem::path const& folder,
+[[nodiscard]] SIVID_DECL dataset read_dataset(std::filesystem::path const& folder,
                                                model_names const& model);
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_READ_DATASET)
-#include <sivid/io/detail/dataset_files.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/io/impl/dataset.ipp>
 #endif
 
 #endif

@@ -15,12 +15,12 @@ namespace sivid {
 /// @guarantee  other numbers in any of these files give another digest; where the folder lies and
 /// what else it holds does not matter
 /// @throws input_error  for a file that is missing or malformed
-[[nodiscard]] SIVID_ENTRY std::string dataset_digest(std::filesystem::path const& folder);
+[[nodiscard]] SIVID_DECL std::string dataset_digest(std::filesystem::path const& folder);
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_DATASET_DIGEST)
-#include <sivid/io/detail/dataset_digest_of_files.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/io/impl/dataset_digest.ipp>
 #endif
 
 #endif

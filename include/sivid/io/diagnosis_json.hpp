@@ -271,15 +271,13 @@ private:
 /// The text of `diagnosis.json` in the format sivid-diagnosis-1.
 /// @guarantee  bounds are printed outward; the witness's numbers read back as the doubles that were
 ///             verified
-[[nodiscard]] SIVID_ENTRY std::string diagnosis_json(diagnosis const& d,
+[[nodiscard]] SIVID_DECL std::string diagnosis_json(diagnosis const& d,
                                                      std::string const& dataset);
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_DIAGNOSIS_JSON)
-SIVID_ENTRY std::string diagnosis_json(diagnosis const& d, std::string const& dataset) {
-    return io_detail::diagnosis_writer(d).text(dataset);
-}
-#endif
-
 } // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/io/impl/diagnosis_json.ipp>
+#endif
 
 #endif

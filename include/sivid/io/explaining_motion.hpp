@@ -4,9 +4,9 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/measurement/record.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/number/interval.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/problem.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -61,14 +61,14 @@ inline double last_measurement(experiment const& e) {
 /// @cost  a handful of integrations of each experiment, each in so many steps at most as the
 /// pieces,
 ///        the knots of the inputs and the measurements ask for
-[[nodiscard]] SIVID_ENTRY std::optional<explaining_motion>
+[[nodiscard]] SIVID_DECL std::optional<explaining_motion>
 find_explaining_motion(identification_problem const& problem, identification const& found,
                        std::size_t pieces = 240, std::function<bool()> const& keep_going = nullptr);
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_FIND_EXPLAINING_MOTION)
-#include <sivid/io/detail/explaining_motion_search.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/io/impl/explaining_motion.ipp>
 #endif
 
 #endif // SIVID_IO_EXPLAINING_MOTION_HPP

@@ -2,10 +2,10 @@
 #ifndef SIVID_IO_FEWEST_OUTLIERS_CHECK_HPP
 #define SIVID_IO_FEWEST_OUTLIERS_CHECK_HPP
 
+#include <sivid/approximate/fit/counterexample.hpp>
 #include <sivid/io/detail/point_judgement.hpp>
 #include <sivid/io/identification_consistency.hpp>
 #include <sivid/paving/certificate.hpp>
-#include <sivid/paving/counterexample.hpp>
 
 #include <algorithm>
 #include <cstddef>

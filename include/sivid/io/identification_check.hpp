@@ -7,8 +7,8 @@
 #include <sivid/io/detail/identification_check_options.hpp>
 #include <sivid/io/detail/stored_identification.hpp>
 #include <sivid/io/same_problem.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/number/interval.hpp>
-#include <sivid/paving/problem.hpp>
 
 #include <functional>
 #include <type_traits>
@@ -18,21 +18,23 @@
 namespace sivid {
 
 namespace io_detail {
+
+template <class Exact, class Fast>
+class identification_check_work;
+
 /// Whether there is a check in these types for this source: its own, or that of sivid::compiled.
 template <class Exact, class Fast>
 constexpr bool check_is_defined() {
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_IDENTIFICATION_CHECK)
-    return true;
-#else
-    return std::is_same_v<Exact, interval> && std::is_same_v<Fast, interval>;
-#endif
+    return (std::is_same_v<Exact, interval> && std::is_same_v<Fast, interval>) ||
+           requires { sizeof(identification_check_work<Exact, Fast>); };
 }
+
 } // namespace io_detail
 
 /// Checks a stored identification against its problem, from nothing but the model and the data.
 ///   sivid::compiled has it for doubles, and sivid::compiled_mpfi what
 ///   `mp_identification_check.hpp` makes of it; a source that takes other types and links to either
-///   defines SIVID_COMPILE_IDENTIFICATION_CHECK before it includes this header.
+///   includes `impl/identification_check.ipp`.
 /// @tparam Exact  interval type of the runs at the witness (mp_interval: 40 digits)
 /// @tparam Fast   interval type of the runs over boxes
 template <class Exact, class Fast>
@@ -43,8 +45,8 @@ public:
                          identification_check_options options)
         : problem_(&problem), stored_(&stored), options_(std::move(options)) {
         static_assert(io_detail::check_is_defined<Exact, Fast>(),
-                      "sivid::compiled has no check in these interval types: define "
-                      "SIVID_COMPILE_IDENTIFICATION_CHECK before this header is included");
+                      "sivid::compiled has no check in these interval types: include "
+                      "<sivid/io/impl/identification_check.ipp>");
     }
 
     /// All findings, each handed to `tell` as soon as it is there.
@@ -59,18 +61,8 @@ private:
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_IDENTIFICATION_CHECK)
-#include <sivid/io/detail/identification_check_work.hpp>
-
-namespace sivid {
-
-template <class Exact, class Fast>
-std::vector<check_finding> identification_check<Exact, Fast>::operator()(
-    std::function<void(check_finding const&)> const& tell) const {
-    return io_detail::identification_check_work<Exact, Fast>(*problem_, *stored_, options_)(tell);
-}
-
-} // namespace sivid
+#ifndef SIVID_COMPILED
+#include <sivid/io/impl/identification_check.ipp>
 #endif
 
 #endif // SIVID_IO_IDENTIFICATION_CHECK_HPP

@@ -5,7 +5,7 @@
 #include <sivid/io/detail/check_finding.hpp>
 #include <sivid/io/detail/stored_identification.hpp>
 #include <sivid/io/product_formula.hpp>
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/space/box_cover.hpp>
 
 #include <algorithm>

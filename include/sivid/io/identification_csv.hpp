@@ -77,74 +77,26 @@ inline std::string paving_csv(std::vector<std::string> const& names, subpaving c
 /// @guarantee  as decimals: every point of an `inside` row is feasible; every feasible point of the
 /// prior lies in some row read outward to doubles (between neighbouring inside rows, which are
 /// printed inward, less than two floats are in none)
-[[nodiscard]] SIVID_ENTRY std::string boxes_csv(identification_problem const& problem,
+[[nodiscard]] SIVID_DECL std::string boxes_csv(identification_problem const& problem,
                                                 identification const& found);
-
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_IDENTIFICATION_CSV)
-SIVID_ENTRY std::string boxes_csv(identification_problem const& problem,
-                                  identification const& found) {
-    return io_detail::paving_csv(problem.choice.unknown, found.paving);
-}
-#endif
 
 /// The text of `products.csv`: the paving of products from which `boxes.csv` was drawn, in the same
 /// form; the columns bear the formulas of the products. Empty when the search ran in the parameters
 /// themselves.
 /// @guarantee  as for `boxes_csv`, of the products' ranges over the prior
-[[nodiscard]] SIVID_ENTRY std::string products_csv(identification const& found);
-
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_IDENTIFICATION_CSV)
-SIVID_ENTRY std::string products_csv(identification const& found) {
-    if (!found.products) return {};
-    return io_detail::paving_csv(found.products->map.side_names(), found.products->paving);
-}
-#endif
+[[nodiscard]] SIVID_DECL std::string products_csv(identification const& found);
 
 /// The text of `outputs.csv`: each measurement with its bound, and the proven enclosure of the
 /// model's output for the parameters of `motion`; `state` is `forced_outlier` when every feasible
 /// parameter violates it, `witness_outlier` when the witness does, else empty.
-[[nodiscard]] SIVID_ENTRY std::string outputs_csv(identification_problem const& problem,
+[[nodiscard]] SIVID_DECL std::string outputs_csv(identification_problem const& problem,
                                                   identification const& found,
                                                   explaining_motion const* motion);
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_IDENTIFICATION_CSV)
-SIVID_ENTRY std::string outputs_csv(identification_problem const& problem,
-                                    identification const& found, explaining_motion const* motion) {
-    auto const& channels = problem.model.about.channels;
-    std::set<std::pair<std::size_t, std::size_t>> forced;
-    for (auto const& f : found.forced) forced.insert({f.experiment, f.measurement});
-    std::string text = "scenario,t,channel,unit,measured_lower,measured_upper,model_lower,"
-                       "model_upper,state\n";
-    auto const lower_text = [](interval const& x) {
-        return std::isfinite(x.lower()) ? to_decimal_lower(x.lower()) : std::string{};
-    };
-    auto const upper_text = [](interval const& x) {
-        return std::isfinite(x.upper()) ? to_decimal_upper(x.upper()) : std::string{};
-    };
-    auto const no_bound = interval_traits<interval>::entire();
-    for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
-        auto const samples = sorted(problem.experiments[e].measurements);
-        auto const outputs = motion != nullptr ? motion->outputs[e]
-                                               : std::vector<interval>(samples.size(), no_bound);
-        for (std::size_t i = 0; i < samples.size(); ++i) {
-            auto const& m = samples[i];
-            text += io_detail::cell(problem.experiments[e].name) + "," +
-                    exact_decimal::shortest(m.time).text() + "," + channels[m.channel].name + "," +
-                    channels[m.channel].unit + "," + to_decimal_lower(m.bound.lower()) + "," +
-                    to_decimal_upper(m.bound.upper());
-            text += std::string{","} + lower_text(outputs[i]) + "," + upper_text(outputs[i]);
-            bool const violated = found.witness && i < found.witness->violated[e].size() &&
-                                  found.witness->violated[e][i];
-            text += forced.count({e, i}) > 0 ? ",forced_outlier"
-                    : violated               ? ",witness_outlier"
-                                             : ",";
-            text += "\n";
-        }
-    }
-    return text;
-}
-#endif
-
 } // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/io/impl/identification_csv.ipp>
+#endif
 
 #endif // SIVID_IO_IDENTIFICATION_CSV_HPP

@@ -10,17 +10,18 @@
 
 namespace sivid {
 
-/// Reads result.json, boxes.csv and, where the search ran in products, products.csv of a folder.
+/// Reads result.json, boxes.csv and, where there are such, products.csv and certificates.csv of a
+/// folder.
 ///   Bounds and boxes are read outward: a row becomes the smallest box of doubles around its
 ///   decimals, so that neighbours whose common face was rounded inward still meet.
 /// @throws input_error  for what is missing or malformed; that it is true is for others to check
-[[nodiscard]] SIVID_ENTRY stored_identification
+[[nodiscard]] SIVID_DECL stored_identification
 read_identification(std::filesystem::path const& folder);
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_READ_IDENTIFICATION)
-#include <sivid/io/detail/identification_files.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/io/impl/identification_reader.ipp>
 #endif
 
 #endif // SIVID_IO_IDENTIFICATION_READER_HPP

@@ -85,16 +85,16 @@ private:
 };
 
 /// Reads a JSON text; `file` is its name in messages. As `read_json`.
-[[nodiscard]] SIVID_ENTRY json_value parse_json(std::string file, std::string const& text);
+[[nodiscard]] SIVID_DECL json_value parse_json(std::string file, std::string const& text);
 
 /// Reads one JSON file; a key given twice, text after the end and numbers beyond double are errors.
 /// @throws input_error
-[[nodiscard]] SIVID_ENTRY json_value read_json(std::filesystem::path const& file);
+[[nodiscard]] SIVID_DECL json_value read_json(std::filesystem::path const& file);
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_JSON_DOCUMENT)
-#include <sivid/io/detail/json_builder.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/io/impl/json_document.ipp>
 #endif
 
 #endif // SIVID_IO_JSON_DOCUMENT_HPP

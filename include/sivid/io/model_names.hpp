@@ -29,22 +29,7 @@ struct model_names {
 };
 
 /// The names of a recorded model.
-[[nodiscard]] SIVID_ENTRY model_names names_of(model_description const& model);
-
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_NAMES_OF)
-SIVID_ENTRY model_names names_of(model_description const& model) {
-    model_names names;
-    names.name = model.name;
-    for (auto const& c : model.constants) names.constants.push_back({c.name, c.unit});
-    for (auto const& i : model.inputs) names.inputs.push_back({i.name, i.unit});
-    for (auto const& c : model.channels) names.channels.push_back({c.name, c.unit});
-    for (auto const& s : model.states) {
-        names.states.push_back({s.name, s.unit});
-        names.state_ranges.push_back(interval{-s.limit, s.limit});
-    }
-    return names;
-}
-#endif
+[[nodiscard]] SIVID_DECL model_names names_of(model_description const& model);
 
 /// The index of the entry with this name, or nothing.
 [[nodiscard]] inline std::optional<std::size_t> index_of(std::vector<name_unit> const& list,
@@ -63,5 +48,9 @@ SIVID_ENTRY model_names names_of(model_description const& model) {
 }
 
 } // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/io/impl/model_names.ipp>
+#endif
 
 #endif // SIVID_IO_MODEL_NAMES_HPP

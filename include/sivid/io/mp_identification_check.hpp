@@ -16,7 +16,7 @@ namespace sivid {
 /// The witness and products in 40 digits, the boxes in doubles with elementary functions in 40
 /// digits: `identification_check<mp_interval, proven_interval>`.
 /// @returns, @given  as of `identification_check`
-[[nodiscard]] SIVID_MPFI_ENTRY std::vector<check_finding>
+[[nodiscard]] SIVID_MPFI_DECL std::vector<check_finding>
 check_by_proven_functions(identification_problem const& problem,
                           stored_identification const& stored,
                           identification_check_options const& options,
@@ -24,16 +24,16 @@ check_by_proven_functions(identification_problem const& problem,
 
 /// All of it in 40 digits: `identification_check<mp_interval, mp_interval>`.
 /// @returns, @given  as of `identification_check`
-[[nodiscard]] SIVID_MPFI_ENTRY std::vector<check_finding>
+[[nodiscard]] SIVID_MPFI_DECL std::vector<check_finding>
 check_in_multiprecision(identification_problem const& problem, stored_identification const& stored,
                         identification_check_options const& options,
                         std::function<void(check_finding const&)> const& tell = nullptr);
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED_MPFI) || defined(SIVID_COMPILE_CHECK_BY_PROVEN_FUNCTIONS) ||           \
-    defined(SIVID_COMPILE_CHECK_IN_MULTIPRECISION)
-#include <sivid/io/detail/mp_identification_check_runs.hpp>
+#ifndef SIVID_COMPILED_MPFI
+#include <sivid/io/impl/check_by_proven_functions.ipp>
+#include <sivid/io/impl/check_in_multiprecision.ipp>
 #endif
 
 #endif

@@ -2,13 +2,13 @@
 #ifndef SIVID_IO_PAVING_CHECK_HPP
 #define SIVID_IO_PAVING_CHECK_HPP
 
+#include <sivid/approximate/fit/counterexample.hpp>
 #include <sivid/io/detail/identification_check_options.hpp>
 #include <sivid/io/detail/point_judgement.hpp>
 #include <sivid/io/exact_decimal.hpp>
 #include <sivid/io/identification_consistency.hpp>
 #include <sivid/number/nearest_text.hpp>
 #include <sivid/paving/certificate.hpp>
-#include <sivid/paving/counterexample.hpp>
 #include <sivid/paving/exclusion_check.hpp>
 
 #include <algorithm>
@@ -33,14 +33,16 @@ class paving_check {
 public:
     /// @param names   of the sides, for counterexamples
     /// @param starts  of a verified witness; may be empty
+    /// @param proof   of what the rows leave; may be empty, nothing in it is trusted
     paving_check(identification_problem const& problem, std::vector<std::string> names,
                  std::vector<paved_box> const& rows, std::vector<box> starts,
-                 identification_check_options const& options)
+                 identification_check_options const& options, exclusion_proof proof = {})
         : problem_(&problem),
           names_(std::move(names)),
           rows_(&rows),
           starts_(std::move(starts)),
-          options_(&options) {}
+          options_(&options),
+          proof_(std::move(proof)) {}
 
     [[nodiscard]] check_finding covering(std::string what) {
         std::vector<box> sets;
@@ -76,16 +78,16 @@ public:
     [[nodiscard]] check_finding outside(std::string what) {
         if (gaps_.empty()) return {std::move(what), outcome::nothing, ""};
         if (auto const at = explaining_point()) return contradicted(what, *at);
+        if (options_->all) return all_outside(std::move(what));
         std::vector<box_claim> claims;
         std::vector<double> until;
         double sum = 0;
         for (auto const& gap : gaps_) {
             until.push_back(sum += relative_volume(gap, problem_->prior).upper());
-            if (options_->all) claims.push_back({gap, box_claim::kind::outside});
         }
         std::mt19937_64 random(options_->seed + 1);
         auto const share = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-        for (std::size_t k = 0; k < options_->sample && !options_->all && !gaps_.empty(); ++k) {
+        for (std::size_t k = 0; k < options_->sample; ++k) {
             auto n = static_cast<std::size_t>(random() % gaps_.size());
             if (k % 2 == 0) {
                 auto const at = std::lower_bound(until.begin(), until.end(), share() * sum);
@@ -110,6 +112,9 @@ public:
 private:
     /// Of the time for a claim, the share in which fits look for what contradicts it.
     static constexpr double share_of_fits = 0.3;
+    /// So many boxes are simulated, of excluded ones the largest, beside one fit in all of the
+    /// prior. Where all is to be proved few will do.
+    [[nodiscard]] std::size_t most_fitted() const { return options_->all ? 16 : 1024; }
 
     [[nodiscard]] counterexample_options
     search(std::function<bool(approximate_fit const&)> confirms) const {
@@ -126,7 +131,16 @@ private:
     /// A point that no row contains and that is proved to explain the data.
     [[nodiscard]] std::optional<std::vector<double>> explaining_point() const {
         std::optional<std::vector<double>> point;
-        (void)find_explaining_point(*problem_, gaps_, search([&](approximate_fit const& f) {
+        std::vector<std::pair<double, std::size_t>> order;
+        for (std::size_t k = 0; k < gaps_.size(); ++k) {
+            order.emplace_back(-relative_volume(gaps_[k], problem_->prior).upper(), k);
+        }
+        auto const count = std::min(order.size(), most_fitted());
+        std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count),
+                          order.end());
+        std::vector<box> largest;
+        for (std::size_t k = 0; k < count; ++k) largest.push_back(gaps_[order[k].second]);
+        (void)find_explaining_point(*problem_, largest, search([&](approximate_fit const& f) {
             bool const said = contains(problem_->prior, f.parameters) &&
                               std::none_of(rows_->begin(), rows_->end(), [&](auto const& row) {
                                   return contains(row.set, f.parameters);
@@ -146,6 +160,9 @@ private:
             if (!is_empty(x)) inside.push_back(std::move(x));
         }
         std::shuffle(inside.begin(), inside.end(), random); // should time not suffice for all
+        if (inside.size() > most_fitted()) {
+            inside.erase(inside.begin() + static_cast<std::ptrdiff_t>(most_fitted()), inside.end());
+        }
         std::optional<std::vector<double>> point;
         (void)find_unexplained_point(*problem_, inside, search([&](approximate_fit const& f) {
             if (!proves(f, false, run_finding::refuted)) return false;
@@ -220,18 +237,47 @@ private:
         return found;
     }
 
-    [[nodiscard]] check_finding prove(std::string what, std::vector<box_claim> claims,
-                                      std::size_t total) {
-        if (claims.empty()) return {std::move(what), outcome::nothing, ""};
+    [[nodiscard]] certificate_options effort() const {
         auto how = options_->certificate;
         how.seconds = options_->seconds;
         if (options_->all) how.runs_per_claim = static_cast<std::size_t>(-1);
-        std::size_t runs = 0;
-        if (options_->all && claims[0].what == box_claim::kind::outside) {
-            exclusion_check<Fast> exclude(*problem_, how);
-            exclude(claims);
-            runs = exclude.runs();
+        return how;
+    }
+
+    /// By the steps of the proof, then, what they leave open, box by box.
+    [[nodiscard]] check_finding all_outside(std::string what) {
+        std::vector<box> rows;
+        for (auto const& row : *rows_) rows.push_back(row.set);
+        exclusion_check<Fast> exclude(*problem_, effort(), options_->run);
+        auto open = exclude.follow(proof_, rows);
+        std::erase_if(open, [this](box const& gap) { return is_rounding(gap); });
+        std::string const steps = std::to_string(exclude.steps()) + " steps proved, " +
+                                  std::to_string(exclude.by_weights()) +
+                                  " by the weights of the result";
+        auto const sound = [&](check_finding found) {
+            if (exclude.contradictions() == 0) return found;
+            if (found.found == outcome::verified) found.found = outcome::undecided;
+            found.detail += "; two integrators contradict each other: a defect, please report it";
+            return found;
+        };
+        if (open.empty()) {
+            return sound({std::move(what), outcome::verified,
+                          steps + ", " + std::to_string(exclude.runs()) + " runs"});
         }
+        std::vector<box_claim> claims;
+        for (auto& gap : open) claims.push_back({std::move(gap), box_claim::kind::outside});
+        exclude(claims);
+        auto const total = claims.size();
+        auto result = prove(std::move(what), std::move(claims), total, exclude.runs());
+        if (!proof_.empty()) result.detail = steps + "; of the rest " + result.detail;
+        return sound(std::move(result));
+    }
+
+    /// @param runs  that were spent on the claims before
+    [[nodiscard]] check_finding prove(std::string what, std::vector<box_claim> claims,
+                                      std::size_t total, std::size_t runs = 0) {
+        if (claims.empty()) return {std::move(what), outcome::nothing, ""};
+        auto const how = effort();
         claim_checker<Fast> checker(*problem_, starts_, how);
         checker(claims);
         auto const rim = prove_without_rim(claims, checker);
@@ -275,6 +321,7 @@ private:
     std::vector<box> starts_;
     std::vector<box> gaps_; ///< what the rows leave of the prior
     identification_check_options const* options_;
+    exclusion_proof proof_;
 };
 
 } // namespace sivid

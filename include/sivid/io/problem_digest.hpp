@@ -137,20 +137,14 @@ inline void describe(canonical_text& t, identify_options const& o) {
 /// Budgets of time, boxes and memory, and threads are not in it.
 /// @param also  what else it shall depend on, the digest of the data set's files for instance
 /// @cost  linear in the problem
-[[nodiscard]] SIVID_ENTRY std::string problem_digest(identification_problem const& problem,
+[[nodiscard]] SIVID_DECL std::string problem_digest(identification_problem const& problem,
                                                      identify_options const& options,
                                                      std::string const& also = {});
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_PROBLEM_DIGEST)
-SIVID_ENTRY std::string problem_digest(identification_problem const& problem,
-                                       identify_options const& options, std::string const& also) {
-    io_detail::canonical_text text;
-    describe(text, problem);
-    describe(text, options);
-    return sha256(text("also", also).text());
-}
-#endif
-
 } // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/io/impl/problem_digest.ipp>
+#endif
 
 #endif // SIVID_IO_PROBLEM_DIGEST_HPP

@@ -6,7 +6,7 @@
 #include <sivid/diagnosis/holdout.hpp>
 #include <sivid/io/dataset_value.hpp>
 #include <sivid/io/outlier_rule.hpp>
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 
 #include <cstddef>
 #include <optional>
@@ -55,46 +55,19 @@ inline std::vector<experiment> experiments_of(dataset const& data, model_descrip
 /// @param outliers  for every scenario instead of the data set's own fraction: a budget, or a rule
 /// @given  `data` was read with the names of this model (checked: name and sizes)
 /// @throws std::invalid_argument otherwise
-[[nodiscard]] SIVID_ENTRY identification_problem
+[[nodiscard]] SIVID_DECL identification_problem
 problem_from_dataset(dataset const& data, recorded_model model,
                      std::optional<outlier_rule> const& outliers = std::nullopt);
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_PROBLEM_FROM_DATASET)
-SIVID_ENTRY identification_problem problem_from_dataset(
-    dataset const& data, recorded_model model, std::optional<outlier_rule> const& outliers) {
-    auto const fail = [](std::string const& what) {
-        throw std::invalid_argument(std::string{"problem_from_dataset: "} + what);
-    };
-    if (data.model != model.about.name) {
-        fail(std::string{"the data are of the model '"} + data.model + "', not '" +
-             model.about.name + "'");
-    }
-    identification_problem problem{std::move(model), {}, box(data.parameters.size()), {}};
-    auto const& about = problem.model.about;
-    for (std::size_t j = 0; j < data.parameters.size(); ++j) {
-        problem.choice.unknown.push_back(data.parameters[j].name);
-        problem.prior[j] = data.parameters[j].prior.enclosure;
-    }
-    for (auto const& f : data.fixed) {
-        if (f.constant >= about.constants.size()) fail("a fixed constant that the model lacks");
-        problem.choice.fixed[about.constants[f.constant].name] = f.value;
-    }
-    problem.experiments = io_detail::experiments_of(data, about, scenario_role::fit, outliers);
-    return problem;
-}
-#endif
-
 /// The scenarios of the role holdout: they choose nothing.
 /// @given  as for `problem_from_dataset`
-[[nodiscard]] SIVID_ENTRY holdout holdout_from_dataset(dataset const& data,
+[[nodiscard]] SIVID_DECL holdout holdout_from_dataset(dataset const& data,
                                                        model_description const& about);
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_PROBLEM_FROM_DATASET)
-SIVID_ENTRY holdout holdout_from_dataset(dataset const& data, model_description const& about) {
-    return holdout(io_detail::experiments_of(data, about, scenario_role::holdout, std::nullopt));
-}
-#endif
-
 } // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/io/impl/problem_from_dataset.ipp>
+#endif
 
 #endif // SIVID_IO_PROBLEM_FROM_DATASET_HPP

@@ -44,9 +44,7 @@ inline void sha256_block(std::array<std::uint32_t, 8>& state, unsigned char cons
         auto const first = s[7] + turned + chosen + sha256_constants[i] + w[i];
         auto const other = std::rotr(s[0], 2) ^ std::rotr(s[0], 13) ^ std::rotr(s[0], 22);
         auto const majority = (s[0] & s[1]) ^ (s[0] & s[2]) ^ (s[1] & s[2]);
-        for (std::size_t k = 7; k > 0; --k) s[k] = s[k - 1];
-        s[4] += first;
-        s[0] = first + other + majority;
+        s = {first + other + majority, s[0], s[1], s[2], s[3] + first, s[4], s[5], s[6]};
     }
     for (std::size_t k = 0; k < 8; ++k) state[k] += s[k];
 }

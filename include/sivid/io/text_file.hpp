@@ -28,65 +28,13 @@ inline constexpr std::uintmax_t largest_text = 1'000'000'000; ///< [byte]
 
 /// The whole of a regular file, without its UTF-8 byte-order mark.
 /// @throws input_error when there is no such file, or it is too large or cannot be read
-[[nodiscard]] SIVID_ENTRY std::string read_text(std::filesystem::path const& file);
-
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_TEXT_FILE)
-SIVID_ENTRY std::string read_text(std::filesystem::path const& file) {
-    std::error_code fault;
-    auto const fail = [&](std::string problem, std::string remedy) {
-        throw input_error{{.file = file.string()}, std::move(problem), std::move(remedy)};
-    };
-    auto const status = std::filesystem::status(file, fault);
-    if (!std::filesystem::exists(status)) fail("no such file", "check the path");
-    if (!std::filesystem::is_regular_file(status))
-        fail("not a regular file", "give the path of a file");
-    if (auto const size = std::filesystem::file_size(file, fault); !fault && size > largest_text)
-        fail("larger than 1 GB", "give a part of it, or fewer samples a second");
-    std::ifstream in{file, std::ios::binary};
-    std::string text{std::istreambuf_iterator<char>{in}, std::istreambuf_iterator<char>{}};
-    if (!in) fail("cannot be read", "check the permissions");
-    if (std::string_view{text}.substr(0, 3) == "\xEF\xBB\xBF") text.erase(0, 3);
-    return text;
-}
-#endif
+[[nodiscard]] SIVID_DECL std::string read_text(std::filesystem::path const& file);
 
 /// Writes a file whole or not at all: into a temporary neighbour, which then takes the name. A
 /// reader, or a run that was killed, sees the old content or the new one.
 /// @throws output_error when the folder or the file cannot be written; the old content is then
 /// still there
-SIVID_ENTRY void write_atomically(std::filesystem::path const& file, std::string_view text);
-
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_TEXT_FILE)
-SIVID_ENTRY void write_atomically(std::filesystem::path const& file, std::string_view text) {
-    namespace fs = std::filesystem;
-    std::error_code fault;
-    if (file.has_parent_path()) {
-        fs::create_directories(file.parent_path(), fault);
-        if (fault)
-            throw output_error{file.parent_path().string() +
-                               ": cannot be created: " + fault.message()};
-    }
-    std::random_device random;
-    auto temporary = file;
-    temporary += ".part";
-    temporary += std::to_string(random());
-    {
-        std::ofstream out{temporary, std::ios::binary | std::ios::trunc};
-        out.write(text.data(), static_cast<std::streamsize>(text.size()));
-        out.close();
-        if (!out) {
-            fs::remove(temporary, fault);
-            throw output_error{file.string() + ": cannot be written; check permissions and space"};
-        }
-    }
-    fs::rename(temporary, file, fault);
-    if (fault) {
-        auto const reason = fault.message();
-        fs::remove(temporary, fault);
-        throw output_error{file.string() + ": cannot be written: " + reason};
-    }
-}
-#endif
+SIVID_DECL void write_atomically(std::filesystem::path const& file, std::string_view text);
 
 /// The path of a file that a data set names, made safe: relative, and inside the folder even when
 /// links are followed.
@@ -120,5 +68,9 @@ SIVID_ENTRY void write_atomically(std::filesystem::path const& file, std::string
 }
 
 } // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/io/impl/text_file.ipp>
+#endif
 
 #endif // SIVID_IO_TEXT_FILE_HPP

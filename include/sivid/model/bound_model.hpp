@@ -80,87 +80,14 @@ struct bound_model {
 /// @param inputs  one signal per input of the model
 /// @given  the model has no delays (checked): they have to be resolved first
 /// @throws std::invalid_argument on unknown names, a wrong number of inputs, or an empty value
-[[nodiscard]] SIVID_ENTRY bound_model bind(recorded_model const& model,
+[[nodiscard]] SIVID_DECL bound_model bind(recorded_model const& model,
                                            parameter_choice const& choice,
                                            std::vector<signal> const& inputs);
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_BIND)
-SIVID_ENTRY bound_model bind(recorded_model const& model, parameter_choice const& choice,
-                             std::vector<signal> const& inputs) {
-    auto const& about = model.about;
-    if (inputs.size() != about.inputs.size()) {
-        throw std::invalid_argument("model '" + about.name + "' has " +
-                                    std::to_string(about.inputs.size()) + " inputs, but " +
-                                    std::to_string(inputs.size()) + " signals were given");
-    }
-    if (model.has_delays()) {
-        throw std::invalid_argument("model '" + about.name +
-                                    "' has delays; fix them and shift the signals first");
-    }
-    bound_model result;
-    result.about = about;
-    std::vector<int> position(about.constants.size(), -1);
-    for (auto const& name : choice.unknown) {
-        auto const k = index_of(about.constants, name, "constant");
-        if (position[k] >= 0) throw std::invalid_argument("parameter '" + name + "' stands twice");
-        position[k] = static_cast<int>(result.parameters.size());
-        result.parameters.push_back(k);
-    }
-    std::vector<literal> values;
-    for (auto const& c : about.constants) values.push_back(c.nominal);
-    for (auto const& [name, value] : choice.fixed) {
-        if (is_empty(value)) throw std::invalid_argument("constant '" + name + "' has no value");
-        values[index_of(about.constants, name, "constant")] = literal{value, mid(value)};
-    }
-    for (std::size_t i = 0; i < inputs.size(); ++i) {
-        if (std::holds_alternative<sampled_signal>(inputs[i])) result.sampled.push_back(i);
-        if (is_uncertain(inputs[i])) result.uncertain.push_back(i);
-    }
-
-    std::vector<node_id> outputs = model.rate;
-    outputs.insert(outputs.end(), model.observe.begin(), model.observe.end());
-    auto& g = result.g;
-    std::map<std::size_t, node_id> derived; // by constant
-    auto const leaf = [&](node const& n, graph& to) -> node_id {
-        auto const k = static_cast<std::size_t>(n.index);
-        if (n.op == operation::constant) {
-            if (auto const d = derived.find(k); d != derived.end()) return d->second;
-            if (position[k] < 0) return to.constant(values[k]);
-            return to.leaf(operation::constant, static_cast<std::size_t>(position[k]));
-        }
-        if (n.op == operation::input) {
-            if (auto const* formula = std::get_if<analytic_signal>(&inputs[k])) {
-                auto const time = [](node const&, graph& h) { return h.leaf(operation::time, 0); };
-                return copy_into(to, formula->g, {formula->value}, time).front();
-            }
-        }
-        return to.leaf(n.op, k);
-    };
-    for (auto const& d : followed(model, choice)) {
-        derived[d.constant] = copy_into(g, model.g, {d.value}, leaf).front();
-    }
-    auto const images = copy_into(g, model.g, outputs, leaf);
-    auto const split = images.begin() + static_cast<std::ptrdiff_t>(model.rate.size());
-    result.rate.assign(images.begin(), split);
-    result.observe.assign(split, images.end());
-
-    std::vector<node_id> x;
-    std::vector<node_id> p;
-    for (std::size_t i = 0; i < result.state_count(); ++i) x.push_back(g.leaf(operation::state, i));
-    for (std::size_t j = 0; j < result.parameter_count(); ++j) {
-        p.push_back(g.leaf(operation::constant, j));
-    }
-    result.rate_dx = differentiate(g, result.rate, x);
-    result.rate_dp = differentiate(g, result.rate, p);
-    result.observe_dx = differentiate(g, result.observe, x);
-    result.observe_dp = differentiate(g, result.observe, p);
-    std::vector<node_id> u;
-    for (auto const i : result.uncertain) u.push_back(g.leaf(operation::input, i));
-    if (!u.empty()) result.rate_du = differentiate(g, result.rate, u);
-    return result;
-}
-#endif
-
 } // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/model/impl/bound_model.ipp>
+#endif
 
 #endif

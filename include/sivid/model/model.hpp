@@ -203,7 +203,7 @@ struct recorded_model {
 
 namespace model_detail {
 /// What a functor says of itself, as data.
-[[nodiscard]] SIVID_ENTRY model_description described(std::string_view name,
+[[nodiscard]] SIVID_DECL model_description described(std::string_view name,
                                                       std::span<state_quantity const> states,
                                                       std::span<quantity const> inputs,
                                                       std::span<quantity const> channels,
@@ -212,7 +212,7 @@ namespace model_detail {
 /// @throws std::invalid_argument when the constant is unknown, stands twice, or is not a function
 /// of
 ///         constants before it, and when its nominal value is not what the formula gives to 0.1 %
-SIVID_ENTRY void add_derived(recorded_model& model, std::string_view name, expression const& value);
+SIVID_DECL void add_derived(recorded_model& model, std::string_view name, expression const& value);
 } // namespace model_detail
 
 /// Runs the functor once on the recording scalar.
@@ -242,80 +242,10 @@ template <dynamic_model M>
     return result;
 }
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_MODEL)
-SIVID_ENTRY model_description::model_description() = default;
-SIVID_ENTRY model_description::model_description(model_description const&) = default;
-SIVID_ENTRY model_description::model_description(model_description&&) noexcept = default;
-SIVID_ENTRY model_description& model_description::operator=(model_description const&) = default;
-SIVID_ENTRY model_description& model_description::operator=(model_description&&) noexcept = default;
-SIVID_ENTRY model_description::~model_description() = default;
-
-SIVID_ENTRY model_description model_detail::described(
-    std::string_view name, std::span<state_quantity const> states, std::span<quantity const> inputs,
-    std::span<quantity const> channels, std::span<constant_quantity const> constants) {
-    model_description about;
-    about.name = std::string(name);
-    for (auto const& s : states) {
-        about.states.push_back(
-            {std::string(s.name), std::string(s.unit), s.limit, std::string(s.equation)});
-    }
-    for (auto const& i : inputs) {
-        about.inputs.push_back({std::string(i.name), std::string(i.unit)});
-    }
-    for (auto const& y : channels) {
-        about.channels.push_back({std::string(y.name), std::string(y.unit)});
-    }
-    for (auto const& c : constants) {
-        about.constants.push_back({std::string(c.name), std::string(c.unit),
-                                   literal{enclose(c.nominal), nearest(c.nominal)}});
-    }
-    return about;
-}
-
-SIVID_ENTRY void model_detail::add_derived(recorded_model& model, std::string_view name,
-                                           expression const& value) {
-    auto& constants = model.about.constants;
-    auto const fail = [&](std::string const& what) {
-        throw std::invalid_argument("model '" + model.about.name + "': the derived constant '" +
-                                    std::string(name) + "' " + what);
-    };
-    derived_constant d;
-    while (d.constant < constants.size() && constants[d.constant].name != name) ++d.constant;
-    if (d.constant == constants.size()) fail("is none of its constants");
-    d.value = value.in(model.g);
-    if ((model.g.depends(d.value) & ~on_constant) != 0) fail("depends on more than constants");
-    for (auto const& other : model.derived) {
-        if (other.constant == d.constant) fail("stands twice");
-        auto const earlier = operands_of(model.g, {other.value});
-        for (std::size_t i = 0; i < earlier.size(); ++i) {
-            auto const& n = model.g.nodes()[i];
-            if (earlier[i] && n.op == operation::constant &&
-                static_cast<std::size_t>(n.index) == d.constant) {
-                fail("stands in the formula of '" + constants[other.constant].name +
-                     "', which comes before it");
-            }
-        }
-    }
-    std::vector<std::string> names;
-    for (auto const& c : constants) names.push_back(c.name);
-    graph at_nominal;
-    auto const result = copy_into(at_nominal, model.g, {d.value}, [&](node const& n, graph& to) {
-        auto const k = static_cast<std::size_t>(n.index);
-        if (k == d.constant) fail("is a function of itself");
-        return to.constant(constants[k].nominal);
-    });
-    constants[d.constant].formula = formula_text(model.g, d.value, names);
-    double const stated = constants[d.constant].nominal.nearest;
-    bool const defined = at_nominal.is_literal(result.front());
-    double const given = defined ? at_nominal.value(at_nominal[result.front()]).nearest : 0;
-    if (!defined || !(std::abs(given - stated) <= 1e-3 * std::abs(given))) {
-        fail("is nominally " + nearest_text(stated) + ", but " + constants[d.constant].formula +
-             " gives " + (defined ? nearest_text(given) : std::string{"no value"}));
-    }
-    model.derived.push_back(d);
-}
-#endif
-
 } // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/model/impl/model.ipp>
+#endif
 
 #endif

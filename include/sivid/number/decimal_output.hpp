@@ -11,9 +11,12 @@
 #include <sivid/number/interval.hpp>
 #include <sivid/number/rounding.hpp>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,180 +32,59 @@ struct digit_string {
 };
 
 /// All digits of a finite x > 0: at most 767 are significant.
-SIVID_ENTRY digit_string exact_digits(double x);
+SIVID_DECL digit_string exact_digits(double x);
 
 /// Plain notation while it is not longer than about 21 characters, else d.ddde±x.
-SIVID_ENTRY std::string layout(digit_string d);
+SIVID_DECL std::string layout(digit_string d);
 
 /// The first `count` digits, the rest cut off or carried up.
-SIVID_ENTRY digit_string shortened(digit_string const& all, std::size_t count, bool up);
+SIVID_DECL digit_string shortened(digit_string const& all, std::size_t count, bool up);
+
+/// No decimal of fewer digits lies between a finite x > 0 (with these digits) and its neighbour on
+/// one side: one with the digits that the two share, or fewer, is at the neighbour or beyond,
+/// unless it is x itself.
+SIVID_DECL std::size_t fewest_digits(double x, digit_string const& all, bool up);
 
 /// The shortest decimal on one side of a finite x > 0, less than one float away from it.
-SIVID_ENTRY std::string shortest_magnitude(double x, bool up);
+SIVID_DECL std::string shortest_magnitude(double x, bool up);
 
-SIVID_ENTRY std::string in_brackets(std::string const& lo, std::string const& hi);
+SIVID_DECL std::string in_brackets(std::string const& lo, std::string const& hi);
 
 /// `digits` significant digits, or as many as the shortest text needs if that is 0.
-SIVID_ENTRY std::string to_decimal(double x, bool up, int digits = 0);
+SIVID_DECL std::string to_decimal(double x, bool up, int digits = 0);
 
 } // namespace detail
 
 /// The shortest decimal t <= x with no double in [t, x) (none strictly between either): 0.1 gives
 /// "0.1" (the double is a little above). Infinities are "inf", "-inf".
-SIVID_ENTRY std::string to_decimal_lower(double x);
+SIVID_DECL std::string to_decimal_lower(double x);
 
 /// The shortest decimal t >= x with no double in (x, t].
-SIVID_ENTRY std::string to_decimal_upper(double x);
+SIVID_DECL std::string to_decimal_upper(double x);
 
 /// The greatest decimal <= x of at most `digits` significant digits, without trailing zeros.
-SIVID_ENTRY std::string to_decimal_lower(double x, int digits);
+SIVID_DECL std::string to_decimal_lower(double x, int digits);
 
 /// The least decimal >= x of at most `digits` significant digits, without trailing zeros.
-SIVID_ENTRY std::string to_decimal_upper(double x, int digits);
+SIVID_DECL std::string to_decimal_upper(double x, int digits);
 
 /// "[lo, hi]" with bounds rounded outward, or "[empty]".
-SIVID_ENTRY std::string to_string(interval const& x);
+SIVID_DECL std::string to_string(interval const& x);
 
 /// The same with at most `digits` significant digits in each bound, rounded outward.
-SIVID_ENTRY std::string to_string(interval const& x, int digits);
+SIVID_DECL std::string to_string(interval const& x, int digits);
 
 /// Exact hexadecimal text, for instance "-0x1.8p+1"; "inf", "-inf", "nan".
-SIVID_ENTRY std::string to_hex(double x);
+SIVID_DECL std::string to_hex(double x);
 
 /// The double of which `text` is the exact hexadecimal text; nothing if it is malformed or no
 /// double has that value. Accepts "inf", "-inf" and "nan".
-SIVID_ENTRY std::optional<double> from_hex(std::string_view text);
-
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_DECIMAL_OUTPUT)
-namespace detail {
-
-SIVID_ENTRY digit_string exact_digits(double x) {
-    std::array<char, 800> buffer;
-    auto const end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x,
-                                   std::chars_format::scientific, 766);
-    std::string_view const text{buffer.data(), static_cast<std::size_t>(end.ptr - buffer.data())};
-    std::size_t const e = text.find('e');
-    digit_string d;
-    d.digits += text[0];
-    d.digits += text.substr(2, e - 2);
-    int exponent = 0;
-    std::string_view const power = text.substr(text[e + 1] == '+' ? e + 2 : e + 1);
-    std::from_chars(power.data(), power.data() + power.size(), exponent);
-    d.point = exponent + 1;
-    return d;
-}
-
-SIVID_ENTRY std::string layout(digit_string d) {
-    while (d.digits.size() > 1 && d.digits.back() == '0') d.digits.pop_back();
-    auto const n = static_cast<int>(d.digits.size());
-    if (d.point > 0 && d.point <= 17) {
-        if (n <= d.point) return d.digits + std::string(static_cast<std::size_t>(d.point - n), '0');
-        auto const whole = static_cast<std::size_t>(d.point);
-        return d.digits.substr(0, whole) + '.' + d.digits.substr(whole);
-    }
-    if (d.point <= 0 && d.point > -4)
-        return d.digits.insert(0, static_cast<std::size_t>(-d.point), '0').insert(0, "0.");
-    std::string text = d.digits.substr(0, 1);
-    if (n > 1) text += '.' + d.digits.substr(1);
-    return text + 'e' + std::to_string(d.point - 1);
-}
-
-SIVID_ENTRY digit_string shortened(digit_string const& all, std::size_t count, bool up) {
-    digit_string d{all.digits.substr(0, count), all.point};
-    bool const rest = all.digits.find_first_not_of('0', count) != std::string::npos;
-    if (!up || !rest) return d;
-    std::size_t i = count;
-    while (i > 0 && d.digits[i - 1] == '9') d.digits[--i] = '0';
-    if (i > 0) {
-        ++d.digits[i - 1];
-    } else {
-        d.digits.insert(d.digits.begin(), '1');
-        d.digits.pop_back();
-        ++d.point;
-    }
-    return d;
-}
-
-SIVID_ENTRY std::string shortest_magnitude(double x, bool up) {
-    digit_string const all = exact_digits(x);
-    // 17 digits always suffice: their spacing is below the spacing of doubles.
-    for (std::size_t count = 1; count < 17; ++count) {
-        std::string text = layout(shortened(all, count, up));
-        number_text const n = scan_number(text);
-        interval const seen = enclose_text(text, n, false);
-        if ((up ? seen.lower() : seen.upper()) == x && is_bounded(seen)) return text;
-    }
-    return layout(shortened(all, 17, up));
-}
-
-SIVID_ENTRY std::string in_brackets(std::string const& lo, std::string const& hi) {
-    std::string text(1, '[');
-    return text.append(lo).append(", ").append(hi).append(1, ']');
-}
-
-SIVID_ENTRY std::string to_decimal(double x, bool up, int digits) {
-    if (is_nan(x)) return "nan";
-    if (is_infinite(x)) return x > 0.0 ? "inf" : "-inf";
-    if (is_zero(x)) return "0";
-    auto const magnitude = [&](double m, bool away) {
-        return digits > 0
-                   ? layout(shortened(exact_digits(m), static_cast<std::size_t>(digits), away))
-                   : shortest_magnitude(m, away);
-    };
-    if (x > 0.0) return magnitude(x, up);
-    std::string text(1, '-');
-    return text.append(magnitude(-x, !up));
-}
-
-} // namespace detail
-
-SIVID_ENTRY std::string to_decimal_lower(double x) { return detail::to_decimal(x, false); }
-
-SIVID_ENTRY std::string to_decimal_upper(double x) { return detail::to_decimal(x, true); }
-
-SIVID_ENTRY std::string to_decimal_lower(double x, int digits) {
-    return detail::to_decimal(x, false, digits);
-}
-
-SIVID_ENTRY std::string to_decimal_upper(double x, int digits) {
-    return detail::to_decimal(x, true, digits);
-}
-
-SIVID_ENTRY std::string to_string(interval const& x) {
-    if (is_empty(x)) return "[empty]";
-    return detail::in_brackets(to_decimal_lower(x.lower()), to_decimal_upper(x.upper()));
-}
-
-SIVID_ENTRY std::string to_string(interval const& x, int digits) {
-    if (is_empty(x)) return "[empty]";
-    return detail::in_brackets(to_decimal_lower(x.lower(), digits),
-                               to_decimal_upper(x.upper(), digits));
-}
-
-SIVID_ENTRY std::string to_hex(double x) {
-    if (detail::is_nan(x)) return "nan";
-    if (detail::is_infinite(x)) return x > 0.0 ? "inf" : "-inf";
-    bool const negative = (detail::bits(x) & detail::sign_bit) != 0;
-    std::array<char, 40> buffer;
-    auto const end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), negative ? -x : x,
-                                   std::chars_format::hex);
-    std::string text = negative ? "-0x" : "0x";
-    text.append(buffer.data(), end.ptr);
-    return text;
-}
-
-SIVID_ENTRY std::optional<double> from_hex(std::string_view text) {
-    if (text == "inf") return detail::infinity;
-    if (text == "-inf") return -detail::infinity;
-    if (text == "nan") return detail::not_a_number;
-    detail::number_text const n = detail::scan_number(text);
-    if (!n.valid || !n.hexadecimal) return std::nullopt;
-    detail::rounded_magnitude const r = detail::round_text(text, n);
-    if (!r.exact) return std::nullopt;
-    return n.negative ? -r.below : r.below;
-}
-#endif
+SIVID_DECL std::optional<double> from_hex(std::string_view text);
 
 } // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/number/impl/decimal_output.ipp>
+#endif
 
 #endif

@@ -102,12 +102,12 @@ struct rounded_magnitude {
 };
 
 /// Exact rounding of a valid text.  @cost  up to 20 us for long texts and large exponents
-[[nodiscard]] SIVID_ENTRY rounded_magnitude round_text(std::string_view text, number_text const& n);
+[[nodiscard]] SIVID_DECL rounded_magnitude round_text(std::string_view text, number_text const& n);
 
 } // namespace sivid::detail
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_ROUND_TEXT)
-#include <sivid/number/detail/decimal_rounding.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/number/impl/decimal_text.ipp>
 #endif
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef SIVID_PARALLEL_TBB_EXECUTOR_HPP
 #define SIVID_PARALLEL_TBB_EXECUTOR_HPP
 
-#include <sivid/paving/executor.hpp>
+#include <sivid/executor.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -2,10 +2,10 @@
 #ifndef SIVID_PAVING_BOX_EXPLORER_HPP
 #define SIVID_PAVING_BOX_EXPLORER_HPP
 
+#include <sivid/executor.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/data_test.hpp>
-#include <sivid/paving/executor.hpp>
 #include <sivid/paving/invert.hpp>
-#include <sivid/paving/problem.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>

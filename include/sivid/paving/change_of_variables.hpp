@@ -2,10 +2,10 @@
 #ifndef SIVID_PAVING_CHANGE_OF_VARIABLES_HPP
 #define SIVID_PAVING_CHANGE_OF_VARIABLES_HPP
 
+#include <sivid/model/problem.hpp>
 #include <sivid/model/recorded_map.hpp>
 #include <sivid/model/substitution.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/problem.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -40,14 +40,14 @@ public:
 /// has the same monomials.
 /// @param prior  contains all boxes of parameters that will be begun with
 /// @given  the flow outlives the result
-[[nodiscard]] SIVID_ENTRY std::unique_ptr<continued_run>
+[[nodiscard]] SIVID_DECL std::unique_ptr<continued_run>
 make_continued_run(flow const& f, experiment const& e, box const& prior,
                    run_options const& options);
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_MAKE_CONTINUED_RUN)
-#include <sivid/paving/detail/make_continued_run.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/paving/impl/continued_run.ipp>
 #endif
 
 #endif

@@ -34,9 +34,12 @@ public:
 
     /// @param known  of a box around `part`; only outputs that were reached count
     /// @param part   contracted
+    /// @param proof  takes the cuts with their weights
     /// @returns false when nothing is left (`part` is meaningless then)
-    [[nodiscard]] bool operator()(response_list const& known, box& part) {
+    [[nodiscard]] bool operator()(response_list const& known, box& part,
+                                  exclusion_proof* proof = nullptr) {
         known_ = &known;
+        failing_.clear();
         shared_unknowns const unknowns(known, part);
         blocks_.clear();
         scales_.clear();
@@ -52,22 +55,46 @@ public:
             }
             allowed = 0;
         }
-        auto const before = part;
+        auto const whole = part;
+        auto const note = [&](proof_step::kind what, std::size_t j, bool upwards, groups why) {
+            if (proof == nullptr) return;
+            auto const& side = part[j];
+            proof->push_back({what, j, upwards, upwards ? side.upper() : side.lower(),
+                              with_failing(std::move(why))});
+        };
         for (std::size_t j = 0; j < part.size(); ++j) {
-            if (!(rad(before[j]) > 0)) continue;
-            double const up = least_reach(unknowns, j, true, allowed);
-            double const down = up < -1 ? up : least_reach(unknowns, j, false, allowed);
-            if (!(up >= -1) || !(down >= -1)) return false;
-            auto const least = down < 1 ? at(before[j], -down).lower() : before[j].lower();
-            auto const most = up < 1 ? at(before[j], up).upper() : before[j].upper();
-            if (!(least <= most)) return false;
-            part[j] = traits::intersect(part[j], traits::bounds(least, most));
-            if (is_empty(part[j])) return false;
+            if (!(rad(whole[j]) > 0)) continue;
+            groups why;
+            for (bool const upwards : {true, false}) {
+                double const reach = least_reach(unknowns, j, upwards, allowed, why);
+                if (!(reach >= -1)) {
+                    note(proof_step::kind::empty, j, upwards, std::move(why));
+                    return false;
+                }
+                if (!(reach < 1)) continue;
+                auto const end = at(whole[j], upwards ? reach : -reach);
+                auto const most = upwards ? end.upper() : part[j].upper();
+                auto const least = upwards ? part[j].lower() : end.lower();
+                if (!(least <= most)) {
+                    note(proof_step::kind::empty, j, upwards, {});
+                    return false;
+                }
+                auto const former = part[j];
+                part[j] = traits::intersect(former, traits::bounds(least, most));
+                if (is_empty(part[j])) {
+                    note(proof_step::kind::empty, j, upwards, {});
+                    return false;
+                }
+                if (former.lower() < part[j].lower() || part[j].upper() < former.upper()) {
+                    note(proof_step::kind::cut, j, upwards, std::move(why));
+                }
+            }
         }
         return true;
     }
 
 private:
+    using groups = proof_step::groups;
     static constexpr double nowhere = -std::numeric_limits<double>::infinity();
 
     /// Encloses mid + rad * d.
@@ -85,6 +112,10 @@ private:
         auto misfits = misfits_of(r, local, unknowns.places[s], 1, [&](std::size_t y) {
             bool const fails = disjoint(ranges[y], r.bounds[y]);
             failed += fails ? 1 : 0;
+            if (fails && r.allowed > 0) {
+                bool const above = ranges[y].lower() > r.bounds[y].upper();
+                failing_.push_back({s, y, above ? 1.0 : -1.0});
+            }
             return !subset(ranges[y], r.bounds[y]) && !(fails && r.allowed > 0);
         });
         // Measurements that certainly fail have used up a part of the budget.
@@ -95,9 +126,11 @@ private:
 
     /// What the weakest of `allowed` + 1 groups proves; `nowhere` when all prove that nothing is
     /// left.
+    /// @param why  the weights of the groups
     [[nodiscard]] double least_reach(shared_unknowns const& unknowns, std::size_t j, bool upwards,
-                                     std::size_t allowed) const {
+                                     std::size_t allowed, groups& why) const {
         double reach = nowhere;
+        why.clear();
         auto left = blocks_;
         for (std::size_t group = 0; group <= allowed && reach < 1; ++group) {
             auto const cut = cut_program(unknowns.count, left)(j, upwards);
@@ -109,18 +142,33 @@ private:
                     left[w.block].margin[w.function] = std::numeric_limits<double>::infinity();
                 }
             }
-            bool const none = cut.empty && certified_empty(*known_, unknowns, measured);
+            why.push_back(std::move(measured));
+            bool const none = cut.empty && certified_empty(*known_, unknowns, why.back());
             if (none) continue;
             if (cut.empty) return 1;
-            reach = std::max(reach, certified_reach(*known_, unknowns, measured, j, upwards));
+            reach = std::max(reach, certified_reach(*known_, unknowns, why.back(), j, upwards));
         }
         return reach;
+    }
+
+    /// Measurements that certainly fail are groups of their own, which use up their experiment's
+    /// outliers.
+    [[nodiscard]] groups with_failing(groups why) const {
+        std::vector<bool> used(known_->size(), false);
+        for (auto const& group : why) {
+            for (auto const& w : group) used[w.experiment] = true;
+        }
+        for (auto const& w : failing_) {
+            if (used[w.experiment]) why.push_back({w});
+        }
+        return why;
     }
 
     response_list const* known_ = nullptr;
     std::vector<minimax_block> blocks_; ///< in units of e
     std::vector<std::vector<double>> scales_;
     std::vector<std::size_t> allowance_;
+    std::vector<measurement_weight> failing_;
 };
 
 } // namespace sivid

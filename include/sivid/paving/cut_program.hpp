@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_CUT_PROGRAM_HPP
 #define SIVID_PAVING_CUT_PROGRAM_HPP
 
-#include <sivid/paving/constraint_blocks.hpp>
+#include <sivid/space/constraint_blocks.hpp>
 
 #include <cstddef>
 #include <utility>

@@ -2,18 +2,19 @@
 #ifndef SIVID_PAVING_DATA_TEST_HPP
 #define SIVID_PAVING_DATA_TEST_HPP
 
+#include <sivid/model/problem.hpp>
 #include <sivid/model/smoothed.hpp>
 #include <sivid/paving/data_test_options.hpp>
 #include <sivid/paving/detail/response_judgement.hpp>
 #include <sivid/paving/detail/run_pool.hpp>
 #include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/local_response.hpp>
-#include <sivid/paving/problem.hpp>
 #include <sivid/paving/set_test.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -150,14 +151,19 @@ public:
                 auto const k = open[n];
                 ++results[k].cost;
                 auto part = results[k].rest;
+                results[k].proof.push_back({proof_step::kind::run, e});
                 auto const says = assess(*answers[n], part);
                 found[k]->all_starts.push_back(answers[n]);
                 found[k]->chosen_starts.push_back(answers[n]);
                 if (says.refuted) {
                     results[k].verdict = box_verdict::outside;
+                    results[k].proof.push_back({proof_step::kind::empty});
                     continue;
                 }
-                if (options_.contract) results[k].rest = std::move(part);
+                if (options_.contract) {
+                    add_cuts(results[k].proof, results[k].rest, part);
+                    results[k].rest = std::move(part);
+                }
                 add_smear(results[k], says.smear);
                 still_open.push_back(k);
                 // Not worth a run where neither the box nor, later, parts of it might hold.
@@ -313,6 +319,7 @@ private:
         a.verdict = found.verdict;
         a.rest = std::move(found.rest);
         a.smear = std::move(found.smear);
+        std::move(found.proof.begin(), found.proof.end(), std::back_inserter(a.proof));
         return found.share;
     }
 

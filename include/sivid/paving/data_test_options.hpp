@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_DATA_TEST_OPTIONS_HPP
 #define SIVID_PAVING_DATA_TEST_OPTIONS_HPP
 
-#include <sivid/paving/executor.hpp>
+#include <sivid/executor.hpp>
 #include <sivid/paving/run_options.hpp>
 
 #include <cstddef>

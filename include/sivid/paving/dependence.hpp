@@ -3,7 +3,7 @@
 #define SIVID_PAVING_DEPENDENCE_HPP
 
 #include <sivid/model/find_combinations.hpp>
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 
 #include <vector>
 

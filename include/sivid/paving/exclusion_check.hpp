@@ -5,6 +5,8 @@
 #include <sivid/paving/certificate.hpp>
 #include <sivid/paving/cut_program.hpp>
 #include <sivid/paving/local_response.hpp>
+#include <sivid/paving/proof_walk.hpp>
+#include <sivid/paving/response_audit.hpp>
 #include <sivid/paving/scalar_run.hpp>
 #include <sivid/paving/weighted_outputs.hpp>
 
@@ -31,7 +33,7 @@ class exclusion_check {
 public:
     exclusion_check(identification_problem const& problem, certificate_options options,
                     run_options how = {})
-        : problem_(&problem), options_(std::move(options)) {
+        : problem_(&problem), options_(std::move(options)), audit_(problem, options_.enclosure) {
         samples_.reserve(problem.experiments.size()); // the runs keep references
         for (auto const& e : problem.experiments) {
             flows_.push_back(std::make_unique<flow>(problem.model, problem.choice, e.inputs));
@@ -43,9 +45,40 @@ public:
 
     [[nodiscard]] std::size_t runs() const { return count_; }
 
+    /// Follows a proof from the prior on: each step is proved by its weights, or else by weights of
+    /// the check's own.
+    /// @param rows  of which nothing is claimed
+    /// @returns  boxes that hold all of the prior that is in no row and not proved to be excluded
+    [[nodiscard]] std::vector<box> follow(exclusion_proof const& proof,
+                                          std::vector<box> const& rows) {
+        proof_walk walk(problem_->prior, rows, runs_.size());
+        for (auto const& step : proof) {
+            if (walk.done() || over()) break;
+            if (step.what == proof_step::kind::run) {
+                if (step.index < runs_.size()) {
+                    walk.learn(step.index, run(step.index, walk.cell()));
+                }
+                continue;
+            }
+            walk.take(step, [&](response_list const& known, box const& part) {
+                bool const by_weights = weights_exclude<I>(known, part, step.why);
+                bool const proved = by_weights || excludes(known, part);
+                by_weights_ += by_weights ? 1 : 0;
+                steps_ += proved ? 1 : 0;
+                return proved;
+            });
+        }
+        return std::move(walk).open();
+    }
+    /// Steps of proofs that were proved, and those among them by the weights that came with them.
+    [[nodiscard]] std::size_t steps() const { return steps_; }
+    [[nodiscard]] std::size_t by_weights() const { return by_weights_; }
+
+    /// Enclosures that sets of first order contradict at a point: a defect. They prove nothing.
+    [[nodiscard]] std::size_t contradictions() const { return contradictions_; }
+
     /// Tries the claims that are open and say `outside`.
     void operator()(std::vector<box_claim>& claims) {
-        begin_ = clock::now();
         claims_ = &claims;
         left_.assign(claims.size(), 0);
         gave_up_.assign(claims.size(), false);
@@ -79,6 +112,14 @@ private:
         if (options_.keep_going && !options_.keep_going()) return true;
         return std::chrono::duration<double>(clock::now() - begin_).count() > options_.seconds;
     }
+    /// One experiment over a region; nothing where two integrators contradict each other.
+    [[nodiscard]] std::shared_ptr<response const> run(std::size_t e, box const& region) {
+        ++count_;
+        auto found = (*runs_[e])(problem_->experiments[e].initial, region);
+        if (audit_(*found, e, region)) return found;
+        ++contradictions_;
+        return nullptr;
+    }
     [[nodiscard]] static box hull_of(group const& pieces) {
         auto region = pieces[0].set;
         for (auto const& p : pieces) region = hull(region, p.set);
@@ -101,8 +142,7 @@ private:
         auto const region = hull_of(pieces);
         response_list known;
         for (std::size_t e = 0; e < runs_.size() && !pieces.empty(); ++e) {
-            ++count_;
-            known.push_back((*runs_[e])(problem_->experiments[e].initial, hull_of(pieces)));
+            known.push_back(run(e, hull_of(pieces)));
             group open;
             for (auto& p : pieces) {
                 if (excludes(known, p.set)) {
@@ -204,6 +244,7 @@ private:
                                                          response_list const& known) const {
         std::vector<double> spread(x.size(), 0.0);
         for (auto const& r : known) {
+            if (!r) continue;
             auto const local = expand(*r, x);
             for (std::size_t j = 0; j < x.size(); ++j) {
                 auto const& side = r->unknowns.parameters[j];
@@ -236,6 +277,12 @@ private:
         std::vector<std::size_t> allowance;
         std::size_t unknowns = part.size(), allowed = 0;
         for (std::size_t e = 0; e < known.size(); ++e) {
+            if (!known[e]) { // nothing is known of it
+                blocks.emplace_back();
+                scales.emplace_back();
+                allowance.push_back(0);
+                continue;
+            }
             auto const& r = *known[e];
             auto const local = expand(r, part);
             std::size_t missed = 0;
@@ -306,14 +353,15 @@ private:
 
     identification_problem const* problem_;
     certificate_options options_;
+    response_audit<I> audit_;
     std::vector<std::unique_ptr<flow>> flows_;
     std::vector<record> samples_;
     std::vector<std::unique_ptr<experiment_run>> runs_;
     std::vector<box_claim>* claims_ = nullptr;
     std::vector<std::size_t> left_; ///< pieces to prove, by claim
     std::vector<bool> gave_up_;
-    std::size_t count_ = 0;
-    clock::time_point begin_;
+    std::size_t count_ = 0, contradictions_ = 0, steps_ = 0, by_weights_ = 0;
+    clock::time_point begin_ = clock::now();
 };
 
 } // namespace sivid

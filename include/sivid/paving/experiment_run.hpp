@@ -4,7 +4,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/enclosure/flow.hpp>
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/response.hpp>
 #include <sivid/paving/run_options.hpp>
 
@@ -61,7 +61,7 @@ namespace paving_detail {
 
 /// The kernel that fits the number of unknowns; beyond the largest the sets are of first order.
 /// @param initial, prior  what the boxes to come lie in
-[[nodiscard]] SIVID_ENTRY std::unique_ptr<experiment_run>
+[[nodiscard]] SIVID_DECL std::unique_ptr<experiment_run>
 make_run(flow const& f, experiment const& e, record const& samples, box const& initial,
          box const& prior, run_options options);
 [[nodiscard]] inline std::unique_ptr<experiment_run> make_run(flow const& f, experiment const& e,
@@ -73,8 +73,8 @@ make_run(flow const& f, experiment const& e, record const& samples, box const& i
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_MAKE_RUN)
-#include <sivid/paving/detail/make_run.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/paving/impl/experiment_run.ipp>
 #endif
 
 #endif

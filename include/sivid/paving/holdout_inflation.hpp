@@ -3,9 +3,9 @@
 #define SIVID_PAVING_HOLDOUT_INFLATION_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/number/interval.hpp>
 #include <sivid/paving/inflation.hpp>
-#include <sivid/paving/problem.hpp>
 
 #include <cstddef>
 
@@ -29,15 +29,15 @@ struct holdout_bound {
 /// @param fitted  what was proved about `fit`
 /// @param holdout a problem with the same model and parameters
 /// @guarantee  both ranges contain what they say whenever the search ends
-[[nodiscard]] SIVID_ENTRY holdout_bound holdout_inflation(identification_problem const& fit,
+[[nodiscard]] SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
                                                           inflation_bound const& fitted,
                                                           identification_problem const& holdout,
                                                           inflation_options const& options = {});
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_HOLDOUT_INFLATION)
-#include <sivid/paving/detail/holdout_search.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/paving/impl/holdout_inflation.ipp>
 #endif
 
 #endif

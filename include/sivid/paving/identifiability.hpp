@@ -4,9 +4,9 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/enclosure/options.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/model/symmetry.hpp>
 #include <sivid/paving/detail/unknown_quantity.hpp>
-#include <sivid/paving/problem.hpp>
 #include <sivid/space/box.hpp>
 
 #include <cstddef>
@@ -91,14 +91,14 @@ struct identifiability_options {
 ///             the sensitivities lie in the enclosure); `proved` motions change no output anywhere
 /// @cost  one integration with sensitivities for each experiment at `at`, its middle and two points
 /// @ref   Walter and Pronzato, Identification of Parametric Models from Experimental Data (1997)
-[[nodiscard]] SIVID_ENTRY identifiability
+[[nodiscard]] SIVID_DECL identifiability
 identifiability_of(identification_problem const& problem, box const& at,
                    identifiability_options const& options = {});
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_IDENTIFIABILITY_OF)
-#include <sivid/paving/detail/identifiability_analysis.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/paving/impl/identifiability.ipp>
 #endif
 
 #endif

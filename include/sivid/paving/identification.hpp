@@ -2,10 +2,12 @@
 #ifndef SIVID_PAVING_IDENTIFICATION_HPP
 #define SIVID_PAVING_IDENTIFICATION_HPP
 
+#include <sivid/approximate/approximate_fit.hpp>
 #include <sivid/model/combination.hpp>
-#include <sivid/paving/approximate_fit.hpp>
 #include <sivid/paving/detail/fewest_outliers.hpp>
+#include <sivid/paving/exclusion_proof.hpp>
 #include <sivid/paving/reduction.hpp>
+#include <sivid/paving/run_options.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/space/box.hpp>
@@ -73,6 +75,10 @@ struct identification {
     std::vector<std::size_t> entangled; ///< parameters known only through `combinations`
     std::vector<forced_outlier> forced;
     std::optional<fewest_outliers> fewest; ///< of `smallest_outlier_budget`, when it was asked for
+    /// How what the search excluded can be proved, in `products` or else in the parameters; not
+    /// needed for anything but checks.
+    exclusion_proof proof;
+    run_options run; ///< how experiments were enclosed
     std::vector<std::string> assumptions;
     std::optional<approximate_fit> guess; ///< the best fit found, not proved
     std::size_t boxes = 0;

@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_IDENTIFICATION_STATE_HPP
 #define SIVID_PAVING_IDENTIFICATION_STATE_HPP
 
-#include <sivid/paving/approximate_fit.hpp>
+#include <sivid/approximate/approximate_fit.hpp>
 #include <sivid/paving/search_state.hpp>
 
 #include <optional>

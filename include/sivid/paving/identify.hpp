@@ -3,9 +3,9 @@
 #define SIVID_PAVING_IDENTIFY_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/identify_options.hpp>
-#include <sivid/paving/problem.hpp>
 
 namespace sivid {
 
@@ -14,13 +14,13 @@ namespace sivid {
 ///             `hull`, `paving`, `combinations` contain every feasible parameter; inside boxes are
 ///             feasible throughout. All under the listed assumptions.
 /// @cost  dominated by the integrations: boxes times experiments
-[[nodiscard]] SIVID_ENTRY identification identify(identification_problem const& problem,
+[[nodiscard]] SIVID_DECL identification identify(identification_problem const& problem,
                                                   identify_options options = {});
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_IDENTIFY)
-#include <sivid/paving/detail/identify_search.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/paving/impl/identify.ipp>
 #endif
 
 #endif

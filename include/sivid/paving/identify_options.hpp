@@ -22,7 +22,7 @@ enum class algorithm {
 
 struct identify_options {
     sivid::algorithm algorithm = sivid::algorithm::contracting;
-    inversion_options search;
+    inversion_options search{.proof_bytes = std::size_t{1} << 25};
     data_test_options test;
     /// Stop when the hulls no longer shrink; the paving stays coarse.
     bool only_hulls = false;

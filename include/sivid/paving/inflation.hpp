@@ -2,12 +2,12 @@
 #ifndef SIVID_PAVING_INFLATION_HPP
 #define SIVID_PAVING_INFLATION_HPP
 
+#include <sivid/approximate/approximate_fit.hpp>
 #include <sivid/compiled.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/number/interval.hpp>
-#include <sivid/paving/approximate_fit.hpp>
 #include <sivid/paving/data_test_options.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/problem.hpp>
 #include <sivid/space/box.hpp>
 
 #include <cstddef>
@@ -73,14 +73,14 @@ template <class Keep>
 /// @param guess  where the upper bound may start; without it the search proposes points itself
 /// @guarantee  `value` contains the inflation whenever the search ends
 /// @cost  dominated by integrations over boxes; some tens for a few parameters that the data fix
-[[nodiscard]] SIVID_ENTRY inflation_bound bound_inflation(identification_problem const& problem,
+[[nodiscard]] SIVID_DECL inflation_bound bound_inflation(identification_problem const& problem,
                                                           approximate_fit const* guess = nullptr,
                                                           inflation_options const& options = {});
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_BOUND_INFLATION)
-#include <sivid/paving/detail/inflation_work.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/paving/impl/inflation.ipp>
 #endif
 
 #endif

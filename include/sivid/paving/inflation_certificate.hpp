@@ -3,6 +3,7 @@
 #define SIVID_PAVING_INFLATION_CERTIFICATE_HPP
 
 #include <sivid/paving/combined_polynomial.hpp>
+#include <sivid/paving/exclusion_proof.hpp>
 #include <sivid/paving/misfit.hpp>
 #include <sivid/paving/response.hpp>
 #include <sivid/space/box.hpp>
@@ -41,14 +42,6 @@ struct shared_unknowns {
             }
         }
     }
-};
-
-/// How a measurement takes part in a proof: with |value|, against its middle in the sign's
-/// direction.
-struct measurement_weight {
-    std::size_t experiment = 0;
-    std::size_t output = 0;
-    double value = 0;
 };
 
 /// A number that the largest misfit of the weighted measurements exceeds or meets everywhere,

@@ -4,11 +4,11 @@
 
 #include <sivid/paving/inflation_certificate.hpp>
 #include <sivid/paving/local_response.hpp>
-#include <sivid/paving/minimax_lp.hpp>
 #include <sivid/paving/misfit.hpp>
 #include <sivid/paving/misfit_block.hpp>
 #include <sivid/paving/response.hpp>
 #include <sivid/space/box.hpp>
+#include <sivid/space/minimax_lp.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 #ifndef SIVID_PAVING_INFLATION_SEARCH_HPP
 #define SIVID_PAVING_INFLATION_SEARCH_HPP
 
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/box_explorer.hpp>
 #include <sivid/paving/inflation_relaxation.hpp>
-#include <sivid/paving/problem.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>

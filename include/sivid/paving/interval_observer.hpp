@@ -4,10 +4,10 @@
 
 #include <sivid/model/arithmetic.hpp>
 #include <sivid/model/bound_model.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/model/program.hpp>
 #include <sivid/number/pack_traits.hpp>
 #include <sivid/paving/misfit.hpp>
-#include <sivid/paving/problem.hpp>
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,8 @@
 #ifndef SIVID_PAVING_INVERSION_OPTIONS_HPP
 #define SIVID_PAVING_INVERSION_OPTIONS_HPP
 
-#include <sivid/paving/executor.hpp>
+#include <sivid/executor.hpp>
+#include <sivid/paving/exclusion_proof.hpp>
 #include <sivid/paving/frontier.hpp>
 #include <sivid/paving/search_state.hpp>
 #include <sivid/paving/subpaving.hpp>
@@ -57,6 +58,10 @@ struct inversion_options {
     /// Judges and learns for tests that allow it (concurrent_set_test).
     executor workers{};
 
+    /// Bytes for what the test says of how its exclusions are proved: it is kept up to there and
+    /// ends up in `inversion::proof`. A resumed search knows of its own run only.
+    std::size_t proof_bytes = 0;
+
     /// Called with the state every `checkpoint_seconds`, between two tests, and when a budget or a
     /// cancellation ends the search. Never takes more than a tenth of the time.
     std::function<void(search_state const&)> checkpoint = nullptr;
@@ -70,8 +75,9 @@ struct inversion {
     subpaving paving;
     stop_reason reason = stop_reason::decided;
     std::size_t tested = 0;
-    std::size_t cost = 0; ///< sum over the tests, in their unit
-    double seconds = 0;   ///< of all runs
+    std::size_t cost = 0;       ///< sum over the tests, in their unit
+    double seconds = 0;         ///< of all runs
+    exclusion_proof proof = {}; ///< where it was asked for
 };
 
 } // namespace sivid

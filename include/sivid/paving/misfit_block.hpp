@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_MISFIT_BLOCK_HPP
 #define SIVID_PAVING_MISFIT_BLOCK_HPP
 
-#include <sivid/paving/constraint_blocks.hpp>
+#include <sivid/space/constraint_blocks.hpp>
 #include <sivid/paving/inflation_certificate.hpp>
 #include <sivid/paving/local_response.hpp>
 

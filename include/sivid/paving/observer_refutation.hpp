@@ -2,10 +2,10 @@
 #ifndef SIVID_PAVING_OBSERVER_REFUTATION_HPP
 #define SIVID_PAVING_OBSERVER_REFUTATION_HPP
 
+#include <sivid/model/problem.hpp>
 #include <sivid/number/guard.hpp>
 #include <sivid/paving/detail/observer_effort.hpp>
 #include <sivid/paving/interval_observer.hpp>
-#include <sivid/paving/problem.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>

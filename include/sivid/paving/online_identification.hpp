@@ -3,9 +3,9 @@
 #define SIVID_PAVING_ONLINE_IDENTIFICATION_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/detail/online_update.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/problem.hpp>
 
 #include <memory>
 #include <vector>
@@ -57,8 +57,8 @@ private:
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_ONLINE_IDENTIFICATION)
-#include <sivid/paving/detail/online_identifier.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/paving/impl/online_identification.ipp>
 #endif
 
 #endif

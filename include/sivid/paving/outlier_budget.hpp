@@ -3,10 +3,10 @@
 #define SIVID_PAVING_OUTLIER_BUDGET_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/detail/fewest_outliers.hpp>
 #include <sivid/paving/detail/outlier_search_options.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/problem.hpp>
 
 #include <cstddef>
 #include <optional>
@@ -35,13 +35,13 @@ struct smallest_budget : fewest_outliers {
 /// the
 ///             smallest ones
 /// @cost  a fit for each outlier removed, and a set inversion with q-relaxed tests
-[[nodiscard]] SIVID_ENTRY smallest_budget smallest_outlier_budget(
+[[nodiscard]] SIVID_DECL smallest_budget smallest_outlier_budget(
     identification_problem const& problem, outlier_search_options const& options = {});
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_SMALLEST_OUTLIER_BUDGET)
-#include <sivid/paving/detail/outlier_budget_search.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/paving/impl/outlier_budget.ipp>
 #endif
 
 #endif

@@ -2,13 +2,13 @@
 #ifndef SIVID_PAVING_OUTLIER_COUNT_HPP
 #define SIVID_PAVING_OUTLIER_COUNT_HPP
 
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/cut_contraction.hpp>
 #include <sivid/paving/data_test.hpp>
 #include <sivid/paving/detail/fewest_outliers.hpp>
 #include <sivid/paving/detail/outlier_search_options.hpp>
 #include <sivid/paving/frontier.hpp>
 #include <sivid/paving/local_response.hpp>
-#include <sivid/paving/problem.hpp>
 
 #include <algorithm>
 #include <chrono>

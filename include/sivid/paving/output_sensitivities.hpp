@@ -3,8 +3,8 @@
 #define SIVID_PAVING_OUTPUT_SENSITIVITIES_HPP
 
 #include <sivid/enclosure/sensitivity_tube.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/detail/unknown_quantity.hpp>
-#include <sivid/paving/problem.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/space/matrix.hpp>
 

@@ -51,6 +51,7 @@ public:
           rest_{.last = prior},
           outside_kept_(options.keep_outside || options.checkpoint || options.resume) {
         require_sound_environment();
+        if (options.proof_bytes > 0) log_.emplace(options.proof_bytes);
         if (prior.size() == 0 || is_empty(prior))
             throw std::invalid_argument("invert: empty prior");
         for (auto const& side : prior) {
@@ -129,11 +130,10 @@ public:
     /// What waits is pending in the result.
     [[nodiscard]] inversion finish() && {
         while (!waiting_.empty()) paving_.add(waiting_.pop().set, box_verdict::pending);
-        double const spent = stopped_at_.value_or(seconds());
-        if (outside_kept_ && !options_.keep_outside) {
-            return {without_outside(paving_), reason_, tested_, cost_, spent};
-        }
-        return {std::move(paving_), reason_, tested_, cost_, spent};
+        if (outside_kept_ && !options_.keep_outside) paving_ = without_outside(paving_);
+        auto proof = log_ ? std::move(*log_).proof_from(prior_) : exclusion_proof{};
+        return {std::move(paving_), reason_, tested_, cost_, stopped_at_.value_or(seconds()),
+                std::move(proof)};
     }
 
     /// Bytes held by boxes and knowledge.
@@ -265,22 +265,30 @@ private:
     void settle(item of, answer found, known_part known) {
         auto& x = of.set;
         cost_ += found.cost;
+        auto const tell = [&](std::optional<box> const& left,
+                              std::optional<std::size_t> split = std::nullopt) {
+            if (log_) log_->add(x, std::move(found.proof), left, split);
+        };
         if (found.verdict == box_verdict::outside || is_empty(found.rest)) {
+            tell(std::nullopt);
             decide(std::move(x), box_verdict::outside);
             return;
         }
         for (auto& cut : difference(x, found.rest)) decide(std::move(cut), box_verdict::outside);
         if (found.verdict == box_verdict::inside) {
+            tell(found.rest);
             decide(std::move(found.rest), box_verdict::inside);
             return;
         }
         // A box that shrank much is worth another look before it is split.
         double const after = volume(found.rest);
         if (after < 0.5 * of.volume && after > 0) {
+            tell(found.rest);
             waiting_.push(std::move(found.rest), after, {std::move(known)});
             return;
         }
         auto const side = split_side(found.rest, found.smear);
+        tell(found.rest, side);
         if (!side) {
             reason_ = stop_reason::accuracy_reached;
             decide(std::move(found.rest), box_verdict::undecided);
@@ -293,18 +301,6 @@ private:
         waiting_.push(std::move(high), high_volume, {std::move(known)});
     }
 
-    [[nodiscard]] std::size_t bytes_of(knowledge const& found) const {
-        auto const box_bytes = sizeof(box) + prior_.size() * sizeof(interval);
-        auto const frame = sizeof(paving_detail::learnt<knowledge>) + box_bytes;
-        if constexpr (measured_set_test<Test>) {
-            return frame + test_->bytes(found);
-        } else {
-            return frame + sizeof(knowledge);
-        }
-    }
-
-    // Tests that are asked about one box after the other.
-
     [[nodiscard]] answer ask(box const& x, known_part const& known) {
         if constexpr (learning_set_test<Test>) {
             return (*test_)(x, known ? known->found() : nullptr);
@@ -316,7 +312,8 @@ private:
                                      known_part const& before) {
         if (!found) return nullptr;
         if (before && before->found() == found) return before;
-        return std::make_shared<paving_detail::learnt<knowledge>>(found, bytes_of(*found), held_);
+        return std::make_shared<paving_detail::learnt<knowledge>>(
+            found, paving_detail::bytes_of(*test_, prior_, *found), held_);
     }
 
     void settle_judged(item of) {
@@ -332,6 +329,7 @@ private:
         for (auto const& i : items) {
             auto const side = split_side(i.set, {});
             if (!side) return false;
+            if (log_) log_->add(i.set, {}, i.set, side);
             auto [low, high] = bisect(i.set, *side, mid(i.set[*side]));
             for (auto* half : {&low, &high}) {
                 double const size = volume(*half);
@@ -364,7 +362,8 @@ private:
                 auto& says = found[k].answers[n];
                 known_part known;
                 if (says.knowledge) {
-                    known = lesson::add(found[k].of, n, says.knowledge, bytes_of(*says.knowledge),
+                    known = lesson::add(found[k].of, n, says.knowledge,
+                                        paving_detail::bytes_of(*test_, prior_, *says.knowledge),
                                         held_);
                 }
                 settle(std::move(sets[k][n]), std::move(says), std::move(known));
@@ -383,6 +382,7 @@ private:
     stop_reason reason_ = stop_reason::decided;
     std::size_t tested_ = 0;
     std::size_t cost_ = 0;
+    std::optional<proof_log> log_;
     box whole_; ///< what the accuracy is a fraction of
     std::size_t measured_at_ = 0;
     paving_detail::hull_rest rest_;

@@ -3,7 +3,7 @@
 #define SIVID_PAVING_REDUCTION_HPP
 
 #include <sivid/model/combination.hpp>
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>

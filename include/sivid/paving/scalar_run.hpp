@@ -13,14 +13,14 @@ namespace sivid {
 /// packs of numbers with the search. Beyond the largest kernel the sets are of first order.
 /// @param initial, prior  what the boxes to come lie in
 /// @guarantee, @cost  as of `make_run`, about eight times as long for eight boxes
-[[nodiscard]] SIVID_ENTRY std::unique_ptr<experiment_run>
+[[nodiscard]] SIVID_DECL std::unique_ptr<experiment_run>
 make_scalar_run(flow const& f, experiment const& e, record const& samples, box const& initial,
                 box const& prior, run_options options);
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_MAKE_SCALAR_RUN)
-#include <sivid/paving/detail/make_scalar_run.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/paving/impl/scalar_run.ipp>
 #endif
 
 #endif

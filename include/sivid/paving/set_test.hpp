@@ -2,6 +2,7 @@
 #ifndef SIVID_PAVING_SET_TEST_HPP
 #define SIVID_PAVING_SET_TEST_HPP
 
+#include <sivid/paving/exclusion_proof.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/space/box.hpp>
 
@@ -30,6 +31,8 @@ struct assessment {
     bool blind = false;
     /// What learning about this box took, in a unit of the test's (data_test: integrations).
     std::size_t cost = 0;
+    /// How to prove that nothing of the box but `rest` belongs to the set; may be left out.
+    exclusion_proof proof = {};
 };
 
 /// A test of boxes against a set: sound verdicts and a sound contraction, completeness not

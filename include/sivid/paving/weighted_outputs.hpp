@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_WEIGHTED_OUTPUTS_HPP
 #define SIVID_PAVING_WEIGHTED_OUTPUTS_HPP
 
-#include <sivid/paving/inflation_certificate.hpp>
+#include <sivid/paving/exclusion_proof.hpp>
 #include <sivid/paving/response.hpp>
 #include <sivid/space/box.hpp>
 
@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -28,13 +29,14 @@ class weighted_outputs {
     using traits = interval_traits<I>;
 
 public:
-    /// @param known    of boxes of parameters around `part`
+    /// @param known    of boxes of parameters around `part`; null where an experiment is not known
     /// @param weights  (experiment, output, weight), of measurements that are bounded in the
     ///                 direction of their weights
     weighted_outputs(response_list const& known, box const& part,
                      std::vector<measurement_weight> const& weights) {
         std::size_t unknowns = part.size();
         for (std::size_t e = 0; e < known.size(); ++e) {
+            if (!known[e]) continue;
             auto const& r = *known[e];
             std::vector<I> c(r.table->size(), traits::point(0.0));
             bool any = false;
@@ -129,6 +131,40 @@ private:
     I constant_ = traits::point(0.0);
     std::map<monomial, I> terms_;
 };
+
+/// Whether weights prove that no parameter of a part explains the data.
+///   Whoever explains the data violates at most the allowed outliers, so a group of measurements
+///   that share none with another is met in the whole when there is a group more than outliers
+///   allowed to the experiments in the groups. Each group is proved to be met by nobody.
+/// @param known   of boxes of parameters around `part`; null where an experiment is not known
+/// @param groups  from anywhere: what names no measurement, or shares one, proves nothing
+template <class I>
+[[nodiscard]] bool weights_exclude(response_list const& known, box const& part,
+                                   proof_step::groups const& groups) {
+    std::set<std::pair<std::size_t, std::size_t>> seen;
+    std::set<std::size_t> experiments;
+    for (auto const& group : groups) {
+        std::set<std::pair<std::size_t, std::size_t>> own;
+        for (auto const& w : group) {
+            if (w.experiment >= known.size() || !known[w.experiment]) return false;
+            auto const& r = *known[w.experiment];
+            if (w.output >= r.outputs() || !std::isfinite(w.value)) return false;
+            auto const& bound = r.bounds[w.output];
+            if (!std::isfinite(w.value > 0 ? bound.upper() : bound.lower())) return false;
+            experiments.insert(w.experiment);
+            if (r.allowed > 0) own.insert({w.experiment, w.output});
+        }
+        for (auto const& m : own) {
+            if (!seen.insert(m).second) return false;
+        }
+    }
+    std::size_t allowed = 0;
+    for (auto const e : experiments) allowed += known[e]->allowed;
+    return groups.size() > allowed &&
+           std::all_of(groups.begin(), groups.end(), [&](auto const& group) {
+               return weighted_outputs<I>(known, part, group).positive();
+           });
+}
 
 } // namespace sivid
 

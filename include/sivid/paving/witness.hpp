@@ -2,11 +2,11 @@
 #ifndef SIVID_PAVING_WITNESS_HPP
 #define SIVID_PAVING_WITNESS_HPP
 
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/data_test.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/misfit.hpp>
-#include <sivid/paving/problem.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>

@@ -15,12 +15,12 @@
 namespace sivid::report {
 
 /// The whole page of a diagnosis. Sections without content are left out.
-[[nodiscard]] SIVID_ENTRY page diagnosis_page(diagnosis_view const& v);
+[[nodiscard]] SIVID_DECL page diagnosis_page(diagnosis_view const& v);
 
 } // namespace sivid::report
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_DIAGNOSIS_PAGE)
-#include <sivid/report/detail/diagnosis_page_sections.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/report/impl/diagnosis_page.ipp>
 #endif
 
 #endif

@@ -2,10 +2,10 @@
 #ifndef SIVID_REPORT_DIAGNOSIS_PLOT_DATA_HPP
 #define SIVID_REPORT_DIAGNOSIS_PLOT_DATA_HPP
 
+#include <sivid/approximate/approximate_fit.hpp>
 #include <sivid/compiled.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/number/interval.hpp>
-#include <sivid/paving/approximate_fit.hpp>
-#include <sivid/paving/problem.hpp>
 #include <sivid/report/channel_series.hpp>
 
 #include <algorithm>
@@ -63,7 +63,7 @@ struct diagnosis_plot_data {
 namespace detail {
 
 /// Marks the q largest misfits beyond their bounds; none without an outlier budget.
-SIVID_ENTRY std::vector<bool> suspects(std::vector<double> const& residuals, std::size_t n,
+SIVID_DECL std::vector<bool> suspects(std::vector<double> const& residuals, std::size_t n,
                                        std::size_t q);
 
 } // namespace detail
@@ -72,65 +72,14 @@ SIVID_ENTRY std::vector<bool> suspects(std::vector<double> const& residuals, std
 /// without residuals is not drawn. Suspected outliers are the largest misfits of the second fit (of
 /// the first when there is no second), as many as the budget allows.
 /// @pre  both fits are of problems with these measurements, with whatever effects
-[[nodiscard]] SIVID_ENTRY std::vector<scenario_data>
+[[nodiscard]] SIVID_DECL std::vector<scenario_data>
 compared_scenarios(identification_problem const& problem, approximate_fit const& base,
                    approximate_fit const& after = {}, bool holdout = false);
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_COMPARED_SCENARIOS)
-namespace detail {
-
-SIVID_ENTRY std::vector<bool> suspects(std::vector<double> const& residuals, std::size_t n,
-                                       std::size_t q) {
-    std::vector<std::size_t> beyond;
-    for (std::size_t i = 0; i < std::min(n, residuals.size()); ++i) {
-        if (std::fabs(residuals[i]) > 1) beyond.push_back(i);
-    }
-    std::stable_sort(beyond.begin(), beyond.end(), [&](std::size_t a, std::size_t b) {
-        return std::fabs(residuals[a]) > std::fabs(residuals[b]);
-    });
-    beyond.resize(std::min(beyond.size(), q));
-    std::vector<bool> out(n, false);
-    for (std::size_t const i : beyond) out[i] = true;
-    return out;
-}
-
-} // namespace detail
-
-SIVID_ENTRY std::vector<scenario_data> compared_scenarios(identification_problem const& problem,
-                                                          approximate_fit const& base,
-                                                          approximate_fit const& after,
-                                                          bool holdout) {
-    auto const& about = problem.model.about;
-    std::vector<double> const nothing;
-    std::vector<scenario_data> out;
-    for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
-        auto const& experiment = problem.experiments[e];
-        auto const samples = sorted(experiment.measurements);
-        auto const& before = e < base.residuals.size() ? base.residuals[e] : nothing;
-        auto const& then = e < after.residuals.size() ? after.residuals[e] : nothing;
-        auto const suspect =
-            detail::suspects(then.empty() ? before : then, samples.size(), experiment.outliers);
-        scenario_data s{.name = experiment.name, .holdout = holdout};
-        for (std::size_t c = 0; c < about.channels.size(); ++c) {
-            channel_data d{.name = about.channels[c].name, .unit = about.channels[c].unit};
-            for (std::size_t i = 0; i < samples.size(); ++i) {
-                if (samples[i].channel != c) continue;
-                double const y = mid(samples[i].bound), half = rad(samples[i].bound);
-                d.times.push_back(samples[i].time);
-                d.values.push_back(y);
-                d.bounds.push_back(half);
-                d.outliers.push_back(suspect[i]);
-                if (i < before.size()) d.base.push_back(y + half * before[i]);
-                if (i < then.size()) d.after.push_back(y + half * then[i]);
-            }
-            if (!d.times.empty()) s.channels.push_back(std::move(d));
-        }
-        out.push_back(std::move(s));
-    }
-    return out;
-}
-#endif
-
 } // namespace sivid::report
+
+#ifndef SIVID_COMPILED
+#include <sivid/report/impl/diagnosis_plot_data.ipp>
+#endif
 
 #endif

@@ -15,12 +15,12 @@
 namespace sivid::report {
 
 /// The whole page of an identification. Sections without content are left out.
-[[nodiscard]] SIVID_ENTRY page identification_page(identification_view const& v);
+[[nodiscard]] SIVID_DECL page identification_page(identification_view const& v);
 
 } // namespace sivid::report
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_IDENTIFICATION_PAGE)
-#include <sivid/report/detail/identification_page_sections.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/report/impl/identification_page.ipp>
 #endif
 
 #endif

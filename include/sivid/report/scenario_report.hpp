@@ -2,7 +2,7 @@
 #ifndef SIVID_REPORT_SCENARIO_REPORT_HPP
 #define SIVID_REPORT_SCENARIO_REPORT_HPP
 
-#include <sivid/enclosure/simulate.hpp>
+#include <sivid/approximate/simulate/simulate.hpp>
 #include <sivid/enclosure/tube.hpp>
 #include <sivid/io/explaining_motion.hpp>
 #include <sivid/report/detail/plane_channels.hpp>
@@ -119,8 +119,9 @@ private:
         }
         auto const start = found_.witness ? found_.witness->starts[e_] : found_.guess->starts[e_];
         try {
-            line = approximate_simulator(*motion_->flows[e_])(start, *point, s.begin, times, 1e-9,
-                                                              keep_going_);
+            auto const& f = *motion_->flows[e_];
+            line = simulate(std::make_shared<plain_model const>(f.model()), f.inputs(), start,
+                            *point, s.begin, times, {1e-9, keep_going_});
         } catch (std::exception const&) {
             return {}; // a missing line is no loss: nothing rests on it
         }

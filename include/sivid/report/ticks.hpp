@@ -29,83 +29,20 @@ struct tick_set {
 /// A range that an axis can show, whatever comes in: finite, of positive width, and wide enough
 /// for doubles to tell its pixels apart. Empty and NaN give [0, 1]; an infinite end is replaced by
 /// the finite one; a single value gets room on both sides.
-[[nodiscard]] SIVID_ENTRY range axis_range(range const& data);
+[[nodiscard]] SIVID_DECL range axis_range(range const& data);
 
 /// Steps 1, 2, 5 times a power of ten, about `wanted` of them, at exact decimals.
 /// @guarantee  every tick lies in axis_range(r) up to rounding; at most 3 wanted + 2 ticks
-[[nodiscard]] SIVID_ENTRY tick_set nice_ticks(range const& r, int wanted);
+[[nodiscard]] SIVID_DECL tick_set nice_ticks(range const& r, int wanted);
 
 /// What stands beside an axis: its name with the common power of ten and the unit in brackets.
-[[nodiscard]] SIVID_ENTRY std::string axis_text(std::string_view label, std::string_view unit,
+[[nodiscard]] SIVID_DECL std::string axis_text(std::string_view label, std::string_view unit,
                                                 int exponent);
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_TICKS)
-SIVID_ENTRY range axis_range(range const& data) {
-    constexpr double largest = 1e300;
-    if (is_empty(data) || (!std::isfinite(data.lo) && !std::isfinite(data.hi))) {
-        return {0, 1};
-    }
-    double lo = std::isfinite(data.lo) ? data.lo : data.hi;
-    double hi = std::isfinite(data.hi) ? data.hi : data.lo;
-    lo = std::clamp(lo, -largest, largest);
-    hi = std::clamp(hi, -largest, largest);
-    double const size = std::max(std::fabs(lo), std::fabs(hi));
-    if (hi - lo <= 1e-11 * size || hi - lo < 1e-290) {
-        double const room = size < 1e-280 ? 1.0 : 0.05 * size;
-        return {lo - room, hi + room};
-    }
-    return {lo, hi};
-}
-
-SIVID_ENTRY tick_set nice_ticks(range const& r, int wanted) {
-    range const shown = axis_range(r);
-    double const rough = (shown.hi / 2 - shown.lo / 2) * 2 / std::max(wanted, 1);
-    int power = static_cast<int>(std::floor(std::log10(rough)));
-    double const unit = std::pow(10.0, power);
-    double const share = rough / unit;
-    int multiple = share <= 1.0001 ? 1 : share <= 2.0001 ? 2 : share <= 5.0001 ? 5 : 10;
-    if (multiple == 10) {
-        multiple = 1;
-        ++power;
-    }
-    double const step = multiple * std::pow(10.0, power);
-    double const slack = 1e-6;
-    auto const first = static_cast<long long>(std::ceil(shown.lo / step - slack));
-    auto const last = static_cast<long long>(std::floor(shown.hi / step + slack));
-
-    tick_set out;
-    double const size = std::max(std::fabs(shown.lo), std::fabs(shown.hi));
-    int const lead = detail::leading_exponent(size);
-    out.exponent = lead > 5 || lead < -3 ? lead : 0;
-    for (long long k = first; k <= last && out.ticks.size() < 100; ++k) {
-        scaled_decimal const exact{.negative = k < 0,
-                                   .digits = std::to_string((k < 0 ? -k : k) * multiple),
-                                   .exponent = power - out.exponent};
-        out.ticks.push_back({static_cast<double>(k) * step, plain_text(exact)});
-    }
-    return out;
-}
-
-SIVID_ENTRY std::string axis_text(std::string_view label, std::string_view unit, int exponent) {
-    std::string inner;
-    if (exponent != 0) {
-        inner = "10";
-        inner += detail::superscript(exponent);
-    }
-    if (!unit.empty()) {
-        inner += inner.empty() ? "" : " ";
-        inner += unit_text(unit);
-    }
-    std::string out{label};
-    if (!inner.empty()) {
-        out += " [";
-        out += inner;
-        out += ']';
-    }
-    return out;
-}
-#endif
-
 } // namespace sivid::report
+
+#ifndef SIVID_COMPILED
+#include <sivid/report/impl/ticks.ipp>
+#endif
 
 #endif

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -22,9 +23,9 @@ struct box_cover {
 };
 
 /// Subtracts a family of boxes from a whole by recursive cuts along their faces.
-///   A cell that no box meets is a gap. Any other is narrowed to the hull of what the boxes cover
-///   of it, what that leaves being gaps; a single box then covers it, several are parted by a cut
-///   at a face.
+///   A cell that no box meets is a gap, and so is a slice of a few floats that several meet. Any
+///   other is narrowed to the hull of what the boxes cover of it, what that leaves being gaps; a
+///   single box then covers it, several are parted by a cut at a face.
 class box_subtraction {
 public:
     /// @param tolerance  overlaps up to this share of a side's magnitude are rounding
@@ -44,6 +45,13 @@ private:
     [[nodiscard]] bool thick(std::size_t i) const { return !is_point((*whole_)[i]); }
     static bool is_point(interval const& s) { return s.lower() == s.upper(); }
 
+    /// A slice between faces that differ by rounding, of which nothing finer is told.
+    [[nodiscard]] bool is_rounding(box const& x) const {
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            if (thick(i) && x[i].upper() - x[i].lower() <= 0x1p-51 * mag(x[i])) return true;
+        }
+        return false;
+    }
     /// Whether the interiors meet; in sides where the whole is a point, whether the points do.
     [[nodiscard]] bool meets(box const& a, box const& b) const {
         for (std::size_t i = 0; i < a.size(); ++i) {
@@ -88,30 +96,35 @@ private:
         for (auto& piece : left) result_.gaps.push_back(std::move(piece));
     }
 
-    /// The face in the cell that leaves the fewest boxes in the fuller part.
+    /// A face in the cell that boxes cross least, up to rounding, and of these the one that leaves
+    /// the fewest boxes in the fuller part; one that parts nothing does not count.
     [[nodiscard]] std::optional<std::pair<std::size_t, double>>
     best_cut(box const& cell, std::vector<std::size_t> const& list) const {
         std::optional<std::pair<std::size_t, double>> best;
-        std::size_t least = list.size();
+        std::pair<std::size_t, std::size_t> least{list.size(), list.size()};
         for (std::size_t i = 0; i < cell.size(); ++i) {
             if (!thick(i)) continue;
-            std::vector<double> faces;
+            std::vector<double> lows, highs, faces;
             for (auto const k : list) {
-                for (double const f : {(*family_)[k][i].lower(), (*family_)[k][i].upper()}) {
-                    if (cell[i].lower() < f && f < cell[i].upper()) faces.push_back(f);
-                }
+                lows.push_back((*family_)[k][i].lower());
+                highs.push_back((*family_)[k][i].upper());
             }
-            if (faces.empty()) continue;
-            auto const middle = faces.begin() + static_cast<std::ptrdiff_t>(faces.size() / 2);
-            std::nth_element(faces.begin(), middle, faces.end());
-            std::size_t below = 0, above = 0;
-            for (auto const k : list) {
-                below += (*family_)[k][i].lower() < *middle ? 1 : 0;
-                above += (*family_)[k][i].upper() > *middle ? 1 : 0;
-            }
-            if (auto const worst = std::max(below, above); worst < least) {
-                least = worst;
-                best = {i, *middle};
+            std::sort(lows.begin(), lows.end());
+            std::sort(highs.begin(), highs.end());
+            std::merge(lows.begin(), lows.end(), highs.begin(), highs.end(),
+                       std::back_inserter(faces));
+            double const room = tolerance_ * mag((*whole_)[i]);
+            for (double const f : faces) {
+                if (!(cell[i].lower() < f && f < cell[i].upper())) continue;
+                auto const below = static_cast<std::size_t>(
+                    std::upper_bound(highs.begin(), highs.end(), f + room) - highs.begin());
+                auto const above = static_cast<std::size_t>(
+                    lows.end() - std::lower_bound(lows.begin(), lows.end(), f - room));
+                auto const n = list.size();
+                std::pair const cost{n - std::min(n, below + above), n - std::min(below, above)};
+                if (cost.second >= n || !(cost < least)) continue;
+                least = cost;
+                best = {i, f};
             }
         }
         return best;
@@ -126,10 +139,11 @@ private:
             around = list.empty() ? part : hull(around, part);
             list.push_back(k);
         }
-        if (list.empty()) {
+        if (list.empty() || (list.size() > few && is_rounding(cell))) {
             result_.gaps.push_back(std::move(cell));
             return;
         }
+        if (list.size() > 1 && is_rounding(cell)) return subtract(cell, list);
         // What lies beyond all of them is few large gaps; cuts through it would make many.
         for (auto& beyond : difference(cell, around)) result_.gaps.push_back(std::move(beyond));
         cell = std::move(around);
@@ -159,8 +173,8 @@ private:
     box_cover result_;
 };
 
-/// @guarantee  exact on the doubles of the bounds: a point of the whole lies in a box of the family
-/// or in a gap
+/// @guarantee  on the doubles of the bounds a point of the whole lies in a box of the family or in
+/// a gap; gaps share volume with boxes only in slices of a few floats
 /// @cost  about n log n for n boxes that share few cuts, more when cuts meet many boxes
 [[nodiscard]] inline box_cover cover(box const& whole, std::vector<box> const& family,
                                      double tolerance = 2e-15) {

@@ -2,8 +2,8 @@
 #ifndef SIVID_DIAGNOSIS_DETAIL_HOLDOUT_RESULTS_HPP
 #define SIVID_DIAGNOSIS_DETAIL_HOLDOUT_RESULTS_HPP
 
+#include <sivid/approximate/approximate_fit.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
-#include <sivid/paving/approximate_fit.hpp>
 
 #include <limits>
 #include <optional>

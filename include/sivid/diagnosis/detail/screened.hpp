@@ -2,10 +2,10 @@
 #ifndef SIVID_DIAGNOSIS_DETAIL_SCREENED_HPP
 #define SIVID_DIAGNOSIS_DETAIL_SCREENED_HPP
 
+#include <sivid/approximate/approximate_fit.hpp>
 #include <sivid/diagnosis/candidate.hpp>
-#include <sivid/paving/approximate_fit.hpp>
-#include <sivid/paving/executor.hpp>
-#include <sivid/paving/problem.hpp>
+#include <sivid/executor.hpp>
+#include <sivid/model/problem.hpp>
 
 #include <cstddef>
 #include <functional>

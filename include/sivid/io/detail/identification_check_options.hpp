@@ -3,6 +3,7 @@
 #define SIVID_IO_DETAIL_IDENTIFICATION_CHECK_OPTIONS_HPP
 
 #include <sivid/paving/detail/certificate_options.hpp>
+#include <sivid/paving/run_options.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -23,6 +24,7 @@ struct identification_check_options {
     /// What the program that wrote the result assumes beside what the problem says.
     std::vector<std::string> further_assumptions = {};
     certificate_options certificate;
+    run_options run{}; ///< of the Taylor models by which excluded boxes are proved
 };
 
 } // namespace sivid

@@ -49,6 +49,12 @@ public:
         bool const by_products = stored_->products.has_value();
         auto options = options_;
         if (by_products) options.seconds *= 0.5; // for two pavings
+        // Finer than the search: what it cut off must be cut off again.
+        auto& fine = options.run.enclosure;
+        double const stated = stored_->tolerance > 0 ? stored_->tolerance : fine.tolerance;
+        fine.tolerance = std::clamp(0.01 * stated, 1e-11, fine.tolerance);
+        fine.relative_tolerance = std::min(fine.relative_tolerance, 1e3 * fine.tolerance);
+        fine.keep_going = options.certificate.keep_going;
         if (by_products) {
             rebuilt = rebuild_products<Exact>(*problem_, stored_->products->sides);
             add([&] { return check_products(rebuilt, *stored_->products); });
@@ -83,10 +89,10 @@ public:
                                       options_.seed + 2);
         });
         if (by_products) add([&] { return check_rows(*problem_, *stored_); });
-        paving_check<Fast> boxes(*problem_, problem_->choice.unknown, stored_->rows, starts_,
-                                 options);
-        add([&] { return boxes.covering("cover"); });
         bool const drawn = by_products && rebuilt.unproved.empty();
+        paving_check<Fast> boxes(*problem_, problem_->choice.unknown, stored_->rows, starts_,
+                                 options, by_products ? exclusion_proof{} : stored_->proof);
+        add([&] { return boxes.covering("cover"); });
         std::optional<drawing_check<Exact>> drawing;
         if (drawn) drawing.emplace(*problem_, *stored_, rebuilt);
         add([&] {
@@ -103,7 +109,7 @@ public:
         });
         if (!drawn) return all;
         paving_check<Fast> products(rebuilt.problem, stored_->products->sides,
-                                    stored_->products->rows, starts_, options);
+                                    stored_->products->rows, starts_, options, stored_->proof);
         add([&] { return products.covering("product cover"); });
         add([&] { return products.inside("inside products"); });
         add([&] { return products.outside("excluded products"); });

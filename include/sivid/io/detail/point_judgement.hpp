@@ -2,7 +2,7 @@
 #ifndef SIVID_IO_DETAIL_POINT_JUDGEMENT_HPP
 #define SIVID_IO_DETAIL_POINT_JUDGEMENT_HPP
 
-#include <sivid/paving/approximate_fit.hpp>
+#include <sivid/approximate/approximate_fit.hpp>
 #include <sivid/paving/plain_campaign.hpp>
 
 #include <cstddef>

@@ -4,6 +4,7 @@
 
 #include <sivid/number/interval.hpp>
 #include <sivid/paving/detail/fewest_outliers.hpp>
+#include <sivid/paving/exclusion_proof.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/verdict.hpp>
@@ -48,6 +49,10 @@ struct stored_identification {
     std::string grounds; ///< what the verdict is said to rest on; "" in older files
     stop_reason reason = stop_reason::decided;
     std::optional<search_effort> effort;
+    /// Of certificates.csv: how the exclusions of the products, or else of the boxes, are proved.
+    /// Empty where there is no such file.
+    exclusion_proof proof;
+    double tolerance = 0; ///< of the search's enclosures; 0 when the result does not say
     std::vector<std::string> assumptions;
     /// SHA-256 of the tables, by name: as stated, and as they are.
     std::map<std::string, std::string> stated_files, files;

@@ -2,9 +2,9 @@
 #ifndef SIVID_PAVING_DETAIL_BOX_BATCHES_HPP
 #define SIVID_PAVING_DETAIL_BOX_BATCHES_HPP
 
+#include <sivid/executor.hpp>
 #include <sivid/number/guard.hpp>
 #include <sivid/paving/detail/lesson.hpp>
-#include <sivid/paving/executor.hpp>
 #include <sivid/paving/frontier.hpp>
 #include <sivid/paving/set_test.hpp>
 
@@ -26,6 +26,19 @@ template <learning_set_test Test>
 struct knowledge_of<Test> {
     using type = typename Test::knowledge;
 };
+
+/// Bytes that knowledge of a box takes.
+template <class Test>
+[[nodiscard]] std::size_t bytes_of(Test const& test, box const& x,
+                                   typename knowledge_of<Test>::type const& found) {
+    using knowledge = typename knowledge_of<Test>::type;
+    auto const frame = sizeof(learnt<knowledge>) + sizeof(box) + x.size() * sizeof(interval);
+    if constexpr (measured_set_test<Test>) {
+        return frame + test.bytes(found);
+    } else {
+        return frame + sizeof(knowledge);
+    }
+}
 
 /// What waits with a box.
 template <class Knowledge>

@@ -53,6 +53,7 @@ inline void draw(identification& result, reduction const& map, subpaving const& 
     drawing.memory = inversion_options{}.memory; // few boxes
     drawing.checkpoint = nullptr;
     drawing.resume = nullptr;
+    drawing.proof_bytes = 0;
     result.paving = drawn(test, map, prior, drawing);
     std::vector<box> inside, left;
     for (auto const& b : reduced.boxes()) {

@@ -3,7 +3,7 @@
 #define SIVID_PAVING_DETAIL_MEASUREMENT_WALK_HPP
 
 #include <sivid/measurement/record.hpp>
-#include <sivid/paving/problem.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/response.hpp>
 
 #include <cstddef>

@@ -2,11 +2,11 @@
 #ifndef SIVID_PAVING_DETAIL_ONLINE_TEST_HPP
 #define SIVID_PAVING_DETAIL_ONLINE_TEST_HPP
 
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/continued_run.hpp>
 #include <sivid/paving/data_test.hpp>
 #include <sivid/paving/detail/online_region.hpp>
 #include <sivid/paving/detail/response_judgement.hpp>
-#include <sivid/paving/problem.hpp>
 
 #include <algorithm>
 #include <cstddef>

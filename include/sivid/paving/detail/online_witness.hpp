@@ -2,12 +2,12 @@
 #ifndef SIVID_PAVING_DETAIL_ONLINE_WITNESS_HPP
 #define SIVID_PAVING_DETAIL_ONLINE_WITNESS_HPP
 
+#include <sivid/approximate/fit/fit.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/continued_run.hpp>
 #include <sivid/paving/data_test.hpp>
 #include <sivid/paving/detail/doubleton_continuation.hpp>
-#include <sivid/paving/fit.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/problem.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -72,7 +72,7 @@ public:
                       [](experiment const& e) { return e.measurements.empty(); });
         if (known.experiments.empty()) return;
         fitter fit(known, options_.enclosure.keep_going);
-        auto guess = last_.empty() ? fit() : fit(last_);
+        auto guess = fit({last_});
         if (!(guess.inflation < 1) && !last_.empty()) guess = fit();
         if (guess.parameters.empty()) return;
         last_ = guess.parameters;

@@ -3,6 +3,7 @@
 #define SIVID_PAVING_DETAIL_RESPONSE_JUDGEMENT_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/paving/exclusion_proof.hpp>
 #include <sivid/paving/response.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/space/box.hpp>
@@ -19,6 +20,7 @@ struct response_judgement {
     /// Largest share of an undecided output's width that does not shrink with the part; infinite
     /// where outputs were not reached.
     double share = 0;
+    exclusion_proof proof = {}; ///< of the contraction, or that nothing is left
 };
 
 /// Decides and contracts a part by responses alone; nothing is integrated.
@@ -29,14 +31,14 @@ struct response_judgement {
 /// @guarantee  outside: no parameter of the part is feasible for any starts; inside: all are, for
 ///             the chosen starts or for others that depend on the parameter; `rest` keeps every
 ///             feasible parameter
-[[nodiscard]] SIVID_ENTRY response_judgement judge_by_responses(response_list const& all,
+[[nodiscard]] SIVID_DECL response_judgement judge_by_responses(response_list const& all,
                                                                 response_list const& chosen,
                                                                 box part, bool contract, bool cut);
 
 } // namespace sivid
 
-#if !defined(SIVID_COMPILED) || defined(SIVID_COMPILE_JUDGE_BY_RESPONSES)
-#include <sivid/paving/detail/judge_by_responses.hpp>
+#ifndef SIVID_COMPILED
+#include <sivid/paving/impl/response_judgement.ipp>
 #endif
 
 #endif

@@ -4,8 +4,8 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/io/explaining_motion.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/problem.hpp>
 #include <sivid/report/identification_view.hpp>
 #include <sivid/report/identification_words.hpp>
 #include <sivid/report/paving_projections.hpp>
@@ -279,7 +279,7 @@ private:
 
 } // namespace detail
 
-SIVID_ENTRY identification_view view_of(identification_problem const& problem,
+SIVID_DECL identification_view view_of(identification_problem const& problem,
                                         identification const& found,
                                         explaining_motion const* motion,
                                         identification_report_options const& options) {

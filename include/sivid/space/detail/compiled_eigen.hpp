@@ -19,12 +19,6 @@ template <int Version, int MaxAlignBytes, int MaxStaticAlignBytes, std::size_t I
 struct library_for_eigen {
     static char const sivid_compiled_has_another_eigen_alignment;
 };
-#ifdef SIVID_COMPILE_LIBRARY_FOR
-template <int Version, int MaxAlignBytes, int MaxStaticAlignBytes, std::size_t IndexBytes,
-          int StorageOrder>
-char const library_for_eigen<Version, MaxAlignBytes, MaxStaticAlignBytes, IndexBytes,
-                             StorageOrder>::sivid_compiled_has_another_eigen_alignment = 0;
-#endif
 
 SIVID_KEPT static char const* const library_for_this_eigen = &library_for_eigen<
     EIGEN_WORLD_VERSION * 10000 + EIGEN_MAJOR_VERSION * 100 + EIGEN_MINOR_VERSION,

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_APPROXIMATE_SIMULATE_LATE_SIGNAL_HPP
+#define SIVID_APPROXIMATE_SIMULATE_LATE_SIGNAL_HPP
+
+#include <sivid/model/bound_model.hpp>
+#include <sivid/model/plain_program.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace sivid {
+
+/// An input as a model with a delay sees it: u(t - delay), and u(begin) before. In plain doubles.
+class late_signal {
+public:
+    late_signal(signal const& source, double begin) : begin_(begin) {
+        if (auto const* samples = std::get_if<sampled_signal>(&source)) {
+            samples_ = *samples;
+            return;
+        }
+        auto const& formula = std::get<analytic_signal>(source);
+        formula_ = plain_program(formula.g, {formula.value}, program_shape{});
+        memory_ = formula_.memory();
+        formula_.prepare(memory_);
+        is_formula_ = true;
+    }
+
+    /// Whether the value jumps at knots.
+    [[nodiscard]] bool jumps() const {
+        return !is_formula_ && samples_.kind() == interpolation::hold;
+    }
+    /// Appends the knots within (from, to), late by `delay`.
+    void knots(double delay, double from, double to, std::vector<double>& out) const {
+        if (is_formula_) {
+            if (delay > 0 && begin_ + delay < to) out.push_back(begin_ + delay);
+            return;
+        }
+        auto const& times = samples_.times();
+        // Before the begin a delayed signal stands still; an undelayed one has its own knots.
+        double const first = delay > 0 ? std::max(from, begin_) : from;
+        if (delay > 0 && begin_ + delay < to) out.push_back(begin_ + delay);
+        auto k = std::upper_bound(times.begin(), times.end(), first - delay);
+        for (; k != times.end() && *k + delay < to; ++k) {
+            if (*k + delay > from && (!(delay > 0) || *k > begin_)) out.push_back(*k + delay);
+        }
+    }
+
+    /// A straight piece: value at its begin and slope.
+    struct line {
+        double value = 0, slope = 0;
+    };
+    /// On (from, to), between neighbouring knots.
+    [[nodiscard]] line on(double delay, double from, double to) {
+        double const middle = 0.5 * (from + to) - delay;
+        if (delay > 0 && middle <= begin_) return {at(0, begin_), 0};
+        if (is_formula_) {
+            double const a = at(delay, from);
+            return {a, to > from ? (at(delay, to) - a) / (to - from) : 0};
+        }
+        auto const k = samples_.piece(middle);
+        double const a = samples_.approximate_on(k, from - delay);
+        double const b = samples_.approximate_on(k, to - delay);
+        return {a, to > from ? (b - a) / (to - from) : 0};
+    }
+    /// At one time; after a jump.
+    [[nodiscard]] double at(double delay, double t) {
+        double const seen = delay > 0 ? std::max(t - delay, begin_) : t;
+        if (!is_formula_) return samples_.approximate(seen);
+        memory_[0] = seen;
+        formula_.run(memory_);
+        return memory_[formula_.output(0)];
+    }
+    /// Samples of formulas are fine enough that straight pieces do: the longest piece [s].
+    [[nodiscard]] bool is_formula() const { return is_formula_; }
+
+private:
+    double begin_;
+    sampled_signal samples_;
+    plain_program formula_;
+    std::vector<double> memory_;
+    bool is_formula_ = false;
+};
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_APPROXIMATE_SIMULATE_PLAIN_MODEL_HPP
+#define SIVID_APPROXIMATE_SIMULATE_PLAIN_MODEL_HPP
+
+#include <sivid/approximate/simulate/late_signal.hpp>
+#include <sivid/model/bound_model.hpp>
+#include <sivid/model/plain_program.hpp>
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace sivid {
+
+/// One structurally non-zero partial derivative: d output `row` / d argument `column`.
+struct plain_derivative {
+    std::size_t row = 0, column = 0;
+    std::size_t slot = 0; ///< of its value in the program's memory
+};
+
+/// A delay of an input or channel: by an unknown parameter or by a known time.
+struct plain_delay {
+    std::size_t index = 0;     ///< of the input or channel
+    bool unknown = false;      ///< whether `parameter` is its duration, else `duration`
+    std::size_t parameter = 0; ///< among the unknown parameters
+    double duration = 0;       ///< [s]
+
+    [[nodiscard]] double value(std::vector<double> const& parameters) const {
+        return unknown ? parameters[parameter] : duration;
+    }
+};
+
+/// Rates or outputs with their partial derivatives, as programs in plain doubles.
+struct plain_function {
+    plain_program values;    ///< the outputs alone
+    plain_program expansion; ///< outputs, then the derivatives below
+    std::vector<plain_derivative> by_state, by_parameter, by_input, by_time;
+};
+
+/// A model bound to constants and inputs for simulation with sensitivities. Delays are kept.
+class plain_model {
+public:
+    plain_model(recorded_model const& model, parameter_choice const& choice,
+                std::vector<signal> const& inputs) {
+        if (inputs.size() != model.about.inputs.size()) {
+            throw std::invalid_argument("model '" + model.about.name + "' has " +
+                                        std::to_string(model.about.inputs.size()) +
+                                        " inputs, but " + std::to_string(inputs.size()) +
+                                        " signals were given");
+        }
+        input_delays_ = delays_of(model, choice, model.input_delays);
+        channel_delays_ = delays_of(model, choice, model.channel_delays);
+        auto prompt = model;
+        prompt.input_delays.clear();
+        prompt.channel_delays.clear();
+        // A formula that acts late is no formula in t: it is kept as an input.
+        auto seen = inputs;
+        for (auto const& d : input_delays_) {
+            seen[d.index] = sampled_signal({0.0}, {0.0}, interpolation::linear);
+        }
+        *this = plain_model(sivid::bind(prompt, choice, seen), std::move(input_delays_),
+                            std::move(channel_delays_));
+    }
+    /// A model that is bound already; it has no delays.
+    explicit plain_model(bound_model const& bound) : plain_model(bound, {}, {}) {}
+
+    [[nodiscard]] std::size_t states() const { return shape_.states; }
+    [[nodiscard]] std::size_t parameters() const { return shape_.constants; }
+    [[nodiscard]] std::size_t channels() const { return channels_; }
+    [[nodiscard]] program_shape const& shape() const { return shape_; }
+    [[nodiscard]] plain_function const& rate() const { return rate_; }
+    [[nodiscard]] plain_function const& observe() const { return observe_; }
+    [[nodiscard]] std::vector<plain_delay> const& input_delays() const { return input_delays_; }
+    [[nodiscard]] std::vector<plain_delay> const& channel_delays() const { return channel_delays_; }
+    /// Inputs whose values the programs read: sampled ones and late formulas.
+    [[nodiscard]] std::vector<std::size_t> const& used_inputs() const { return used_; }
+
+private:
+    plain_model(bound_model const& bound, std::vector<plain_delay> of_inputs,
+                std::vector<plain_delay> of_channels)
+        : shape_{bound.state_count(), bound.about.inputs.size(), bound.parameter_count()},
+          channels_(bound.channel_count()),
+          used_(bound.sampled),
+          input_delays_(std::move(of_inputs)),
+          channel_delays_(std::move(of_channels)),
+          rate_(function_of(bound, bound.rate, bound.rate_dx, bound.rate_dp)),
+          observe_(function_of(bound, bound.observe, bound.observe_dx, bound.observe_dp)) {}
+
+    [[nodiscard]] static std::vector<plain_delay> delays_of(recorded_model const& model,
+                                                            parameter_choice const& choice,
+                                                            std::vector<time_delay> const& delays) {
+        std::vector<plain_delay> result;
+        for (auto const& d : delays) {
+            auto const& c = model.about.constants.at(d.constant);
+            plain_delay p;
+            p.index = d.index;
+            p.duration = c.nominal.nearest;
+            if (auto const f = choice.fixed.find(c.name); f != choice.fixed.end()) {
+                p.duration = mid(f->second);
+            }
+            for (std::size_t j = 0; j < choice.unknown.size(); ++j) {
+                if (choice.unknown[j] != c.name) continue;
+                p.unknown = true;
+                p.parameter = j;
+            }
+            result.push_back(p);
+        }
+        return result;
+    }
+
+    [[nodiscard]] plain_function function_of(bound_model const& bound,
+                                             std::vector<node_id> const& values,
+                                             std::vector<std::vector<node_id>> const& dx,
+                                             std::vector<std::vector<node_id>> const& dp) const {
+        plain_function f;
+        f.values = plain_program(bound.g, values, shape_);
+        auto g = bound.g;
+        std::vector<node_id> u;
+        for (auto const i : used_) u.push_back(g.leaf(operation::input, i));
+        auto const du = differentiate(g, values, u);
+        auto const dt = differentiate(g, values, {g.leaf(operation::time, 0)});
+        auto outputs = values;
+        auto const collect = [&](std::vector<std::vector<node_id>> const& d,
+                                 std::vector<plain_derivative>& entries, bool inputs) {
+            for (std::size_t i = 0; i < d.size(); ++i) {
+                for (std::size_t j = 0; j < d[i].size(); ++j) {
+                    if (g.is(d[i][j], 0)) continue;
+                    entries.push_back({i, inputs ? used_[j] : j, outputs.size()});
+                    outputs.push_back(d[i][j]);
+                }
+            }
+        };
+        collect(dx, f.by_state, false);
+        collect(dp, f.by_parameter, false);
+        collect(du, f.by_input, true);
+        collect(dt, f.by_time, false);
+        f.expansion = plain_program(g, outputs, shape_);
+        for (auto* part : {&f.by_state, &f.by_parameter, &f.by_input, &f.by_time}) {
+            for (auto& e : *part) e.slot = f.expansion.output(e.slot);
+        }
+        return f;
+    }
+
+    program_shape shape_;
+    std::size_t channels_ = 0;
+    std::vector<std::size_t> used_;
+    std::vector<plain_delay> input_delays_, channel_delays_;
+    plain_function rate_, observe_;
+};
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_APPROXIMATE_SIMULATE_SIMULATION_MESH_HPP
+#define SIVID_APPROXIMATE_SIMULATE_SIMULATION_MESH_HPP
+
+#include <sivid/approximate/simulate/late_signal.hpp>
+#include <sivid/approximate/simulate/plain_model.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// One scalar that a simulation shall return: a channel at a time.
+struct output_request {
+    double time = 0;
+    std::size_t channel = 0;
+};
+
+/// The times at which a simulation has to stop: knots of the inputs (late ones where the delay puts
+/// them), of disturbances, and the times at which the requested outputs are looked at. Between
+/// neighbours every input is a straight line.
+class simulation_mesh {
+public:
+    simulation_mesh(plain_model const& model, std::vector<signal> const& inputs, double begin,
+                    std::vector<output_request> requests, std::vector<double> const& knots)
+        : model_(&model), begin_(begin), requests_(std::move(requests)), knots_(knots) {
+        for (auto const& u : inputs) signals_.emplace_back(u, begin);
+        input_delay_.assign(inputs.size(), 0.0);
+        channel_delay_.assign(model.channels(), 0.0);
+        for (auto const i : model.used_inputs()) jumps_ = jumps_ || signals_[i].jumps();
+        for (auto const* list : {&model.input_delays(), &model.channel_delays()}) {
+            for (auto const& d : *list) moves_ = moves_ || d.unknown;
+        }
+    }
+
+    [[nodiscard]] std::vector<output_request> const& requests() const { return requests_; }
+    /// For these parameters; cheap when no unknown delay moves it.
+    void place(std::vector<double> const& parameters) {
+        if (!times_.empty() && !moves_) return;
+        bool moved = times_.empty();
+        auto const set = [&](double& delay, double value) {
+            moved = moved || delay != value;
+            delay = value;
+        };
+        for (auto const& d : model_->input_delays()) {
+            set(input_delay_[d.index], std::max(0.0, d.value(parameters)));
+        }
+        for (auto const& d : model_->channel_delays()) {
+            set(channel_delay_[d.index], std::max(0.0, d.value(parameters)));
+        }
+        if (!moved) return;
+        double end = begin_;
+        for (auto const& r : requests_) end = std::max(end, r.time);
+        if (requests_.empty() && !knots_.empty()) end = std::max(end, knots_.back());
+        times_ = {begin_, end};
+        auto const within = [&](double t) {
+            if (begin_ < t && t < end) times_.push_back(t);
+        };
+        for (auto const& r : requests_) within(seen(r));
+        for (auto const t : knots_) within(t);
+        for (auto const i : model_->used_inputs()) {
+            signals_[i].knots(input_delay_[i], begin_, end, times_);
+            if (!signals_[i].is_formula()) continue;
+            for (int k = 1; k < fine; ++k) within(begin_ + (end - begin_) * k / fine);
+        }
+        std::sort(times_.begin(), times_.end());
+        // Times that differ by rounding only are one.
+        double const close = 1e-12 * std::max({1.0, std::abs(begin_), std::abs(end)});
+        times_.erase(std::unique(times_.begin(), times_.end(),
+                                 [close](double a, double b) { return b - a <= close; }),
+                     times_.end());
+        observed_.assign(times_.size(), {});
+        for (std::size_t k = 0; k < requests_.size(); ++k) {
+            auto const at =
+                std::lower_bound(times_.begin(), times_.end(), seen(requests_[k]) - close);
+            observed_[static_cast<std::size_t>(at - times_.begin())].push_back(k);
+        }
+        auto const n = signals_.size();
+        lines_.assign(times_.size() * n, {});
+        for (auto const i : model_->used_inputs()) {
+            for (std::size_t k = 0; k + 1 < times_.size(); ++k) {
+                lines_[k * n + i] = signals_[i].on(input_delay_[i], times_[k], times_[k + 1]);
+            }
+            lines_[pieces() * n + i] = {signals_[i].at(input_delay_[i], end), 0};
+        }
+    }
+
+    [[nodiscard]] std::size_t pieces() const { return times_.size() - 1; }
+    [[nodiscard]] double time(std::size_t k) const { return times_[k]; }
+    /// Requests that are looked at at time(k).
+    [[nodiscard]] std::vector<std::size_t> const& observed(std::size_t k) const {
+        return observed_[k];
+    }
+    /// Input `i` on piece k; k = pieces() is the last point alone.
+    [[nodiscard]] double input(std::size_t k, std::size_t i, double t) const {
+        auto const& l = lines_[k * signals_.size() + i];
+        return l.value + l.slope * (t - times_[k]);
+    }
+    [[nodiscard]] double slope(std::size_t k, std::size_t i) const {
+        return lines_[k * signals_.size() + i].slope;
+    }
+    /// Whether some input jumps between its pieces.
+    [[nodiscard]] bool jumps() const { return jumps_; }
+    [[nodiscard]] bool jumps(std::size_t i) const { return signals_[i].jumps(); }
+    /// When the output that is requested leaves the model.
+    [[nodiscard]] double seen(output_request const& r) const {
+        return std::max(begin_, r.time - channel_delay_[r.channel]);
+    }
+
+private:
+    static constexpr int fine = 400; ///< pieces of a late formula
+
+    plain_model const* model_;
+    double begin_;
+    std::vector<output_request> requests_;
+    std::vector<double> knots_;
+    std::vector<late_signal> signals_;
+    std::vector<double> input_delay_, channel_delay_, times_;
+    std::vector<std::vector<std::size_t>> observed_;
+    std::vector<late_signal::line> lines_; ///< [piece * inputs + input]
+    bool jumps_ = false, moves_ = false;
+};
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_IMPL_AFFECTED_PROBLEM_IPP
+#define SIVID_DIAGNOSIS_IMPL_AFFECTED_PROBLEM_IPP
+
+#include <sivid/diagnosis/affected_problem.hpp>
+
+namespace sivid {
+
+SIVID_DECL identification_problem affected(identification_problem const& base,
+                                            std::vector<effect> const& effects) {
+    identification_problem result{with(base.model, effects), base.choice, {}, base.experiments};
+    std::vector<interval> prior(base.prior.begin(), base.prior.end());
+    for (auto const& e : effects) {
+        for (auto const& p : e.parameters) {
+            result.choice.unknown.push_back(e.name + "." + p.name);
+            prior.push_back(hull(enclose(p.lower), enclose(p.upper)));
+        }
+    }
+    result.prior = box(std::move(prior));
+    start_added_states(result);
+    return result;
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_IMPL_DIAGNOSE_IPP
+#define SIVID_DIAGNOSIS_IMPL_DIAGNOSE_IPP
+
+#include <sivid/diagnosis/diagnose.hpp>
+
+#include <sivid/approximate/place/place_estimate.hpp>
+#include <sivid/compiled.hpp>
+#include <sivid/diagnosis/broken_relation.hpp>
+#include <sivid/diagnosis/candidate_order.hpp>
+#include <sivid/diagnosis/candidate_verdicts.hpp>
+#include <sivid/diagnosis/claim_review.hpp>
+#include <sivid/diagnosis/describe_candidate.hpp>
+#include <sivid/diagnosis/diagnosis_run.hpp>
+#include <sivid/diagnosis/gap_proof.hpp>
+#include <sivid/diagnosis/manoeuvre.hpp>
+#include <sivid/diagnosis/opening_words.hpp>
+#include <sivid/diagnosis/part_inflation.hpp>
+#include <sivid/diagnosis/place_report.hpp>
+#include <sivid/diagnosis/screening.hpp>
+#include <sivid/diagnosis/sensor_discharge.hpp>
+#include <sivid/diagnosis/verification.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// Diagnoses one campaign step by step.
+class diagnostician {
+public:
+    diagnostician(identification_problem base, std::vector<effect> catalogue,
+                  diagnosis_options options)
+        : options_(std::move(options)),
+          effort_(options_.seconds, options_.test, options_.progress) {
+        run_.base = std::move(base);
+        run_.catalogue = std::move(catalogue);
+        run_.base.require_valid();
+        options_.screening.progress = [this](std::string const& what) {
+            return effort_.left() > kept_ && effort_.go_on("trying " + what);
+        };
+        options_.screening.go_on = [this] { return effort_.left() > kept_ && effort_.go_on(); };
+        options_.screening.workers = options_.test.workers;
+        options_.screening.seconds = std::numeric_limits<double>::infinity();
+    }
+
+    [[nodiscard]] diagnosis_run operator()() {
+        auto& d = run_.result;
+        d.assumptions.push_back(input_assumption(run_.base.experiments));
+        screening tried(run_.base, run_.catalogue, options_.screening);
+        kept_ = (1 - options_.first_fit_share) * options_.seconds;
+        tried.try_one({});
+        run_.candidates = tried.candidates();
+        if (!run_.candidates.empty()) look_first();
+        if (d.gap != gap_verdict::none) {
+            d.answer = answer_kind::open;
+            d.tried = tried.counts();
+            if (!run_.candidates.empty() && !effort_.stopped()) find_causes(tried);
+        }
+        discharge_sensors();
+        settle_claims(run_);
+        state_constants();
+        d.interrupted = effort_.stopped() || !d.tried.complete();
+        d.seconds = effort_.seconds();
+        return std::move(run_);
+    }
+
+private:
+    /// Whether there is a gap, and where: what is quickly known first.
+    void look_first() {
+        auto const base = run_.candidates.front();
+        auto& bound = run_.base_bound;
+        bound = verify_fit(base, effort_.test());
+        know_gap();
+        bool const explained = run_.result.gap == gap_verdict::none;
+        if (!explained) {
+            find_relations();
+            announce();
+            find_places();
+            announce();
+        }
+        bool const provable = !base.problem.model.has_delays();
+        if (provable && effort_.go_on("bounding the gap"))
+            prove_gap(bound, base, effort_, options_.gap);
+        know_gap();
+        announce();
+    }
+    void know_gap() {
+        auto& d = run_.result;
+        d.inflation = run_.base_bound.range;
+        d.gap = gap_of(d.inflation);
+        if (d.gap != gap_verdict::none) return;
+        // A better fit was found: nothing is missing anywhere, and assumptions that led to a proof
+        // do not hold.
+        d.where.clear();
+        d.relations.clear();
+        run_.findings.clear();
+        run_.places = {};
+    }
+    void find_relations() {
+        if (!effort_.go_on("proving which equations cannot hold")) return;
+        relation_options options;
+        double const end = effort_.left() - effort_.seconds_of({0, options_.relations_share});
+        options.go_on = [this, end] { return effort_.left() >= end && effort_.go_on(); };
+        run_.findings = find_broken_relations(run_.base, options);
+        for (auto const& f : run_.findings) run_.result.relations.push_back(reported(f));
+    }
+    void find_places() {
+        std::string const looking = "looking where the model departs from the data";
+        auto options = place_effort();
+        if (!effort_.go_on(looking)) return;
+        run_.places = estimate_places(run_.base, std::move(options), &run_.candidates.front().fit);
+        run_.result.where = reported(run_.places, run_.findings);
+    }
+    [[nodiscard]] place_options place_effort() {
+        place_options result;
+        result.workers = effort_.test().workers;
+        double const end = effort_.left() - effort_.seconds_of({0, options_.places_share});
+        result.search.go_on = [this, end] { return effort_.left() >= end && effort_.go_on(); };
+        return result;
+    }
+    void announce() {
+        if (!options_.first_sentence) return;
+        auto text = opening_words(run_.result, run_.base, run_.candidates.front().fit);
+        if (text == said_) return;
+        said_ = std::move(text);
+        options_.first_sentence(said_);
+    }
+
+    /// Which effects, and what of that can be proved: all candidates before anything that only
+    /// tells more of the answer.
+    void find_causes(screening& tried) {
+        auto& d = run_.result;
+        auto order = try_candidates(tried, options_.verdict_share);
+        bool going = candidate_verdicts(run_, order, effort_, options_).verify();
+        if (!d.tried.complete() && going) { // what is left is for the next ones
+            order = try_candidates(tried, 0.2 * options_.verdict_share);
+            going = candidate_verdicts(run_, order, effort_, options_).verify();
+        }
+        if (going) candidate_verdicts(run_, order, effort_, options_).refute();
+        describe_remainder();
+        propose(order);
+        measure_parts();
+    }
+
+    /// Tries what is left of the plan and decides what the answer is by then.
+    /// @param share  of all time that is kept
+    [[nodiscard]] candidate_order try_candidates(screening& tried, double share) {
+        kept_ = share * options_.seconds;
+        tried.run();
+        run_.candidates = tried.candidates();
+        auto& d = run_.result;
+        d.tried = tried.counts();
+        std::vector<candidate> figures;
+        for (auto const& c : run_.candidates) figures.push_back(c.figures);
+        candidate_order order(figures, tried.measurements(), options_.choice);
+        run_.answer = order.answer();
+        run_.answer_bound = {};
+        run_.answer_hull = {};
+        d.shrink_fit.reset();
+        d.effects.clear();
+        if (order.explained()) {
+            d.effects = names_of(figures[order.answer()], run_.catalogue);
+            d.answer = d.effects.empty() ? answer_kind::none : answer_kind::effects;
+        } else {
+            d.answer = d.tried.complete() ? answer_kind::unexplained : answer_kind::open;
+        }
+        d.indistinguishable.clear();
+        for (auto const o : order.others()) {
+            d.indistinguishable.push_back(names_of(figures[o], run_.catalogue));
+        }
+        d.unobservable.clear();
+        for (auto const& c : run_.candidates) {
+            if (!c.silent || c.figures.effects.size() != 1) continue;
+            d.unobservable.push_back(run_.catalogue[c.figures.effects.front()].name);
+        }
+        d.causes.clear();
+        for (auto const i : order.order()) {
+            d.causes.push_back(cause_of(run_.candidates[i], run_.catalogue, run_.base.prior.size(),
+                                        tried.measurements()));
+        }
+        return order;
+    }
+
+    /// Every constant of the model that is the answer, and which sit at the end of their prior.
+    void state_constants() {
+        auto& d = run_.result;
+        if (run_.candidates.empty()) return;
+        auto const& s = run_.candidates[run_.answer];
+        auto const& bound = run_.answer == 0 ? run_.base_bound : run_.answer_bound;
+        d.constants = named_parameters(s.problem, bound.witness ? bound.witness->parameters
+                                                                : s.fit.parameters);
+        d.constants_verified = bound.witness && bound.range.upper() <= 1;
+        for (std::size_t j = 0; j < std::min(d.constants.size(), run_.answer_hull.size()); ++j) {
+            d.constants[j].hull = run_.answer_hull[j];
+        }
+        add_constants_at_ends(names_of(s.figures, run_.catalogue), d.constants, d.at_ends);
+        if (d.constants_verified) return;
+        auto const& base = run_.candidates.front();
+        add_constants_at_ends({}, named_parameters(base.problem, base.fit.parameters), d.at_ends);
+    }
+
+    /// Proves of places that no sensor of their relation can be what is wrong instead.
+    void discharge_sensors() {
+        auto& d = run_.result;
+        if (d.gap == gap_verdict::none || run_.findings.empty()) return;
+        if (run_.places.places.empty() || instruments_explain(run_.places)) return;
+        if (!effort_.go_on("looking whether a sensor may be wrong instead")) return;
+        double const end = effort_.left() - effort_.seconds_of({0, options_.discharge_share});
+        auto const go_on = [this, end] { return effort_.left() >= end && effort_.go_on(); };
+        sensor_discharge discharged(run_.base, {}, {}, go_on);
+        for (auto& f : run_.findings) {
+            if (is_about_equation(f, run_.places.places)) f.place = discharged(f);
+        }
+        d.where = reported(run_.places, run_.findings);
+    }
+
+    /// The inflation of each scenario and each channel alone.
+    void measure_parts() {
+        if (run_.base.model.has_delays()) return;
+        auto const each = effort_.search(run_.base, options_.part);
+        auto const& whole = run_.base_bound.range;
+        double const end = effort_.left() - effort_.seconds_of({0, options_.parts_share});
+        auto const next = [&](std::string const& name) {
+            return effort_.left() >= end && effort_.go_on("measuring the gap of " + name);
+        };
+        run_.result.scenario_inflation = inflation_of_experiments(run_.base, whole, each, next);
+        run_.result.channel_inflation = inflation_of_channels(run_.base, whole, each, next);
+    }
+
+    /// How much is left with the closest candidate, and where: the lead to what no effect has.
+    void describe_remainder() {
+        auto& d = run_.result;
+        if (d.answer != answer_kind::unexplained || d.causes.empty()) return;
+        auto const& nearest = run_.candidates[run_.answer];
+        unexplained_remainder rest{
+            names_of(nearest.figures, run_.catalogue), run_.answer_bound.range, {}};
+        auto options = place_effort();
+        if (run_.answer == 0) {
+            rest.inflation = d.inflation;
+            rest.where = d.where;
+        } else if (effort_.go_on("looking for what is left")) {
+            options.search.most_sets = options_.remaining_sets;
+            run_.remaining_places =
+                estimate_places(nearest.problem, std::move(options), &nearest.fit);
+            for (auto const& p : run_.remaining_places.places) rest.where.push_back(reported(p));
+        }
+        d.remainder = std::move(rest);
+    }
+
+    void propose(candidate_order const& order) {
+        auto& d = run_.result;
+        if (order.others().empty() ||
+            !effort_.go_on("looking for a manoeuvre that tells rivals apart"))
+            return;
+        std::vector<screened const*> rivals{&run_.candidates[run_.answer]};
+        for (auto const o : order.others()) rivals.push_back(&run_.candidates[o]);
+        std::vector<double> errors(run_.base.model.about.channels.size(), 0.0);
+        double period = 0.1;
+        for (auto const& e : run_.base.experiments) {
+            for (auto const& m : e.measurements) errors[m.channel] = rad(m.bound);
+            if (!e.measurements.empty()) period = e.measurements.front().time - e.begin;
+        }
+        d.next = propose_experiment(std::move(rivals), options_.menu, std::move(errors),
+                                    period > 0 ? period : 0.1, [this] { return effort_.go_on(); });
+    }
+
+    diagnosis_options options_;
+    diagnosis_effort effort_;
+    diagnosis_run run_;
+    std::string said_;
+    double kept_ = 0; ///< what trying candidates leaves of the time [s]
+};
+
+SIVID_DECL diagnosis_run diagnose(identification_problem problem, std::vector<effect> catalogue,
+                                   diagnosis_options options) {
+    return diagnostician(std::move(problem), std::move(catalogue), std::move(options))();
+}
+
+} // namespace sivid
+
+#endif

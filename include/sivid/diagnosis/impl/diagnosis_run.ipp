@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_IMPL_DIAGNOSIS_RUN_IPP
+#define SIVID_DIAGNOSIS_IMPL_DIAGNOSIS_RUN_IPP
+
+#include <sivid/diagnosis/diagnosis_run.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/diagnosis/holdout.hpp>
+#include <sivid/diagnosis/holdout_judgement.hpp>
+
+#include <chrono>
+#include <cstddef>
+#include <utility>
+
+namespace sivid {
+
+SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds,
+                                  data_test_options const& test, std::size_t boxes) {
+    if (data.empty() || run.candidates.empty()) return;
+    auto const begin = std::chrono::steady_clock::now();
+    bool const answered = !run.result.causes.empty();
+    bool const one_by_one = test.workers.threads <= 1;
+    auto const judge = [&](screened const& candidate, verified_inflation const& bound,
+                           double share) {
+        auto const judged = data.judged_by(candidate, run.base, run.catalogue);
+        inflation_options search;
+        search.seconds = seconds / 2;
+        search.work = boxes / 2 * (run.base.experiments.size() + judged.experiments.size() + 1);
+        search.test = limited(test, [&test, begin, end = share * seconds] {
+            auto const now = std::chrono::steady_clock::now();
+            return std::chrono::duration<double>(now - begin).count() < end &&
+                   !test.run.enclosure.cancelled();
+        });
+        return judge_by_holdout(candidate, bound, judged, search);
+    };
+    test.workers(answered ? 2 : 1, [&](std::size_t k) {
+        if (k == 0) {
+            double const share = answered && one_by_one ? 0.5 : 1;
+            run.holdout_before = judge(run.candidates.front(), run.base_bound, share);
+        } else {
+            run.holdout_after = judge(run.candidates[run.answer], run.answer_bound, 1);
+        }
+    });
+    if (!answered) return;
+    auto const& before = *run.holdout_before;
+    auto const& after = *run.holdout_after;
+    holdout_figures figures;
+    figures.inflation_before = before.at_witness;
+    figures.inflation_after = after.at_witness;
+    figures.over_fits_before = before.over_fits;
+    figures.over_fits_after = after.over_fits;
+    for (auto const& c : run.base.model.about.channels) figures.channels.push_back(c.name);
+    figures.rmse_before = before.rmse;
+    figures.rmse_after = after.rmse;
+    figures.covered_before = before.covered;
+    figures.covered_after = after.covered;
+    figures.width_before = before.width;
+    figures.width_after = after.width;
+    run.result.shrink_holdout = shrink(figures.inflation_before, figures.inflation_after);
+    run.result.causes.front().holdout = std::move(figures);
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_ENCLOSURE_IMPL_ENCLOSED_MOTION_IPP
+#define SIVID_ENCLOSURE_IMPL_ENCLOSED_MOTION_IPP
+
+#include <sivid/enclosure/enclosed_motion.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/enclosure/failure_advice.hpp>
+#include <sivid/enclosure/trajectory.hpp>
+#include <sivid/enclosure/tube.hpp>
+
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace sivid {
+
+SIVID_DECL enclosed_motion::enclosed_motion(std::shared_ptr<flow const> f, box const& initial,
+                                             box const& parameters, double from, double to,
+                                             enclosure_options const& options)
+    : tube_(std::make_shared<tube<interval> const>(
+          integrate<interval>(std::move(f), initial, parameters, from, to, options))),
+      end_(tube_->end_time()),
+      failure_(tube_->failure()) {
+    for (auto const& step : tube_->steps()) spans_.push_back({step.from, step.to, step.swept});
+}
+SIVID_DECL box enclosed_motion::at(double t) const { return tube_->at(t); }
+SIVID_DECL box enclosed_motion::observe_at(double t) const { return tube_->observe_at(t); }
+
+SIVID_DECL std::optional<advised_failure>
+explain_enclosed_motion(flow const& f, box const& initial, box const& parameters, double from,
+                        double to, enclosure_options const& options) {
+    return explain_failure<trajectory<interval>>(f, options, initial, parameters, from, to);
+}
+
+} // namespace sivid
+
+#endif

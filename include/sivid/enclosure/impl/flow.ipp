@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_ENCLOSURE_IMPL_FLOW_IPP
+#define SIVID_ENCLOSURE_IMPL_FLOW_IPP
+
+#include <sivid/enclosure/flow.hpp>
+
+namespace sivid {
+
+SIVID_DECL flow::flow(recorded_model const& model, parameter_choice const& choice,
+                       std::vector<signal> const& inputs)
+    : model_(bind(model, choice, inputs)), signals_(inputs.size()) {
+    for (auto const i : model_.sampled) signals_[i] = std::get<sampled_signal>(inputs[i]);
+    rate_ = tape(model_.g, model_.rate);
+    rate_state_jacobian_ = with_jacobian(model_.rate, model_.rate_dx, {}, entries_);
+    state_entries_ = std::exchange(entries_, {}).size();
+    rate_jacobian_ = with_jacobian(model_.rate, model_.rate_dx, model_.rate_dp, entries_);
+    observe_ = tape(model_.g, model_.observe);
+    observe_jacobian_ =
+        with_jacobian(model_.observe, model_.observe_dx, model_.observe_dp, observe_entries_);
+    find_structure();
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IMPL_APPROXIMATE_IPP
+#define SIVID_IMPL_APPROXIMATE_IPP
+
+#include <sivid/approximate/fit/impl/counterexample.ipp>
+#include <sivid/approximate/fit/impl/fit.ipp>
+#include <sivid/approximate/simulate/impl/named_steps.ipp>
+
+#endif

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IMPL_DIAGNOSIS_IPP
+#define SIVID_IMPL_DIAGNOSIS_IPP
+
+#include <sivid/diagnosis/impl/affected_problem.ipp>
+#include <sivid/diagnosis/impl/diagnose.ipp>
+#include <sivid/diagnosis/impl/diagnosis_run.ipp>
+#include <sivid/diagnosis/impl/manoeuvre.ipp>
+
+#endif

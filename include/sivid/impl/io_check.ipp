@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IMPL_IO_CHECK_IPP
+#define SIVID_IMPL_IO_CHECK_IPP
+
+#include <sivid/io/impl/identification_check.ipp>
+
+namespace sivid {
+
+template class identification_check<interval, interval>;
+
+} // namespace sivid
+
+#endif

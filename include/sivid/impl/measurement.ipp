@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IMPL_MEASUREMENT_IPP
+#define SIVID_IMPL_MEASUREMENT_IPP
+
+#include <sivid/measurement/impl/signal.ipp>
+
+#endif

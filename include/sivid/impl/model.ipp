@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IMPL_MODEL_IPP
+#define SIVID_IMPL_MODEL_IPP
+
+#include <sivid/model/impl/bound_model.ipp>
+#include <sivid/model/impl/describe.ipp>
+#include <sivid/model/impl/effect.ipp>
+#include <sivid/model/impl/effects.ipp>
+#include <sivid/model/impl/expression.ipp>
+#include <sivid/model/impl/graph.ipp>
+#include <sivid/model/impl/graph_listing.ipp>
+#include <sivid/model/impl/model.ipp>
+#include <sivid/model/impl/to_dot.ipp>
+#include <sivid/model/impl/unit.ipp>
+
+#endif

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IMPL_PAVING_FURTHER_IPP
+#define SIVID_IMPL_PAVING_FURTHER_IPP
+
+#include <sivid/paving/impl/identifiability.ipp>
+#include <sivid/paving/impl/online_identification.ipp>
+
+#endif

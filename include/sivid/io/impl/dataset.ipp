@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IO_IMPL_DATASET_IPP
+#define SIVID_IO_IMPL_DATASET_IPP
+
+#include <sivid/io/dataset.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/io/dataset_tables.hpp>
+#include <sivid/io/dataset_value.hpp>
+#include <sivid/io/json_document.hpp>
+#include <sivid/io/model_names.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace sivid {
+
+/// Reads the folder of a data set in the format sivid-dataset-1.
+/// One instance reads one folder; users call read_dataset.
+class dataset_reader {
+public:
+    dataset_reader(std::filesystem::path folder, model_names const& model)
+        : folder_{std::move(folder)}, model_{model} {}
+
+    [[nodiscard]] dataset read() const {
+        auto const root = read_json(folder_ / "dataset.json");
+        root.allow_only(
+            {"format", "id", "model", "parameters", "fixed", "max_outlier_fraction", "scenarios"});
+        // The format first: another version may have other keys, another model other names.
+        if (root.at("format").string() != "sivid-dataset-1")
+            root.at("format").fail(
+                text_of("unknown format ", in_quotes(root.at("format").string())),
+                "this version reads sivid-dataset-1");
+        dataset result;
+        result.id = root.at("id").string();
+        result.model = root.at("model").string();
+        if (result.model != model_.name)
+            root.at("model").fail(text_of("unknown model ", in_quotes(result.model)),
+                                  "known here: " + model_.name);
+        read_parameters(root.at("parameters"), result);
+        if (auto const* fixed = root.find("fixed")) read_fixed(*fixed, result);
+        read_fraction(root.at("max_outlier_fraction"), result);
+        read_scenarios(root.at("scenarios"), result);
+        return result;
+    }
+
+private:
+    [[nodiscard]] std::size_t constant(json_value const& entry, std::string const& name) const {
+        auto const index = index_of(model_.constants, name);
+        if (!index)
+            entry.fail(text_of("unknown constant ", in_quotes(name)),
+                       text_of("the model has: ", joined_names(model_.constants)));
+        return *index;
+    }
+
+    void read_parameters(json_value const& list, dataset& result) const {
+        for (std::size_t i = 0; i < list.members().size(); ++i) {
+            auto const& entry = list.members()[i];
+            auto const& name = list.name_of(i);
+            auto const index = constant(entry, name);
+            entry.allow_only({"prior", "unit"});
+            auto const& unit = model_.constants[index].unit;
+            if (auto const* stated = entry.find("unit");
+                stated != nullptr && !same_unit(stated->any_string(), unit))
+                stated->fail(text_of("the unit ", in_quotes(stated->any_string()),
+                                     " differs from the model's ", in_quotes(unit)),
+                             "convert the prior and state the model's unit");
+            result.parameters.push_back(
+                {index, name, unit, read_range(entry.at("prior"), "prior")});
+        }
+        if (result.parameters.empty())
+            list.fail("no parameter is unknown",
+                      "list at least one constant, with a prior of zero width if it is known");
+    }
+
+    void read_fixed(json_value const& list, dataset& result) const {
+        for (std::size_t i = 0; i < list.members().size(); ++i) {
+            auto const& entry = list.members()[i];
+            auto const& name = list.name_of(i);
+            auto const index = constant(entry, name);
+            for (auto const& parameter : result.parameters)
+                if (parameter.constant == index)
+                    entry.fail(in_quotes(name) + " is fixed and a parameter",
+                               "keep one of the two");
+            auto const value = entry.number();
+            result.fixed.push_back({index, value, enclosed(entry, value, value)});
+        }
+    }
+
+    static void read_fraction(json_value const& entry, dataset& result) {
+        auto const fraction = entry.number();
+        auto const one = *exact_decimal::parse("1");
+        if (fraction.is_negative() || !(fraction < one))
+            entry.fail(text_of("the fraction ", fraction.text(), " is outside [0, 1)"),
+                       "state the share of outliers, such as 0.05");
+        result.max_outlier_fraction = fraction;
+    }
+
+    void read_scenarios(json_value const& list, dataset& result) const {
+        for (auto const& entry : list.elements()) {
+            auto next = read_scenario(entry);
+            for (auto const& earlier : result.scenarios)
+                if (earlier.name == next.name)
+                    entry.at("name").fail(
+                        text_of("the scenario ", in_quotes(next.name), " appears twice"),
+                        "give each its own name");
+            result.scenarios.push_back(std::move(next));
+        }
+        auto const is_fit = [](scenario const& s) { return s.role == scenario_role::fit; };
+        if (std::none_of(result.scenarios.begin(), result.scenarios.end(), is_fit))
+            list.fail("no scenario has the role fit", "identification needs at least one");
+    }
+
+    [[nodiscard]] scenario read_scenario(json_value const& entry) const {
+        entry.allow_only(
+            {"name", "role", "duration", "inputs", "interpolation", "measurements", "initial"});
+        scenario result;
+        result.name = entry.at("name").string();
+        if (result.name.find_first_of("/\\") != std::string::npos || result.name.front() == '.')
+            entry.at("name").fail(
+                text_of("the name ", in_quotes(result.name), " cannot be a file name"),
+                "use letters, digits, - and _");
+        result.role = entry.at("role").is_second_of("fit", "holdout") ? scenario_role::holdout
+                                                                      : scenario_role::fit;
+        auto const duration = entry.at("duration").number();
+        result.duration = *nearest(duration);
+        if (!(result.duration > 0))
+            entry.at("duration").fail("the duration is not above 0", "state it in seconds");
+
+        // A model without inputs needs no file of them.
+        bool const driven = !model_.inputs.empty() || entry.find("inputs") != nullptr;
+        auto const* between = driven ? &entry.at("interpolation") : entry.find("interpolation");
+        auto const kind = between != nullptr && between->is_second_of("linear", "hold")
+                              ? interpolation::hold
+                              : interpolation::linear;
+        auto const file = [&](char const* key) {
+            auto const& value = entry.at(key);
+            auto const path = path_inside(folder_, value.string(), value.place());
+            if (std::error_code fault; !std::filesystem::exists(path, fault))
+                value.fail(text_of("there is no file ", in_quotes(value.string())),
+                           "check the name");
+            return path;
+        };
+        auto const measurements = file("measurements");
+        read_initial(entry.at("initial"), result);
+        if (driven) {
+            result.inputs =
+                read_inputs(csv_table::read(file("inputs")), model_, kind, result.duration);
+        }
+        read_measurements(csv_table::read(measurements), model_, result);
+        if (result.measurements.empty())
+            entry.at("measurements")
+                .fail("the scenario has no measurement", "every scenario needs at least one value");
+        return result;
+    }
+
+    void read_initial(json_value const& list, scenario& result) const {
+        for (std::size_t i = 0; i < model_.states.size(); ++i)
+            result.initial.push_back({model_.state_ranges.at(i), std::nullopt});
+        for (std::size_t i = 0; i < list.members().size(); ++i) {
+            auto const& entry = list.members()[i];
+            auto const index = index_of(model_.states, list.name_of(i));
+            if (!index)
+                entry.fail(text_of("unknown state ", in_quotes(list.name_of(i))),
+                           text_of("the model has: ", joined_names(model_.states)));
+            auto const range = read_range(entry, "initial value");
+            result.initial[*index] = {range.enclosure, range};
+        }
+    }
+
+    static interval enclosed(json_value const& entry, exact_decimal const& lower,
+                             exact_decimal const& upper) {
+        auto const result = enclose(lower, upper);
+        if (!result) entry.fail("beyond the range of double", "give smaller numbers");
+        return *result;
+    }
+
+    static stated_range read_range(json_value const& entry, std::string const& what) {
+        auto const& ends = entry.elements();
+        if (ends.size() != 2)
+            entry.fail(text_of("the ", what, " has ", std::to_string(ends.size()),
+                               " numbers instead of 2"),
+                       "write [lower, upper]");
+        auto const lower = ends[0].number(), upper = ends[1].number();
+        if (upper < lower)
+            entry.fail(text_of("the ", what, " [", lower.text(), ", ", upper.text(),
+                               "] is empty: lower is above upper"),
+                       "write [lower, upper]");
+        auto const enclosure = enclosed(entry, lower, upper);
+        if (mag(enclosure) > farthest_range)
+            entry.fail(text_of("the ", what, " [", lower.text(), ", ", upper.text(),
+                               "] reaches beyond 1e100"),
+                       "state the range that is physically possible");
+        return {lower, upper, enclosure};
+    }
+
+    static bool same_unit(std::string const& a, std::string const& b) {
+        auto const none = [](std::string const& unit) {
+            return unit.empty() || unit == "1" || unit == "-";
+        };
+        return a == b || (none(a) && none(b));
+    }
+
+    std::filesystem::path folder_;
+    model_names const& model_;
+};
+
+SIVID_DECL dataset read_dataset(std::filesystem::path const& folder, model_names const& model) {
+    std::error_code fault;
+    if (!std::filesystem::is_directory(folder, fault))
+        throw input_error{
+            {.file = folder.string()}, "no such folder", "give the folder that holds dataset.json"};
+    return dataset_reader{folder, model}.read();
+}
+
+} // namespace sivid
+
+#endif

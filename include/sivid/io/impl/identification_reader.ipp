@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IO_IMPL_IDENTIFICATION_READER_IPP
+#define SIVID_IO_IMPL_IDENTIFICATION_READER_IPP
+
+#include <sivid/io/identification_reader.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/io/certificates_csv.hpp>
+#include <sivid/io/csv_table.hpp>
+#include <sivid/io/detail/stored_identification.hpp>
+#include <sivid/io/json_document.hpp>
+#include <sivid/io/sha256.hpp>
+#include <sivid/io/text_file.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <initializer_list>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+namespace io_detail {
+
+inline interval outward(json_value const& entry) {
+    if (entry.type() == json_value::kind::null) return interval_traits<interval>::empty();
+    auto const& ends = entry.elements();
+    if (ends.size() != 2) entry.fail("not a pair of bounds", "write [lower, upper]");
+    auto const end = [](json_value const& e, double none) {
+        if (e.type() == json_value::kind::null)
+            return none < 0 ? interval_traits<interval>::bounds(-HUGE_VAL, 0)
+                            : interval_traits<interval>::bounds(0, HUGE_VAL);
+        return *enclose(e.number());
+    };
+    auto const low = end(ends[0], -1), high = end(ends[1], 1);
+    if (low.lower() > high.upper()) entry.fail("lower is above upper", "write [lower, upper]");
+    return interval_traits<interval>::bounds(low.lower(), high.upper());
+}
+
+inline std::size_t count(json_value const& entry) {
+    auto const value = entry.number();
+    if (value.is_negative()) entry.fail("a negative count", "correct it");
+    return value.floor();
+}
+
+template <class Word>
+Word one_of(json_value const& entry, std::initializer_list<Word> words) {
+    for (auto const w : words)
+        if (entry.string() == to_string(w)) return w;
+    entry.fail(text_of("unknown word ", in_quotes(entry.string())), "see the format");
+}
+
+inline stop_reason stop_reason_of(json_value const& entry) {
+    for (int k = 0; !to_string(static_cast<stop_reason>(k)).empty(); ++k) {
+        auto const reason = static_cast<stop_reason>(k);
+        if (entry.string() == to_string(reason)) return reason;
+    }
+    entry.fail(text_of("unknown word ", in_quotes(entry.string())), "see the format");
+}
+
+inline void read_result(json_value const& root, stored_identification& result) {
+    if (root.at("format").string() != "sivid-identification-1")
+        root.at("format").fail(text_of("unknown format ", in_quotes(root.at("format").string())),
+                               "this version reads sivid-identification-1");
+    result.dataset = root.at("dataset").any_string();
+    if (auto const* source = root.find("source")) {
+        result.source_folder = source->at("folder").any_string();
+        result.source_digest = source->at("sha256").string();
+    }
+    result.verdict = one_of(root.at("verdict"),
+                            {verdict::consistent, verdict::inconsistent, verdict::undecided});
+    if (auto const* grounds = root.find("verdict_rests_on")) {
+        result.grounds = to_string(
+            one_of(*grounds, {verdict_grounds::witness, verdict_grounds::inside_boxes,
+                              verdict_grounds::excluded_boxes, verdict_grounds::nothing}));
+    }
+    result.reason = stop_reason_of(root.at("stop_reason"));
+    if (auto const* search = root.find("search")) {
+        auto const& bytes = search->at("most_bytes");
+        result.effort = search_effort{*nearest(search->at("seconds").number()),
+                                      *nearest(search->at("most_seconds").number()),
+                                      count(search->at("boxes")),
+                                      count(search->at("most_boxes")),
+                                      {}};
+        if (bytes.type() != json_value::kind::null) result.effort->most_bytes = count(bytes);
+    }
+    if (auto const* enclosures = root.find("enclosures"))
+        result.tolerance = *nearest(enclosures->at("tolerance").number());
+    for (auto const& a : root.at("assumptions").elements())
+        result.assumptions.push_back(a.any_string());
+    if (auto const* files = root.find("files")) {
+        for (std::size_t k = 0; k < files->members().size(); ++k)
+            result.stated_files[files->name_of(k)] = files->members()[k].string();
+    }
+    auto const& parameters = root.at("parameters");
+    for (std::size_t j = 0; j < parameters.members().size(); ++j)
+        result.parameters.push_back({parameters.name_of(j),
+                                     outward(parameters.members()[j].at("hull")),
+                                     parameters.members()[j].at("unit").any_string()});
+    for (auto const& c : root.at("combinations").elements())
+        result.combinations.push_back(
+            {c.at("formula").string(), outward(c.at("hull")), c.at("unit").any_string()});
+    result.inner = outward(root.at("volume").at("inner"));
+    result.outer = outward(root.at("volume").at("outer"));
+    auto const* const of = root.at("volume").find("of");
+    auto const* const products = root.find("products");
+    auto const source = of != nullptr ? of->string() : "boxes";
+    if (source != "boxes" && source != "products")
+        of->fail(text_of("unknown word ", in_quotes(source)), "known: boxes, products");
+    if ((source == "products") != (products != nullptr))
+        root.at("volume").fail("volumes of products need the paving of products, and only they",
+                               "identify again");
+    auto const read_counts = [](json_value const& list) {
+        std::map<std::string, std::size_t> counts;
+        for (std::size_t k = 0; k < list.members().size(); ++k)
+            counts[list.name_of(k)] = count(list.members()[k]);
+        return counts;
+    };
+    if (products != nullptr) {
+        result.products.emplace();
+        for (auto const& side : products->at("sides").elements())
+            result.products->sides.push_back(side.string());
+        result.products->stated_rows = read_counts(products->at("rows"));
+    }
+    auto const read_numbers = [](json_value const& list) {
+        std::map<std::string, double> values;
+        for (std::size_t i = 0; i < list.members().size(); ++i)
+            values[list.name_of(i)] = *nearest(list.members()[i].number());
+        return values;
+    };
+    if (auto const& w = root.at("witness"); w.type() != json_value::kind::null) {
+        result.witness.emplace();
+        result.witness->parameters = read_numbers(w.at("parameters"));
+        auto const& initial = w.at("initial");
+        for (std::size_t s = 0; s < initial.members().size(); ++s)
+            result.witness->initial[initial.name_of(s)] = read_numbers(initial.members()[s]);
+    }
+    auto const& outliers = root.at("outliers");
+    auto const& budget = outliers.at("budget");
+    for (std::size_t s = 0; s < budget.members().size(); ++s)
+        result.budget[budget.name_of(s)] = count(budget.members()[s]);
+    auto const read_count = [](json_value const& entry) {
+        proved_count const c{count(entry.at("least")), count(entry.at("most"))};
+        if (c.least > c.most) entry.fail("least is above most", "correct it");
+        return c;
+    };
+    if (auto const* fewest = outliers.find("fewest")) {
+        result.fewest = read_count(fewest->at("total"));
+        auto const& alone = fewest->at("alone");
+        for (std::size_t s = 0; s < alone.members().size(); ++s)
+            result.fewest_alone[alone.name_of(s)] = read_count(alone.members()[s]);
+    }
+    for (auto const& f : outliers.at("forced").elements())
+        result.forced.push_back(
+            {f.at("scenario").string(), *nearest(f.at("t").number()), f.at("channel").string()});
+    if (auto const* rows = root.find("rows")) result.stated_rows = read_counts(*rows);
+}
+
+inline std::vector<paved_box> read_rows(csv_table const& table,
+                                        std::vector<std::string> const& names) {
+    std::vector<paved_box> rows;
+    std::vector<std::string> expected{"verdict"};
+    for (auto const& name : names) {
+        expected.push_back(name + "_lower");
+        expected.push_back(name + "_upper");
+    }
+    if (table.headings() != expected)
+        table.fail(table.heading_line(),
+                   "the columns are not those of the parameters in "
+                   "result.json",
+                   "take both files from one identification");
+    for (auto const& row : table.rows()) {
+        paved_box next{box(names.size()), box_verdict::pending};
+        bool known = false;
+        for (auto const v : {box_verdict::inside, box_verdict::undecided, box_verdict::pending}) {
+            if (row.cells[0] != to_string(v)) continue;
+            next.verdict = v;
+            known = true;
+        }
+        if (!known)
+            table.fail(row.line, 0, in_quotes(row.cells[0]) + " is no verdict",
+                       "known: inside, undecided, pending");
+        for (std::size_t j = 0; j < next.set.size(); ++j) {
+            std::array<interval, 2> ends;
+            for (std::size_t end = 0; end < 2; ++end) {
+                auto const column = 1 + 2 * j + end;
+                auto const value = parse_decimal(row.cells[column]);
+                if (!value)
+                    table.fail(row.line, column, in_quotes(row.cells[column]) + " is no number",
+                               "write a decimal");
+                ends[end] = *value;
+            }
+            if (ends[0].lower() > ends[1].upper())
+                table.fail(row.line, 1 + 2 * j, "lower is above upper", "correct the row");
+            next.set[j] = interval_traits<interval>::bounds(ends[0].lower(), ends[1].upper());
+        }
+        rows.push_back(std::move(next));
+    }
+    return rows;
+}
+
+} // namespace io_detail
+
+SIVID_DECL stored_identification read_identification(std::filesystem::path const& folder) {
+    stored_identification result;
+    io_detail::read_result(read_json(folder / "result.json"), result);
+    std::vector<std::string> names;
+    for (auto const& p : result.parameters) names.push_back(p.name);
+    result.rows = io_detail::read_rows(csv_table::read(folder / "boxes.csv"), names);
+    result.files["boxes.csv"] = sha256(read_text(folder / "boxes.csv"));
+    if (result.products) {
+        result.files["products.csv"] = sha256(read_text(folder / "products.csv"));
+        result.products->rows =
+            io_detail::read_rows(csv_table::read(folder / "products.csv"), result.products->sides);
+    }
+    if (std::filesystem::exists(folder / "certificates.csv"))
+        result.proof = read_certificates(csv_table::read(folder / "certificates.csv"));
+    return result;
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IO_IMPL_PROBLEM_DIGEST_IPP
+#define SIVID_IO_IMPL_PROBLEM_DIGEST_IPP
+
+#include <sivid/io/problem_digest.hpp>
+
+namespace sivid {
+
+SIVID_DECL std::string problem_digest(identification_problem const& problem,
+                                       identify_options const& options, std::string const& also) {
+    io_detail::canonical_text text;
+    describe(text, problem);
+    describe(text, options);
+    return sha256(text("also", also).text());
+}
+
+} // namespace sivid
+
+#endif

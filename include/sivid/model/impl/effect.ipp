@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_MODEL_IMPL_EFFECT_IPP
+#define SIVID_MODEL_IMPL_EFFECT_IPP
+
+#include <sivid/model/effect.hpp>
+
+namespace sivid {
+
+SIVID_DECL expression const& effect_scope::parameter(std::size_t k) const {
+    return constants_.at(first_parameter_ + k);
+}
+
+SIVID_DECL expression const& effect_scope::state(std::string const& name) const {
+    return states_[index_of(model_->about.states, name, "state")];
+}
+
+SIVID_DECL expression& effect_scope::constant(std::string const& name) {
+    return constants_[index_of(model_->about.constants, name, "constant")];
+}
+
+SIVID_DECL expression& effect_scope::input(std::string const& name) {
+    return inputs_[index_of(model_->about.inputs, name, "input")];
+}
+
+SIVID_DECL expression& effect_scope::rate(std::string const& state) {
+    return rates_[index_of(model_->about.states, state, "state")];
+}
+
+SIVID_DECL expression& effect_scope::channel(std::string const& name) {
+    return channels_[index_of(model_->about.channels, name, "channel")];
+}
+
+SIVID_DECL void effect_scope::delay_input(std::string const& name, std::size_t k) {
+    model_->input_delays.push_back(
+        {index_of(model_->about.inputs, name, "input"), first_parameter_ + k});
+}
+
+SIVID_DECL void effect_scope::delay_channel(std::string const& name, std::size_t k) {
+    model_->channel_delays.push_back(
+        {index_of(model_->about.channels, name, "channel"), first_parameter_ + k});
+}
+
+SIVID_DECL expression effect_scope::add_state(std::string const& name, std::string const& unit,
+                                               double limit, expression const& at_begin) {
+    auto const k = model_->about.states.size();
+    for (auto const& s : model_->about.states) {
+        if (s.name == name) {
+            throw std::invalid_argument("effect: the model has a state '" + name + "'");
+        }
+    }
+    model_->about.states.push_back({name, unit, limit, {}});
+    model_->added_states.push_back({k, at_begin.in(model_->g)});
+    states_.emplace_back(model_->g, model_->g.leaf(operation::state, k));
+    rates_.emplace_back(0.0);
+    return states_.back();
+}
+
+SIVID_DECL effect_scope::effect_scope(recorded_model& model)
+    : model_(&model), time_(leaf(operation::time, 0)) {
+    auto const leaves = [this](operation op, std::size_t count, std::vector<expression>& to) {
+        for (std::size_t i = 0; i < count; ++i) to.push_back(leaf(op, i));
+    };
+    leaves(operation::state, model.about.states.size(), states_);
+    leaves(operation::constant, model.about.constants.size(), constants_);
+    leaves(operation::input, model.about.inputs.size(), inputs_);
+    rates_.resize(states_.size());
+}
+
+SIVID_DECL recorded_model with(recorded_model const& base, std::vector<effect> effects) {
+    std::stable_sort(effects.begin(), effects.end(),
+                     [](effect const& a, effect const& b) { return a.order < b.order; });
+    recorded_model result;
+    result.about = base.about;
+    result.input_delays = base.input_delays;
+    result.channel_delays = base.channel_delays;
+    std::vector<std::size_t> first;
+    auto& constants = result.about.constants;
+    for (auto const& e : effects) {
+        first.push_back(constants.size());
+        for (auto const& p : e.parameters) {
+            auto const name = e.name + "." + p.name;
+            for (auto const& c : constants) {
+                if (c.name == name) {
+                    throw std::invalid_argument("effect '" + e.name + "' stands twice");
+                }
+            }
+            constants.push_back({name, p.unit, literal{enclose(p.neutral), nearest(p.neutral)}});
+        }
+    }
+    effect_scope scope(result);
+    auto const apply_all = [&](effect::edit effect::*stage) {
+        for (std::size_t k = 0; k < effects.size(); ++k) {
+            scope.first_parameter_ = first[k];
+            if (effects[k].*stage) (effects[k].*stage)(scope);
+        }
+    };
+    apply_all(&effect::on_inputs);
+
+    // The model itself, on the inputs and constants that the effects left.
+    auto& g = result.g;
+    auto outputs = base.rate;
+    outputs.insert(outputs.end(), base.observe.begin(), base.observe.end());
+    for (auto const& a : base.added_states) outputs.push_back(a.at_begin);
+    auto const images = copy_into(g, base.g, outputs, [&](node const& n, graph& to) {
+        auto const k = static_cast<std::size_t>(n.index);
+        if (n.op == operation::constant) return scope.constants_[k].in(to);
+        if (n.op == operation::input) return scope.inputs_[k].in(to);
+        return to.leaf(n.op, k);
+    });
+    auto image = images.begin();
+    for (std::size_t i = 0; i < base.rate.size(); ++i) {
+        scope.rates_[i] = expression(g, *image++);
+    }
+    for (std::size_t i = 0; i < base.observe.size(); ++i) {
+        scope.channels_.emplace_back(g, *image++);
+    }
+    for (auto const& a : base.added_states) result.added_states.push_back({a.state, *image++});
+    // Relations between constants stay as they are: an effect that alters D alters what the
+    // equations see of D, and A = pi D^2/4 only if it says so.
+    auto const itself = [](node const& n, graph& to) {
+        return to.leaf(n.op, static_cast<std::size_t>(n.index));
+    };
+    for (auto const& d : base.derived) {
+        result.derived.push_back(
+            {d.constant, copy_into(g, base.g, {d.value}, itself).front(), d.always});
+    }
+    apply_all(&effect::on_rates);
+    apply_all(&effect::on_channels);
+    for (auto const& e : scope.rates_) result.rate.push_back(e.in(g));
+    for (auto const& e : scope.channels_) result.observe.push_back(e.in(g));
+    for (auto const& a : result.added_states) {
+        if ((g.depends(a.at_begin) & (on_state | on_time)) != 0) {
+            throw std::invalid_argument("effect: the initial value of state '" +
+                                        result.about.states[a.state].name +
+                                        "' may depend on inputs and constants only");
+        }
+    }
+    return result;
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_MODEL_IMPL_EFFECTS_IPP
+#define SIVID_MODEL_IMPL_EFFECTS_IPP
+
+#include <sivid/model/effects.hpp>
+
+namespace sivid::effects {
+
+namespace detail {
+
+SIVID_DECL effect one(std::string name, std::string parameter, std::string unit,
+                       range const& prior, std::string about, int order, decimal neutral) {
+    effect e;
+    e.name = std::move(name);
+    e.parameters = {{std::move(parameter), std::move(unit), prior.lower, prior.upper, neutral}};
+    e.order = order;
+    e.about = std::move(about);
+    return e;
+}
+
+} // namespace detail
+
+SIVID_DECL effect input_delay(std::string const& name, std::string const& input,
+                               range const& tau) {
+    auto e = detail::one(name, "tau", "s", tau, "pure delay of the input " + input, 0);
+    e.on_inputs = [input](effect_scope& m) { m.delay_input(input); };
+    return e;
+}
+
+SIVID_DECL effect input_dead_band(std::string const& name, std::string const& input,
+                                   std::string const& unit, range const& b) {
+    auto e = detail::one(name, "b", unit, b, "dead band of the input " + input, 1);
+    e.on_inputs = [input](effect_scope& m) {
+        m.input(input) = deadband(m.input(input), m.parameter());
+    };
+    return e;
+}
+
+SIVID_DECL effect input_lag(std::string const& name, std::string const& input,
+                             std::string const& unit, double limit, range const& tau, bool rests) {
+    auto e = detail::one(name, "tau", "s", tau, "first-order lag of the input " + input, 2);
+    e.on_inputs = [input, unit, limit, rests, name](effect_scope& m) {
+        auto& u = m.input(input);
+        auto const d = m.add_state(name + "." + input, unit, limit, rests ? expression(0) : u);
+        m.rate(name + "." + input) = (u - d) / m.parameter();
+        u = d;
+    };
+    return e;
+}
+
+SIVID_DECL effect input_saturation(std::string const& name, std::string const& input,
+                                    std::string const& unit, range const& lim) {
+    auto e = detail::one(name, "lim", unit, lim, "saturation of the input " + input, 3, lim.upper);
+    e.on_inputs = [input](effect_scope& m) {
+        m.input(input) = saturate(m.input(input), -m.parameter(), m.parameter());
+    };
+    return e;
+}
+
+SIVID_DECL effect input_trim(std::string const& name, std::string const& input,
+                              std::string const& parameter, std::string const& unit,
+                              range const& d0) {
+    auto e = detail::one(name, parameter, unit, d0, "constant offset of the input " + input, 4);
+    e.on_inputs = [input](effect_scope& m) { m.input(input) += m.parameter(); };
+    return e;
+}
+
+SIVID_DECL effect input_gain(std::string const& name, std::string const& input, range const& k) {
+    auto e = detail::one(name, "k", "1", k, "wrong gain of the input " + input, 4);
+    e.on_inputs = [input](effect_scope& m) { m.input(input) *= 1 + m.parameter(); };
+    return e;
+}
+
+SIVID_DECL effect constant_rate(std::string const& name, std::string const& state,
+                                 std::string const& unit, range const& a) {
+    auto e = detail::one(name, "a", unit, a, "constant in the equation of " + state);
+    e.on_rates = [state](effect_scope& m) { m.rate(state) += m.parameter(); };
+    return e;
+}
+
+SIVID_DECL effect linear_damping(std::string const& name, std::string const& state,
+                                  range const& k) {
+    auto e = detail::one(name, "k", "1/s", k, "linear damping in the equation of " + state);
+    e.on_rates = [state](effect_scope& m) { m.rate(state) -= m.parameter() * m.state(state); };
+    return e;
+}
+
+SIVID_DECL effect quadratic_damping(std::string const& name, std::string const& state,
+                                     std::string const& unit, range const& k) {
+    auto e = detail::one(name, "k", unit, k, "quadratic damping in the equation of " + state);
+    e.on_rates = [state](effect_scope& m) {
+        auto const& x = m.state(state);
+        m.rate(state) -= m.parameter() * abs(x) * x;
+    };
+    return e;
+}
+
+SIVID_DECL effect dry_friction(std::string const& name, std::string const& state,
+                                std::string const& unit, range const& k, decimal smooth_below) {
+    auto e = detail::one(name, "k", unit, k, "dry friction in the equation of " + state);
+    e.on_rates = [state, smooth_below](effect_scope& m) {
+        auto const& x = m.state(state);
+        m.rate(state) -= m.parameter() * x / sqrt(sqr(x) + sqr(expression(smooth_below)));
+    };
+    return e;
+}
+
+SIVID_DECL effect drift(std::string const& name, std::string const& constant, range const& k) {
+    auto e = detail::one(name, "k", "1/s", k, "slow drift of the constant " + constant);
+    e.on_inputs = [constant](effect_scope& m) {
+        m.constant(constant) *= 1 + m.parameter() * m.time();
+    };
+    return e;
+}
+
+SIVID_DECL effect sensor_bias(std::string const& name, std::string const& channel,
+                               std::string const& unit, range const& b) {
+    auto e = detail::one(name, "b", unit, b, "bias of the sensor " + channel);
+    e.on_channels = [channel](effect_scope& m) { m.channel(channel) += m.parameter(); };
+    return e;
+}
+
+SIVID_DECL effect sensor_scale(std::string const& name, std::vector<std::string> const& channels,
+                                range const& k) {
+    auto e = detail::one(name, "k", "1", k, "wrong scale of the sensor " + channels.at(0));
+    e.on_channels = [channels](effect_scope& m) {
+        for (auto const& y : channels) m.channel(y) *= 1 + m.parameter();
+    };
+    return e;
+}
+
+SIVID_DECL effect sensor_latency(std::string const& name, std::vector<std::string> const& channels,
+                                  range const& tau) {
+    auto e = detail::one(name, "tau", "s", tau, "latency of the sensor " + channels.at(0));
+    e.on_channels = [channels](effect_scope& m) {
+        for (auto const& y : channels) m.delay_channel(y);
+    };
+    return e;
+}
+
+} // namespace sivid::effects
+
+#endif

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_MODEL_IMPL_MODEL_IPP
+#define SIVID_MODEL_IMPL_MODEL_IPP
+
+#include <sivid/model/model.hpp>
+
+namespace sivid {
+
+SIVID_DECL model_description::model_description() = default;
+SIVID_DECL model_description::model_description(model_description const&) = default;
+SIVID_DECL model_description::model_description(model_description&&) noexcept = default;
+SIVID_DECL model_description& model_description::operator=(model_description const&) = default;
+SIVID_DECL model_description& model_description::operator=(model_description&&) noexcept = default;
+SIVID_DECL model_description::~model_description() = default;
+
+SIVID_DECL model_description model_detail::described(
+    std::string_view name, std::span<state_quantity const> states, std::span<quantity const> inputs,
+    std::span<quantity const> channels, std::span<constant_quantity const> constants) {
+    model_description about;
+    about.name = std::string(name);
+    for (auto const& s : states) {
+        about.states.push_back(
+            {std::string(s.name), std::string(s.unit), s.limit, std::string(s.equation)});
+    }
+    for (auto const& i : inputs) {
+        about.inputs.push_back({std::string(i.name), std::string(i.unit)});
+    }
+    for (auto const& y : channels) {
+        about.channels.push_back({std::string(y.name), std::string(y.unit)});
+    }
+    for (auto const& c : constants) {
+        about.constants.push_back({std::string(c.name), std::string(c.unit),
+                                   literal{enclose(c.nominal), nearest(c.nominal)}});
+    }
+    return about;
+}
+
+SIVID_DECL void model_detail::add_derived(recorded_model& model, std::string_view name,
+                                           expression const& value) {
+    auto& constants = model.about.constants;
+    auto const fail = [&](std::string const& what) {
+        throw std::invalid_argument("model '" + model.about.name + "': the derived constant '" +
+                                    std::string(name) + "' " + what);
+    };
+    derived_constant d;
+    while (d.constant < constants.size() && constants[d.constant].name != name) ++d.constant;
+    if (d.constant == constants.size()) fail("is none of its constants");
+    d.value = value.in(model.g);
+    if ((model.g.depends(d.value) & ~on_constant) != 0) fail("depends on more than constants");
+    for (auto const& other : model.derived) {
+        if (other.constant == d.constant) fail("stands twice");
+        auto const earlier = operands_of(model.g, {other.value});
+        for (std::size_t i = 0; i < earlier.size(); ++i) {
+            auto const& n = model.g.nodes()[i];
+            if (earlier[i] && n.op == operation::constant &&
+                static_cast<std::size_t>(n.index) == d.constant) {
+                fail("stands in the formula of '" + constants[other.constant].name +
+                     "', which comes before it");
+            }
+        }
+    }
+    std::vector<std::string> names;
+    for (auto const& c : constants) names.push_back(c.name);
+    graph at_nominal;
+    auto const result = copy_into(at_nominal, model.g, {d.value}, [&](node const& n, graph& to) {
+        auto const k = static_cast<std::size_t>(n.index);
+        if (k == d.constant) fail("is a function of itself");
+        return to.constant(constants[k].nominal);
+    });
+    constants[d.constant].formula = formula_text(model.g, d.value, names);
+    double const stated = constants[d.constant].nominal.nearest;
+    bool const defined = at_nominal.is_literal(result.front());
+    double const given = defined ? at_nominal.value(at_nominal[result.front()]).nearest : 0;
+    if (!defined || !(std::abs(given - stated) <= 1e-3 * std::abs(given))) {
+        fail("is nominally " + nearest_text(stated) + ", but " + constants[d.constant].formula +
+             " gives " + (defined ? nearest_text(given) : std::string{"no value"}));
+    }
+    model.derived.push_back(d);
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_MODEL_PROBLEM_HPP
+#define SIVID_MODEL_PROBLEM_HPP
+
+#include <sivid/measurement/record.hpp>
+#include <sivid/model/bound_model.hpp>
+#include <sivid/space/box.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace sivid {
+
+/// One experiment: what was put in, where it may have started, what was measured.
+struct experiment {
+    std::string name;
+    std::vector<signal> inputs; ///< one per input of the model
+    double begin = 0;           ///< time of the initial state [s]
+    box initial;                ///< the states at `begin`; every start in the box is possible
+    record measurements;
+    std::size_t outliers = 0; ///< at most so many of the measurements may violate their bounds
+};
+
+/// What proofs take for granted of the inputs: that they are the recorded ones, or that they stay
+/// within stated errors of them.
+[[nodiscard]] inline std::string input_assumption(std::vector<experiment> const& experiments) {
+    bool some = false, all = true;
+    for (auto const& e : experiments) {
+        for (auto const& u : e.inputs) {
+            some = some || is_uncertain(u);
+            all = all && is_uncertain(u);
+        }
+    }
+    if (!some) return "inputs exact";
+    return all ? "inputs within their stated errors"
+               : "inputs within their stated errors, exact where none is stated";
+}
+
+/// Which parameters in `prior` can explain all experiments?
+///   p is feasible when for every experiment there are an initial state in its box and inputs
+///   within their error bounds for which at most `outliers` of its measurements are violated.
+struct identification_problem {
+    recorded_model model;
+    parameter_choice choice; ///< `choice.unknown` names the sides of `prior`
+    box prior;
+    std::vector<experiment> experiments;
+
+    /// @throws std::invalid_argument that names what does not fit
+    void require_valid() const {
+        auto const fail = [](std::string const& what) {
+            throw std::invalid_argument("identification problem: " + what);
+        };
+        if (choice.unknown.empty()) fail("no unknown parameter");
+        if (choice.unknown.size() != prior.size()) fail("the prior needs one side per parameter");
+        auto const bounded = [](box const& x) {
+            return std::all_of(x.begin(), x.end(),
+                               [](interval const& side) { return std::isfinite(mag(side)); });
+        };
+        if (is_empty(prior)) fail("the prior is empty");
+        if (!bounded(prior)) fail("the prior must be bounded");
+        if (experiments.empty()) fail("no experiment");
+        for (auto const& s : experiments) {
+            auto const where = "experiment '" + s.name + "': ";
+            if (s.initial.size() != model.about.states.size()) {
+                fail(where + "the initial box needs one side per state");
+            }
+            if (is_empty(s.initial)) fail(where + "the initial box is empty");
+            if (!bounded(s.initial)) fail(where + "the initial box must be bounded");
+            if (s.measurements.empty()) fail(where + "no measurement");
+            if (s.outliers > s.measurements.size()) {
+                fail(where + "more outliers allowed than there are measurements");
+            }
+            for (auto const& m : s.measurements) {
+                if (m.channel >= model.about.channels.size()) fail(where + "unknown channel");
+                if (!(m.time >= s.begin) || !std::isfinite(m.time)) {
+                    fail(where + "a measurement before the begin, or at no finite time");
+                }
+                if (is_empty(m.bound)) fail(where + "an empty measurement");
+            }
+        }
+    }
+};
+
+} // namespace sivid
+
+#endif

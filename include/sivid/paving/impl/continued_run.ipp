@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_IMPL_CONTINUED_RUN_IPP
+#define SIVID_PAVING_IMPL_CONTINUED_RUN_IPP
+
+#include <sivid/paving/continued_run.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/paving/detail/doubleton_continuation.hpp>
+#include <sivid/paving/detail/taylor_continuation.hpp>
+#include <sivid/paving/taylor_kernels.hpp>
+
+#include <cstddef>
+#include <memory>
+
+namespace sivid {
+
+SIVID_DECL std::unique_ptr<continued_run> make_continued_run(flow const& f, experiment const& e,
+                                                              box const& prior,
+                                                              run_options const& options) {
+    using namespace paving_detail;
+    auto const unknowns = unknown_count(e.initial, prior);
+    auto how = options.enclosure;
+    how.minimum_step = minimum_step_for(e, how.minimum_step);
+    if (options.set == carried_set::taylor_model) {
+        auto run = with_taylor_kernel(unknowns, [&]<std::size_t N, std::size_t D>() {
+            return make_taylor_continuation<N, D>(f, e.begin, how);
+        });
+        if (run) return run;
+    }
+    return std::make_unique<doubleton_continuation>(f, e.begin, how);
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_IMPL_EXPERIMENT_RUN_IPP
+#define SIVID_PAVING_IMPL_EXPERIMENT_RUN_IPP
+
+#include <sivid/paving/experiment_run.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/paving/detail/doubleton_run.hpp>
+#include <sivid/paving/detail/taylor_run.hpp>
+#include <sivid/paving/taylor_kernels.hpp>
+
+#include <cstddef>
+#include <memory>
+
+namespace sivid {
+
+SIVID_DECL std::unique_ptr<experiment_run> make_run(flow const& f, experiment const& e,
+                                                     record const& samples, box const& initial,
+                                                     box const& prior, run_options options) {
+    using namespace paving_detail;
+    options.enclosure.minimum_step = minimum_step_for(e, options.enclosure.minimum_step);
+    auto const unknowns = unknown_count(initial, prior);
+    // What uncertain inputs cost, no smaller box gives back.
+    if (f.uncertain()) options.hopeless = 1e300;
+    if (options.set == carried_set::taylor_model) {
+        auto run = with_taylor_kernel(unknowns, [&]<std::size_t N, std::size_t D>() {
+            return make_taylor_run<N, D>(f, e, samples, options);
+        });
+        if (run) return run;
+    }
+    return std::make_unique<doubleton_run>(f, e, samples, options);
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_IMPL_IDENTIFY_IPP
+#define SIVID_PAVING_IMPL_IDENTIFY_IPP
+
+#include <sivid/paving/identify.hpp>
+
+#include <sivid/approximate/fit/fit.hpp>
+#include <sivid/compiled.hpp>
+#include <sivid/paving/core_box.hpp>
+#include <sivid/paving/data_test.hpp>
+#include <sivid/paving/dependence.hpp>
+#include <sivid/paving/detail/drawing.hpp>
+#include <sivid/paving/identification.hpp>
+#include <sivid/paving/identify_options.hpp>
+#include <sivid/paving/invert.hpp>
+#include <sivid/paving/reduction.hpp>
+#include <sivid/paving/witness.hpp>
+#include <sivid/paving/work_limit.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+namespace paving_detail {
+
+/// Measurements that fail for every parameter that is left.
+inline std::vector<forced_outlier>
+find_forced(data_test& test, identification_problem const& problem, box const& hull) {
+    std::vector<forced_outlier> forced;
+    for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
+        if (problem.experiments[s].outliers == 0) continue;
+        auto const answer = test.run(s, problem.experiments[s].initial, hull);
+        auto const values = output_ranges(*answer, hull);
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            if (disjoint(values[i], answer->bounds[i])) forced.push_back({s, i});
+        }
+    }
+    return forced;
+}
+
+} // namespace paving_detail
+
+SIVID_DECL identification identify(identification_problem const& problem,
+                                    identify_options options) {
+    problem.require_valid();
+    auto const begin = std::chrono::steady_clock::now();
+    // Every phase ends in time, and soon when told to: integrations and simulations ask.
+    double const earlier =
+        options.resume ? options.resume->seconds + options.resume->search.seconds : 0;
+    work_limit limit(options.search.seconds - earlier, options.search.keep_going);
+    options.test = limited(std::move(options.test), limit);
+    auto working = problem;
+    if (options.algorithm != algorithm::contracting) {
+        options.test.contract = false;
+        options.search.order = search_order::first_in;
+    } else {
+        options.search.accuracy_of_hull = true;
+        if (options.only_hulls) options.search.hull_gain = 0.02;
+    }
+    if (options.algorithm == algorithm::report_1) {
+        for (auto& s : working.experiments) s.outliers = 0;
+    }
+    data_test test(working, options.test);
+    identification result(problem.prior);
+    result.assumptions.push_back(input_assumption(problem.experiments));
+    std::vector<box> starts;
+    if (options.algorithm == algorithm::contracting) {
+        auto guess = options.resume ? options.resume->guess.value_or(approximate_fit{})
+                                    : fitter(working, limit)();
+        if (!guess.parameters.empty()) {
+            result.witness = verify_witness(test, working, guess.parameters, guess.starts);
+            for (std::size_t s = 0; s < guess.starts.size(); ++s) {
+                starts.push_back(point_within(working.experiments[s].initial, guess.starts[s]));
+            }
+            result.guess = std::move(guess);
+        }
+    }
+    auto const since_begin = [begin] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    };
+    double const spent = since_begin() + (options.resume ? options.resume->seconds : 0);
+    options.search.seconds = std::max(0.0, options.search.seconds - spent);
+    auto const structure = dependence_of(working);
+    auto const map = options.algorithm == algorithm::contracting
+                         ? reduction::find(working, structure)
+                         : std::nullopt;
+    auto const& posed = map ? map->problem() : working;
+    std::optional<data_test> reduced;
+    if (map) reduced.emplace(posed, options.test);
+    auto& searching = reduced ? *reduced : test;
+    if (result.guess) searching.set_starts(starts);
+    auto search = options.search;
+    if (map) search.keep_outside = true; // what is drawn is told from them
+    search.checkpoint = nullptr;
+    // A fit that was cut short is not what an uninterrupted run would go on from.
+    bool const prepared = options.resume || limit();
+    if (options.checkpoint && prepared) {
+        search.checkpoint = [&](search_state const& now) {
+            options.checkpoint({result.guess, spent, now});
+        };
+    }
+    search.resume = nullptr;
+    if (options.resume) search.resume = {options.resume, &options.resume->search};
+    auto const integrated = searching.integrations();
+    auto found = invert(searching, posed.prior, search);
+    // Not what was integrated but what the result stands on: resuming repeats some.
+    result.integrations = found.cost + integrated - searching.integrations();
+    auto const left = found.paving.outer_hull();
+    limit.allow(options.completing_seconds);
+    if (result.witness && !options.only_hulls && found.reason != stop_reason::cancelled &&
+        found.paving.count(box_verdict::inside) == 0) {
+        auto const point = map ? mid(map->forward(point_box(result.witness->parameters)))
+                               : result.witness->parameters;
+        if (contains(left, point)) {
+            if (auto const core = core_about(searching, left, point, starts)) {
+                found.paving = with_inside(found.paving, *core);
+            }
+        }
+    }
+    result.reason = found.reason;
+    result.proof = std::move(found.proof);
+    result.run = options.test.run;
+    result.run.enclosure.keep_going = nullptr; // it is this call's
+    result.boxes = found.tested;
+    result.effort = search_effort{
+        found.seconds, std::min(search.seconds, 1e300), found.tested, search.boxes, {}};
+    if (search.memory < std::numeric_limits<std::size_t>::max()) {
+        result.effort->most_bytes = search.memory;
+    }
+    if (map) {
+        options.search.seconds = limit.seconds();
+        options.search.keep_going = limit;
+        paving_detail::draw(result, *map, found.paving, problem.prior, options.search,
+                            options.drawn_boxes);
+    } else {
+        result.paving = std::move(found.paving);
+        result.hull = left;
+    }
+    if (result.witness || result.paving.inner_volume().lower() > 0 ||
+        result.paving.count(box_verdict::inside) > 0) {
+        result.verdict = verdict::consistent;
+    } else if (!result.paving.has_outer()) {
+        result.verdict = verdict::inconsistent;
+    }
+    if (result.paving.has_outer()) {
+        result.entangled = structure.entangled;
+        for (std::size_t c = 0; c < structure.combinations.size(); ++c) {
+            auto const& what = structure.combinations[c];
+            auto range = map ? left[c] : interval_traits<interval>::empty();
+            for (auto const& b : result.paving.boxes()) {
+                if (!map && b.verdict != box_verdict::outside)
+                    range = hull(range, what.over(b.set));
+            }
+            result.combinations.push_back({what, range});
+        }
+        result.forced = paving_detail::find_forced(searching, posed, left);
+    }
+    if (reduced) result.integrations += reduced->integrations();
+    result.integrations += test.integrations();
+    result.seconds = since_begin();
+    if (options.resume) result.seconds += options.resume->seconds + options.resume->search.seconds;
+    return result;
+}
+
+} // namespace sivid
+
+#endif

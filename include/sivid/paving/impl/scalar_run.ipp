@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_IMPL_SCALAR_RUN_IPP
+#define SIVID_PAVING_IMPL_SCALAR_RUN_IPP
+
+#include <sivid/paving/scalar_run.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/paving/detail/doubleton_run.hpp>
+#include <sivid/paving/detail/scalar_taylor_run.hpp>
+
+#include <memory>
+
+namespace sivid {
+
+SIVID_DECL std::unique_ptr<experiment_run> make_scalar_run(flow const& f, experiment const& e,
+                                                            record const& samples,
+                                                            box const& initial, box const& prior,
+                                                            run_options options) {
+    using namespace paving_detail;
+    options.enclosure.minimum_step = minimum_step_for(e, options.enclosure.minimum_step);
+    if (f.uncertain()) options.hopeless = 1e300;
+    auto const unknowns = unknown_count(initial, prior);
+#define SIVID_KERNEL(N, D)                                                                         \
+    if (unknowns <= N) return make_scalar_taylor_run<N, D>(f, e, samples, options);
+    SIVID_SCALAR_KERNELS(SIVID_KERNEL)
+#undef SIVID_KERNEL
+    return std::make_unique<doubleton_run>(f, e, samples, options);
+}
+
+} // namespace sivid
+
+#endif

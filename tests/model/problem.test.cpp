@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/model/problem.hpp>
+
+#include "support/catch.hpp"
+#include "support/problems.hpp"
+
+#include <cmath>
+#include <limits>
+
+using namespace sivid;
+using support::between;
+
+namespace {
+
+identification_problem sound() {
+    support::draws d(331);
+    return support::plant(d, 0, {}).problem;
+}
+
+} // namespace
+
+TEST_CASE("a sound problem is accepted") { CHECK_NOTHROW(sound().require_valid()); }
+
+TEST_CASE("each defect of a problem is named") {
+    auto const empty = interval_traits<interval>::empty();
+    double const nan = std::numeric_limits<double>::quiet_NaN();
+    auto p = sound();
+    auto const refused = [&p](char const* words) {
+        CHECK_THROWS_WITH(p.require_valid(), ContainsSubstring(words));
+        CHECK_THROWS_AS(p.require_valid(), std::invalid_argument);
+        p = sound();
+    };
+    p.choice.unknown.clear();
+    refused("no unknown parameter");
+    p.prior = box{between(0, 1)};
+    refused("one side per parameter");
+    p.prior[1] = empty;
+    refused("prior is empty");
+    p.experiments.clear();
+    refused("no experiment");
+    p.experiments[0].initial = box{};
+    refused("E0");
+    p.experiments[0].initial[0] = empty;
+    refused("initial box is empty");
+    p.experiments[0].measurements.clear();
+    refused("no measurement");
+    p.experiments[0].measurements[2].channel = 7;
+    refused("unknown channel");
+    p.experiments[0].measurements[2].time = -1;
+    refused("before the begin");
+    p.experiments[0].measurements[2].time = nan;
+    refused("E0");
+    p.experiments[0].measurements[0].bound = empty;
+    refused("empty measurement");
+    p.experiments[0].begin = nan;
+    refused("E0");
+}
