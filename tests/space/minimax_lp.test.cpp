@@ -162,6 +162,22 @@ TEST_CASE("many functions of many unknowns, shared and separate: point and proof
     }
 }
 
+TEST_CASE("a program goes on with functions that have come") {
+    draws d(73);
+    for (int trial = 0; trial < 50; ++trial) {
+        std::vector<minimax_block> blocks{random_block(d, {0, 1, 2}, 6)};
+        minimax_solver growing(3, blocks);
+        auto const before = growing();
+        blocks.push_back(random_block(d, {2, 0}, 3));
+        auto const after = growing();
+        auto const fresh = minimax_solver(3, blocks)();
+        CHECK(after.value >= before.value - 1e-9);
+        CHECK_THAT(after.value, WithinAbs(fresh.value, 1e-9));
+        CHECK_THAT(height(blocks, after.point), WithinAbs(after.value, 1e-8));
+        CHECK_THAT(proved(3, blocks, after.weights), WithinAbs(after.value, 1e-8));
+    }
+}
+
 TEST_CASE("what the minimax program does at its limits") {
     SECTION("nothing to bound") {
         auto const found = minimax_solver(2, {})();
@@ -194,7 +210,12 @@ TEST_CASE("what the minimax program does at its limits") {
         CHECK_THAT(found.point[0], WithinAbs(0, 1e-12));
     }
     SECTION("numbers that are none end the work") {
-        std::vector<minimax_block> const blocks{{{0}, {std::nan("")}, {1}, {0}}};
-        CHECK(minimax_solver(1, blocks)().exchanges < 1000);
+        std::vector<minimax_block> const none{{{0}, {std::nan("")}, {1}, {0}}};
+        CHECK(minimax_solver(1, none)().value == -infinite); // no function
+        std::vector<minimax_block> const blocks{{{0}, {1}, {infinite}, {0}}};
+        auto const found = minimax_solver(1, blocks)();
+        CHECK(found.exchanges < 1000);
+        CHECK(std::isnan(found.value)); // no bound, and none that is met
+        CHECK(found.weights.empty());
     }
 }

@@ -15,8 +15,8 @@ namespace sivid {
 
 /// \f$ \min_{d \in [-1,1]^n} \max_y (|f_y(d)| - margin_y) \f$, approximately.
 struct approximate_minimax {
-    double value = -std::numeric_limits<double>::infinity();
-    std::vector<double> point;           ///< where the maximum is about least
+    double value = -std::numeric_limits<double>::infinity(); ///< NaN: numbers that are none
+    std::vector<double> point;                               ///< where the maximum is about least
     std::vector<minimax_weight> weights; ///< multipliers, at most n + 1; the sum of sizes is one
     std::size_t exchanges = 0;
 };
@@ -52,7 +52,8 @@ public:
             double const d = program_.point()[v];
             result.point[v] = std::isfinite(d) ? std::clamp(d, -1.0, 1.0) : 0.0;
         }
-        result.value = -program_.value();
+        result.value =
+            program_.started() ? -program_.value() : std::numeric_limits<double>::quiet_NaN();
         result.weights = constraints_.weights(program_.combination());
         return result;
     }
