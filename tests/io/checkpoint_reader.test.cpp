@@ -224,7 +224,7 @@ TEST_CASE("checkpoints of other problems, options and versions are refused, with
     CHECK_THROWS_WITH(
         parse_checkpoint("sivid-checkpoint-3\nsha256 " + sha256(body) + "\n" + body, "f", digest),
         ContainsSubstring("'0.0.9'") && ContainsSubstring("begin anew"));
-    CHECK_THROWS_WITH(parse_checkpoint("sivid-checkpoint-3\n", "f", digest),
+    CHECK_THROWS_WITH(parse_checkpoint("sivid-checkpoint-4\n", "f", digest),
                       ContainsSubstring("no checkpoint"));
     CHECK_THROWS_WITH(read_checkpoint(folder.path() / "none.txt", digest),
                       ContainsSubstring("none.txt") && ContainsSubstring("no such file"));
