@@ -147,7 +147,9 @@ TEST_CASE("a proof is followed and whatever is forged in it no feasible point is
                 }
                 if (chance()) std::swap(s.why, proof[d.below(proof.size())].why);
             }
-            if (forgery > 6) std::shuffle(proof.begin(), proof.end(), std::mt19937(forgery));
+            if (forgery > 6)
+                std::shuffle(proof.begin(), proof.end(),
+                             std::mt19937(static_cast<unsigned>(forgery)));
             exclusion_check<interval> forged(problem, effort);
             auto const open = forged.follow(proof, without);
             REQUIRE(std::any_of(open.begin(), open.end(),

@@ -44,6 +44,21 @@ TEST_CASE("a log tells the tree from the prior on and leaves what it does not kn
     CHECK(proof[4].what == kind::empty);
     CHECK(proof[5].what == kind::leaf);
 
+    // Told again by another log, and gone on with.
+    proof_log again(1U << 20);
+    again.take_up(proof, prior);
+    CHECK(again.proof_from(prior).size() == proof.size());
+    again.add({interval(4, 7)}, {}, std::nullopt);
+    auto const more = again.proof_from(prior);
+    REQUIRE(more.size() == 6);
+    CHECK(more[5].what == kind::empty);
+    // A cut that cuts nothing leads back to the same box, once.
+    proof_log idle(1U << 20);
+    idle.take_up({{kind::cut, 0, true, 8}, {kind::leaf}}, prior);
+    CHECK(idle.proof_from(prior).size() == 2);
+    idle.take_up({{kind::split, 3, false, 8}, {kind::cut, 9, true, 8}, {}}, prior); // nonsense
+    idle.take_up({{kind::split, 0, false, 80}, {}, {}, {}, {}}, prior);
+
     proof_log full(10);
     full.add(prior, {}, rest, 0);
     auto const none = std::move(full).proof_from(prior);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What stands in certificates.csv is never believed: whatever is forged there and in the tables, a
 // false result is not verified, and a true one loses time at most.
+#include <sivid/io/checkpoint.hpp>
+#include <sivid/io/checkpoint_reader.hpp>
 #include <sivid/io/identification_check.hpp>
 #include <sivid/io/paving_check.hpp>
+#include <sivid/io/problem_digest.hpp>
 #include <sivid/paving/identify.hpp>
 
 #include "io/stored_result.hpp"
@@ -10,6 +13,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -123,6 +127,28 @@ TEST_CASE("no certificate verifies that what is feasible is excluded") {
     // Steps that lead nowhere, in great number.
     exclusion_proof const many(1000, proof_step{kind::split, 0, false, 0.75});
     never(removed, many);
+}
+
+TEST_CASE("a search that was interrupted tells its whole proof") {
+    auto const problem = io_support::two_rates_problem();
+    identify_options options;
+    options.search.accuracy = 1.0 / 256;
+    options.search.sufficient_ratio = 1;
+    options.search.checkpoint_seconds = 0;
+    auto const at_once = identify(problem, options);
+    auto first = options;
+    first.search.boxes = 20;
+    auto const digest = problem_digest(problem, options);
+    std::string saved;
+    first.checkpoint = [&](identification_state const& s) { saved = checkpoint_text(s, digest); };
+    (void)identify(problem, first);
+    options.resume =
+        std::make_shared<identification_state const>(parse_checkpoint(saved, "f", digest));
+    CHECK(checkpoint_text(*options.resume, digest) == saved);
+    auto const resumed = identify(problem, options);
+    REQUIRE(resumed.boxes == at_once.boxes);
+    CHECK(at_once.proof.size() > 20);
+    CHECK(certificates_csv(resumed.proof) == certificates_csv(at_once.proof));
 }
 
 TEST_CASE("the tolerance that a result states proves nothing by itself") {

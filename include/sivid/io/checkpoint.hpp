@@ -3,6 +3,7 @@
 #define SIVID_IO_CHECKPOINT_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/io/certificates_csv.hpp>
 #include <sivid/io/durable_file.hpp>
 #include <sivid/io/sha256.hpp>
 #include <sivid/number/decimal_output.hpp>
@@ -19,7 +20,7 @@ namespace sivid {
 
 namespace io_detail {
 
-inline constexpr std::string_view checkpoint_format = "sivid-checkpoint-2";
+inline constexpr std::string_view checkpoint_format = "sivid-checkpoint-3";
 
 /// One letter a verdict, in the order of box_verdict.
 inline constexpr std::string_view verdict_letters = "ioup";
@@ -87,6 +88,8 @@ inline void put(checkpoint_lines& line, search_state const& s) {
             line("new", w.volume, w.number, w.set);
         }
     }
+    line("proof", s.proof.size());
+    line(certificates_csv(s.proof));
 }
 
 } // namespace io_detail

@@ -110,29 +110,20 @@ public:
         if (rest && side) {
             steps.push_back({proof_step::kind::split, *side, false, mid((*rest)[*side])});
         }
-        std::size_t bytes = 2 * of.size() * sizeof(double);
-        for (auto const& s : steps) bytes += s.bytes();
-        if (steps.empty() || bytes_ + bytes > most_) return;
-        bytes_ += bytes;
-        steps_[key(of)] = std::move(steps);
+        keep(of, std::move(steps));
     }
 
-    [[nodiscard]] exclusion_proof proof_from(box const& prior) && {
+    [[nodiscard]] exclusion_proof proof_from(box const& prior) const {
         exclusion_proof proof;
         std::vector<box> waiting{prior};
         while (!waiting.empty()) {
             auto cell = std::move(waiting.back());
             waiting.pop_back();
             for (bool over = false; !over;) {
-                auto const found = steps_.find(key(cell));
-                over = found == steps_.end();
-                if (over) {
-                    proof.push_back({});
-                    break;
-                }
-                auto const steps = std::move(found->second);
-                steps_.erase(found); // once, so that no box comes back to itself
-                for (auto const& s : steps) {
+                auto const of = key(cell);
+                auto const found = steps_.find(of);
+                for (std::size_t k = 0; found != steps_.end() && k < found->second.size(); ++k) {
+                    auto const& s = found->second[k];
                     proof.push_back(s);
                     if (s.what == proof_step::kind::cut) cell = before(cell, s);
                     over = s.what == proof_step::kind::empty || s.what == proof_step::kind::split;
@@ -141,14 +132,50 @@ public:
                         waiting.push_back(std::move(high));
                         waiting.push_back(std::move(low));
                     }
-                    if (over) break;
                 }
+                if (over || key(cell) != of)
+                    continue; // what is left of it may be known under its own name
+                proof.push_back({});
+                over = true;
             }
         }
         return proof;
     }
+    /// Remembers a proof that was told before, as far as it makes sense.
+    void take_up(exclusion_proof const& proof, box const& prior) {
+        std::vector<box> waiting{prior};
+        exclusion_proof steps;
+        for (auto const& s : proof) {
+            if (waiting.empty() || (s.what != proof_step::kind::run && s.index >= prior.size())) {
+                return;
+            }
+            auto cell = waiting.back();
+            if (s.what != proof_step::kind::leaf) steps.push_back(s);
+            if (s.what == proof_step::kind::run || s.what == proof_step::kind::cut) continue;
+            waiting.pop_back();
+            auto const of = cell;
+            for (auto const& t : steps) {
+                if (t.what == proof_step::kind::cut) cell = before(cell, t);
+            }
+            if (is_empty(cell)) return;
+            if (s.what == proof_step::kind::split) {
+                if (!contains(cell[s.index], s.at)) return;
+                auto [low, high] = bisect(cell, s.index, s.at);
+                waiting.push_back(std::move(high));
+                waiting.push_back(std::move(low));
+            }
+            keep(of, std::exchange(steps, {}));
+        }
+    }
 
 private:
+    void keep(box const& of, exclusion_proof steps) {
+        std::size_t bytes = 2 * of.size() * sizeof(double);
+        for (auto const& s : steps) bytes += s.bytes();
+        if (steps.empty() || bytes_ + bytes > most_) return;
+        bytes_ += bytes;
+        steps_[key(of)] = std::move(steps);
+    }
     static std::vector<double> key(box const& x) {
         std::vector<double> ends;
         for (auto const& side : x) {

@@ -59,7 +59,7 @@ struct inversion_options {
     executor workers{};
 
     /// Bytes for what the test says of how its exclusions are proved: it is kept up to there and
-    /// ends up in `inversion::proof`. A resumed search knows of its own run only.
+    /// ends up in `inversion::proof`, beside `memory`.
     std::size_t proof_bytes = 0;
 
     /// Called with the state every `checkpoint_seconds`, between two tests, and when a budget or a

@@ -131,7 +131,7 @@ public:
     [[nodiscard]] inversion finish() && {
         while (!waiting_.empty()) paving_.add(waiting_.pop().set, box_verdict::pending);
         if (outside_kept_ && !options_.keep_outside) paving_ = without_outside(paving_);
-        auto proof = log_ ? std::move(*log_).proof_from(prior_) : exclusion_proof{};
+        auto proof = log_ ? log_->proof_from(prior_) : exclusion_proof{};
         return {std::move(paving_), reason_, tested_, cost_, stopped_at_.value_or(seconds()),
                 std::move(proof)};
     }
@@ -165,6 +165,7 @@ public:
         s.next_look = rest_.next_look;
         s.seconds = seconds();
         s.outside_kept = outside_kept_;
+        if (log_) s.proof = log_->proof_from(prior_);
         return s;
     }
 
@@ -179,6 +180,7 @@ private:
             }
             for (auto const& b : s.paved) paving_.add(b.set, b.verdict);
             outside_kept_ = outside_kept_ && s.outside_kept;
+            if (log_) log_->take_up(s.proof, prior_);
             paving_detail::lesson_restorer<knowledge> known(s, held_);
             std::vector<item> items;
             for (auto const& w : s.waiting) {
@@ -219,14 +221,12 @@ private:
         }
     }
 
-    /// Where a step began.
-    struct step_mark {
+    struct step_mark { ///< where a step began
         std::size_t pushed;
         double volume;
     };
-    /// Undoes a step that has settled nothing.
-    /// @param taken  the items that it took
-    /// @param moved  numbers that items had which it put back in vain, in the order of putting back
+    /// Undoes a step that has settled nothing: `taken` are the items that it took, `moved` the
+    /// numbers that items had which it put back in vain, in the order of putting back.
     void put_back(step_mark const& before, std::vector<item> taken,
                   std::vector<std::size_t> const& moved = {}) {
         for (auto i : waiting_.items()) {

@@ -2,6 +2,7 @@
 #ifndef SIVID_PAVING_SEARCH_STATE_HPP
 #define SIVID_PAVING_SEARCH_STATE_HPP
 
+#include <sivid/paving/exclusion_proof.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/space/box.hpp>
@@ -52,6 +53,8 @@ struct search_state {
     /// Whether `paved` holds the boxes proved outside, too. Without them nobody can tell whether a
     /// box is missing.
     bool outside_kept = true;
+    /// How what was excluded is proved; told on, trusted by nobody.
+    exclusion_proof proof = {};
 
     /// All that is open to inspection, the covering included: where the outside boxes were kept,
     /// paved and waiting boxes together are the prior, exactly on the doubles of their bounds, and

@@ -86,6 +86,20 @@ public:
         while (!line_text_.empty()) result.push_back(number());
         return result;
     }
+    /// So many rows of certificates, their heading and the empty line after them.
+    [[nodiscard]] exclusion_proof certificates(std::size_t rows) {
+        std::string text;
+        for (std::size_t k = 0; k < rows + 2; ++k) {
+            next();
+            text.append(std::exchange(line_text_, {})).append(1, '\n');
+        }
+        try {
+            auto proof = read_certificates(csv_table{file_, text});
+            if (proof.size() == rows) return proof;
+        } catch (input_error const&) { // its remedy is that of another file
+        }
+        damaged();
+    }
     /// All that is left of the line.
     [[nodiscard]] box sides() {
         std::vector<interval> result;
@@ -176,6 +190,7 @@ inline search_state take_search(checkpoint_parser& in) {
         w.number = in.count();
         w.set = in.sides();
     }
+    s.proof = in.certificates(in.open("proof").lines());
     return s;
 }
 
