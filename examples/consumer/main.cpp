@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ten tenths: their double sum is not 1, the product of enclosures contains it. What includes all of
-// <sivid/sivid.hpp> compiles for a minute; these headers do not.
+// Ten tenths: their double sum is not 1, the product of enclosures contains it. What includes all
+// of <sivid/sivid.hpp> compiles for a minute; these headers do not.
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/space/matrix.hpp>
 #include <sivid/version.hpp>

@@ -6,11 +6,11 @@
 #include "identifiability.hpp"
 #include "online.hpp"
 
+#include <sivid/io/certificates_csv.hpp>
 #include <sivid/io/checkpoint.hpp>
 #include <sivid/io/checkpoint_reader.hpp>
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset_digest.hpp>
-#include <sivid/io/certificates_csv.hpp>
 #include <sivid/io/file_set.hpp>
 #include <sivid/io/identification_csv.hpp>
 #include <sivid/io/identification_json.hpp>

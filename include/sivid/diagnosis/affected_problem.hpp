@@ -87,7 +87,7 @@ inline void start_added_states(identification_problem& problem) {
 ///   A parameter that is feasible for `base` is feasible here with all effects neutral.
 /// @throws std::invalid_argument as `with`
 [[nodiscard]] SIVID_DECL identification_problem affected(identification_problem const& base,
-                                                          std::vector<effect> const& effects);
+                                                         std::vector<effect> const& effects);
 
 } // namespace sivid
 

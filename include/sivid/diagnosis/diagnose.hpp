@@ -15,8 +15,8 @@ namespace sivid {
 /// catalogue explain what is missing.
 /// @guarantee  see `diagnosis`
 [[nodiscard]] SIVID_DECL diagnosis_run diagnose(identification_problem problem,
-                                                 std::vector<effect> catalogue,
-                                                 diagnosis_options options = {});
+                                                std::vector<effect> catalogue,
+                                                diagnosis_options options = {});
 
 } // namespace sivid
 

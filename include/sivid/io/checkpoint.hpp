@@ -119,7 +119,7 @@ inline void put(checkpoint_lines& line, search_state const& s) {
 /// before.
 /// @throws output_error
 SIVID_DECL void write_checkpoint(std::filesystem::path const& file,
-                                  identification_state const& state, std::string const& problem);
+                                 identification_state const& state, std::string const& problem);
 
 } // namespace sivid
 

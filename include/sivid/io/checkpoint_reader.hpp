@@ -25,12 +25,12 @@ namespace sivid {
 /// @throws input_error  for a text that is damaged, of another format or version of sivid, or of
 ///                      another problem
 [[nodiscard]] SIVID_DECL identification_state parse_checkpoint(std::string_view text,
-                                                                std::string const& file,
-                                                                std::string const& problem);
+                                                               std::string const& file,
+                                                               std::string const& problem);
 
 /// @throws input_error  as above, or when there is no such file
 [[nodiscard]] SIVID_DECL identification_state read_checkpoint(std::filesystem::path const& file,
-                                                               std::string const& problem);
+                                                              std::string const& problem);
 
 } // namespace sivid
 

@@ -17,7 +17,7 @@ namespace sivid {
 /// @throws input_error  for the first defect found, with file, place and remedy
 /// @cost  linear in the size of the files
 [[nodiscard]] SIVID_DECL dataset read_dataset(std::filesystem::path const& folder,
-                                               model_names const& model);
+                                              model_names const& model);
 
 } // namespace sivid
 

@@ -140,7 +140,7 @@ SIVID_DECL void add_dataset(file_set& files, dataset const& data, model_names co
 /// @given  as for `add_dataset`
 /// @throws output_error
 SIVID_DECL void write_dataset(dataset const& data, model_names const& model,
-                               std::filesystem::path const& folder);
+                              std::filesystem::path const& folder);
 
 } // namespace sivid
 

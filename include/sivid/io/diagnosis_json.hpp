@@ -271,8 +271,7 @@ private:
 /// The text of `diagnosis.json` in the format sivid-diagnosis-1.
 /// @guarantee  bounds are printed outward; the witness's numbers read back as the doubles that were
 ///             verified
-[[nodiscard]] SIVID_DECL std::string diagnosis_json(diagnosis const& d,
-                                                     std::string const& dataset);
+[[nodiscard]] SIVID_DECL std::string diagnosis_json(diagnosis const& d, std::string const& dataset);
 
 } // namespace sivid
 

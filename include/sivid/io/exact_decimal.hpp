@@ -103,7 +103,7 @@ private:
 /// The tightest interval around [lower, upper]; nothing when it is beyond the largest double.
 /// @given  lower <= upper (trusted)
 [[nodiscard]] SIVID_DECL std::optional<interval> enclose(exact_decimal const& lower,
-                                                          exact_decimal const& upper);
+                                                         exact_decimal const& upper);
 
 /// The nearest double; nothing when it is beyond the largest one.
 [[nodiscard]] SIVID_DECL std::optional<double> nearest(exact_decimal const& x);

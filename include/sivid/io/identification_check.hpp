@@ -25,8 +25,9 @@ class identification_check_work;
 /// Whether there is a check in these types for this source: its own, or that of sivid::compiled.
 template <class Exact, class Fast>
 constexpr bool check_is_defined() {
-    return (std::is_same_v<Exact, interval> && std::is_same_v<Fast, interval>) ||
-           requires { sizeof(identification_check_work<Exact, Fast>); };
+    return (std::is_same_v<Exact, interval> && std::is_same_v<Fast, interval>) || requires {
+        sizeof(identification_check_work<Exact, Fast>);
+    };
 }
 
 } // namespace io_detail

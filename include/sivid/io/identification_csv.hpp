@@ -78,7 +78,7 @@ inline std::string paving_csv(std::vector<std::string> const& names, subpaving c
 /// prior lies in some row read outward to doubles (between neighbouring inside rows, which are
 /// printed inward, less than two floats are in none)
 [[nodiscard]] SIVID_DECL std::string boxes_csv(identification_problem const& problem,
-                                                identification const& found);
+                                               identification const& found);
 
 /// The text of `products.csv`: the paving of products from which `boxes.csv` was drawn, in the same
 /// form; the columns bear the formulas of the products. Empty when the search ran in the parameters
@@ -90,8 +90,8 @@ inline std::string paving_csv(std::vector<std::string> const& names, subpaving c
 /// model's output for the parameters of `motion`; `state` is `forced_outlier` when every feasible
 /// parameter violates it, `witness_outlier` when the witness does, else empty.
 [[nodiscard]] SIVID_DECL std::string outputs_csv(identification_problem const& problem,
-                                                  identification const& found,
-                                                  explaining_motion const* motion);
+                                                 identification const& found,
+                                                 explaining_motion const* motion);
 
 } // namespace sivid
 

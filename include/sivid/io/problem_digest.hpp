@@ -138,8 +138,8 @@ inline void describe(canonical_text& t, identify_options const& o) {
 /// @param also  what else it shall depend on, the digest of the data set's files for instance
 /// @cost  linear in the problem
 [[nodiscard]] SIVID_DECL std::string problem_digest(identification_problem const& problem,
-                                                     identify_options const& options,
-                                                     std::string const& also = {});
+                                                    identify_options const& options,
+                                                    std::string const& also = {});
 
 } // namespace sivid
 

@@ -62,7 +62,7 @@ problem_from_dataset(dataset const& data, recorded_model model,
 /// The scenarios of the role holdout: they choose nothing.
 /// @given  as for `problem_from_dataset`
 [[nodiscard]] SIVID_DECL holdout holdout_from_dataset(dataset const& data,
-                                                       model_description const& about);
+                                                      model_description const& about);
 
 } // namespace sivid
 

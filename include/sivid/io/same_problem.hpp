@@ -14,8 +14,8 @@ namespace sivid {
 /// Whether a result speaks of this problem: its parameters, its scenarios.
 /// @throws input_error when it speaks of another
 SIVID_DECL void require_same_problem(identification_problem const& problem,
-                                      stored_identification const& stored,
-                                      std::filesystem::path const& file);
+                                     stored_identification const& stored,
+                                     std::filesystem::path const& file);
 
 } // namespace sivid
 

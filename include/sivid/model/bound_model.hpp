@@ -81,8 +81,8 @@ struct bound_model {
 /// @given  the model has no delays (checked): they have to be resolved first
 /// @throws std::invalid_argument on unknown names, a wrong number of inputs, or an empty value
 [[nodiscard]] SIVID_DECL bound_model bind(recorded_model const& model,
-                                           parameter_choice const& choice,
-                                           std::vector<signal> const& inputs);
+                                          parameter_choice const& choice,
+                                          std::vector<signal> const& inputs);
 
 } // namespace sivid
 

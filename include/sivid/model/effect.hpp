@@ -91,7 +91,7 @@ private:
 /// neutral value; states that they add stand behind the model's own.
 /// @throws std::invalid_argument when an effect names what the model lacks, or stands twice
 [[nodiscard]] SIVID_DECL recorded_model with(recorded_model const& base,
-                                              std::vector<effect> effects);
+                                             std::vector<effect> effects);
 
 /// `with(model{}, effect...)`: records the model and adds the effects.
 template <dynamic_model M, std::same_as<effect>... Effects>

@@ -19,55 +19,54 @@ struct range {
 };
 
 namespace detail {
-SIVID_DECL effect one(std::string name, std::string parameter, std::string unit,
-                       range const& prior, std::string about, int order = 0, decimal neutral = {});
+SIVID_DECL effect one(std::string name, std::string parameter, std::string unit, range const& prior,
+                      std::string about, int order = 0, decimal neutral = {});
 } // namespace detail
 
 /// The input acts late: u(t - tau), and u at the begin before.
 SIVID_DECL effect input_delay(std::string const& name, std::string const& input, range const& tau);
 /// u - b above b, u + b below -b, else 0.
 SIVID_DECL effect input_dead_band(std::string const& name, std::string const& input,
-                                   std::string const& unit, range const& b);
+                                  std::string const& unit, range const& b);
 /// First-order lag: d' = (u - d)/tau replaces u. tau = 0 is a limit, where the right-hand side is
 /// not defined.
 /// @param rests  the lag starts at 0; otherwise at the input's value at the begin
 SIVID_DECL effect input_lag(std::string const& name, std::string const& input,
-                             std::string const& unit, double limit, range const& tau,
-                             bool rests = false);
+                            std::string const& unit, double limit, range const& tau,
+                            bool rests = false);
 /// The input clamped to [-lim, lim].
 SIVID_DECL effect input_saturation(std::string const& name, std::string const& input,
-                                    std::string const& unit, range const& lim);
+                                   std::string const& unit, range const& lim);
 /// u + d0.
 SIVID_DECL effect input_trim(std::string const& name, std::string const& input,
-                              std::string const& parameter, std::string const& unit,
-                              range const& d0);
+                             std::string const& parameter, std::string const& unit,
+                             range const& d0);
 /// (1 + k) u.
 SIVID_DECL effect input_gain(std::string const& name, std::string const& input, range const& k);
 
 /// x' + a.
 SIVID_DECL effect constant_rate(std::string const& name, std::string const& state,
-                                 std::string const& unit, range const& a);
+                                std::string const& unit, range const& a);
 /// x' - k x.
-SIVID_DECL effect linear_damping(std::string const& name, std::string const& state,
-                                  range const& k);
+SIVID_DECL effect linear_damping(std::string const& name, std::string const& state, range const& k);
 /// x' - k |x| x.
 SIVID_DECL effect quadratic_damping(std::string const& name, std::string const& state,
-                                     std::string const& unit, range const& k);
+                                    std::string const& unit, range const& k);
 /// x' - k x/sqrt(x^2 + s^2): dry friction, smooth within about the speed s of rest.
 SIVID_DECL effect dry_friction(std::string const& name, std::string const& state,
-                                std::string const& unit, range const& k, decimal smooth_below);
+                               std::string const& unit, range const& k, decimal smooth_below);
 /// A constant that drifts: c (1 + k t).
 SIVID_DECL effect drift(std::string const& name, std::string const& constant, range const& k);
 
 /// y + b.
 SIVID_DECL effect sensor_bias(std::string const& name, std::string const& channel,
-                               std::string const& unit, range const& b);
+                              std::string const& unit, range const& b);
 /// (1 + k) y, for all the channels of one instrument.
 SIVID_DECL effect sensor_scale(std::string const& name, std::vector<std::string> const& channels,
-                                range const& k);
+                               range const& k);
 /// y(t - tau), and its value at the begin before, for all the channels of one instrument.
 SIVID_DECL effect sensor_latency(std::string const& name, std::vector<std::string> const& channels,
-                                  range const& tau);
+                                 range const& tau);
 
 } // namespace sivid::effects
 

@@ -204,10 +204,10 @@ struct recorded_model {
 namespace model_detail {
 /// What a functor says of itself, as data.
 [[nodiscard]] SIVID_DECL model_description described(std::string_view name,
-                                                      std::span<state_quantity const> states,
-                                                      std::span<quantity const> inputs,
-                                                      std::span<quantity const> channels,
-                                                      std::span<constant_quantity const> constants);
+                                                     std::span<state_quantity const> states,
+                                                     std::span<quantity const> inputs,
+                                                     std::span<quantity const> channels,
+                                                     std::span<constant_quantity const> constants);
 /// Adds a relation between constants to a recorded model.
 /// @throws std::invalid_argument when the constant is unknown, stands twice, or is not a function
 /// of

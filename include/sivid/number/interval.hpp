@@ -270,7 +270,7 @@ interval hull(A, B) = delete;
 // Templates on the policies: deduced, so that nothing is converted to an interval for them.
 template <class P>
     requires std::same_as<boost::numeric::interval<double, P>, interval>
-boost::numeric::interval<double, P>
+        boost::numeric::interval<double, P>
 operator/(boost::numeric::interval<double, P> const& x,
           boost::numeric::interval<double, P> const& y) noexcept {
     return detail::in_nearest_mode(
@@ -278,13 +278,13 @@ operator/(boost::numeric::interval<double, P> const& x,
 }
 template <class P>
     requires std::same_as<boost::numeric::interval<double, P>, interval>
-boost::numeric::interval<double, P> operator/(boost::numeric::interval<double, P> const& x,
-                                              double y) noexcept {
+        boost::numeric::interval<double, P>
+operator/(boost::numeric::interval<double, P> const& x, double y) noexcept {
     return x / interval{y};
 }
 template <class P>
     requires std::same_as<boost::numeric::interval<double, P>, interval>
-boost::numeric::interval<double, P>
+        boost::numeric::interval<double, P>
 operator/(double x, boost::numeric::interval<double, P> const& y) noexcept {
     return interval{x} / y;
 }

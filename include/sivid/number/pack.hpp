@@ -16,8 +16,8 @@
 /// No operation sets the rounding mode. Arithmetic proves its bounds in whichever mode the thread
 /// is. Elementary functions do so with embedded rounding; elsewhere they need round-to-nearest,
 /// look at the mode, and take the slow way through the vocabulary type in any other, as under FTZ
-/// or DAZ. Arithmetic (with sqr, sqrt, pown, hypot), and all that AVX-512 does, needs these two off:
-/// `require_sound_environment` rejects them at the entry of a solver.
+/// or DAZ. Arithmetic (with sqr, sqrt, pown, hypot), and all that AVX-512 does, needs these two
+/// off: `require_sound_environment` rejects them at the entry of a solver.
 
 #include <sivid/number/detail/pack_avx2.hpp>
 #include <sivid/number/detail/pack_avx512.hpp>

@@ -30,9 +30,9 @@ struct holdout_bound {
 /// @param holdout a problem with the same model and parameters
 /// @guarantee  both ranges contain what they say whenever the search ends
 [[nodiscard]] SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
-                                                          inflation_bound const& fitted,
-                                                          identification_problem const& holdout,
-                                                          inflation_options const& options = {});
+                                                         inflation_bound const& fitted,
+                                                         identification_problem const& holdout,
+                                                         inflation_options const& options = {});
 
 } // namespace sivid
 

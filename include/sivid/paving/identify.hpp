@@ -15,7 +15,7 @@ namespace sivid {
 ///             feasible throughout. All under the listed assumptions.
 /// @cost  dominated by the integrations: boxes times experiments
 [[nodiscard]] SIVID_DECL identification identify(identification_problem const& problem,
-                                                  identify_options options = {});
+                                                 identify_options options = {});
 
 } // namespace sivid
 

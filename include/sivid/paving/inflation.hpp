@@ -74,8 +74,8 @@ template <class Keep>
 /// @guarantee  `value` contains the inflation whenever the search ends
 /// @cost  dominated by integrations over boxes; some tens for a few parameters that the data fix
 [[nodiscard]] SIVID_DECL inflation_bound bound_inflation(identification_problem const& problem,
-                                                          approximate_fit const* guess = nullptr,
-                                                          inflation_options const& options = {});
+                                                         approximate_fit const* guess = nullptr,
+                                                         inflation_options const& options = {});
 
 } // namespace sivid
 

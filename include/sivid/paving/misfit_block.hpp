@@ -2,9 +2,9 @@
 #ifndef SIVID_PAVING_MISFIT_BLOCK_HPP
 #define SIVID_PAVING_MISFIT_BLOCK_HPP
 
-#include <sivid/space/constraint_blocks.hpp>
 #include <sivid/paving/inflation_certificate.hpp>
 #include <sivid/paving/local_response.hpp>
+#include <sivid/space/constraint_blocks.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 #ifndef SIVID_PAVING_RESPONSE_AUDIT_HPP
 #define SIVID_PAVING_RESPONSE_AUDIT_HPP
 
-#include <sivid/paving/plain_run.hpp>
 #include <sivid/model/problem.hpp>
+#include <sivid/paving/plain_run.hpp>
 #include <sivid/paving/response.hpp>
 
 #include <algorithm>

@@ -34,7 +34,7 @@ struct bar_chart_options {
 
 /// Horizontal bars of bounded quantities, with their numbers, and a threshold line.
 [[nodiscard]] SIVID_DECL svg draw_bar_chart(std::vector<bar> const& bars,
-                                             bar_chart_options const& o = {});
+                                            bar_chart_options const& o = {});
 
 } // namespace sivid::report
 

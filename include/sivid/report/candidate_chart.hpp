@@ -117,7 +117,7 @@ candidate_legend(std::vector<candidate_bar> const& bars);
 /// hatched to the upper one, the best fit as an open circle; the threshold at 1; sign and words for
 /// what is proved.
 [[nodiscard]] SIVID_DECL svg draw_candidate_chart(std::vector<candidate_bar> const& bars,
-                                                   candidate_chart_options const& o = {});
+                                                  candidate_chart_options const& o = {});
 
 } // namespace sivid::report
 

@@ -44,12 +44,12 @@ comparison_legend(std::vector<comparison_series> const& all,
 
 /// Measured intervals over time, with the model's line before and after an effect is joined.
 [[nodiscard]] SIVID_DECL svg draw_comparison_plot(comparison_series const& c,
-                                                   time_plot_options const& o = {});
+                                                  time_plot_options const& o = {});
 
 /// How far the channels miss their bounds, over time: each cell holds the largest misfit of the
 /// samples in it; a sample of a slow channel reaches half way to its neighbours.
 [[nodiscard]] SIVID_DECL heat_map misfit_map(std::vector<comparison_series> const& channels,
-                                              bool after, std::size_t most_columns = 60);
+                                             bool after, std::size_t most_columns = 60);
 
 /// The largest finite value of a map; 0 when there is none.
 [[nodiscard]] SIVID_DECL double largest_value(heat_map const& m);

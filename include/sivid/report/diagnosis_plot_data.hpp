@@ -64,7 +64,7 @@ namespace detail {
 
 /// Marks the q largest misfits beyond their bounds; none without an outlier budget.
 SIVID_DECL std::vector<bool> suspects(std::vector<double> const& residuals, std::size_t n,
-                                       std::size_t q);
+                                      std::size_t q);
 
 } // namespace detail
 

@@ -40,8 +40,8 @@ SIVID_DECL void describe(std::vector<effect> const& catalogue, diagnosis_report_
 /// What the page of a diagnosis shows.
 /// @cost  O(size of the plot data)
 [[nodiscard]] SIVID_DECL diagnosis_view view_of(diagnosis const& d,
-                                                 diagnosis_plot_data const& plots = {},
-                                                 diagnosis_report_options const& options = {});
+                                                diagnosis_plot_data const& plots = {},
+                                                diagnosis_report_options const& options = {});
 
 } // namespace sivid::report
 

@@ -23,7 +23,7 @@ namespace sivid::report {
 
 /// In words where there are any: "a first-order lag of the rudder and a steady wind".
 [[nodiscard]] SIVID_DECL std::string words_of(diagnosis_view const& v,
-                                               std::vector<std::string> const& effects);
+                                              std::vector<std::string> const& effects);
 
 /// "98 to 100 %"; an upper end above 100 is impossible, a missing lower one is said.
 [[nodiscard]] SIVID_DECL std::string shrink_text(range const& share);

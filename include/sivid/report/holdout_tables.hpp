@@ -17,7 +17,7 @@ namespace sivid::report {
 
 /// Candidates side by side on the hold-out data; only when there are several.
 [[nodiscard]] SIVID_DECL table holdout_candidates_table(diagnosis_view const& v,
-                                                         std::size_t most = 8);
+                                                        std::size_t most = 8);
 
 } // namespace sivid::report
 

@@ -23,11 +23,11 @@ SIVID_DECL std::string nearest_text(double x);
 
 /// "L * k, Sg / k" or "a + s, b - 2 s": what may move together.
 SIVID_DECL std::string motion_text(free_motion const& m,
-                                    std::vector<unknown_quantity> const& names);
+                                   std::vector<unknown_quantity> const& names);
 
 /// The components that matter, largest first: "L +1, Sg -0.12".
 SIVID_DECL std::string direction_text(sensitive_direction const& d,
-                                       std::vector<unknown_quantity> const& names);
+                                      std::vector<unknown_quantity> const& names);
 
 SIVID_DECL std::string joined_formulas(std::vector<fixed_formula> const& list);
 

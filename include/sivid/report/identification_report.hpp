@@ -46,14 +46,13 @@ SIVID_DECL std::string joined(std::vector<std::string> const& all);
 /// @param motion  the tubes to draw, or null
 /// @guarantee  every range that the page calls proved is the identification's own, or a tube's
 [[nodiscard]] SIVID_DECL identification_view view_of(identification_problem const& problem,
-                                                      identification const& found,
-                                                      explaining_motion const* motion,
-                                                      identification_report_options const& options);
+                                                     identification const& found,
+                                                     explaining_motion const* motion,
+                                                     identification_report_options const& options);
 
 /// A row for the table that compares ways to solve one problem.
-[[nodiscard]] SIVID_DECL comparison_row comparison_of(std::string name,
-                                                       identification const& found, bool chosen,
-                                                       std::string note = {});
+[[nodiscard]] SIVID_DECL comparison_row comparison_of(std::string name, identification const& found,
+                                                      bool chosen, std::string note = {});
 
 } // namespace sivid::report
 

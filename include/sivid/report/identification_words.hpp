@@ -42,7 +42,7 @@ namespace sivid::report {
 
 /// How many outliers the data need; both numbers are proved.
 [[nodiscard]] SIVID_DECL std::string fewest_outliers_sentence(std::uint64_t least,
-                                                               std::uint64_t most);
+                                                              std::uint64_t most);
 
 /// What was proved, sentence by sentence.
 [[nodiscard]] SIVID_DECL std::vector<std::string> plain_statements(identification_view const& v);

@@ -31,7 +31,7 @@ struct interval_chart_options {
 /// For each parameter its prior as a grey bar and its hull as a coloured bar on it, each row on its
 /// own scale, with the numbers of both.
 [[nodiscard]] SIVID_DECL svg draw_interval_chart(std::vector<interval_row> const& rows,
-                                                  interval_chart_options const& o = {});
+                                                 interval_chart_options const& o = {});
 
 } // namespace sivid::report
 

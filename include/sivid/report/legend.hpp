@@ -48,7 +48,7 @@ struct legend_entry {
 };
 
 SIVID_DECL void draw_measured(svg& out, double x, double low, double high, std::string_view colour,
-                               std::string_view tip = {});
+                              std::string_view tip = {});
 
 SIVID_DECL void draw_forced_outlier(svg& out, double x, double y, std::string_view tip = {});
 
@@ -73,7 +73,7 @@ SIVID_DECL void draw_symbol(svg& out, symbol what, double x, double y);
 
 /// Draws a legend in rows no wider than `width`. @returns its height
 SIVID_DECL double draw_legend(svg& out, std::vector<legend_entry> const& entries, double x,
-                               double y, double width);
+                              double y, double width);
 
 /// A symbol alone, for a legend set in HTML.
 [[nodiscard]] SIVID_DECL svg symbol_picture(symbol what, std::string_view label);

@@ -48,7 +48,7 @@ missing_rate_legend(std::vector<missing_rate_series> const& all);
 
 /// The estimated curve with its band, and certified windows as boxes [from, to] x [missing].
 [[nodiscard]] SIVID_DECL svg draw_missing_rate(missing_rate_series const& s,
-                                                time_plot_options const& o = {}, range values = {});
+                                               time_plot_options const& o = {}, range values = {});
 
 } // namespace sivid::report
 

@@ -57,7 +57,7 @@ SIVID_DECL std::string interval_text(range const& r, number_format f, rounding l
 /// @guarantee  [lo, hi] contains the printed interval.
 /// @returns  nothing when the interval is too thin for sixteen digits
 [[nodiscard]] SIVID_DECL std::optional<std::string> inward_text(range const& r,
-                                                                 number_format f = {});
+                                                                number_format f = {});
 
 /// The shortest decimal within two units in the last place: how a decimal that was read outward
 /// was written by the user. For given data only, never for a proven bound.
@@ -71,7 +71,7 @@ SIVID_DECL std::string interval_text(range const& r, number_format f, rounding l
 /// A proven bound inside a given one, outward; an end that the proof did not move is printed as it
 /// was given.
 [[nodiscard]] SIVID_DECL std::string outward_text_within(range const& proven, range const& given,
-                                                          number_format f = {});
+                                                         number_format f = {});
 
 /// A count with thin spaces between groups of three digits.
 [[nodiscard]] SIVID_DECL std::string count_text(std::uint64_t n);

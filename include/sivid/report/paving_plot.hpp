@@ -44,7 +44,7 @@ struct plane_window {
 /// What is worth a closer look: the hull of inside and undecided boxes, or of the inside boxes
 /// when that is nearly all of the prior. Nothing when the whole view shows it well.
 [[nodiscard]] SIVID_DECL std::optional<plane_window> zoom_window(paving_projection const& p,
-                                                                  double most_share = 0.55);
+                                                                 double most_share = 0.55);
 
 /// The legend of paving plots, with the regions that occur.
 [[nodiscard]] SIVID_DECL std::vector<legend_entry>
@@ -54,7 +54,7 @@ paving_plot_legend(std::vector<paving_projection> const& all);
 /// `most_bytes` and a small constant: cells of one region are joined, and coarser cells are taken
 /// until they fit.
 [[nodiscard]] SIVID_DECL svg draw_paving_plot(paving_projection const& p,
-                                               paving_plot_options const& o = {});
+                                              paving_plot_options const& o = {});
 
 } // namespace sivid::report
 

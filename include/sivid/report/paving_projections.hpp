@@ -25,7 +25,7 @@ struct named_paving {
 
 /// The projection of a paving on its sides a and b.
 [[nodiscard]] SIVID_DECL paving_projection projection(named_paving const& p, std::size_t a,
-                                                       std::size_t b);
+                                                      std::size_t b);
 
 /// The projections worth a picture: on all pairs of sides when these are few, else of the four that
 /// the data narrow most.

@@ -64,7 +64,7 @@ SIVID_DECL bool shows(range const& window, range const& r);
 /// spaced (also when a box has no width there, so that it cannot take a wide cell).
 /// @returns whether they are the ends
 SIVID_DECL bool axis_breaks(std::vector<projected_box> const& boxes, range projected_box::*side,
-                             range const& window, std::size_t most, std::vector<double>& out);
+                            range const& window, std::size_t most, std::vector<double>& out);
 
 /// The cells that [r] touches, [first, last); at least one, so that thin pieces stay visible.
 SIVID_DECL std::array<std::size_t, 2> touched(std::vector<double> const& breaks, range const& r);
@@ -76,8 +76,8 @@ SIVID_DECL std::array<std::size_t, 2> touched(std::vector<double> const& breaks,
 /// @given  window finite, of positive width
 /// @cost   O(boxes log(cells) + cells), whatever the overlap
 [[nodiscard]] SIVID_DECL region_raster project_paving(std::vector<projected_box> const& boxes,
-                                                       range const& x, range const& y,
-                                                       std::size_t most);
+                                                      range const& x, range const& y,
+                                                      std::size_t most);
 
 /// Joins cells of one region to rectangles: runs along rows, equal runs over rows. The outside is
 /// left out (it is the ground).

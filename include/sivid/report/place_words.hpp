@@ -24,7 +24,7 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
 
 /// "a, b and c"
 [[nodiscard]] SIVID_DECL std::string enumeration(std::vector<std::string> const& all,
-                                                  std::string_view last = " and ");
+                                                 std::string_view last = " and ");
 
 [[nodiscard]] SIVID_DECL std::string capitalised(std::string text);
 

@@ -60,7 +60,7 @@ SIVID_DECL void add_box(path_data& d, axes const& a, plane_box const& b, double 
 /// A motion seen from above: the proven boxes step by step, the measured positions and a
 /// reference line that is not validated; equal scales on both axes by default.
 [[nodiscard]] SIVID_DECL svg draw_plane_plot(plane_series const& s,
-                                              plane_plot_options const& o = {});
+                                             plane_plot_options const& o = {});
 
 } // namespace sivid::report
 

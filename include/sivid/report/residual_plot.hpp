@@ -22,7 +22,7 @@ namespace sivid::report {
 /// Where the model's enclosure lies within each measured interval: 0 is its middle, +-1 its ends.
 /// What a time plot hides in a line as thin as a pixel is seen here.
 [[nodiscard]] SIVID_DECL svg draw_residual_plot(channel_series const& c,
-                                                 time_plot_options const& o = {});
+                                                time_plot_options const& o = {});
 
 } // namespace sivid::report
 

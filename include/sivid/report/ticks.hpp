@@ -37,7 +37,7 @@ struct tick_set {
 
 /// What stands beside an axis: its name with the common power of ten and the unit in brackets.
 [[nodiscard]] SIVID_DECL std::string axis_text(std::string_view label, std::string_view unit,
-                                                int exponent);
+                                               int exponent);
 
 } // namespace sivid::report
 

@@ -35,12 +35,12 @@ namespace detail {
 SIVID_DECL void draw_tube(svg& out, axes const& a, std::vector<tube_piece> const& tube);
 
 SIVID_DECL void draw_reference(svg& out, axes const& a, std::vector<point> const& line,
-                                paint const& how = {
-                                    .stroke = palette::truth, .width = 1.2, .dash = "5 3"});
+                               paint const& how = {
+                                   .stroke = palette::truth, .width = 1.2, .dash = "5 3"});
 
 /// Draws the symbol of a marked sample, or an arrow at the frame when it lies outside.
 SIVID_DECL void draw_outlier(svg& out, axes const& a, measured_sample const& m, double middle,
-                              std::string_view tip);
+                             std::string_view tip);
 
 } // namespace detail
 
@@ -48,7 +48,7 @@ SIVID_DECL void draw_outlier(svg& out, axes const& a, measured_sample const& m, 
 /// reference line that is not validated: the report's Figure 4.1.
 /// @cost  O(samples + pieces); the text grows with neither beyond a few hundred marks
 [[nodiscard]] SIVID_DECL svg draw_time_plot(channel_series const& c,
-                                             time_plot_options const& o = {});
+                                            time_plot_options const& o = {});
 
 } // namespace sivid::report
 

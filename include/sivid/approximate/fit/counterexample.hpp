@@ -30,8 +30,8 @@ struct counterexample_options {
 /// @returns whether a point was confirmed. That none was says nothing.
 /// @cost  in plain doubles: one fit, one simulation for each box, `fits` fits
 [[nodiscard]] SIVID_DECL bool find_explaining_point(identification_problem const& problem,
-                                                     std::vector<box> const& excluded,
-                                                     counterexample_options const& options);
+                                                    std::vector<box> const& excluded,
+                                                    counterexample_options const& options);
 
 /// Seeks a point of some boxes that does not explain the data, where a result says that all do: in
 /// each box the corner at which, to first order, a measurement is missed most; unknown starts are
@@ -40,8 +40,8 @@ struct counterexample_options {
 /// @cost  in plain doubles: a simulation with sensitivities for each box, and a few simulations for
 /// each experiment; fits instead where starts are not known
 [[nodiscard]] SIVID_DECL bool find_unexplained_point(identification_problem const& problem,
-                                                      std::vector<box> const& inside,
-                                                      counterexample_options const& options);
+                                                     std::vector<box> const& inside,
+                                                     counterexample_options const& options);
 
 } // namespace sivid
 

@@ -7,7 +7,7 @@
 namespace sivid {
 
 SIVID_DECL identification_problem affected(identification_problem const& base,
-                                            std::vector<effect> const& effects) {
+                                           std::vector<effect> const& effects) {
     identification_problem result{with(base.model, effects), base.choice, {}, base.experiments};
     std::vector<interval> prior(base.prior.begin(), base.prior.end());
     for (auto const& e : effects) {

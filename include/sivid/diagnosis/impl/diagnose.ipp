@@ -277,7 +277,7 @@ private:
 };
 
 SIVID_DECL diagnosis_run diagnose(identification_problem problem, std::vector<effect> catalogue,
-                                   diagnosis_options options) {
+                                  diagnosis_options options) {
     return diagnostician(std::move(problem), std::move(catalogue), std::move(options))();
 }
 

@@ -15,7 +15,7 @@
 namespace sivid {
 
 SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds,
-                                  data_test_options const& test, std::size_t boxes) {
+                                 data_test_options const& test, std::size_t boxes) {
     if (data.empty() || run.candidates.empty()) return;
     auto const begin = std::chrono::steady_clock::now();
     bool const answered = !run.result.causes.empty();

@@ -16,8 +16,8 @@
 namespace sivid {
 
 SIVID_DECL enclosed_motion::enclosed_motion(std::shared_ptr<flow const> f, box const& initial,
-                                             box const& parameters, double from, double to,
-                                             enclosure_options const& options)
+                                            box const& parameters, double from, double to,
+                                            enclosure_options const& options)
     : tube_(std::make_shared<tube<interval> const>(
           integrate<interval>(std::move(f), initial, parameters, from, to, options))),
       end_(tube_->end_time()),

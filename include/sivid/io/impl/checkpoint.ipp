@@ -7,7 +7,7 @@
 namespace sivid {
 
 SIVID_DECL void write_checkpoint(std::filesystem::path const& file,
-                                  identification_state const& state, std::string const& problem) {
+                                 identification_state const& state, std::string const& problem) {
     write_durably(file, checkpoint_text(state, problem));
 }
 

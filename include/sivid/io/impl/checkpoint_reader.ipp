@@ -197,7 +197,7 @@ inline search_state take_search(checkpoint_parser& in) {
 } // namespace io_detail
 
 SIVID_DECL identification_state parse_checkpoint(std::string_view text, std::string const& file,
-                                                  std::string const& problem) {
+                                                 std::string const& problem) {
     io_detail::checkpoint_parser in{file, text};
     in.header();
     std::string const writer{in.open("version").word()};
@@ -234,7 +234,7 @@ SIVID_DECL identification_state parse_checkpoint(std::string_view text, std::str
 }
 
 SIVID_DECL identification_state read_checkpoint(std::filesystem::path const& file,
-                                                 std::string const& problem) {
+                                                std::string const& problem) {
     return parse_checkpoint(read_text(file), file.string(), problem);
 }
 

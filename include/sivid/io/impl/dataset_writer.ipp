@@ -14,7 +14,7 @@ SIVID_DECL void add_dataset(file_set& files, dataset const& data, model_names co
     files.add("dataset.json", dataset_json(data, model));
 }
 SIVID_DECL void write_dataset(dataset const& data, model_names const& model,
-                               std::filesystem::path const& folder) {
+                              std::filesystem::path const& folder) {
     file_set files(folder);
     add_dataset(files, data, model);
     files.commit();

@@ -183,7 +183,7 @@ SIVID_DECL std::string exact_decimal::text() const {
 }
 
 SIVID_DECL std::string exact_decimal::combine(std::string const& x, std::string const& y,
-                                               int sign) {
+                                              int sign) {
     std::string result(x.size(), '0');
     int carry = 0;
     for (auto i = x.size(); i-- > 0;) {
@@ -215,16 +215,13 @@ SIVID_DECL std::optional<interval> enclose(exact_decimal const& x) {
     return parse_decimal(x.text());
 }
 
-SIVID_DECL std::optional<interval> enclose(exact_decimal const& lower,
-                                            exact_decimal const& upper) {
+SIVID_DECL std::optional<interval> enclose(exact_decimal const& lower, exact_decimal const& upper) {
     auto const a = parse_decimal(lower.text()), b = parse_decimal(upper.text());
     if (!a || !b) return std::nullopt;
     return hull(*a, *b);
 }
 
-SIVID_DECL std::optional<double> nearest(exact_decimal const& x) {
-    return parse_nearest(x.text());
-}
+SIVID_DECL std::optional<double> nearest(exact_decimal const& x) { return parse_nearest(x.text()); }
 
 } // namespace sivid
 

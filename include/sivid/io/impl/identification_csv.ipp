@@ -7,7 +7,7 @@
 namespace sivid {
 
 SIVID_DECL std::string boxes_csv(identification_problem const& problem,
-                                  identification const& found) {
+                                 identification const& found) {
     return io_detail::paving_csv(problem.choice.unknown, found.paving);
 }
 
@@ -17,7 +17,7 @@ SIVID_DECL std::string products_csv(identification const& found) {
 }
 
 SIVID_DECL std::string outputs_csv(identification_problem const& problem,
-                                    identification const& found, explaining_motion const* motion) {
+                                   identification const& found, explaining_motion const* motion) {
     auto const& channels = problem.model.about.channels;
     std::set<std::pair<std::size_t, std::size_t>> forced;
     for (auto const& f : found.forced) forced.insert({f.experiment, f.measurement});

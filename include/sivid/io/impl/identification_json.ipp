@@ -7,8 +7,8 @@
 namespace sivid {
 
 SIVID_DECL std::string identification_json(identification_problem const& problem,
-                                            identification const& found,
-                                            identification_json_options const& options) {
+                                           identification const& found,
+                                           identification_json_options const& options) {
     using layout = json_writer::layout;
     auto const& about = problem.model.about;
     auto const& names = problem.choice.unknown;

@@ -7,7 +7,7 @@
 namespace sivid {
 
 SIVID_DECL std::string input_error::message(input_place const& place, std::string const& problem,
-                                             std::string const& remedy) {
+                                            std::string const& remedy) {
     std::string text = printable_path(place.file);
     if (place.is_json) {
         text += text_of(": ", place.pointer.empty() ? std::string{"(document)"}

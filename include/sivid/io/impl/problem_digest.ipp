@@ -7,7 +7,7 @@
 namespace sivid {
 
 SIVID_DECL std::string problem_digest(identification_problem const& problem,
-                                       identify_options const& options, std::string const& also) {
+                                      identify_options const& options, std::string const& also) {
     io_detail::canonical_text text;
     describe(text, problem);
     describe(text, options);

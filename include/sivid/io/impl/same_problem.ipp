@@ -18,8 +18,8 @@
 namespace sivid {
 
 SIVID_DECL void require_same_problem(identification_problem const& problem,
-                                      stored_identification const& stored,
-                                      std::filesystem::path const& file) {
+                                     stored_identification const& stored,
+                                     std::filesystem::path const& file) {
     auto const fail = [&](std::string const& what) {
         throw input_error{{.file = file.string()}, what, "give the data set of this result"};
     };

@@ -14,7 +14,7 @@ SIVID_DECL sampled_signal& sampled_signal::operator=(sampled_signal&&) noexcept 
 SIVID_DECL sampled_signal::~sampled_signal() = default;
 
 SIVID_DECL sampled_signal::sampled_signal(std::vector<double> times, std::vector<double> values,
-                                           interpolation kind, std::vector<double> errors)
+                                          interpolation kind, std::vector<double> errors)
     : times_(std::move(times)),
       values_(std::move(values)),
       errors_(std::move(errors)),

@@ -7,7 +7,7 @@
 namespace sivid {
 
 SIVID_DECL bound_model bind(recorded_model const& model, parameter_choice const& choice,
-                             std::vector<signal> const& inputs) {
+                            std::vector<signal> const& inputs) {
     auto const& about = model.about;
     if (inputs.size() != about.inputs.size()) {
         throw std::invalid_argument("model '" + about.name + "' has " +

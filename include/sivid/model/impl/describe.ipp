@@ -28,13 +28,11 @@ namespace model_detail {
 }
 
 [[nodiscard]] SIVID_DECL std::string section(std::string const& title,
-                                              std::vector<std::vector<std::string>> const& rows) {
+                                             std::vector<std::vector<std::string>> const& rows) {
     return title + "\n" + (rows.empty() ? "  none\n" : aligned(rows));
 }
 
-[[nodiscard]] SIVID_DECL std::string bracketed(std::string const& unit) {
-    return "[" + unit + "]";
-}
+[[nodiscard]] SIVID_DECL std::string bracketed(std::string const& unit) { return "[" + unit + "]"; }
 
 [[nodiscard]] SIVID_DECL std::string describe_names(model_description const& about) {
     std::vector<std::vector<std::string>> states, inputs, channels;

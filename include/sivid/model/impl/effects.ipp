@@ -8,8 +8,8 @@ namespace sivid::effects {
 
 namespace detail {
 
-SIVID_DECL effect one(std::string name, std::string parameter, std::string unit,
-                       range const& prior, std::string about, int order, decimal neutral) {
+SIVID_DECL effect one(std::string name, std::string parameter, std::string unit, range const& prior,
+                      std::string about, int order, decimal neutral) {
     effect e;
     e.name = std::move(name);
     e.parameters = {{std::move(parameter), std::move(unit), prior.lower, prior.upper, neutral}};
@@ -20,15 +20,14 @@ SIVID_DECL effect one(std::string name, std::string parameter, std::string unit,
 
 } // namespace detail
 
-SIVID_DECL effect input_delay(std::string const& name, std::string const& input,
-                               range const& tau) {
+SIVID_DECL effect input_delay(std::string const& name, std::string const& input, range const& tau) {
     auto e = detail::one(name, "tau", "s", tau, "pure delay of the input " + input, 0);
     e.on_inputs = [input](effect_scope& m) { m.delay_input(input); };
     return e;
 }
 
 SIVID_DECL effect input_dead_band(std::string const& name, std::string const& input,
-                                   std::string const& unit, range const& b) {
+                                  std::string const& unit, range const& b) {
     auto e = detail::one(name, "b", unit, b, "dead band of the input " + input, 1);
     e.on_inputs = [input](effect_scope& m) {
         m.input(input) = deadband(m.input(input), m.parameter());
@@ -37,7 +36,7 @@ SIVID_DECL effect input_dead_band(std::string const& name, std::string const& in
 }
 
 SIVID_DECL effect input_lag(std::string const& name, std::string const& input,
-                             std::string const& unit, double limit, range const& tau, bool rests) {
+                            std::string const& unit, double limit, range const& tau, bool rests) {
     auto e = detail::one(name, "tau", "s", tau, "first-order lag of the input " + input, 2);
     e.on_inputs = [input, unit, limit, rests, name](effect_scope& m) {
         auto& u = m.input(input);
@@ -49,7 +48,7 @@ SIVID_DECL effect input_lag(std::string const& name, std::string const& input,
 }
 
 SIVID_DECL effect input_saturation(std::string const& name, std::string const& input,
-                                    std::string const& unit, range const& lim) {
+                                   std::string const& unit, range const& lim) {
     auto e = detail::one(name, "lim", unit, lim, "saturation of the input " + input, 3, lim.upper);
     e.on_inputs = [input](effect_scope& m) {
         m.input(input) = saturate(m.input(input), -m.parameter(), m.parameter());
@@ -58,8 +57,8 @@ SIVID_DECL effect input_saturation(std::string const& name, std::string const& i
 }
 
 SIVID_DECL effect input_trim(std::string const& name, std::string const& input,
-                              std::string const& parameter, std::string const& unit,
-                              range const& d0) {
+                             std::string const& parameter, std::string const& unit,
+                             range const& d0) {
     auto e = detail::one(name, parameter, unit, d0, "constant offset of the input " + input, 4);
     e.on_inputs = [input](effect_scope& m) { m.input(input) += m.parameter(); };
     return e;
@@ -72,21 +71,21 @@ SIVID_DECL effect input_gain(std::string const& name, std::string const& input, 
 }
 
 SIVID_DECL effect constant_rate(std::string const& name, std::string const& state,
-                                 std::string const& unit, range const& a) {
+                                std::string const& unit, range const& a) {
     auto e = detail::one(name, "a", unit, a, "constant in the equation of " + state);
     e.on_rates = [state](effect_scope& m) { m.rate(state) += m.parameter(); };
     return e;
 }
 
 SIVID_DECL effect linear_damping(std::string const& name, std::string const& state,
-                                  range const& k) {
+                                 range const& k) {
     auto e = detail::one(name, "k", "1/s", k, "linear damping in the equation of " + state);
     e.on_rates = [state](effect_scope& m) { m.rate(state) -= m.parameter() * m.state(state); };
     return e;
 }
 
 SIVID_DECL effect quadratic_damping(std::string const& name, std::string const& state,
-                                     std::string const& unit, range const& k) {
+                                    std::string const& unit, range const& k) {
     auto e = detail::one(name, "k", unit, k, "quadratic damping in the equation of " + state);
     e.on_rates = [state](effect_scope& m) {
         auto const& x = m.state(state);
@@ -96,7 +95,7 @@ SIVID_DECL effect quadratic_damping(std::string const& name, std::string const& 
 }
 
 SIVID_DECL effect dry_friction(std::string const& name, std::string const& state,
-                                std::string const& unit, range const& k, decimal smooth_below) {
+                               std::string const& unit, range const& k, decimal smooth_below) {
     auto e = detail::one(name, "k", unit, k, "dry friction in the equation of " + state);
     e.on_rates = [state, smooth_below](effect_scope& m) {
         auto const& x = m.state(state);
@@ -114,14 +113,14 @@ SIVID_DECL effect drift(std::string const& name, std::string const& constant, ra
 }
 
 SIVID_DECL effect sensor_bias(std::string const& name, std::string const& channel,
-                               std::string const& unit, range const& b) {
+                              std::string const& unit, range const& b) {
     auto e = detail::one(name, "b", unit, b, "bias of the sensor " + channel);
     e.on_channels = [channel](effect_scope& m) { m.channel(channel) += m.parameter(); };
     return e;
 }
 
 SIVID_DECL effect sensor_scale(std::string const& name, std::vector<std::string> const& channels,
-                                range const& k) {
+                               range const& k) {
     auto e = detail::one(name, "k", "1", k, "wrong scale of the sensor " + channels.at(0));
     e.on_channels = [channels](effect_scope& m) {
         for (auto const& y : channels) m.channel(y) *= 1 + m.parameter();
@@ -130,7 +129,7 @@ SIVID_DECL effect sensor_scale(std::string const& name, std::vector<std::string>
 }
 
 SIVID_DECL effect sensor_latency(std::string const& name, std::vector<std::string> const& channels,
-                                  range const& tau) {
+                                 range const& tau) {
     auto e = detail::one(name, "tau", "s", tau, "latency of the sensor " + channels.at(0));
     e.on_channels = [channels](effect_scope& m) {
         for (auto const& y : channels) m.delay_channel(y);

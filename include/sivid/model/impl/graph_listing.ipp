@@ -72,7 +72,7 @@ SIVID_DECL std::string graph_listing::literal_text(literal const& l) {
 }
 
 SIVID_DECL void graph_listing::list_outputs(std::vector<node_id> const& rate,
-                                             std::vector<node_id> const& observe) {
+                                            std::vector<node_id> const& observe) {
     for (std::size_t i = 0; i < rate.size(); ++i) {
         outputs_.push_back({about_->states[i].name + "'", rate[i]});
     }

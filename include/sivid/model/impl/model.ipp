@@ -13,9 +13,11 @@ SIVID_DECL model_description& model_description::operator=(model_description con
 SIVID_DECL model_description& model_description::operator=(model_description&&) noexcept = default;
 SIVID_DECL model_description::~model_description() = default;
 
-SIVID_DECL model_description model_detail::described(
-    std::string_view name, std::span<state_quantity const> states, std::span<quantity const> inputs,
-    std::span<quantity const> channels, std::span<constant_quantity const> constants) {
+SIVID_DECL model_description model_detail::described(std::string_view name,
+                                                     std::span<state_quantity const> states,
+                                                     std::span<quantity const> inputs,
+                                                     std::span<quantity const> channels,
+                                                     std::span<constant_quantity const> constants) {
     model_description about;
     about.name = std::string(name);
     for (auto const& s : states) {
@@ -36,7 +38,7 @@ SIVID_DECL model_description model_detail::described(
 }
 
 SIVID_DECL void model_detail::add_derived(recorded_model& model, std::string_view name,
-                                           expression const& value) {
+                                          expression const& value) {
     auto& constants = model.about.constants;
     auto const fail = [&](std::string const& what) {
         throw std::invalid_argument("model '" + model.about.name + "': the derived constant '" +

@@ -2,9 +2,9 @@
 #ifndef SIVID_NUMBER_IMPL_KERNEL_TRIAL_IPP
 #define SIVID_NUMBER_IMPL_KERNEL_TRIAL_IPP
 
-#include <sivid/number/kernel_trial.hpp>
 #include <sivid/number/detail/known_values.hpp>
 #include <sivid/number/interval_traits.hpp>
+#include <sivid/number/kernel_trial.hpp>
 #include <sivid/number/pack_traits.hpp>
 
 #include <cstddef>
@@ -38,6 +38,6 @@ SIVID_DECL broken_kernel first_broken_kernel() noexcept {
     return found;
 }
 
-} // namespace sivid::SIVID_PACK_TARGET
+} // namespace sivid::inline SIVID_PACK_TARGET
 
 #endif

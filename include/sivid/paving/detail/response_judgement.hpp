@@ -32,8 +32,8 @@ struct response_judgement {
 ///             the chosen starts or for others that depend on the parameter; `rest` keeps every
 ///             feasible parameter
 [[nodiscard]] SIVID_DECL response_judgement judge_by_responses(response_list const& all,
-                                                                response_list const& chosen,
-                                                                box part, bool contract, bool cut);
+                                                               response_list const& chosen,
+                                                               box part, bool contract, bool cut);
 
 } // namespace sivid
 

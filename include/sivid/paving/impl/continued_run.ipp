@@ -15,8 +15,8 @@
 namespace sivid {
 
 SIVID_DECL std::unique_ptr<continued_run> make_continued_run(flow const& f, experiment const& e,
-                                                              box const& prior,
-                                                              run_options const& options) {
+                                                             box const& prior,
+                                                             run_options const& options) {
     using namespace paving_detail;
     auto const unknowns = unknown_count(e.initial, prior);
     auto how = options.enclosure;

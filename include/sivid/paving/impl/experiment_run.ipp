@@ -15,8 +15,8 @@
 namespace sivid {
 
 SIVID_DECL std::unique_ptr<experiment_run> make_run(flow const& f, experiment const& e,
-                                                     record const& samples, box const& initial,
-                                                     box const& prior, run_options options) {
+                                                    record const& samples, box const& initial,
+                                                    box const& prior, run_options options) {
     using namespace paving_detail;
     options.enclosure.minimum_step = minimum_step_for(e, options.enclosure.minimum_step);
     auto const unknowns = unknown_count(initial, prior);

@@ -227,9 +227,9 @@ private:
 } // namespace paving_detail
 
 SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
-                                            inflation_bound const& fitted,
-                                            identification_problem const& holdout,
-                                            inflation_options const& options) {
+                                           inflation_bound const& fitted,
+                                           identification_problem const& holdout,
+                                           inflation_options const& options) {
     require_sound_environment();
     fit.require_valid();
     holdout.require_valid();

@@ -133,7 +133,7 @@ inline void add_formulas(identifiability& found) {
 } // namespace paving_detail
 
 SIVID_DECL identifiability identifiability_of(identification_problem const& problem, box const& at,
-                                               identifiability_options const& options) {
+                                              identifiability_options const& options) {
     problem.require_valid();
     if (at.size() != problem.prior.size() || is_empty(at))
         throw std::invalid_argument("identifiability_of: one side per parameter, none empty");

@@ -48,7 +48,7 @@ find_forced(data_test& test, identification_problem const& problem, box const& h
 } // namespace paving_detail
 
 SIVID_DECL identification identify(identification_problem const& problem,
-                                    identify_options options) {
+                                   identify_options options) {
     problem.require_valid();
     auto const begin = std::chrono::steady_clock::now();
     // Every phase ends in time, and soon when told to: integrations and simulations ask.

@@ -171,8 +171,8 @@ private:
 } // namespace paving_detail
 
 SIVID_DECL inflation_bound bound_inflation(identification_problem const& problem,
-                                            approximate_fit const* guess,
-                                            inflation_options const& options) {
+                                           approximate_fit const* guess,
+                                           inflation_options const& options) {
     require_sound_environment();
     problem.require_valid();
     return paving_detail::inflation_work(problem, options)(guess);

@@ -251,7 +251,7 @@ private:
 } // namespace paving_detail
 
 SIVID_DECL online_identification::online_identification(identification_problem problem,
-                                                         online_options options)
+                                                        online_options options)
     : work_(std::make_unique<paving_detail::online_identifier>(std::move(problem),
                                                                std::move(options))) {}
 SIVID_DECL online_identification::~online_identification() = default;

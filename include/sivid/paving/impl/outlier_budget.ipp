@@ -147,7 +147,7 @@ inline proved_count least_violations(identification_problem const& problem, few_
 } // namespace paving_detail
 
 SIVID_DECL smallest_budget smallest_outlier_budget(identification_problem const& problem,
-                                                    outlier_search_options const& asked) {
+                                                   outlier_search_options const& asked) {
     problem.require_valid();
     work_limit const limit(asked.seconds, asked.keep_going);
     auto options = asked;

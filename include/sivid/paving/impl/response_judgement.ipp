@@ -20,8 +20,8 @@
 namespace sivid {
 
 SIVID_DECL response_judgement judge_by_responses(response_list const& all,
-                                                  response_list const& chosen, box part,
-                                                  bool contract, bool cut) {
+                                                 response_list const& chosen, box part,
+                                                 bool contract, bool cut) {
     response_judgement result{.rest = std::move(part)};
     auto& rest = result.rest;
     std::vector<std::size_t> open; // experiments that are not explained so far

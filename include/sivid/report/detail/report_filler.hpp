@@ -280,9 +280,8 @@ private:
 } // namespace detail
 
 SIVID_DECL identification_view view_of(identification_problem const& problem,
-                                        identification const& found,
-                                        explaining_motion const* motion,
-                                        identification_report_options const& options) {
+                                       identification const& found, explaining_motion const* motion,
+                                       identification_report_options const& options) {
     return detail::report_filler(problem, found, motion, options).view();
 }
 

@@ -75,7 +75,7 @@ SIVID_DECL std::vector<legend_entry> candidate_legend(std::vector<candidate_bar>
 }
 
 SIVID_DECL svg draw_candidate_chart(std::vector<candidate_bar> const& bars,
-                                     candidate_chart_options const& o) {
+                                    candidate_chart_options const& o) {
     double const top = o.title.empty() ? 24 : 48;
     double const pitch = 27;
     double const bottom = top + pitch * static_cast<double>(std::max<std::size_t>(bars.size(), 1));

@@ -31,7 +31,7 @@ SIVID_DECL double median_spacing(std::vector<point> const& all) {
 } // namespace detail
 
 SIVID_DECL std::vector<legend_entry> comparison_legend(std::vector<comparison_series> const& all,
-                                                        std::string const& second) {
+                                                       std::string const& second) {
     bool measured = false, suspect = false, before = false, after = false, tube = false;
     for (comparison_series const& c : all) {
         before = before || !c.before.empty();
@@ -91,7 +91,7 @@ SIVID_DECL svg draw_comparison_plot(comparison_series const& c, time_plot_option
 }
 
 SIVID_DECL heat_map misfit_map(std::vector<comparison_series> const& channels, bool after,
-                                std::size_t most_columns) {
+                               std::size_t most_columns) {
     heat_map out{.quantity = "|residual| / bound"};
     range span;
     std::size_t columns = 1;

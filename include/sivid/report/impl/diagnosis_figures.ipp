@@ -40,7 +40,7 @@ SIVID_DECL figure misfit_figure(diagnosis_view const& v) {
 }
 
 SIVID_DECL std::vector<figure> missing_rate_figures(std::vector<missing_rate_series> const& rates,
-                                                     std::string const& still) {
+                                                    std::string const& still) {
     std::vector<figure> out;
     std::vector<std::string> equations;
     for (missing_rate_series const& s : rates) {

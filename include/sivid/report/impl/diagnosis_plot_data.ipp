@@ -9,7 +9,7 @@ namespace sivid::report {
 namespace detail {
 
 SIVID_DECL std::vector<bool> suspects(std::vector<double> const& residuals, std::size_t n,
-                                       std::size_t q) {
+                                      std::size_t q) {
     std::vector<std::size_t> beyond;
     for (std::size_t i = 0; i < std::min(n, residuals.size()); ++i) {
         if (std::fabs(residuals[i]) > 1) beyond.push_back(i);
@@ -26,9 +26,9 @@ SIVID_DECL std::vector<bool> suspects(std::vector<double> const& residuals, std:
 } // namespace detail
 
 SIVID_DECL std::vector<scenario_data> compared_scenarios(identification_problem const& problem,
-                                                          approximate_fit const& base,
-                                                          approximate_fit const& after,
-                                                          bool holdout) {
+                                                         approximate_fit const& base,
+                                                         approximate_fit const& after,
+                                                         bool holdout) {
     auto const& about = problem.model.about;
     std::vector<double> const nothing;
     std::vector<scenario_data> out;

@@ -131,7 +131,7 @@ SIVID_DECL void describe(std::vector<effect> const& catalogue, diagnosis_report_
 }
 
 SIVID_DECL diagnosis_view view_of(diagnosis const& d, diagnosis_plot_data const& plots,
-                                   diagnosis_report_options const& options) {
+                                  diagnosis_report_options const& options) {
     diagnosis_view v{.dataset = options.dataset,
                      .model = options.model,
                      .meanings = options.meanings,

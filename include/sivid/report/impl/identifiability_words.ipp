@@ -13,7 +13,7 @@ SIVID_DECL std::string nearest_text(double x) {
 }
 
 SIVID_DECL std::string motion_text(free_motion const& m,
-                                    std::vector<unknown_quantity> const& names) {
+                                   std::vector<unknown_quantity> const& names) {
     bool const scales = m.kind == motion_kind::scaling;
     std::string text;
     for (std::size_t c = 0; c < m.weights.size(); ++c) {
@@ -29,7 +29,7 @@ SIVID_DECL std::string motion_text(free_motion const& m,
 }
 
 SIVID_DECL std::string direction_text(sensitive_direction const& d,
-                                       std::vector<unknown_quantity> const& names) {
+                                      std::vector<unknown_quantity> const& names) {
     std::vector<std::size_t> order;
     for (std::size_t c = 0; c < d.components.size(); ++c) {
         if (std::abs(d.components[c]) >= 0.05) order.push_back(c);
@@ -55,7 +55,7 @@ SIVID_DECL std::string joined_formulas(std::vector<fixed_formula> const& list) {
 } // namespace detail
 
 SIVID_DECL std::vector<std::string> identifiability_words(identifiability const& found,
-                                                           std::size_t directions) {
+                                                          std::size_t directions) {
     auto const count = [](std::size_t n, std::string const& what) {
         return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
     };

@@ -71,7 +71,7 @@ SIVID_DECL void add_parameters(page& out, identification_view const& v) {
 }
 
 SIVID_DECL figure paving_figure(std::vector<paving_projection> const& pavings, std::string title,
-                                 std::string caption) {
+                                std::string caption) {
     // The zoom stands beside or below its whole view in the same order, so panels go in pairs.
     figure f{.panels = {},
              .legend = paving_plot_legend(pavings),

@@ -27,7 +27,7 @@ SIVID_DECL std::string joined(std::vector<std::string> const& all) {
 } // namespace detail
 
 SIVID_DECL comparison_row comparison_of(std::string name, identification const& found, bool chosen,
-                                         std::string note) {
+                                        std::string note) {
     return {std::move(name),
             found.seconds,
             found.boxes,

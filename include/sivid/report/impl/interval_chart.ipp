@@ -7,7 +7,7 @@
 namespace sivid::report {
 
 SIVID_DECL svg draw_interval_chart(std::vector<interval_row> const& rows,
-                                    interval_chart_options const& o) {
+                                   interval_chart_options const& o) {
     double const top = o.title.empty() ? 6 : 30;
     double const pitch = 52;
     svg out{o.width, top + pitch * static_cast<double>(std::max<std::size_t>(rows.size(), 1)) + 4,

@@ -7,7 +7,7 @@
 namespace sivid::report {
 
 SIVID_DECL void draw_measured(svg& out, double x, double low, double high, std::string_view colour,
-                               std::string_view tip) {
+                              std::string_view tip) {
     double const middle = (low + high) / 2;
     double const half = std::max(std::abs(low - high) / 2, 1.0);
     path_data d;
@@ -153,7 +153,7 @@ SIVID_DECL std::string region_fill(svg& out, symbol region) {
 }
 
 SIVID_DECL double draw_legend(svg& out, std::vector<legend_entry> const& entries, double x,
-                               double y, double width) {
+                              double y, double width) {
     double column = 0;
     double row = 0;
     for (legend_entry const& e : entries) {

@@ -82,7 +82,7 @@ missing_rate_legend(std::vector<missing_rate_series> const& all) {
 }
 
 SIVID_DECL svg draw_missing_rate(missing_rate_series const& s, time_plot_options const& o,
-                                  range values) {
+                                 range values) {
     svg out{o.width, o.height,
             "missing in " + s.equation + " over time" + (o.title.empty() ? "" : ", " + o.title)};
     axes const a{

@@ -21,8 +21,7 @@ SIVID_DECL std::string bound_text(double x, int quantum, int shift, int power, r
     return plain_text(d);
 }
 
-SIVID_DECL std::string interval_text(range const& r, number_format f, rounding low,
-                                      rounding high) {
+SIVID_DECL std::string interval_text(range const& r, number_format f, rounding low, rounding high) {
     double const largest = std::max(std::isfinite(r.lo) ? std::fabs(r.lo) : 0.0,
                                     std::isfinite(r.hi) ? std::fabs(r.hi) : 0.0);
     if (largest == 0 && is_finite(r)) {
@@ -111,7 +110,7 @@ SIVID_DECL std::string exact_text(double x) {
 }
 
 SIVID_DECL std::string outward_text_within(range const& proven, range const& given,
-                                            number_format f) {
+                                           number_format f) {
     std::string text = outward_text(proven, f);
     auto const comma = text.find(", ");
     if (!is_finite(proven) || comma == std::string::npos || text.back() != ']') {

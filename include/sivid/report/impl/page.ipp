@@ -123,7 +123,7 @@ SIVID_DECL std::string page::list(std::vector<std::string> const& lines) {
 }
 
 SIVID_DECL page& page::boxed(std::string const& style, std::string_view title,
-                              std::vector<std::string> const& lines) {
+                             std::vector<std::string> const& lines) {
     body_ += lines.empty() ? std::string{}
                            : "<div class=\"" + style + "\"><h3>" + escape(title) + "</h3>" +
                                  list(lines) + "</div>\n";

@@ -30,8 +30,7 @@ SIVID_DECL std::optional<plane_window> zoom_window(paving_projection const& p, d
     return std::nullopt;
 }
 
-SIVID_DECL std::vector<legend_entry>
-paving_plot_legend(std::vector<paving_projection> const& all) {
+SIVID_DECL std::vector<legend_entry> paving_plot_legend(std::vector<paving_projection> const& all) {
     bool used[4] = {true, false, false, false};
     bool witness = false, zoom = false;
     for (paving_projection const& p : all) {

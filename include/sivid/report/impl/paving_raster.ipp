@@ -14,7 +14,7 @@ SIVID_DECL bool shows(range const& window, range const& r) {
 }
 
 SIVID_DECL bool axis_breaks(std::vector<projected_box> const& boxes, range projected_box::*side,
-                             range const& window, std::size_t most, std::vector<double>& out) {
+                            range const& window, std::size_t most, std::vector<double>& out) {
     out = {window.lo, window.hi};
     bool thin = false;
     for (projected_box const& b : boxes) {
@@ -54,7 +54,7 @@ SIVID_DECL std::array<std::size_t, 2> touched(std::vector<double> const& breaks,
 } // namespace detail
 
 SIVID_DECL region_raster project_paving(std::vector<projected_box> const& boxes, range const& x,
-                                         range const& y, std::size_t most) {
+                                        range const& y, std::size_t most) {
     region_raster out;
     auto const seen = [&](projected_box const& b) {
         return b.verdict != region::outside && detail::shows(x, b.x) && detail::shows(y, b.y);

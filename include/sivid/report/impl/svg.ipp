@@ -32,7 +32,7 @@ SIVID_DECL path_data& path_data::add(char command, double x, double y) {
 }
 
 SIVID_DECL svg& svg::rect(double x, double y, double w, double h, paint const& p, double radius,
-                           std::string_view tip) {
+                          std::string_view tip) {
     std::string round = radius > 0 ? attribute("rx", radius) : std::string{};
     return shape("rect",
                  attribute("x", x) + attribute("y", y) + attribute("width", std::max(w, 0.0)) +
@@ -41,7 +41,7 @@ SIVID_DECL svg& svg::rect(double x, double y, double w, double h, paint const& p
 }
 
 SIVID_DECL svg& svg::line(double x1, double y1, double x2, double y2, paint const& p,
-                           std::string_view tip) {
+                          std::string_view tip) {
     return shape("line",
                  attribute("x1", x1) + attribute("y1", y1) + attribute("x2", x2) +
                      attribute("y2", y2),
@@ -144,7 +144,7 @@ SIVID_DECL std::string svg::colour(std::string_view value) {
 }
 
 SIVID_DECL svg& svg::shape(std::string_view name, std::string const& attributes, paint const& p,
-                            std::string_view tip) {
+                           std::string_view tip) {
     body_ +=
         std::string(1, '<') + std::string{name} + attributes + " fill=\"" + colour(p.fill) + '"';
     if (p.stroke != "none") {
@@ -164,7 +164,7 @@ SIVID_DECL svg& svg::opened(std::string_view closing) {
 }
 
 SIVID_DECL std::string svg::pattern(std::string_view base, double spacing, std::string const& mark,
-                                     std::string_view transform) {
+                                    std::string_view transform) {
     std::string const size = attribute("width", spacing) + attribute("height", spacing);
     std::string const rest = " patternUnits=\"userSpaceOnUse\"" + size + std::string{transform} +
                              "><rect" + size + " fill=\"" + escape(base) + "\"/>" + mark +

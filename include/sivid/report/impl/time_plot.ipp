@@ -82,7 +82,7 @@ SIVID_DECL void draw_tube(svg& out, axes const& a, std::vector<tube_piece> const
 }
 
 SIVID_DECL void draw_reference(svg& out, axes const& a, std::vector<point> const& line,
-                                paint const& how) {
+                               paint const& how) {
     path_data d;
     bool pen_down = false;
     double last_x = 0, last_y = 0;
@@ -104,7 +104,7 @@ SIVID_DECL void draw_reference(svg& out, axes const& a, std::vector<point> const
 }
 
 SIVID_DECL void draw_outlier(svg& out, axes const& a, measured_sample const& m, double middle,
-                              std::string_view tip) {
+                             std::string_view tip) {
     double const y = a.py(middle);
     bool const above = y < a.top() + 6;
     bool const below = y > a.bottom() - 6;

@@ -147,8 +147,8 @@ private:
 } // namespace approximate_detail
 
 SIVID_DECL bool find_explaining_point(identification_problem const& problem,
-                                       std::vector<box> const& excluded,
-                                       counterexample_options const& options) {
+                                      std::vector<box> const& excluded,
+                                      counterexample_options const& options) {
     using namespace approximate_detail;
     if (excluded.empty() || !options.confirms) return false;
     counterexample_clock const clock(options);
@@ -198,8 +198,8 @@ SIVID_DECL bool find_explaining_point(identification_problem const& problem,
 }
 
 SIVID_DECL bool find_unexplained_point(identification_problem const& problem,
-                                        std::vector<box> const& inside,
-                                        counterexample_options const& options) {
+                                       std::vector<box> const& inside,
+                                       counterexample_options const& options) {
     if (inside.empty() || !options.confirms) return false;
     approximate_detail::counterexample_clock const clock(options);
     approximate_detail::corner_search search(problem);

@@ -220,7 +220,7 @@ SIVID_DECL approximate_fit fitter::operator()(fit_start const& start, fit_norm n
     return (*work_)(start, norm);
 }
 SIVID_DECL approximate_fit fitter::at(std::vector<double> const& parameters,
-                                       std::vector<std::vector<double>> const& starts) {
+                                      std::vector<std::vector<double>> const& starts) {
     return work_->at(parameters, starts);
 }
 
