@@ -127,7 +127,7 @@ int main(int argc, char** argv) {
     for (auto const& s : settings) {
         std::printf("%s: %zu columns\n", s.name.c_str(), s.layout().columns);
         sivid::parameter_choice const choice{s.unknown, {}};
-        auto const model = std::make_shared<sivid::plain_model const>(
+        auto const model = std::make_shared<sivid::approximate_model const>(
             sivid::record_model(hovercraft{}), choice, s.inputs);
         std::vector<double> const tolerances(6, 1e-6);
         auto const make = [&](sivid::stepping_maker steps) {

@@ -49,7 +49,7 @@ template <class Cover>
 sampled sample(problem const& p, Cover const& cover, std::size_t count) {
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> unit(0, 1);
-    auto const model = std::make_shared<sivid::plain_model const>(p.flow->model());
+    auto const model = std::make_shared<sivid::approximate_model const>(p.flow->model());
     auto const n = p.initial.size();
     auto const side_of = [&](std::size_t i) -> interval const& {
         return i < n ? p.initial[i] : p.parameters[i - n];

@@ -50,9 +50,9 @@ public:
         }
         auto times = sample_times(s.duration, c.rate, 6, true);
         if (times.back() < s.duration) times.push_back(s.duration);
-        line_ =
-            sivid::simulate(std::make_shared<sivid::plain_model const>(model, constants, inputs),
-                            inputs, middle, {}, 0, times, {1e-10});
+        line_ = sivid::simulate(
+            std::make_shared<sivid::approximate_model const>(model, constants, inputs), inputs,
+            middle, {}, 0, times, {1e-10});
         if (!c.validated) return;
         sivid::enclosure_options options;
         options.maximum_step = s.duration / 300;

@@ -109,11 +109,11 @@
 #include <sivid/approximate/place/place_search.hpp>
 #include <sivid/approximate/place/sensor_model.hpp>
 #include <sivid/approximate/residuals.hpp>
+#include <sivid/approximate/simulate/approximate_model.hpp>
 #include <sivid/approximate/simulate/approximate_simulator.hpp>
 #include <sivid/approximate/simulate/late_signal.hpp>
 #include <sivid/approximate/simulate/named_steps.hpp>
 #include <sivid/approximate/simulate/odeint_stepping.hpp>
-#include <sivid/approximate/simulate/plain_model.hpp>
 #include <sivid/approximate/simulate/sensitive_rate.hpp>
 #include <sivid/approximate/simulate/simulate.hpp>
 #include <sivid/approximate/simulate/simulation_mesh.hpp>

@@ -41,7 +41,7 @@ struct simulated_axis {
         std::vector<sivid::signal> const inputs{
             sivid::sampled_signal(time, force, sivid::interpolation::linear)};
         sivid::parameter_choice const unknown{{"M", "F_v", "F_c", "offset"}, {}};
-        return sivid::simulate(std::make_shared<sivid::plain_model const>(
+        return sivid::simulate(std::make_shared<sivid::approximate_model const>(
                                    sivid::record_model(servo_axis{}), unknown, inputs),
                                inputs, start, p, 0, time, {1e-11});
     }

@@ -14,7 +14,8 @@ namespace support {
 class flow_simulation {
 public:
     explicit flow_simulation(sivid::flow const& f)
-        : model_(std::make_shared<sivid::plain_model const>(f.model())), inputs_(f.inputs()) {}
+        : model_(std::make_shared<sivid::approximate_model const>(f.model())),
+          inputs_(f.inputs()) {}
 
     [[nodiscard]] sivid::approximate_trajectory
     operator()(std::vector<double> const& initial, std::vector<double> const& parameters,
@@ -23,7 +24,7 @@ public:
     }
 
 private:
-    std::shared_ptr<sivid::plain_model const> model_;
+    std::shared_ptr<sivid::approximate_model const> model_;
     std::vector<sivid::signal> inputs_;
 };
 

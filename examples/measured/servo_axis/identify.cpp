@@ -78,8 +78,8 @@ private:
         for (std::size_t e = 0; e < points_.experiments.size(); ++e) {
             auto one = points_;
             one.experiments = {points_.experiments[e]};
-            auto const axis = std::make_shared<sivid::plain_model const>(one.model, one.choice,
-                                                                         one.experiments[0].inputs);
+            auto const axis = std::make_shared<sivid::approximate_model const>(
+                one.model, one.choice, one.experiments[0].inputs);
             auto const& side = problem_.experiments[e].initial[1];
             auto const largest = [&](double v) {
                 return misfit_of(axis, one.experiments[0], parameters, v);
@@ -108,7 +108,7 @@ private:
             points_.experiments[e].initial[1] = interval(at_a < at_b ? a : b);
         }
     }
-    static double misfit_of(std::shared_ptr<sivid::plain_model const> const& axis,
+    static double misfit_of(std::shared_ptr<sivid::approximate_model const> const& axis,
                             sivid::experiment const& e, std::vector<double> const& parameters,
                             double v) {
         std::vector<double> times;
@@ -181,8 +181,8 @@ std::vector<misfit> approximate_misfits(posed_problem const& posed, recording co
     std::vector<misfit> result;
     std::vector<sivid::signal> const inputs{
         sivid::sampled_signal(r.time, r.force, sivid::interpolation::linear)};
-    auto const axis = std::make_shared<sivid::plain_model const>(posed.problem.model,
-                                                                 posed.problem.choice, inputs);
+    auto const axis = std::make_shared<sivid::approximate_model const>(
+        posed.problem.model, posed.problem.choice, inputs);
     for (auto const& w : windows) {
         std::vector<double> times;
         for (auto k = w.from + 1; k <= w.to; ++k) times.push_back(r.time[k]);

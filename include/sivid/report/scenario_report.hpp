@@ -120,7 +120,7 @@ private:
         auto const start = found_.witness ? found_.witness->starts[e_] : found_.guess->starts[e_];
         try {
             auto const& f = *motion_->flows[e_];
-            line = simulate(std::make_shared<plain_model const>(f.model()), f.inputs(), start,
+            line = simulate(std::make_shared<approximate_model const>(f.model()), f.inputs(), start,
                             *point, s.begin, times, {1e-9, keep_going_});
         } catch (std::exception const&) {
             return {}; // a missing line is no loss: nothing rests on it

@@ -48,7 +48,7 @@ struct swing {
     [[nodiscard]] approximate_simulator simulator(signal const& u) const {
         parameter_choice choice;
         choice.unknown = {"p0", "p1", "p2", "p3"};
-        auto const plain = std::make_shared<plain_model const>(model, choice, std::vector{u});
+        auto const plain = std::make_shared<approximate_model const>(model, choice, std::vector{u});
         return {plain, {u}, 0, requests, {1e-7, 1e-7}, knots};
     }
 };
@@ -87,7 +87,7 @@ TEST_CASE("plain simulations follow the reference, over knots of inputs too") {
         std::vector<signal> const inputs(system.inputs.begin(), system.inputs.end());
         parameter_choice choice;
         choice.unknown = support::all_constants(system.sizes.constants);
-        auto const plain = std::make_shared<plain_model const>(
+        auto const plain = std::make_shared<approximate_model const>(
             support::model_of(system.sizes, system.rate), choice, inputs);
         auto const x0 = d.in(system.initial);
         auto const p = d.in(system.parameters);
@@ -138,8 +138,8 @@ TEST_CASE("a stiff phase is stepped stably and a blow-up is reported") {
     layout.columns = 1;
     simulated_outputs out;
     approximate_simulator run(
-        std::make_shared<plain_model const>(stiff, choice, std::vector<signal>{}), {}, 0, {{1, 0}},
-        {1e-5});
+        std::make_shared<approximate_model const>(stiff, choice, std::vector<signal>{}), {}, 0,
+        {{1, 0}}, {1e-5});
     REQUIRE(run({0}, {2000}, {}, layout, true, out));
     CHECK_THAT(out.values[0], WithinAbs(std::cos(1.0), 1e-3));
     CHECK(std::abs(out.jacobian[0]) < 1e-3);
@@ -148,7 +148,7 @@ TEST_CASE("a stiff phase is stepped stably and a blow-up is reported") {
             return std::vector{p[0] * x[0] * x[0]};
         });
     approximate_simulator burst(
-        std::make_shared<plain_model const>(blow, choice, std::vector<signal>{}), {}, 0, {{1, 0}},
-        {1e-5});
+        std::make_shared<approximate_model const>(blow, choice, std::vector<signal>{}), {}, 0,
+        {{1, 0}}, {1e-5});
     CHECK_FALSE(burst({1}, {5}, {}, layout, true, out));
 }

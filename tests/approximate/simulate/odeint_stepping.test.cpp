@@ -22,7 +22,7 @@ TEST_CASE("sensitivities are right by any stepper of Odeint, over knots of an in
     sampled_signal const u({0, 1, 2}, {0, 1, 0}, interpolation::linear);
     parameter_choice choice;
     choice.unknown = {"p0"};
-    auto const model = std::make_shared<plain_model const>(
+    auto const model = std::make_shared<approximate_model const>(
         support::model_of({1, 1, 1}, [](auto const&, auto const& x, auto const& p,
                                         auto const& v) { return std::vector{v[0] - p[0] * x[0]}; }),
         choice, std::vector<signal>{u});

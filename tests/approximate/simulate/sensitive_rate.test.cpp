@@ -12,10 +12,10 @@ namespace {
 
 /// x' = -a x y + u, y' = x - y, with a column for a, for both starts and for the hats of d on x.
 struct coupled {
-    std::shared_ptr<plain_model const> model = [] {
+    std::shared_ptr<approximate_model const> model = [] {
         parameter_choice choice;
         choice.unknown = {"p0"};
-        return std::make_shared<plain_model const>(
+        return std::make_shared<approximate_model const>(
             support::model_of({2, 1, 1},
                               [](auto const&, auto const& x, auto const& p, auto const& u) {
                                   return std::vector{u[0] - p[0] * x[0] * x[1], x[0] - x[1]};

@@ -80,8 +80,8 @@ TEST_CASE("a simulation that is told to stop says so") {
         }));
     int asked = 0;
     auto const told = [&asked] { return ++asked < 100; };
-    CHECK_THROWS_WITH(simulate(std::make_shared<plain_model const>(f->model()), {}, {1}, {}, 0,
-                               {1e6}, {1e-12, told}),
+    CHECK_THROWS_WITH(simulate(std::make_shared<approximate_model const>(f->model()), {}, {1}, {},
+                               0, {1e6}, {1e-12, told}),
                       ContainsSubstring("told to stop"));
     CHECK(asked == 100);
 }
@@ -93,8 +93,8 @@ TEST_CASE("a channel that is late is looked at where it left the model") {
     parameter_choice choice;
     choice.unknown = {"p0"};
     auto const found =
-        simulate(std::make_shared<plain_model const>(model, choice, std::vector<signal>{}), {}, {1},
-                 {0.25}, 0, {0.1, 1, 2});
+        simulate(std::make_shared<approximate_model const>(model, choice, std::vector<signal>{}),
+                 {}, {1}, {0.25}, 0, {0.1, 1, 2});
     CHECK_THAT(found.outputs[0][0], WithinAbs(1, 1e-8)); // nothing is older than the start
     for (std::size_t k : {1, 2}) {
         CHECK_THAT(found.states[k][0], WithinAbs(std::exp(-found.times[k]), 1e-8));

@@ -16,7 +16,7 @@ TEST_CASE("the mesh follows an unknown delay of input and channel") {
     parameter_choice choice;
     choice.unknown = {"p0", "p1"};
     sampled_signal const u({0, 1, 2}, {0, 2, 2}, interpolation::linear);
-    plain_model const plain(model, choice, {u});
+    approximate_model const plain(model, choice, {u});
     simulation_mesh mesh(plain, {u}, 0, {{0.5, 0}, {2, 0}}, {1.5});
     mesh.place({0.25, 0.75});
     std::vector<double> times;

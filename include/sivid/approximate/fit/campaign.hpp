@@ -35,15 +35,15 @@ public:
     explicit campaign(identification_problem const& problem,
                       std::vector<std::vector<double>> knots = {})
         : problem_(&problem) {
-        std::shared_ptr<plain_model const> shared;
+        std::shared_ptr<approximate_model const> shared;
         for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
             auto const& s = problem.experiments[e];
             bool const formulas = std::any_of(s.inputs.begin(), s.inputs.end(), [](auto const& u) {
                 return std::holds_alternative<analytic_signal>(u);
             });
             if (!shared || formulas) {
-                auto own =
-                    std::make_shared<plain_model const>(problem.model, problem.choice, s.inputs);
+                auto own = std::make_shared<approximate_model const>(problem.model, problem.choice,
+                                                                     s.inputs);
                 shared = formulas ? nullptr : own;
                 models_.push_back(std::move(own));
             } else {
@@ -69,7 +69,7 @@ public:
     }
 
     [[nodiscard]] identification_problem const& problem() const { return *problem_; }
-    [[nodiscard]] plain_model const& model(std::size_t e) const { return *models_[e]; }
+    [[nodiscard]] approximate_model const& model(std::size_t e) const { return *models_[e]; }
     [[nodiscard]] std::size_t experiments() const { return simulators_.size(); }
     [[nodiscard]] std::vector<std::size_t> const& outliers() const { return outliers_; }
     [[nodiscard]] std::vector<double> const& knots(std::size_t e) const {
@@ -289,7 +289,7 @@ private:
     }
 
     identification_problem const* problem_;
-    std::vector<std::shared_ptr<plain_model const>> models_;
+    std::vector<std::shared_ptr<approximate_model const>> models_;
     std::vector<approximate_simulator> simulators_;
     std::vector<std::vector<double>> centres_, radii_;
     std::vector<std::size_t> outliers_, free_, starts_;

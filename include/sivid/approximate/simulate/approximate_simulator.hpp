@@ -2,8 +2,8 @@
 #ifndef SIVID_APPROXIMATE_SIMULATE_APPROXIMATE_SIMULATOR_HPP
 #define SIVID_APPROXIMATE_SIMULATE_APPROXIMATE_SIMULATOR_HPP
 
+#include <sivid/approximate/simulate/approximate_model.hpp>
 #include <sivid/approximate/simulate/named_steps.hpp>
-#include <sivid/approximate/simulate/plain_model.hpp>
 #include <sivid/approximate/simulate/sensitive_rate.hpp>
 #include <sivid/approximate/simulate/simulation_mesh.hpp>
 
@@ -44,7 +44,7 @@ public:
     /// @param steps  makes the stepper: `classical_steps`, `dormand_prince_steps`, or `step_by`
     /// with
     ///               any explicit one of Odeint (`odeint_stepping.hpp`)
-    approximate_simulator(std::shared_ptr<plain_model const> model,
+    approximate_simulator(std::shared_ptr<approximate_model const> model,
                           std::vector<signal> const& inputs, double begin,
                           std::vector<output_request> requests, std::vector<double> tolerances,
                           std::vector<double> knots = {}, stepping_maker steps = classical_steps)
@@ -56,7 +56,7 @@ public:
         steps_->tolerance.absolute = std::move(tolerances);
     }
 
-    [[nodiscard]] plain_model const& model() const { return rate_.model(); }
+    [[nodiscard]] approximate_model const& model() const { return rate_.model(); }
     [[nodiscard]] std::vector<double> const& knots() const { return rate_.knots(); }
     [[nodiscard]] std::vector<output_request> const& requests() const { return mesh_.requests(); }
     /// Scales the tolerances of the steps from now on. @param relative  share of a state's size

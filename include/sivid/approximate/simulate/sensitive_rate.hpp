@@ -2,7 +2,7 @@
 #ifndef SIVID_APPROXIMATE_SIMULATE_SENSITIVE_RATE_HPP
 #define SIVID_APPROXIMATE_SIMULATE_SENSITIVE_RATE_HPP
 
-#include <sivid/approximate/simulate/plain_model.hpp>
+#include <sivid/approximate/simulate/approximate_model.hpp>
 #include <sivid/approximate/simulate/simulation_mesh.hpp>
 #include <sivid/approximate/simulate/stepping.hpp>
 
@@ -39,7 +39,7 @@ class sensitive_rate final : public rate_function {
 public:
     static constexpr std::size_t lanes = 4;
 
-    sensitive_rate(std::shared_ptr<plain_model const> model, std::vector<double> knots)
+    sensitive_rate(std::shared_ptr<approximate_model const> model, std::vector<double> knots)
         : model_(std::move(model)),
           knots_(std::move(knots)),
           value_memory_(model_->rate().values.memory()),
@@ -53,7 +53,7 @@ public:
         for (auto const& d : model_->input_delays()) late_inputs_ = late_inputs_ || d.unknown;
     }
 
-    [[nodiscard]] plain_model const& model() const { return *model_; }
+    [[nodiscard]] approximate_model const& model() const { return *model_; }
     [[nodiscard]] std::vector<double> const& knots() const { return knots_; }
     [[nodiscard]] bool sensitive() const { return sensitive_; }
     /// Columns from there on are zero on this piece and before.
@@ -243,7 +243,7 @@ private:
         return late > 0 ? early + late * (*disturbance_)[(hat_ + 1) * count + d] : early;
     }
 
-    std::shared_ptr<plain_model const> model_;
+    std::shared_ptr<approximate_model const> model_;
     std::vector<double> knots_, value_memory_, memory_, values_;
     std::vector<std::size_t> row_end_; ///< of the non-zero derivatives by states
     simulation_mesh const* mesh_ = nullptr;

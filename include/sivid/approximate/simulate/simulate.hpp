@@ -35,7 +35,7 @@ struct simulation_options {
 /// @param times       increasing, the first not before `from`
 /// @throws std::runtime_error when it gets stuck or was told to stop
 [[nodiscard]] inline approximate_trajectory
-simulate(std::shared_ptr<plain_model const> model, std::vector<signal> const& inputs,
+simulate(std::shared_ptr<approximate_model const> model, std::vector<signal> const& inputs,
          std::vector<double> const& initial, std::vector<double> const& parameters, double from,
          std::vector<double> const& times, simulation_options const& options = {}) {
     std::vector<output_request> requests;

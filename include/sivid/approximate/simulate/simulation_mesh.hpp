@@ -2,8 +2,8 @@
 #ifndef SIVID_APPROXIMATE_SIMULATE_SIMULATION_MESH_HPP
 #define SIVID_APPROXIMATE_SIMULATE_SIMULATION_MESH_HPP
 
+#include <sivid/approximate/simulate/approximate_model.hpp>
 #include <sivid/approximate/simulate/late_signal.hpp>
-#include <sivid/approximate/simulate/plain_model.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ struct output_request {
 /// neighbours every input is a straight line.
 class simulation_mesh {
 public:
-    simulation_mesh(plain_model const& model, std::vector<signal> const& inputs, double begin,
+    simulation_mesh(approximate_model const& model, std::vector<signal> const& inputs, double begin,
                     std::vector<output_request> requests, std::vector<double> const& knots)
         : model_(&model), begin_(begin), requests_(std::move(requests)), knots_(knots) {
         for (auto const& u : inputs) signals_.emplace_back(u, begin);
@@ -113,7 +113,7 @@ public:
 private:
     static constexpr int fine = 400; ///< pieces of a late formula
 
-    plain_model const* model_;
+    approximate_model const* model_;
     double begin_;
     std::vector<output_request> requests_;
     std::vector<double> knots_;

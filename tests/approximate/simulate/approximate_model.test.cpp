@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/approximate/simulate/plain_model.hpp>
+#include <sivid/approximate/simulate/approximate_model.hpp>
 
 #include "support/catch.hpp"
 #include "support/models.hpp"
@@ -17,7 +17,7 @@ TEST_CASE("a plain model keeps its delays and knows its derivatives") {
     choice.unknown = {"p2", "p0"};
     choice.fixed["p1"] = interval(0.25);
     sampled_signal const u({0, 1}, {1, 2}, interpolation::linear);
-    plain_model const plain(model, choice, {u});
+    approximate_model const plain(model, choice, {u});
     CHECK(plain.states() == 2);
     CHECK(plain.parameters() == 2);
     CHECK(plain.channels() == 2);
@@ -32,5 +32,5 @@ TEST_CASE("a plain model keeps its delays and knows its derivatives") {
     CHECK(plain.rate().by_parameter[0].column == 1);
     REQUIRE(plain.rate().by_input.size() == 1);
     REQUIRE(plain.rate().by_time.size() == 1);
-    CHECK_THROWS_AS(plain_model(model, choice, {}), std::invalid_argument);
+    CHECK_THROWS_AS(approximate_model(model, choice, {}), std::invalid_argument);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_APPROXIMATE_SIMULATE_PLAIN_MODEL_HPP
-#define SIVID_APPROXIMATE_SIMULATE_PLAIN_MODEL_HPP
+#ifndef SIVID_APPROXIMATE_SIMULATE_APPROXIMATE_MODEL_HPP
+#define SIVID_APPROXIMATE_SIMULATE_APPROXIMATE_MODEL_HPP
 
 #include <sivid/approximate/simulate/late_signal.hpp>
 #include <sivid/model/bound_model.hpp>
@@ -41,10 +41,10 @@ struct plain_function {
 };
 
 /// A model bound to constants and inputs for simulation with sensitivities. Delays are kept.
-class plain_model {
+class approximate_model {
 public:
-    plain_model(recorded_model const& model, parameter_choice const& choice,
-                std::vector<signal> const& inputs) {
+    approximate_model(recorded_model const& model, parameter_choice const& choice,
+                      std::vector<signal> const& inputs) {
         if (inputs.size() != model.about.inputs.size()) {
             throw std::invalid_argument("model '" + model.about.name + "' has " +
                                         std::to_string(model.about.inputs.size()) +
@@ -61,11 +61,11 @@ public:
         for (auto const& d : input_delays_) {
             seen[d.index] = sampled_signal({0.0}, {0.0}, interpolation::linear);
         }
-        *this = plain_model(sivid::bind(prompt, choice, seen), std::move(input_delays_),
-                            std::move(channel_delays_));
+        *this = approximate_model(sivid::bind(prompt, choice, seen), std::move(input_delays_),
+                                  std::move(channel_delays_));
     }
     /// A model that is bound already; it has no delays.
-    explicit plain_model(bound_model const& bound) : plain_model(bound, {}, {}) {}
+    explicit approximate_model(bound_model const& bound) : approximate_model(bound, {}, {}) {}
 
     [[nodiscard]] std::size_t states() const { return shape_.states; }
     [[nodiscard]] std::size_t parameters() const { return shape_.constants; }
@@ -79,8 +79,8 @@ public:
     [[nodiscard]] std::vector<std::size_t> const& used_inputs() const { return used_; }
 
 private:
-    plain_model(bound_model const& bound, std::vector<plain_delay> of_inputs,
-                std::vector<plain_delay> of_channels)
+    approximate_model(bound_model const& bound, std::vector<plain_delay> of_inputs,
+                      std::vector<plain_delay> of_channels)
         : shape_{bound.state_count(), bound.about.inputs.size(), bound.parameter_count()},
           channels_(bound.channel_count()),
           used_(bound.sampled),
