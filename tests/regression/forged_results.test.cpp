@@ -180,7 +180,7 @@ TEST_CASE("a checkpoint that lost boxes is refused although its digest is right"
     identify_options options;
     options.search.accuracy = 1.0 / 256;
     options.search.sufficient_ratio = 0.97;
-    options.search.boxes = 40;
+    options.search.boxes = 16; // which ends it, with boxes that wait
     options.search.checkpoint_seconds = 0;
     auto const digest = problem_digest(problem, options);
     std::optional<identification_state> saved;
