@@ -132,6 +132,12 @@ TEST_CASE("each contradiction is found and withdrawn with what rests on it") {
          [](auto const& d) { return d.answer != answer_kind::none; }},
         {"unexplained beside a cause", [](auto& d) { d.answer = answer_kind::unexplained; },
          [](auto const& d) { return d.answer == answer_kind::effects; }},
+        {"open beside a cause",
+         [](auto& d) {
+             d.answer = answer_kind::open;
+             d.effects.clear();
+         },
+         [](auto const& d) { return d.answer == answer_kind::effects && !d.effects.empty(); }},
         {"an excluded answer",
          [](auto& d) {
              d.effects = {"trim"};

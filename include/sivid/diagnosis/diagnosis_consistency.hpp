@@ -25,6 +25,26 @@ struct contradiction {
     std::string reason;
 };
 
+/// Whether an answer says that nothing explains the data, so far as was tried.
+[[nodiscard]] constexpr bool unanswered(answer_kind a) {
+    return a == answer_kind::unexplained || a == answer_kind::open;
+}
+
+/// Where nothing was found that explains the data, and then a cause was proved to (the search for
+/// the least inflation of the closest one may get where no fit did), this cause is the answer.
+/// @returns whether it is now
+inline bool answer_by_proof(diagnosis& d) {
+    if (!unanswered(d.answer)) return false;
+    for (auto const& c : d.causes) {
+        if (c.verdict != cause_verdict::explains) continue;
+        d.effects = c.effects;
+        d.answer = c.effects.empty() ? answer_kind::none : answer_kind::effects;
+        d.remainder.reset();
+        return true;
+    }
+    return false;
+}
+
 namespace diagnosis_detail {
 
 /// Compares the claims of one diagnosis with each other.
@@ -201,8 +221,10 @@ private:
         for (std::size_t k = 0; k < d_->causes.size(); ++k) {
             auto const& c = d_->causes[k];
             if (d_->answer == answer_kind::effects && c.effects == d_->effects) chosen = &c;
-            if (d_->answer == answer_kind::unexplained && c.verdict == cause_verdict::explains) {
-                add(about::answer, 0, "answer unexplained", text(c.effects) + " explains the data");
+            if (c.verdict == cause_verdict::explains && unanswered(d_->answer)) {
+                add(about::answer, 0,
+                    d_->answer == answer_kind::open ? "answer open" : "answer unexplained",
+                    text(c.effects) + " explains the data");
             }
             for (auto const& other : d_->indistinguishable) {
                 if (c.effects != other || c.verdict != cause_verdict::excluded) continue;
@@ -324,14 +346,8 @@ inline void withdraw_contradictions(diagnosis& d,
                             return k.effects == d.effects && k.verdict == cause_verdict::excluded;
                         });
                     if (chosen_excluded) d.answer = answer_kind::unexplained, d.effects.clear();
-                } else if (d.answer == answer_kind::unexplained) {
-                    for (auto const& k : d.causes) {
-                        if (k.verdict != cause_verdict::explains) continue;
-                        d.effects = k.effects;
-                        d.answer = k.effects.empty() ? answer_kind::none : answer_kind::effects;
-                        d.remainder.reset();
-                        break;
-                    }
+                } else {
+                    answer_by_proof(d);
                 }
                 break;
             }

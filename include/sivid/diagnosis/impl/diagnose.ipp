@@ -11,6 +11,7 @@
 #include <sivid/diagnosis/candidate_verdicts.hpp>
 #include <sivid/diagnosis/claim_review.hpp>
 #include <sivid/diagnosis/describe_candidate.hpp>
+#include <sivid/diagnosis/diagnosis_consistency.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/diagnosis/gap_proof.hpp>
 #include <sivid/diagnosis/manoeuvre.hpp>
@@ -137,9 +138,11 @@ private:
         auto& d = run_.result;
         auto order = try_candidates(tried, options_.verdict_share);
         bool going = candidate_verdicts(run_, order, effort_, options_).verify();
-        if (!d.tried.complete() && going) { // what is left is for the next ones
+        bool const proved = answer_by_proof(d);
+        if (!proved && !d.tried.complete() && going) { // what is left is for the next ones
             order = try_candidates(tried, 0.2 * options_.verdict_share);
             going = candidate_verdicts(run_, order, effort_, options_).verify();
+            (void)answer_by_proof(d);
         }
         if (going) candidate_verdicts(run_, order, effort_, options_).refute();
         describe_remainder();
