@@ -49,7 +49,8 @@ public:
     [[nodiscard]] check_finding excluded(std::string what, std::vector<box> const& gaps) {
         if (gaps.empty()) return {std::move(what), outcome::nothing, ""};
         std::size_t open = 0;
-        for (auto const& gap : gaps) open += is_excluded(gap) ? 0 : 1;
+        // Slices of a few floats lie between rows whose faces were rounded.
+        for (auto const& gap : gaps) open += is_rounding(gap) || is_excluded(gap) ? 0 : 1;
         return finding(std::move(what), gaps.size(), open);
     }
     [[nodiscard]] check_finding inside(std::string what) {
