@@ -60,11 +60,11 @@ SIVID_DECL std::size_t fewest_digits(double x, digit_string const& all, bool up)
     if (is_zero(next) || is_infinite(next)) return 1;
     digit_string const other = exact_digits(next);
     if (other.point != all.point) return 1;
-    std::size_t const significant = all.digits.find_last_not_of('0') + 1;
     std::size_t const same = static_cast<std::size_t>(
         std::mismatch(all.digits.begin(), all.digits.end(), other.digits.begin()).first -
         all.digits.begin());
-    return std::min(significant, same + 1);
+    if (all.digits.find_first_not_of('0', same) != std::string::npos) return same + 1;
+    return all.digits.find_last_not_of('0') + 1; // x itself is that short
 }
 
 SIVID_DECL std::string shortest_magnitude(double x, bool up) {
