@@ -5,6 +5,7 @@
 #include <sivid/paving/certificate.hpp>
 #include <sivid/paving/cut_program.hpp>
 #include <sivid/paving/local_response.hpp>
+#include <sivid/paving/misfit_block.hpp>
 #include <sivid/paving/proof_walk.hpp>
 #include <sivid/paving/response_audit.hpp>
 #include <sivid/paving/scalar_run.hpp>
@@ -285,49 +286,33 @@ private:
             }
             auto const& r = *known[e];
             auto const local = expand(r, part);
-            std::size_t missed = 0;
-            minimax_block block;
-            block.variable.assign(r.table->variables, 0);
+            std::vector<combined_polynomial::place> places(r.table->variables);
             for (std::size_t j = 0; j < part.size(); ++j) {
                 auto const& side = r.unknowns.parameters[j];
-                if (side.radius > 0) block.variable[side.variable] = j;
+                if (side.radius > 0) places[side.variable].unknown = j;
             }
             for (auto const& side : r.unknowns.initial) {
-                if (side.radius > 0) block.variable[side.variable] = unknowns++;
+                if (side.radius > 0) places[side.variable].unknown = unknowns++;
             }
-            auto const count = r.outputs();
-            block.slope = local.slope;
-            block.offset.assign(count, 0.0);
-            block.margin.assign(count, std::numeric_limits<double>::infinity());
-            auto& scale = scales.emplace_back(count, 0.0);
-            for (std::size_t y = 0; y < count; ++y) {
-                double affine = 0;
-                for (std::size_t v = 0; v < block.variable.size(); ++v) {
-                    affine += std::abs(local.slope[v * count + y]);
+            std::size_t missed = 0;
+            auto misfits = misfits_of(r, local, places, 1, [&](std::size_t y) {
+                double spread = local.rest[y];
+                for (std::size_t v = 0; v < places.size(); ++v) {
+                    spread += std::abs(local.slope[v * r.outputs() + y]);
                 }
-                auto const& bound = r.bounds[y];
-                double const spread = affine + local.rest[y], half = 0.5 * width(bound);
-                double const off = local.value[y] - mid(bound);
-                bool const misses = std::abs(off) > spread + half;
+                double const half = 0.5 * width(r.bounds[y]);
+                double const off = local.value[y] - mid(r.bounds[y]);
                 bool const proved =
-                    misses &&
+                    missed <= r.allowed && std::abs(off) > spread + half &&
                     weighted_outputs<I>(known, part, {{e, y, off > 0 ? 1.0 : -1.0}}).positive();
                 missed += proved ? 1 : 0;
-                if (missed > r.allowed) return true;
-                bool const of_use = std::isfinite(half) && std::isfinite(local.rest[y]) &&
-                                    std::abs(off) + spread > half && !(proved && r.allowed > 0);
-                scale[y] = of_use ? 1 / std::max(half, 1e-100) : 0;
-                for (std::size_t v = 0; v < block.variable.size(); ++v) {
-                    auto& slope = block.slope[v * count + y];
-                    slope = of_use ? slope * scale[y] : 0;
-                }
-                if (!of_use) continue;
-                block.offset[y] = off * scale[y];
-                block.margin[y] = 1 + local.rest[y] * scale[y];
-            }
+                return std::abs(off) + spread > half && !(proved && r.allowed > 0);
+            });
+            if (missed > r.allowed) return true;
             allowance.push_back(r.allowed - missed);
             allowed += allowance.back();
-            blocks.push_back(std::move(block));
+            blocks.push_back(std::move(misfits.functions));
+            scales.push_back(std::move(misfits.scale));
         }
         if (allowed >= most_groups) {
             for (std::size_t e = 0; e < known.size(); ++e) {
