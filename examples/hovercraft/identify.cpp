@@ -260,6 +260,8 @@ sivid::online_options online_options_of(identify_command const& c) {
 
 int run(identify_command const& c) {
     namespace report = sivid::report;
+    using seconds = std::chrono::duration<double>;
+    auto const begun = std::chrono::steady_clock::now();
     auto const model = sivid::record_model(c.craft);
     auto const data = sivid::read_dataset(c.dataset, sivid::names_of(model.about));
     auto problem = sivid::problem_from_dataset(data, model, c.outliers);
@@ -279,7 +281,8 @@ int run(identify_command const& c) {
     // From here on the first Ctrl-C ends whatever is going on, and what is proved is written.
     console::watch_interrupts();
     auto const wanted = [] { return !console::interrupted(); };
-    double const budget = c.budget - seconds_of_tables(problem, c.budget);
+    double const left = c.budget - seconds{std::chrono::steady_clock::now() - begun}.count();
+    double const budget = std::max(0.0, left - seconds_of_tables(problem, c.budget));
     sivid::work_limit limit(budget, wanted);
     console::progress_line progress(c.quiet);
     sivid::identify_options options;
@@ -312,7 +315,9 @@ int run(identify_command const& c) {
     if (c.memory) options.search.memory = static_cast<std::size_t>(1e6 * *c.memory);
     options.search.batches = 4; // whatever the threads, so that the result is the same
     options.search.workers = console::threads_for(c.threads);
-    checkpoint_file checkpoint(c, sivid::problem_digest(problem, options, digest));
+    checkpoint_file checkpoint(c, c.checkpoint || c.resume
+                                      ? sivid::problem_digest(problem, options, digest)
+                                      : std::string{});
     options.resume = checkpoint.state();
     if (checkpoint.used()) {
         options.search.checkpoint_seconds = c.checkpoint.value_or(10);

@@ -114,6 +114,19 @@ TEST_CASE("planted breaches are found") {
         tree.header("number/lower.hpp", "#include <sivid/number/low.hpp>\n");
         CHECK_THAT(tree.findings(), ContainsSubstring("cycle: "));
     }
+    SECTION("a cycle by way of definitions") {
+        tree.header("space/high.hpp", "#include <sivid/space/higher.hpp>\n");
+        tree.header("space/higher.hpp", "");
+        tree.write("include/sivid/space/impl/higher.ipp",
+                   planted_tree::wrapped("sivid/space/impl/higher.ipp",
+                                         "#include <sivid/space/higher.hpp>\n"));
+        tree.umbrella();
+        CHECK(tree.findings() == "");
+        tree.write("include/sivid/space/impl/higher.ipp",
+                   planted_tree::wrapped("sivid/space/impl/higher.ipp",
+                                         "#include <sivid/space/high.hpp>\n"));
+        CHECK_THAT(tree.findings(), ContainsSubstring("cycle: "));
+    }
     SECTION("quoted include") {
         tree.header("space/high.hpp", "#include \"../number/low.hpp\"\n");
         CHECK_THAT(tree.findings(),

@@ -144,6 +144,11 @@ inline bool only_options(std::string const& stem, std::vector<std::string> const
     });
 }
 
+/// The header that a file of definitions belongs to: a/b/impl/x.ipp to a/b/x.hpp.
+inline std::string header_of(fs::path const& definitions) {
+    return (definitions.parent_path().parent_path() / definitions.stem()).generic_string() + ".hpp";
+}
+
 /// Whether ctest and Catch2 take a name of a test case as it stands. A semicolon ends it in CMake's
 /// lists, brackets hold lists together there and are tags to Catch2, which also has a wildcard at
 /// either end, a negation in front, an escape, and quotes. (Commas are escaped on the way.)
@@ -201,7 +206,9 @@ inline void check_test_names(fs::path const& tree, std::vector<finding>& finding
 inline std::vector<finding> check(fs::path const& tree) {
     std::vector<finding> findings;
     auto const include = tree / "include";
-    std::map<std::string, std::vector<std::string>> graph; // header -> headers included
+    // Header -> headers included, by its definitions too: these come at its end where nothing is
+    // compiled once, and in a cycle what they need would not be declared yet.
+    std::map<std::string, std::vector<std::string>> graph;
     std::set<std::string> umbrella_members, core_headers;
     std::set<std::string> listed, definitions_of_floors; // .ipp in sivid/impl, and all of them
 
@@ -261,10 +268,10 @@ inline std::vector<finding> check(fs::path const& tree) {
                 report("include form", "\"" + other + "\" instead of <sivid/floor/file.hpp>");
             if (!package_allowed(other, floor, file)) report("package", "includes <" + other + ">");
             if (!starts_with(other, "sivid/")) continue;
-            // A header and its definitions include each other: what it declares is complete there.
             bool const to_definitions = other.find("/impl/") != std::string::npos;
             if (to_definitions && at_root) listed.insert(other);
-            if (!to_definitions) graph[name].push_back(other);
+            auto const node = definitions ? header_of(relative) : name;
+            if (!to_definitions && other != node) graph[node].push_back(other);
             if (name == "sivid/sivid.hpp") umbrella_members.insert(other);
             if (!fs::exists(include / other))
                 report("missing", "includes <" + other + ">, which does not exist");

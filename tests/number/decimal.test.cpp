@@ -4,6 +4,7 @@
 #include "number/support.hpp"
 
 #include <chrono>
+#include <cstdlib>
 #include <string>
 #include <type_traits>
 
@@ -70,6 +71,18 @@ TEST_CASE("texts of any length give the tightest enclosure") {
         oracle::number r;
         mpfr_strtofr(r.raw(), text.c_str(), nullptr, 10, MPFR_RNDN);
         REQUIRE(parse_nearest(text) == mpfr_get_d(r.raw(), MPFR_RNDN));
+    }
+}
+
+TEST_CASE("the nearest double is that of the standard library") {
+    oracle::inputs in{5};
+    for (int i = 0; i < 20'000; ++i) {
+        // up to 15 digits and a power of ten that is a double take a short way
+        std::string const text = (i % 2 == 0 ? "" : "-") +
+                                 std::to_string(in.below(~0ull >> (i % 60))) + 'e' +
+                                 std::to_string(static_cast<int>(in.below(60)) - 30);
+        INFO(text);
+        REQUIRE(parse_nearest(text) == std::strtod(text.c_str(), nullptr));
     }
 }
 

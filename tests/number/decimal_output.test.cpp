@@ -29,9 +29,7 @@ TEST_CASE("texts on the safe side of chosen doubles") {
 }
 
 TEST_CASE("texts contain, are less than one float away, and no shorter text is") {
-    oracle::inputs in{1};
-    for (int i = 0; i < 5'000; ++i) {
-        double const x = in.mixed();
+    auto const check = [](double x) {
         std::string const lo = to_decimal_lower(x), hi = to_decimal_upper(x);
         INFO(lo << " <= " << to_hex(x) << " <= " << hi);
         // Exact comparison: a text t satisfies upper(enclose(t)) <= x exactly if t <= x.
@@ -41,6 +39,16 @@ TEST_CASE("texts contain, are less than one float away, and no shorter text is")
         if (above) REQUIRE((lower(*above) == x && upper(*above) <= detail::next_up(x)));
         // The nearest double to either text is x itself or a neighbour.
         if (below && above) REQUIRE(subset(interval{x}, make(lower(*below), upper(*above))));
+    };
+    oracle::inputs in{1};
+    for (int i = 0; i < 5'000; ++i) check(in.mixed());
+    for (int k = -323; k <= 308; ++k) { // where the counts of digits change
+        double const ten = *parse_nearest("1e" + std::to_string(k));
+        for (double const x : {detail::next_down(ten), ten, detail::next_up(ten)}) check(x);
+    }
+    for (int k = -1074; k < 1024; ++k) { // where the spacings of doubles change
+        double const two = std::ldexp(1.0, k);
+        for (double const x : {detail::next_down(two), two, detail::next_up(two)}) check(x);
     }
     for (int i = 0; i < 2'000; ++i) {
         // Decimals with few digits come out as they went in, on the side where they lie.

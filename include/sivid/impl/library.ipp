@@ -16,14 +16,14 @@ namespace sivid {
 inline namespace SIVID_PACK_TARGET {
 
 template <class Containers>
-char const library_for<Containers>::sivid_compiled_has_other_machine_flags = 0;
+char library_for<Containers>::sivid_compiled_has_other_machine_flags = 0;
 
 } // namespace SIVID_PACK_TARGET
 
 template <int Version, int MaxAlignBytes, int MaxStaticAlignBytes, std::size_t IndexBytes,
           int StorageOrder>
-char const library_for_eigen<Version, MaxAlignBytes, MaxStaticAlignBytes, IndexBytes,
-                             StorageOrder>::sivid_compiled_has_another_eigen_alignment = 0;
+char library_for_eigen<Version, MaxAlignBytes, MaxStaticAlignBytes, IndexBytes,
+                       StorageOrder>::sivid_compiled_has_another_eigen_alignment = 0;
 
 } // namespace sivid
 

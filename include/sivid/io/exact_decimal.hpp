@@ -81,6 +81,9 @@ public:
     /// Plain notation where it is short ("0.0042", "-1250"), otherwise with an exponent.
     [[nodiscard]] std::string text() const;
 
+    friend std::optional<interval> enclose(exact_decimal const& x);
+    friend std::optional<double> nearest(exact_decimal const& x);
+
 private:
     static exact_decimal sum(exact_decimal const& a, exact_decimal const& b);
 
@@ -89,6 +92,9 @@ private:
 
     /// The digits of the integer |x| 10^-exponent, for an exponent not above that of x.
     [[nodiscard]] std::string digits_at(long exponent) const;
+
+    /// What a scan of `digits_` would find, had it the point and the exponent.
+    [[nodiscard]] detail::number_text taken_apart() const;
 
     void normalise();
 

@@ -55,7 +55,7 @@ inline constexpr double explained_steps = 0.6;
     }
     // Errors that last: of fewer samples the residuals are larger, yet no more correlated, as those
     // of motion would be.
-    for (std::size_t const stride : {2, 4}) {
+    for (std::size_t const stride : {std::size_t{2}, std::size_t{4}}) {
         local_residuals const fewer{times, values, stride, fit.out()};
         if (fewer.support() < 20) break;
         dependence_of_residuals const then(fewer.residuals(), fewer.spread(), stride);

@@ -11,12 +11,10 @@
 #include <sivid/number/interval.hpp>
 #include <sivid/number/rounding.hpp>
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -39,11 +37,6 @@ SIVID_DECL std::string layout(digit_string d);
 
 /// The first `count` digits, the rest cut off or carried up.
 SIVID_DECL digit_string shortened(digit_string const& all, std::size_t count, bool up);
-
-/// No decimal of fewer digits lies between a finite x > 0 (with these digits) and its neighbour on
-/// one side: one with the digits that the two share, or fewer, is at the neighbour or beyond,
-/// unless it is x itself.
-SIVID_DECL std::size_t fewest_digits(double x, digit_string const& all, bool up);
 
 /// The shortest decimal on one side of a finite x > 0, less than one float away from it.
 SIVID_DECL std::string shortest_magnitude(double x, bool up);

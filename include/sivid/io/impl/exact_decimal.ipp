@@ -200,6 +200,15 @@ SIVID_DECL std::string exact_decimal::digits_at(long exponent) const {
     return digits_ + std::string(static_cast<std::size_t>(exponent_ - exponent), '0');
 }
 
+SIVID_DECL detail::number_text exact_decimal::taken_apart() const {
+    detail::number_text n;
+    n.valid = true;
+    n.negative = negative_;
+    n.digit_count = digits_.size();
+    n.point = exponent_ + static_cast<long>(digits_.size());
+    return n;
+}
+
 SIVID_DECL void exact_decimal::normalise() {
     digits_.erase(0, std::min(digits_.find_first_not_of('0'), digits_.size()));
     auto const last = digits_.find_last_not_of('0');
@@ -212,16 +221,20 @@ SIVID_DECL void exact_decimal::normalise() {
 }
 
 SIVID_DECL std::optional<interval> enclose(exact_decimal const& x) {
-    return parse_decimal(x.text());
+    auto const bound = detail::enclose_text(x.digits_, x.taken_apart(), x.negative_);
+    return is_bounded(bound) ? std::optional{bound} : std::nullopt;
 }
 
 SIVID_DECL std::optional<interval> enclose(exact_decimal const& lower, exact_decimal const& upper) {
-    auto const a = parse_decimal(lower.text()), b = parse_decimal(upper.text());
+    auto const a = enclose(lower), b = enclose(upper);
     if (!a || !b) return std::nullopt;
     return hull(*a, *b);
 }
 
-SIVID_DECL std::optional<double> nearest(exact_decimal const& x) { return parse_nearest(x.text()); }
+SIVID_DECL std::optional<double> nearest(exact_decimal const& x) {
+    double const near = detail::nearest_text(x.digits_, x.taken_apart(), x.negative_);
+    return detail::is_infinite(near) ? std::nullopt : std::optional{near};
+}
 
 } // namespace sivid
 

@@ -23,30 +23,33 @@ SIVID_DECL std::string outputs_csv(identification_problem const& problem,
     for (auto const& f : found.forced) forced.insert({f.experiment, f.measurement});
     std::string text = "scenario,t,channel,unit,measured_lower,measured_upper,model_lower,"
                        "model_upper,state\n";
+    auto const no_bound = interval_traits<interval>::entire();
     auto const lower_text = [](interval const& x) {
         return std::isfinite(x.lower()) ? to_decimal_lower(x.lower()) : std::string{};
     };
     auto const upper_text = [](interval const& x) {
         return std::isfinite(x.upper()) ? to_decimal_upper(x.upper()) : std::string{};
     };
-    auto const no_bound = interval_traits<interval>::entire();
+    auto const add = [&text](auto const&... cells) { ((text += ',', text += cells), ...); };
     for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
+        auto const name = io_detail::cell(problem.experiments[e].name);
         auto const samples = sorted(problem.experiments[e].measurements);
-        auto const outputs = motion != nullptr ? motion->outputs[e]
-                                               : std::vector<interval>(samples.size(), no_bound);
+        double told = detail::not_a_number; // what `time` says: channels share their times
+        std::string time;
         for (std::size_t i = 0; i < samples.size(); ++i) {
             auto const& m = samples[i];
-            text += io_detail::cell(problem.experiments[e].name) + "," +
-                    exact_decimal::shortest(m.time).text() + "," + channels[m.channel].name + "," +
-                    channels[m.channel].unit + "," + to_decimal_lower(m.bound.lower()) + "," +
-                    to_decimal_upper(m.bound.upper());
-            text += std::string{","} + lower_text(outputs[i]) + "," + upper_text(outputs[i]);
+            if (m.time != told) time = exact_decimal::shortest(told = m.time).text();
+            auto const& output = motion != nullptr ? motion->outputs[e][i] : no_bound;
             bool const violated = found.witness && i < found.witness->violated[e].size() &&
                                   found.witness->violated[e][i];
-            text += forced.count({e, i}) > 0 ? ",forced_outlier"
-                    : violated               ? ",witness_outlier"
-                                             : ",";
-            text += "\n";
+            text += name;
+            add(time, channels[m.channel].name, channels[m.channel].unit,
+                to_decimal_lower(m.bound.lower()), to_decimal_upper(m.bound.upper()),
+                lower_text(output), upper_text(output),
+                forced.count({e, i}) > 0 ? "forced_outlier"
+                : violated               ? "witness_outlier"
+                                         : "");
+            text += '\n';
         }
     }
     return text;

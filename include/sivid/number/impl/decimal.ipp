@@ -47,6 +47,13 @@ SIVID_DECL interval enclose_text(std::string_view text, number_text const& n, bo
 }
 
 SIVID_DECL double nearest_text(std::string_view text, number_text const& n, bool negative) {
+    double digits = 0.0;
+    int power = 0;
+    if (short_decimal(text, n, digits, power)) {
+        double const ten = powers_of_ten[static_cast<std::size_t>(power < 0 ? -power : power)];
+        double const y = power < 0 ? digits / ten : digits * ten; // rounded once
+        return negative ? -y : y;
+    }
     rounded_magnitude const r = round_text(text, n);
     bool const odd = (bits(r.below) & 1) != 0;
     bool const up = !r.exact && (r.half > 0 || (r.half == 0 && odd));

@@ -4,6 +4,15 @@
 
 #include <sivid/number/decimal_output.hpp>
 
+#include <boost/multiprecision/cpp_int.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <utility>
+
 namespace sivid {
 
 namespace detail {
@@ -55,28 +64,63 @@ SIVID_DECL digit_string shortened(digit_string const& all, std::size_t count, bo
     return d;
 }
 
-SIVID_DECL std::size_t fewest_digits(double x, digit_string const& all, bool up) {
-    double const next = std::nextafter(x, up ? std::numeric_limits<double>::infinity() : 0.0);
-    if (is_zero(next) || is_infinite(next)) return 1;
-    digit_string const other = exact_digits(next);
-    if (other.point != all.point) return 1;
-    std::size_t const same = static_cast<std::size_t>(
-        std::mismatch(all.digits.begin(), all.digits.end(), other.digits.begin()).first -
-        all.digits.begin());
-    if (all.digits.find_first_not_of('0', same) != std::string::npos) return same + 1;
-    return all.digits.find_last_not_of('0') + 1; // x itself is that short
+/// A positive double as whole * 2^power, beside one whose power is greater by at most 1.
+struct binary_parts {
+    std::uint64_t whole;
+    int power;
+};
+
+inline binary_parts parts_of(double x) {
+    constexpr std::uint64_t hidden = std::uint64_t{1} << 52;
+    auto const field = static_cast<int>(bits(x) >> 52);
+    auto const fraction = bits(x) & (hidden - 1);
+    return field == 0 ? binary_parts{fraction, -1074}
+                      : binary_parts{fraction | hidden, field - 1075};
+}
+
+/// The decimals t = n 10^unit with x >= t > next (or x <= t < next), of those the one with the
+/// fewest digits that is nearest to x. `Whole` must hold 2^55 10^|unit| and 10^18 2^|power|.
+/// @param unit  such that floor(x / 10^unit) has 17 or 18 digits
+template <class Whole>
+std::uint64_t shortest_multiple(binary_parts x, binary_parts next, int unit, bool up) {
+    int const power = std::min(x.power, next.power);
+    Whole ten = 1;
+    for (int k = std::abs(unit); k > 0; --k) ten *= 10u;
+    auto const numerator = [&](binary_parts const& a) {
+        Whole n = a.whole;
+        n <<= static_cast<unsigned>(a.power - power + std::max(power, 0));
+        if (unit < 0) n *= ten;
+        return n;
+    };
+    Whole denominator = 1;
+    denominator <<= static_cast<unsigned>(std::max(-power, 0));
+    if (unit > 0) denominator *= ten;
+    Whole const from = numerator(x), limit = numerator(next);
+    Whole const quotient = from / denominator;
+    auto t = static_cast<std::uint64_t>(quotient);
+    if (up && quotient * denominator != from) ++t;
+    for (std::uint64_t step = 10; step <= 100'000'000'000'000'000u; step *= 10) {
+        std::uint64_t const rest = t % step;
+        std::uint64_t const rounder = rest == 0 ? t : up ? t - rest + step : t - rest;
+        Whole const scaled = Whole{rounder} * denominator;
+        if (up ? !(scaled < limit) : !(limit < scaled)) break;
+        t = rounder;
+    }
+    return t;
 }
 
 SIVID_DECL std::string shortest_magnitude(double x, bool up) {
-    digit_string const all = exact_digits(x);
-    // 17 digits always suffice: their spacing is below the spacing of doubles.
-    for (std::size_t count = fewest_digits(x, all, up); count < 17; ++count) {
-        std::string text = layout(shortened(all, count, up));
-        number_text const n = scan_number(text);
-        interval const seen = enclose_text(text, n, false);
-        if ((up ? seen.lower() : seen.upper()) == x && is_bounded(seen)) return text;
-    }
-    return layout(shortened(all, 17, up));
+    double const beside = std::nextafter(x, up ? std::numeric_limits<double>::infinity() : 0.0);
+    // 17 digits always suffice: their spacing is below that of doubles. One more, since the
+    // logarithm of a number just below a power of ten may be rounded up to it.
+    int const unit = static_cast<int>(std::floor(std::log10(x))) - 17;
+    auto const here = parts_of(x), next = parts_of(beside);
+    bool const fits = unit <= 0 && unit >= -22 && here.power <= 0 && here.power > -66;
+    auto const t = fits ? shortest_multiple<boost::multiprecision::uint128_t>(here, next, unit, up)
+                        : shortest_multiple<boost::multiprecision::cpp_int>(here, next, unit, up);
+    digit_string d{std::to_string(t), unit};
+    d.point += static_cast<int>(d.digits.size());
+    return layout(std::move(d));
 }
 
 SIVID_DECL std::string in_brackets(std::string const& lo, std::string const& hi) {
