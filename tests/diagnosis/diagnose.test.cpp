@@ -49,7 +49,7 @@ TEST_CASE("the only scenario has the gap of the whole campaign") {
     CHECK(d.channel_inflation.size() == 2);
 }
 
-TEST_CASE("a missing drag is found, proved and sized, and holds on data that chose nothing") {
+TEST_CASE("a missing drag is found, proved and sized, and holds on held-out data") {
     auto const real = small_campaign::with_drag(0.3);
     std::string first;
     diagnosis_options options;

@@ -34,7 +34,7 @@ holdout_judgement judged(small_campaign::truth const& real, std::vector<std::siz
 
 } // namespace
 
-TEST_CASE("an effect that is the truth does well on data that chose nothing") {
+TEST_CASE("an effect that is the truth does well on held-out data") {
     auto const real = small_campaign::with_drag(0.3);
     auto const before = judged(real, {});
     auto const after = judged(real, {0});

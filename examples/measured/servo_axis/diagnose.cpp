@@ -185,7 +185,7 @@ void add_chain(report::page& page, sivid::diagnosis_run const& run,
                     .rows = {},
                     .caption =
                         "Root mean square of the position's misfit [mm], estimation record "
-                        "/ validation record (which chose nothing), windows of 0.2 to 2 s "
+                        "/ validation record (held out), windows of 0.2 to 2 s "
                         "from the same starts. Fitted to the windows of the estimation "
                         "record alone, by least squares. Inflation: proved range of the factor by "
                         "which the bound would have to grow, starts within theirs."};

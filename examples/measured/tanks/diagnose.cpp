@@ -108,7 +108,7 @@ void add_chain(report::page& page, sivid::diagnosis_run const& run,
                                 {"inflation", report::column_kind::text}},
                     .rows = {},
                     .caption = "Root mean square of the level's misfit over the whole record, by "
-                               "least squares (estimates). The validation record chose nothing but "
+                               "least squares (estimates). The validation record is held out but for "
                                "its own starts. Near full: from 160 s before to 240 s after a "
                                "level above 9.5 V, estimation record. Inflation: proved range of "
                                "the factor by which the bound would have to grow."};

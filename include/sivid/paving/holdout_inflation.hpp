@@ -11,7 +11,7 @@
 
 namespace sivid {
 
-/// What was proved about data that chose nothing.
+/// What was proved about held-out data.
 struct holdout_bound {
     /// Contains the hold-out inflation of every parameter whose fit inflation is at most the upper
     /// bound that was proved for the fit.

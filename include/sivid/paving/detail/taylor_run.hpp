@@ -140,7 +140,7 @@ std::unique_ptr<experiment_run> make_taylor_run(flow const& f, experiment const&
 }
 
 #ifdef SIVID_COMPILED
-// The library sivid::compiled holds these: the dear part of every program that identifies.
+// The library sivid::compiled holds these: the expensive part of every program that identifies.
 #define SIVID_KERNEL(N, D)                                                                         \
     extern template std::unique_ptr<experiment_run> make_taylor_run<N, D>(                         \
         flow const&, experiment const&, record const&, run_options const&);

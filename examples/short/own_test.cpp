@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// A contractor and an inclusion test of one's own in the search: the ring  1 <= x^2 + y^2 <= 2.
+#include <sivid/number/decimal_output.hpp>
+#include <sivid/paving/invert.hpp>
+
+#include <iostream>
+
+using namespace sivid;
+
+struct ring {
+    interval const bounds{1, 2};
+
+    assessment<> operator()(box const& b) const {
+        assessment<> says{.rest = b};
+        interval const square = sqr(b[0]) + sqr(b[1]);
+        if (subset(square, bounds)) says.verdict = box_verdict::inside;
+        if (disjoint(square, bounds)) says.verdict = box_verdict::outside;
+        for (std::size_t i : {0, 1}) { // |x| <= sqrt(2 - min y^2): no point beyond is in the set
+            double const most = sqrt(bounds - sqr(b[1 - i])).upper();
+            says.rest[i] = intersect(b[i], hull(interval(-most), interval(most)));
+        }
+        return says;
+    }
+};
+
+int main() {
+    ring test;
+    auto const found = invert(test, {interval(-5, 5), interval(-5, 5)}, {.accuracy = 1e-3});
+    std::cout << "area in [" << to_decimal_lower(100 * found.paving.inner_volume().lower(), 4)
+              << ", " << to_decimal_upper(100 * found.paving.outer_volume().upper(), 4)
+              << "], pi by hand, after " << found.tested << " boxes\n";
+}
