@@ -31,6 +31,6 @@ int main() {
     enclosed_motion const motion(f, {hull(0.99_dec, 1.01_dec), interval(0.0)},
                                  {hull(0.99_dec, 1.01_dec)}, 0, 3);
     for (double t = 0; t <= motion.end_time(); t += 0.5) {
-        std::cout << t << " s: angle in " << to_string(motion.at(t)[0], 4) << " rad\n";
+        std::cout << t << " s: angle in " << to_string(motion.at(t)[0], 6) << " rad\n";
     }
 }
