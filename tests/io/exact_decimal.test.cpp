@@ -95,6 +95,8 @@ TEST_CASE("exact_decimal agrees with integers in a random sample") {
         auto const x = dec(std::to_string(a)), y = dec(std::to_string(b));
         CHECK(x + y == dec(std::to_string(a + b)));
         CHECK(x - y == dec(std::to_string(a - b)));
+        auto const large = dec("1e20"); // more digits than an integer has
+        CHECK((x + large) + (y - large) == dec(std::to_string(a + b)));
         CHECK((x < y) == (a < b));
         CHECK(x.is_negative() == (a < 0));
         CHECK(x.is_positive() == (a > 0));

@@ -87,6 +87,10 @@ public:
 private:
     static exact_decimal sum(exact_decimal const& a, exact_decimal const& b);
 
+    /// The same for wholes x, y of at most 17 digits: |a| = x 10^exponent, |b| = y 10^exponent.
+    static exact_decimal sum_of_short(exact_decimal const& a, exact_decimal const& b,
+                                      std::string const& x, std::string const& y, long exponent);
+
     /// Digit-wise x + y or x - y for texts of one length; the difference must not be negative.
     static std::string combine(std::string const& x, std::string const& y, int sign);
 

@@ -23,10 +23,12 @@ using record = std::vector<measurement>;
 
 /// Orders by time, then channel.
 [[nodiscard]] inline record sorted(record samples) {
-    std::stable_sort(samples.begin(), samples.end(),
-                     [](measurement const& a, measurement const& b) {
-                         return a.time < b.time || (a.time == b.time && a.channel < b.channel);
-                     });
+    auto const before = [](measurement const& a, measurement const& b) {
+        return a.time < b.time || (a.time == b.time && a.channel < b.channel);
+    };
+    // As records come; sorting one that is sorted takes ten times as long as seeing it.
+    if (!std::is_sorted(samples.begin(), samples.end(), before))
+        std::stable_sort(samples.begin(), samples.end(), before);
     return samples;
 }
 

@@ -4,6 +4,8 @@
 
 #include <sivid/io/exact_decimal.hpp>
 
+#include <cstdint>
+
 namespace sivid {
 
 SIVID_DECL std::optional<exact_decimal> exact_decimal::parse(std::string_view text) {
@@ -61,9 +63,27 @@ SIVID_DECL exact_decimal exact_decimal::rounded(double value, int places) {
     return parse({buffer, static_cast<std::size_t>(end - buffer)}).value_or(exact_decimal{});
 }
 
+SIVID_DECL exact_decimal exact_decimal::sum_of_short(exact_decimal const& a, exact_decimal const& b,
+                                                     std::string const& x, std::string const& y,
+                                                     long exponent) {
+    auto const signed_whole = [](std::string const& digits, bool negative) {
+        std::int64_t n = 0; // of no digits: zero
+        std::from_chars(digits.data(), digits.data() + digits.size(), n);
+        return negative ? -n : n;
+    };
+    auto const total = signed_whole(x, a.negative_) + signed_whole(y, b.negative_);
+    exact_decimal result;
+    result.exponent_ = exponent;
+    result.negative_ = total < 0;
+    result.digits_ = std::to_string(total < 0 ? -total : total);
+    result.normalise();
+    return result;
+}
+
 SIVID_DECL exact_decimal exact_decimal::sum(exact_decimal const& a, exact_decimal const& b) {
     auto const exponent = std::min(a.exponent_, b.exponent_);
     auto x = a.digits_at(exponent), y = b.digits_at(exponent);
+    if (x.size() <= 17 && y.size() <= 17) return sum_of_short(a, b, x, y, exponent);
     auto const width = std::max(x.size(), y.size()) + 1;
     x.insert(0, width - x.size(), '0');
     y.insert(0, width - y.size(), '0');
