@@ -36,7 +36,7 @@ inline double widest(sivid::interval_matrix<interval> const& s) {
 /// derivatives have to meet.
 inline void sensitivities_at_a_point(problem const& p) {
     if (!asked.wants(p.name)) return;
-    for (std::size_t const order : {16, 20}) {
+    for (std::size_t const order : {16u, 20u}) {
         sivid::enclosure_options o;
         o.order = o.variational_order = order;
         o.tolerance = 1e-16; // short steps: the derivatives follow no tolerance of their own

@@ -109,7 +109,7 @@ sivid::identification_problem report_scenarios(sivid::identification_problem pro
 sivid::identification_problem uncertain_starts(sivid::identification_problem problem) {
     using traits = sivid::interval_traits<interval>;
     for (auto& e : problem.experiments) {
-        for (std::size_t const i : {0, 1, 5}) {
+        for (std::size_t const i : {0u, 1u, 5u}) {
             e.initial[i] = traits::add(e.initial[i], traits::bounds(-0.01, 0.01));
         }
     }

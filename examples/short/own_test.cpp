@@ -15,7 +15,7 @@ struct ring {
         interval const square = sqr(b[0]) + sqr(b[1]);
         if (subset(square, bounds)) says.verdict = box_verdict::inside;
         if (disjoint(square, bounds)) says.verdict = box_verdict::outside;
-        for (std::size_t i : {0, 1}) { // |x| <= sqrt(2 - min y^2): no point beyond is in the set
+        for (std::size_t i : {0u, 1u}) { // |x| <= sqrt(2 - min y^2): no point beyond is in the set
             double const most = sqrt(bounds - sqr(b[1 - i])).upper();
             says.rest[i] = intersect(b[i], hull(interval(-most), interval(most)));
         }

@@ -109,9 +109,10 @@ TEST_CASE("whether there is a gap, and where, is said before anything that takes
     auto const at = [&](std::string const& step) {
         auto const f = std::find(steps.begin(), steps.end(), step);
         REQUIRE(f != steps.end());
-        return f - steps.begin();
+        return static_cast<std::size_t>(f - steps.begin());
     };
-    auto const first = std::find_if(steps.begin(), steps.end(), said) - steps.begin();
+    auto const first =
+        static_cast<std::size_t>(std::find_if(steps.begin(), steps.end(), said) - steps.begin());
     // One fit, one pass over the equations.
     CHECK(first == 2);
     CHECK_THAT(steps[2], ContainsSubstring("no parameter was found that explains the data"));

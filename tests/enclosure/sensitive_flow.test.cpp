@@ -176,7 +176,7 @@ TEST_CASE("boxes: each member's sensitivities, degrees 1 to 4") {
 }
 
 TEST_CASE("low orders, whose Lagrange terms matter") {
-    for (std::size_t const order : {1, 2, 3, 4}) {
+    for (std::size_t const order : {1u, 2u, 3u, 4u}) {
         auto o = sharp(order, 1e-3);
         o.relative_tolerance = 1e-2;
         o.widest = o.remainder_share = 1e3;
@@ -217,7 +217,7 @@ TEST_CASE("what low orders leave out, by closed forms, in single long steps") {
         support::model_of({1, 1}, [](auto const&, auto const& x, auto const& p, auto const&) {
             return std::vector{p[0] * sqr(x[0])};
         }));
-    for (std::size_t const order : {2, 3, 4, 6}) {
+    for (std::size_t const order : {2u, 3u, 4u, 6u}) {
         for (double const h : {0.0625, 0.125, 0.25}) {
             enclosure_options o;
             o.order = order;

@@ -90,7 +90,7 @@ TEST_CASE("a search finds the same with 1, 2 and 3 threads, box for box") {
         CAPTURE(round, model, kind, options.search.batches);
         auto const alone = identify(planted.problem, options);
         CHECK(contains(alone.hull, planted.truth));
-        for (std::size_t const threads : {1, 2, 3}) {
+        for (std::size_t const threads : {1u, 2u, 3u}) {
             options.search.workers = tbb_executor(threads);
             auto const found = identify(planted.problem, options);
             CAPTURE(threads);

@@ -122,9 +122,7 @@ TEST_CASE("with seven unknowns a box is proved inside, and all of it explains th
         CHECK(contains(found.hull, planted.truth));
         REQUIRE(found.guess);
         std::size_t inside = 0;
-        double volume = 0;
         for (auto const& b : found.paving.boxes()) {
-            volume += relative_volume(b.set, planted.problem.prior).lower();
             if (b.verdict != box_verdict::inside) continue;
             ++inside;
             for (int member = 0; member < 10; ++member) {

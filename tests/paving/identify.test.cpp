@@ -193,7 +193,7 @@ TEST_CASE("budgets and cancellation leave the truth in what is left") {
     check_claims(planted, cancelled, d, 0);
     // The same from within integrations and simulations, at any time.
     options.search.progress = nullptr;
-    for (std::size_t const most : {0, 1, 30, 300, 3000}) {
+    for (std::size_t const most : {0u, 1u, 30u, 300u, 3000u}) {
         std::atomic<std::size_t> asked = 0;
         options.search.keep_going = [&] { return ++asked <= most; };
         auto const stopped = identify(planted.problem, options);

@@ -76,7 +76,7 @@ TEST_CASE("boxes end a refutation where they end it, whatever the clock says") {
     auto const problem = decay(prior, 0.5, 0.6, 0.02);
     double const truth = decay_inflation(prior, 0.5, 0.6, 0.02);
     double last = 0;
-    for (std::size_t const boxes : {20, 200, 2000}) {
+    for (std::size_t const boxes : {20u, 200u, 2000u}) {
         auto const once = sivid::inflation_refuted_by_observers(problem, truth, {boxes, 100});
         auto const again = sivid::inflation_refuted_by_observers(problem, truth, {boxes, 1000});
         CHECK(once.lower == again.lower);

@@ -184,7 +184,7 @@ TEST_CASE("a search that is stopped leaves proved bounds") {
     draws d(764);
     auto const problem = decays(d, 2, 0.01, 0.5);
     auto const total = sweep(problem.experiments, 0.25, 1);
-    for (std::size_t const boxes : {0, 1, 3, 10}) {
+    for (std::size_t const boxes : {0u, 1u, 3u, 10u}) {
         outlier_search_options options;
         options.boxes = boxes;
         auto const found = smallest_outlier_budget(problem, options);
@@ -204,7 +204,7 @@ TEST_CASE("a search for outliers that is told to stop says what is proved") {
     auto const planted = support::plant(d, 0, {.experiments = 2, .samples = 12, .outliers = 2});
     auto const whole = smallest_outlier_budget(planted.problem, {.seconds = 600});
     REQUIRE(whole.total.exact());
-    for (std::size_t const most : {0, 1, 20, 200, 2000, 20000}) {
+    for (std::size_t const most : {0u, 1u, 20u, 200u, 2000u, 20000u}) {
         std::atomic<std::size_t> asked = 0;
         outlier_search_options options;
         options.seconds = 600;

@@ -229,7 +229,7 @@ TEST_CASE("the executor changes nothing") {
         CAPTURE(round, p.search.batches);
         data_test alone(problem, p.test);
         auto const whole = invert(alone, problem.prior, p.search);
-        for (std::size_t const threads : {2, 5}) {
+        for (std::size_t const threads : {2u, 5u}) {
             auto options = p.search;
             options.workers = backwards(threads);
             data_test test(problem, p.test);
@@ -427,7 +427,7 @@ TEST_CASE("integrations that are told to stop leave a search that goes on as if 
         auto const& problem = p.planted.problem;
         data_test complete(problem, p.test);
         auto const whole = invert(complete, problem.prior, p.search);
-        for (std::size_t const most : {0, 3, 40, 300, 2000}) {
+        for (std::size_t const most : {0u, 3u, 40u, 300u, 2000u}) {
             std::atomic<std::size_t> asked = 0;
             auto options = p.test;
             options.run.enclosure.keep_going = [&] { return ++asked <= most; };

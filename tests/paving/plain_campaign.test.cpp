@@ -69,7 +69,7 @@ identification_problem swings(interval x, interval v, std::size_t spoilt = 0) {
 } // namespace
 
 TEST_CASE("starts are found in long experiments, which cannot be followed from all starts") {
-    for (std::size_t const spoilt : {0, 2}) {
+    for (std::size_t const spoilt : {0u, 2u}) {
         CAPTURE(spoilt);
         auto const problem = swings({1.8, 2.2}, {-0.1, 0.1}, spoilt);
         auto const& run = problem.experiments[0];

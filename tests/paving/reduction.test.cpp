@@ -180,7 +180,7 @@ TEST_CASE("unknowns that act nowhere cost the search nothing") {
             support::plant(d, {1, 4, 0, 10}, idle_rate, idle_prior, {1},
                            {.experiments = 2, .samples = 8, .noise = d.uniform(0.01, 0.1)});
         auto plain = planted.problem;
-        for (std::size_t const j : {1, 3}) {
+        for (std::size_t const j : {1u, 3u}) {
             plain.choice.fixed[planted.problem.choice.unknown[j]] = interval(planted.truth[j]);
         }
         plain.choice.unknown = {"p0", "p2"};

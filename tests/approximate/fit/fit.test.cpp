@@ -174,7 +174,7 @@ TEST_CASE("a fit that is told to stop ends with the best it has") {
     draws d(344);
     auto const planted = support::plant(d, 1, {.experiments = 2, .samples = 12, .outliers = 1});
     double last = HUGE_VAL;
-    for (std::size_t const most : {0, 1, 10, 100, 1000000}) {
+    for (std::size_t const most : {0u, 1u, 10u, 100u, 1000000u}) {
         std::size_t asked = 0;
         auto const found = fitter(planted.problem, [&] { return ++asked <= most; })();
         CAPTURE(most);

@@ -96,7 +96,7 @@ TEST_CASE("a channel that is late is looked at where it left the model") {
         simulate(std::make_shared<approximate_model const>(model, choice, std::vector<signal>{}),
                  {}, {1}, {0.25}, 0, {0.1, 1, 2});
     CHECK_THAT(found.outputs[0][0], WithinAbs(1, 1e-8)); // nothing is older than the start
-    for (std::size_t k : {1, 2}) {
+    for (std::size_t k : {1u, 2u}) {
         CHECK_THAT(found.states[k][0], WithinAbs(std::exp(-found.times[k]), 1e-8));
         CHECK_THAT(found.outputs[k][0], WithinAbs(std::exp(0.25 - found.times[k]), 1e-8));
     }
