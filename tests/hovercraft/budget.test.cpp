@@ -155,7 +155,7 @@ TEST_CASE("a full disk leaves the former result whole") {
     REQUIRE(run(arguments).code == 0);
     auto const before = files_of(out);
     REQUIRE(before.size() == 6); // products.csv and certificates.csv among them
-    for (::rlim_t const room : {1000, 12000, 30000}) {
+    for (::rlim_t const room : {1000u, 12000u, 30000u}) {
         child const full(arguments, folder.path(), room);
         auto const end = full.wait_at_most(60);
         CAPTURE(room, full.err());
