@@ -226,7 +226,7 @@ constexpr double completing = 0.2; // [s]
 constexpr double writing_a_box = 1.5e-5; // [s]
 /// What the tables of measurements take, with and without the motion; at most half of a budget.
 double seconds_of_tables(sivid::identification_problem const& problem, double budget) {
-    constexpr double writing_a_sample = 2.2e-5;
+    constexpr double writing_a_sample = 4e-6;
     double seconds = 0;
     for (auto const& e : problem.experiments) {
         seconds += writing_a_sample * static_cast<double>(e.measurements.size());
