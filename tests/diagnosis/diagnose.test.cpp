@@ -125,7 +125,7 @@ TEST_CASE("whether there is a gap, and where, is said before anything that takes
     auto const proof = at("says: a gap is proved: equation v");
     CHECK(proof > bounding);
     CHECK(std::count_if(steps.begin(), steps.end(), said) <= 4);
-    CHECK(std::none_of(steps.begin() + proof + 1, steps.end(), said));
+    CHECK(std::none_of(steps.begin() + static_cast<std::ptrdiff_t>(proof) + 1, steps.end(), said));
 }
 
 TEST_CASE("no gap is said once it is proved") {
