@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <climits>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 using namespace sivid;
@@ -53,7 +54,8 @@ TEST_CASE("ranks are those of elimination in fractions") {
         rows list(count, std::vector<int>(n));
         for (auto& r : list) {
             for (auto& v : r) {
-                v = static_cast<int>(d.below(2 * static_cast<std::size_t>(size) + 1)) - size;
+                auto const drawn = d.below(2 * static_cast<std::size_t>(size) + 1);
+                v = static_cast<int>(static_cast<std::int64_t>(drawn) - size);
             }
         }
         if (size <= 30 && count > 2 && d.coin()) { // a row that depends on two others

@@ -121,7 +121,7 @@ private:
         return powers / squares;
     }
     [[nodiscard]] double smoothness(std::size_t e, arrow_vector const& z) const {
-        if (smooth_.empty()) return 0;
+        if (smooth_.empty() || z.local[e].size() == 0) return 0;
         return z.local[e].dot(smooth_[e].selfadjointView<Eigen::Lower>() * z.local[e]);
     }
     /// In units of scale^2, so that powers can be compared with the regularisation.
@@ -162,6 +162,7 @@ private:
             system_.side(e) = j.transpose() * force;
             if (smooth_.empty()) continue;
             auto const l = n.rows() - g;
+            if (l == 0) continue; // Eigen takes the address of the first entry
             double const share = balance_ / (scale * scale);
             n.bottomRightCorner(l, l).triangularView<Eigen::Lower>() += share * smooth_[e];
             system_.side(e).tail(l) +=
