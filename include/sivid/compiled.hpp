@@ -45,16 +45,15 @@ using containers_of_this_source = plain_containers;
 inline namespace SIVID_PACK_TARGET {
 
 /// The library defines this for its own vector instructions and standard containers, each source
-/// asks for its own: objects have the same layout in both, or the program does not link. Not const:
-/// clang 14 would look for the definition where it is asked for, and find none yet.
+/// asks for its own: objects have the same layout in both, or the program does not link.
 template <class Containers>
 struct library_for {
-    static char sivid_compiled_has_other_machine_flags;
+    static char const sivid_compiled_has_other_machine_flags;
 };
 
 } // namespace SIVID_PACK_TARGET
 
-SIVID_KEPT static char* const library_for_this_source =
+SIVID_KEPT static char const* const library_for_this_source =
     &library_for<containers_of_this_source>::sivid_compiled_has_other_machine_flags;
 
 } // namespace sivid

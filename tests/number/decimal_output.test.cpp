@@ -60,6 +60,21 @@ TEST_CASE("texts contain, are less than one float away, and no shorter text is")
     }
 }
 
+TEST_CASE("texts do not depend on the caller's rounding mode, nor on flushing to zero") {
+    unsigned const before = detail::read_mxcsr();
+    for (unsigned const mode : {0x0000u, 0x2000u, 0x4000u, 0x6000u, 0x8040u}) {
+        detail::write_mxcsr(before | mode);
+        std::string const text = to_decimal_lower(0.1) + to_decimal_upper(0.1) +
+                                 to_decimal_lower(tiny) + to_decimal_upper(1e22) +
+                                 to_decimal_upper(-tiny);
+        double const near = *parse_nearest("0.3"), large = *parse_nearest("123456789012345e9");
+        detail::write_mxcsr(before);
+        CHECK(text == "0.10.100000000000000014e-3241e22-4e-324");
+        CHECK(near == 0.3);
+        CHECK(large == 123456789012345e9);
+    }
+}
+
 TEST_CASE("texts of few digits are rounded outward") {
     CHECK(to_string(make(0.123456, 0.123456), 3) == "[0.123, 0.124]");
     CHECK(to_string(make(-0.123456, 99.96), 3) == "[-0.124, 100]");

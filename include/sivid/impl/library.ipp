@@ -16,14 +16,23 @@ namespace sivid {
 inline namespace SIVID_PACK_TARGET {
 
 template <class Containers>
-char library_for<Containers>::sivid_compiled_has_other_machine_flags = 0;
+char const library_for<Containers>::sivid_compiled_has_other_machine_flags = 0;
 
 } // namespace SIVID_PACK_TARGET
 
 template <int Version, int MaxAlignBytes, int MaxStaticAlignBytes, std::size_t IndexBytes,
           int StorageOrder>
-char library_for_eigen<Version, MaxAlignBytes, MaxStaticAlignBytes, IndexBytes,
-                       StorageOrder>::sivid_compiled_has_another_eigen_alignment = 0;
+char const library_for_eigen<Version, MaxAlignBytes, MaxStaticAlignBytes, IndexBytes,
+                             StorageOrder>::sivid_compiled_has_another_eigen_alignment = 0;
+
+// Said outright: clang does not take them from their use, which stands before their definition.
+inline namespace SIVID_PACK_TARGET {
+template struct library_for<containers_of_this_source>;
+} // namespace SIVID_PACK_TARGET
+template struct library_for_eigen<
+    EIGEN_WORLD_VERSION * 10000 + EIGEN_MAJOR_VERSION * 100 + EIGEN_MINOR_VERSION,
+    EIGEN_MAX_ALIGN_BYTES, EIGEN_MAX_STATIC_ALIGN_BYTES, sizeof(Eigen::Index),
+    EIGEN_DEFAULT_MATRIX_STORAGE_ORDER_OPTION>;
 
 } // namespace sivid
 

@@ -26,7 +26,7 @@ using record = std::vector<measurement>;
     auto const before = [](measurement const& a, measurement const& b) {
         return a.time < b.time || (a.time == b.time && a.channel < b.channel);
     };
-    // As records come; sorting one that is sorted takes ten times as long as seeing it.
+    // Records mostly come so, and to see it takes one pass.
     if (!std::is_sorted(samples.begin(), samples.end(), before))
         std::stable_sort(samples.begin(), samples.end(), before);
     return samples;

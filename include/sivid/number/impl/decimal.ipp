@@ -51,7 +51,8 @@ SIVID_DECL double nearest_text(std::string_view text, number_text const& n, bool
     int power = 0;
     if (short_decimal(text, n, digits, power)) {
         double const ten = powers_of_ten[static_cast<std::size_t>(power < 0 ? -power : power)];
-        double const y = power < 0 ? digits / ten : digits * ten; // rounded once
+        double const y = power < 0 ? directed_div<direction::nearest>(digits, ten)
+                                   : directed_mul<direction::nearest>(digits, ten);
         return negative ? -y : y;
     }
     rounded_magnitude const r = round_text(text, n);

@@ -7,10 +7,9 @@
 #include <boost/multiprecision/cpp_int.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 #include <cstdint>
 #include <cstdlib>
-#include <limits>
 #include <utility>
 
 namespace sivid {
@@ -110,11 +109,11 @@ std::uint64_t shortest_multiple(binary_parts x, binary_parts next, int unit, boo
 }
 
 SIVID_DECL std::string shortest_magnitude(double x, bool up) {
-    double const beside = std::nextafter(x, up ? std::numeric_limits<double>::infinity() : 0.0);
-    // 17 digits always suffice: their spacing is below that of doubles. One more, since the
-    // logarithm of a number just below a power of ten may be rounded up to it.
-    int const unit = static_cast<int>(std::floor(std::log10(x))) - 17;
-    auto const here = parts_of(x), next = parts_of(beside);
+    auto const here = parts_of(x), next = parts_of(up ? next_up(x) : next_down(x));
+    // 17 digits always suffice: their spacing is below that of doubles. x >= 2^top; the quotient is
+    // log10(2) so closely that the floor is right for all doubles.
+    int const top = static_cast<int>(std::bit_width(here.whole)) - 1 + here.power;
+    int const unit = ((top * 1'262'611) >> 22) - 16;
     bool const fits = unit <= 0 && unit >= -22 && here.power <= 0 && here.power > -66;
     auto const t = fits ? shortest_multiple<boost::multiprecision::uint128_t>(here, next, unit, up)
                         : shortest_multiple<boost::multiprecision::cpp_int>(here, next, unit, up);
@@ -137,7 +136,7 @@ SIVID_DECL std::string to_decimal(double x, bool up, int digits) {
                    ? layout(shortened(exact_digits(m), static_cast<std::size_t>(digits), away))
                    : shortest_magnitude(m, away);
     };
-    if (x > 0.0) return magnitude(x, up);
+    if ((bits(x) & sign_bit) == 0) return magnitude(x, up); // a comparison may flush to zero
     std::string text(1, '-');
     return text.append(magnitude(-x, !up));
 }

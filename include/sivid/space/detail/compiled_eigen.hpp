@@ -17,10 +17,10 @@ namespace sivid {
 template <int Version, int MaxAlignBytes, int MaxStaticAlignBytes, std::size_t IndexBytes,
           int StorageOrder>
 struct library_for_eigen {
-    static char sivid_compiled_has_another_eigen_alignment;
+    static char const sivid_compiled_has_another_eigen_alignment;
 };
 
-SIVID_KEPT static char* const library_for_this_eigen = &library_for_eigen<
+SIVID_KEPT static char const* const library_for_this_eigen = &library_for_eigen<
     EIGEN_WORLD_VERSION * 10000 + EIGEN_MAJOR_VERSION * 100 + EIGEN_MINOR_VERSION,
     EIGEN_MAX_ALIGN_BYTES, EIGEN_MAX_STATIC_ALIGN_BYTES, sizeof(Eigen::Index),
     EIGEN_DEFAULT_MATRIX_STORAGE_ORDER_OPTION>::sivid_compiled_has_another_eigen_alignment;
