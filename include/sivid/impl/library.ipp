@@ -29,10 +29,10 @@ char const library_for_eigen<Version, MaxAlignBytes, MaxStaticAlignBytes, IndexB
 inline namespace SIVID_PACK_TARGET {
 template struct library_for<containers_of_this_source>;
 } // namespace SIVID_PACK_TARGET
-template struct library_for_eigen<
-    EIGEN_WORLD_VERSION * 10000 + EIGEN_MAJOR_VERSION * 100 + EIGEN_MINOR_VERSION,
-    EIGEN_MAX_ALIGN_BYTES, EIGEN_MAX_STATIC_ALIGN_BYTES, sizeof(Eigen::Index),
-    EIGEN_DEFAULT_MATRIX_STORAGE_ORDER_OPTION>;
+template struct library_for_eigen<EIGEN_WORLD_VERSION * 10000 + EIGEN_MAJOR_VERSION * 100 +
+                                      EIGEN_MINOR_VERSION,
+                                  EIGEN_MAX_ALIGN_BYTES, EIGEN_MAX_STATIC_ALIGN_BYTES,
+                                  sizeof(Eigen::Index), EIGEN_DEFAULT_MATRIX_STORAGE_ORDER_OPTION>;
 
 } // namespace sivid
 
