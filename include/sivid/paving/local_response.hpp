@@ -59,7 +59,7 @@ inline void normalise(normalised_unknowns::side const& s, interval const& part, 
     auto c = known.coefficients;
     std::vector<double> norm(outputs, 0.0);
     for (std::size_t m = 0; m < table.size(); ++m) {
-        double const* row = &c[m * outputs];
+        double const* row = c.data() + m * outputs;
         for (std::size_t y = 0; y < outputs; ++y) norm[y] += std::abs(row[y]);
     }
     for (std::size_t v = 0; v < n; ++v) {
@@ -68,8 +68,8 @@ inline void normalise(normalised_unknowns::side const& s, interval const& part, 
         for (auto const& line : table.lines[v]) { // Horner's scheme, complete
             for (std::size_t low = 0; low + 1 < line.size(); ++low) {
                 for (std::size_t k = line.size() - 1; k-- > low;) {
-                    double* const to = &c[line[k] * outputs];
-                    double const* const above = &c[line[k + 1] * outputs];
+                    double* const to = c.data() + line[k] * outputs;
+                    double const* const above = c.data() + line[k + 1] * outputs;
                     for (std::size_t y = 0; y < outputs; ++y) to[y] += shift * above[y];
                 }
             }
@@ -89,7 +89,7 @@ inline void normalise(normalised_unknowns::side const& s, interval const& part, 
             even = even && e[v] % 2 == 0;
             for (std::size_t k = 0; k < e[v]; ++k) factor *= local.reach[v];
         }
-        double const* const row = &c[m * outputs];
+        double const* const row = c.data() + m * outputs;
         if (degree == 0) {
             for (std::size_t y = 0; y < outputs; ++y) local.value[y] += row[y];
         } else if (degree == 1) {
