@@ -5,6 +5,7 @@
 #include "console/threads.hpp"
 #include "identifiability.hpp"
 #include "online.hpp"
+#include "posed_problem.hpp"
 
 #include <sivid/io/certificates_csv.hpp>
 #include <sivid/io/checkpoint.hpp>
@@ -15,7 +16,6 @@
 #include <sivid/io/identification_csv.hpp>
 #include <sivid/io/identification_json.hpp>
 #include <sivid/io/problem_digest.hpp>
-#include <sivid/io/problem_from_dataset.hpp>
 #include <sivid/paving/outlier_budget.hpp>
 #include <sivid/paving/work_limit.hpp>
 #include <sivid/report/identifiability_words.hpp>
@@ -264,7 +264,7 @@ int run(identify_command const& c) {
     auto const begun = std::chrono::steady_clock::now();
     auto const model = sivid::record_model(c.craft);
     auto const data = sivid::read_dataset(c.dataset, sivid::names_of(model.about));
-    auto problem = sivid::problem_from_dataset(data, model, c.outliers);
+    auto problem = posed(data, model, c.effects, c.outliers);
     auto const digest = sivid::dataset_digest(c.dataset);
     if (c.online && (c.compare || c.algorithm != "contracting"))
         throw bad_request("--online goes with neither --algorithm nor --compare");
@@ -415,6 +415,7 @@ int run(identify_command const& c) {
         files.add("result.json",
                   sivid::identification_json(problem, found,
                                              {.dataset = data.id,
+                                              .effects = c.effects,
                                               .source_folder = seen_from(c.out, c.dataset),
                                               .source_digest = digest,
                                               .identifiability = told ? &*told : nullptr}));

@@ -87,6 +87,11 @@ private:
     std::size_t first_parameter_ = 0;
 };
 
+/// Those of a catalogue that have these names, in the order of the names.
+/// @throws std::invalid_argument  for a name that the catalogue lacks
+[[nodiscard]] SIVID_DECL std::vector<effect> effects_named(std::vector<effect> const& catalogue,
+                                                           std::vector<std::string> const& names);
+
 /// A model with effects. Their parameters become constants `<effect>.<parameter>`, nominal at the
 /// neutral value; states that they add stand behind the model's own.
 /// @throws std::invalid_argument when an effect names what the model lacks, or stands twice
