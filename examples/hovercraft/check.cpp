@@ -115,7 +115,7 @@ int run(check_command const& c) {
                       ? ": Taylor models in scalars, then first-order sets (Lohner), decided anew\n"
                       : ", by first-order sets (Lohner), not by the Taylor models that found "
                         "them\n")
-              << data.id << ": "
+              << title_of(data, stored.effects) << ": "
               << (verdict == outcome::refuted     ? "REFUTED"
                   : verdict == outcome::undecided ? "not verified within the budget"
                   : verdict == outcome::sampled

@@ -9,6 +9,7 @@
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
 
+#include <cstddef>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -37,6 +38,15 @@ posed(sivid::dataset const& data, sivid::recorded_model const& model,
         throw bad_request("these effects together begin where their parameters say, which an "
                           "identification cannot follow yet; `diagnose` tries them at points");
     return problem;
+}
+
+/// What was identified, for people: the data set, and what was joined to the model.
+[[nodiscard]] inline std::string title_of(sivid::dataset const& data,
+                                          std::vector<std::string> const& effects) {
+    std::string title = data.id;
+    for (std::size_t k = 0; k < effects.size(); ++k)
+        title += (k == 0 ? " with " : k + 1 == effects.size() ? " and " : ", ") + effects[k];
+    return title;
 }
 
 } // namespace hovercraft_example
