@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -44,6 +45,13 @@ struct effect {
     edit on_channels{};
     int order = 0;
     std::string about{}; ///< what it means, for reports
+    /// Where the effect is a first-order lag of an input and nothing else: its only parameter is
+    /// the time constant.
+    struct input_lag {
+        std::string input;
+        bool rests = false; ///< it begins at 0, else at the input
+    };
+    std::optional<input_lag> lags{};
 };
 
 /// What an effect sees of a model under construction and may change. Names are the model's own;
