@@ -93,11 +93,12 @@ SIVID_DECL sampled_signal lagged_within(sampled_signal const& u, double begin, d
     using traits = interval_traits<interval>;
     bool const holds = u.kind() == interpolation::hold;
     std::vector<double> times = u.times();
-    for (std::size_t k = 0; k + 1 < u.times().size(); ++k) {
+    for (std::size_t k = 0; k < u.times().size(); ++k) {
         // Where a piece is long, the bound falls to its limit at its begin.
+        double const next = k + 1 < u.times().size() ? u.times()[k + 1] : end;
         for (double const after : {1.0, 3.0, 8.0}) {
             double const t = std::max(u.times()[k], begin) + after * longest;
-            if (t < u.times()[k + 1]) times.push_back(t);
+            if (t < next) times.push_back(t);
         }
     }
     auto const grid = diagnosis_detail::grid_of(std::move(times), begin, end);
@@ -145,11 +146,14 @@ SIVID_DECL sampled_signal delayed_within(sampled_signal const& u, double begin, 
                                          interval const& delays) {
     bool const holds = u.kind() == interpolation::hold;
     double const middle = mid(delays);
-    double farthest = std::max({std::abs(begin), std::abs(end), std::abs(delays.upper())});
+    double farthest = std::max(std::abs(begin), std::abs(end));
     for (double const t : u.times()) farthest = std::max(farthest, std::abs(t));
-    // Sums of times are rounded.
-    double const half = std::max(delays.upper() - middle, middle - delays.lower()) * (1 + 1e-15) +
-                        8 * std::numeric_limits<double>::epsilon() * farthest;
+    // Sums of times are rounded: knots lie safely beyond what is within reach.
+    double const unit = 4 * std::numeric_limits<double>::epsilon();
+    double const rounding = unit * (farthest + delays.upper());
+    double const reach =
+        std::max(delays.upper() - middle, middle - delays.lower()) * (1 + unit) + rounding;
+    double const half = reach + 2 * rounding;
     std::vector<double> times;
     for (double const t : u.times()) {
         if (holds) {
@@ -162,8 +166,8 @@ SIVID_DECL sampled_signal delayed_within(sampled_signal const& u, double begin, 
     if (!holds) times.push_back(begin + middle); // where u(begin) is left
     auto const grid = diagnosis_detail::grid_of(std::move(times), begin, end);
     auto const seen = [&](double from, double until) {
-        return diagnosis_detail::seen_between(u, begin, from - middle - half,
-                                              until - middle + half);
+        return diagnosis_detail::seen_between(u, begin, from - middle - reach,
+                                              until - middle + reach);
     };
     diagnosis_detail::widened_signal result(u.kind());
     double before = 0; // of the piece to the left
@@ -174,8 +178,7 @@ SIVID_DECL sampled_signal delayed_within(sampled_signal const& u, double begin, 
             result.add(grid[k], after.values, after.error);
             continue;
         }
-        double const error =
-            half * after.steepest * (1 + 4 * std::numeric_limits<double>::epsilon()) + after.error;
+        double const error = half * after.steepest * (1 + unit) + after.error;
         double const t = std::max(begin, grid[k] - middle);
         result.add(grid[k], u.value<interval>(u.piece(t), interval(t)), std::max(before, error));
         before = error;
