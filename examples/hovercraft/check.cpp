@@ -2,6 +2,7 @@
 #include "commands.hpp"
 #include "console/console.hpp"
 #include "console/program.hpp"
+#include "posed_problem.hpp"
 
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset_digest.hpp>
@@ -10,7 +11,6 @@
 #ifdef SIVID_HAS_MPFI
 #include <sivid/io/mp_identification_check.hpp>
 #endif
-#include <sivid/io/problem_from_dataset.hpp>
 #include <sivid/report/number_text.hpp>
 
 #include <iomanip>
@@ -74,7 +74,7 @@ int run(check_command const& c) {
     auto const folder = c.dataset.empty() ? c.result / stored.source_folder : c.dataset;
     auto const model = sivid::record_model(c.craft);
     auto const data = sivid::read_dataset(folder, sivid::names_of(model.about));
-    auto problem = sivid::problem_from_dataset(data, model);
+    auto problem = posed(data, model, stored.effects);
     sivid::check_finding source{"data set", outcome::verified, "the one identified, by SHA-256"};
     if (stored.source_digest.empty()) {
         source = {"data set", outcome::nothing, "no digest in the result: " + data.id + " taken"};
@@ -115,7 +115,7 @@ int run(check_command const& c) {
                       ? ": Taylor models in scalars, then first-order sets (Lohner), decided anew\n"
                       : ", by first-order sets (Lohner), not by the Taylor models that found "
                         "them\n")
-              << data.id << ": "
+              << title_of(data, stored.effects) << ": "
               << (verdict == outcome::refuted     ? "REFUTED"
                   : verdict == outcome::undecided ? "not verified within the budget"
                   : verdict == outcome::sampled

@@ -19,6 +19,7 @@ namespace hovercraft_example {
 struct identify_command {
     hovercraft craft;
     std::filesystem::path dataset, out;
+    std::vector<std::string> effects;      ///< of the catalogue, joined to the model
     std::string algorithm = "contracting"; ///< or report-1, report-2
     /// Least width of a box that is split, as a share of what is left, and then the only thing
     /// beside budgets that ends the search. Without it 0.003, and so much being proved inside.

@@ -5,6 +5,7 @@
 #include "console/threads.hpp"
 #include "identifiability.hpp"
 #include "online.hpp"
+#include "posed_problem.hpp"
 
 #include <sivid/io/certificates_csv.hpp>
 #include <sivid/io/checkpoint.hpp>
@@ -15,7 +16,6 @@
 #include <sivid/io/identification_csv.hpp>
 #include <sivid/io/identification_json.hpp>
 #include <sivid/io/problem_digest.hpp>
-#include <sivid/io/problem_from_dataset.hpp>
 #include <sivid/paving/outlier_budget.hpp>
 #include <sivid/paving/work_limit.hpp>
 #include <sivid/report/identifiability_words.hpp>
@@ -264,7 +264,8 @@ int run(identify_command const& c) {
     auto const begun = std::chrono::steady_clock::now();
     auto const model = sivid::record_model(c.craft);
     auto const data = sivid::read_dataset(c.dataset, sivid::names_of(model.about));
-    auto problem = sivid::problem_from_dataset(data, model, c.outliers);
+    auto problem = posed(data, model, c.effects, c.outliers);
+    auto const title = title_of(data, c.effects);
     auto const digest = sivid::dataset_digest(c.dataset);
     if (c.online && (c.compare || c.algorithm != "contracting"))
         throw bad_request("--online goes with neither --algorithm nor --compare");
@@ -302,7 +303,7 @@ int run(identify_command const& c) {
     };
     std::optional<sivid::smallest_budget> fewest;
     if (c.fewest_outliers) {
-        progress.note(data.id + ": how many outliers are needed");
+        progress.note(title + ": how many outliers are needed");
         sivid::outlier_search_options least;
         least.seconds = 0.5 * budget;
         least.keep_going = wanted;
@@ -330,9 +331,9 @@ int run(identify_command const& c) {
         std::cerr << "warning: no checkpoint in " << c.out.string() << ": beginning anew\n";
     }
     if (c.online)
-        progress.note(data.id + ", measurement by measurement");
+        progress.note(title + ", measurement by measurement");
     else
-        progress.note(std::string{"identifying "} + data.id + " (" + words_of(c.algorithm) +
+        progress.note(std::string{"identifying "} + title + " (" + words_of(c.algorithm) +
                       ", at most " + report::duration_text(options.search.seconds) +
                       "; Ctrl-C stops early)");
     // Without a witness any number of outliers may be needed: there is nothing to invert.
@@ -371,7 +372,7 @@ int run(identify_command const& c) {
     limit.allow(completing);
     std::optional<sivid::identifiability> told;
     if (c.identifiability) told = identifiability_at(problem, found, limit);
-    report::identification_report_options about{.dataset = data.id,
+    report::identification_report_options about{.dataset = title,
                                                 .meanings = constant_meanings(),
                                                 .plane = report::plane_channels{"x", "y", "psi"},
                                                 .date = console::today(),
@@ -415,6 +416,7 @@ int run(identify_command const& c) {
         files.add("result.json",
                   sivid::identification_json(problem, found,
                                              {.dataset = data.id,
+                                              .effects = c.effects,
                                               .source_folder = seen_from(c.out, c.dataset),
                                               .source_digest = digest,
                                               .identifiability = told ? &*told : nullptr}));
@@ -437,7 +439,7 @@ int run(identify_command const& c) {
         }
     }
     for (auto const& file : draw_channel(view, c)) std::cout << "picture: " << file << "\n";
-    print_summary(problem, found, data.id, c.out);
+    print_summary(problem, found, title, c.out);
     if (baseline) {
         std::cout << "  beside it, Algorithm 1 of the report: not excluded at most "
                   << report::at_most_percent(view.comparison[1].outer_volume.hi) << " after "

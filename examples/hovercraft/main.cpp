@@ -144,6 +144,10 @@ private:
         auto& c = identify_;
         s->add_option("dataset", c.dataset, "folder with dataset.json")->required();
         s->add_option("--out", c.out, "folder for report.html, result.json and tables")->required();
+        s->add_option("--with", c.effects,
+                      "effects to join to the model, separated by commas: their parameters are "
+                      "identified, too")
+            ->delimiter(',');
         s->add_option("--algorithm", c.algorithm, "contracting, or the report's Algorithm 1 or 2")
             ->check(CLI::IsMember({"contracting", "report-1", "report-2"}))
             ->capture_default_str();

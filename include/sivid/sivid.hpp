@@ -236,12 +236,14 @@
 #include <sivid/diagnosis/diagnosis_consistency.hpp>
 #include <sivid/diagnosis/diagnosis_effort.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
+#include <sivid/diagnosis/effect_hulls.hpp>
 #include <sivid/diagnosis/gap_proof.hpp>
 #include <sivid/diagnosis/graph_range.hpp>
 #include <sivid/diagnosis/hardest_experiments.hpp>
 #include <sivid/diagnosis/holdout.hpp>
 #include <sivid/diagnosis/holdout_judgement.hpp>
 #include <sivid/diagnosis/input_range.hpp>
+#include <sivid/diagnosis/input_slices.hpp>
 #include <sivid/diagnosis/integrand_set.hpp>
 #include <sivid/diagnosis/linear_refutation.hpp>
 #include <sivid/diagnosis/manoeuvre.hpp>

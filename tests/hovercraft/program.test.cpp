@@ -332,6 +332,58 @@ TEST_CASE("Figure 4.1: thirty seconds, two outliers, named as proved") {
           2);
 }
 
+TEST_CASE("identify joins effects of the catalogue to the model, and check joins them again") {
+    temporary_folder const folder;
+    auto const out = folder.path() / "out";
+    auto const with = [&](std::string const& effects) {
+        return run({"identify", yard, "--out", out.string(), "--with", effects, "--boxes", "8",
+                    "--budget", "20", "--quiet"});
+    };
+    auto const found = with("rudder_lag"); // what the campaign was made with
+    CHECK(found.code == 0);
+    CHECK_THAT(found.out, ContainsSubstring("yard_test with rudder_lag: consistent") &&
+                              ContainsSubstring("rudder_lag.tau="));
+    auto const result = json_of(out / "result.json");
+    CHECK(result["dataset"] == "yard_test");
+    CHECK(result["effects"] == nlohmann::json{"rudder_lag"});
+    auto const& tau = result["parameters"]["rudder_lag.tau"];
+    CHECK(tau["unit"] == "s");
+    CHECK(tau["hull"][0].get<double>() <= 0.111461); // the truth: data/labels.tsv
+    CHECK(tau["hull"][1].get<double>() >= 0.111461);
+    CHECK(std::abs(result["witness"]["parameters"]["rudder_lag.tau"].get<double>() - 0.1115) <
+          0.01);
+    auto const checked = run({"check", out.string(), "--budget", "10"});
+    CHECK((checked.code == 0 || checked.code == 3)); // as far as the time suffices
+    CHECK_THAT(checked.out, ContainsSubstring("yard_test with rudder_lag: ") &&
+                                ContainsSubstring("witness           verified"));
+
+    std::ifstream in{out / "result.json"};
+    std::string const text{std::istreambuf_iterator<char>{in}, {}};
+    std::string const named = "\"effects\": [\"rudder_lag\"]";
+    auto const at = text.find(named);
+    REQUIRE(at != std::string::npos);
+    struct forgery {
+        std::string effects, says;
+    };
+    for (auto const& f :
+         {forgery{"[]", "other parameters"}, forgery{"[\"motor_lag\"]", "other parameters"},
+          forgery{"[\"rudder_lag\", \"wind\"]", "other parameters"},
+          forgery{"[\"rudder_lag\", \"rudder_lag\"]", "twice"},
+          forgery{"[\"\\u001b[2J\"]", "unknown effect"}, forgery{"\"rudder_lag\"", "effects"}}) {
+        auto forged = text;
+        folder.write("out/result.json",
+                     forged.replace(at, named.size(), "\"effects\": " + f.effects));
+        auto const r = run({"check", out.string(), "--budget", "1"});
+        INFO(f.effects << ": " << r.err);
+        CHECK(r.code == 2);
+        CHECK_THAT(r.err, ContainsSubstring(f.says) && !ContainsSubstring("\x1b"));
+    }
+    CHECK_THAT(with("rudder_lagg").err, ContainsSubstring("unknown effect 'rudder_lagg'; known: "));
+    CHECK_THAT(with("wind,wind").err, ContainsSubstring("twice"));
+    CHECK_THAT(with("input_delay").err, ContainsSubstring("delays"));
+    CHECK(with("input_delay").code == 2);
+}
+
 TEST_CASE("Algorithm 2 by its threshold, as the report prints it") {
     temporary_folder const folder;
     auto const out = folder.path() / "out";

@@ -106,6 +106,17 @@ TEST_CASE("delays are named, and binding refuses them") {
     CHECK(with(m, {}).input_delays.size() == 1);
 }
 
+TEST_CASE("effects are picked from a catalogue by their names") {
+    std::vector<effect> const catalogue{doubled("a"), doubled("k"), doubled("x")};
+    CHECK(effects_named(catalogue, {}).empty());
+    auto const some = effects_named(catalogue, {"x", "a"});
+    REQUIRE(some.size() == 2);
+    CHECK(some[0].name == "x");
+    CHECK(some[1].name == "a");
+    CHECK_THROWS_WITH(effects_named(catalogue, {"b"}),
+                      ContainsSubstring("unknown effect 'b'; known: a, k, x"));
+}
+
 TEST_CASE("mistakes in effects are named") {
     auto const with_input = [](std::string const& name) {
         effect e;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/paving/frontier.hpp>
 
+#include <sivid/paving/detail/hull_rest.hpp>
+
 #include "support/catch.hpp"
 #include "support/models.hpp"
 
@@ -41,22 +43,49 @@ TEST_CASE("a hull rests at the second look in a row at which no side has shrunk"
         ++looks;
         return box{between(0, wide), between(0, high)};
     };
+    auto const always = [](box const&) { return true; };
     paving_detail::hull_rest rest{.last = box{between(0, 8), between(0, 1)}};
-    CHECK_FALSE(rest(7, 0.02, hull));
+    CHECK_FALSE(rest(7, 0.02, hull, always));
     CHECK(looks == 0);
-    CHECK_FALSE(rest(8, 0.02, hull)); // rests, once
-    CHECK_FALSE(rest(15, 0.02, hull));
+    CHECK_FALSE(rest(8, 0.02, hull, always)); // rests, once
+    CHECK_FALSE(rest(15, 0.02, hull, always));
     CHECK(looks == 1);
     high = 0.9; // a slanting sheet: what was cut at first left the hull as it was
-    CHECK_FALSE(rest(16, 0.02, hull));
+    CHECK_FALSE(rest(16, 0.02, hull, always));
     wide = 4;
-    CHECK_FALSE(rest(32, 0.02, hull));
+    CHECK_FALSE(rest(32, 0.02, hull, always));
     wide = 3.95;
-    CHECK_FALSE(rest(64, 0.02, hull));
-    CHECK_FALSE(rest(127, 0.02, hull));
-    CHECK(rest(128, 0.02, hull));
-    CHECK(rest(128, 0.02, hull)); // also when asked again
+    CHECK_FALSE(rest(64, 0.02, hull, always));
+    CHECK_FALSE(rest(127, 0.02, hull, always));
+    CHECK(rest(128, 0.02, hull, always));
+    CHECK(rest(128, 0.02, hull, always)); // also when asked again
     paving_detail::hull_rest never{.last = hull()};
-    CHECK_FALSE(never(1000, 0, hull));
-    CHECK_FALSE(never(4000, 0, hull));
+    CHECK_FALSE(never(1000, 0, hull, always));
+    CHECK_FALSE(never(4000, 0, hull, always));
+    // What nobody saw sharply does not rest, however long nothing moves.
+    paving_detail::hull_rest unseen{.last = hull()};
+    bool seen = false;
+    auto const held = [&](box const&) { return seen; };
+    for (std::size_t const tests : {8u, 16u, 32u, 64u})
+        CHECK_FALSE(unseen(tests, 0.02, hull, held));
+    seen = true;
+    CHECK_FALSE(unseen(127, 0.02, hull, held));
+    CHECK(unseen(128, 0.02, hull, held));
+}
+
+TEST_CASE("a face of a hull is held by what touches it") {
+    box const hull{between(0, 10), between(0, 1)};
+    paving_detail::open_faces open(hull, 0.02);
+    CHECK_FALSE(open.none());
+    open.close({between(0.3, 9), between(0.5, 0.6)}); // touches none
+    CHECK(open.touched_by({between(0.1, 1), between(0.5, 0.6)}));
+    open.close({between(0.2, 9.8), between(0.5, 0.6)});
+    CHECK_FALSE(open.touched_by({between(0, 10), between(0.5, 0.6)}));
+    CHECK(open.touched_by({between(3, 4), between(0, 0.1)}));
+    open.close({between(3, 4), between(0, 0.1)});
+    CHECK_FALSE(open.none());
+    open.close({between(3, 4), between(0.97, 0.98)});
+    CHECK_FALSE(open.none());
+    open.close({between(3, 4), between(0.97, 0.981)});
+    CHECK(open.none());
 }

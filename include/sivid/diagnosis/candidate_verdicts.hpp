@@ -6,8 +6,8 @@
 #include <sivid/diagnosis/claim_review.hpp>
 #include <sivid/diagnosis/describe_candidate.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
+#include <sivid/diagnosis/effect_hulls.hpp>
 #include <sivid/diagnosis/gap_proof.hpp>
-#include <sivid/paving/identify.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -84,21 +84,21 @@ private:
 
     /// Hulls of the effect's parameters: every value that explains the data lies in them.
     void bound_parameters(screened const& s, cause& c) {
-        if (!(c.inflation.upper() <= 1) || s.problem.model.has_delays()) return;
+        if (!(c.inflation.upper() <= 1)) return;
         if (!effort_->go_on("bounding the effect's parameters")) return;
-        identify_options options;
-        options.only_hulls = true;
+        effect_hull_options options;
         options.test = effort_->test();
-        options.search.seconds = effort_->seconds_of(options_->hulls);
-        options.search.boxes = options_->hulls.boxes;
-        options.search.keep_going = [this] { return effort_->go_on(); };
-        options.search.progress = [this](paving_progress const&) { return effort_->go_on(); };
-        auto const found = identify(s.problem, options);
+        options.seconds = effort_->seconds_of(options_->hulls);
+        options.boxes = options_->hulls.boxes;
+        options.keep_going = [this] { return effort_->go_on(); };
+        std::vector<effect> effects;
+        for (auto const e : s.figures.effects) effects.push_back(run_->catalogue[e]);
+        auto const hulls = effect_hulls(run_->base, effects, options);
         auto const own = run_->base.prior.size();
         for (std::size_t k = 0; k < c.parameters.size(); ++k) {
-            c.parameters[k].hull = found.hull[own + k];
+            c.parameters[k].hull = hulls[own + k];
         }
-        run_->answer_hull = found.hull;
+        run_->answer_hull = hulls;
     }
 
     /// Candidates that leave a refuted relation as it is, by those that no candidate contradicts.

@@ -5,6 +5,8 @@
 #include <sivid/diagnosis/impl/affected_problem.ipp>
 #include <sivid/diagnosis/impl/diagnose.ipp>
 #include <sivid/diagnosis/impl/diagnosis_run.ipp>
+#include <sivid/diagnosis/impl/effect_hulls.ipp>
+#include <sivid/diagnosis/impl/input_slices.ipp>
 #include <sivid/diagnosis/impl/manoeuvre.ipp>
 
 #endif

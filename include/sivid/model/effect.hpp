@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -44,6 +45,13 @@ struct effect {
     edit on_channels{};
     int order = 0;
     std::string about{}; ///< what it means, for reports
+    /// Where the effect is a first-order lag of an input and nothing else: its only parameter is
+    /// the time constant.
+    struct input_lag {
+        std::string input;
+        bool rests = false; ///< it begins at 0, else at the input
+    };
+    std::optional<input_lag> lags{};
 };
 
 /// What an effect sees of a model under construction and may change. Names are the model's own;
@@ -86,6 +94,11 @@ private:
     std::vector<expression> states_, constants_, inputs_, rates_, channels_;
     std::size_t first_parameter_ = 0;
 };
+
+/// Those of a catalogue that have these names, in the order of the names.
+/// @throws std::invalid_argument  for a name that the catalogue lacks
+[[nodiscard]] SIVID_DECL std::vector<effect> effects_named(std::vector<effect> const& catalogue,
+                                                           std::vector<std::string> const& names);
 
 /// A model with effects. Their parameters become constants `<effect>.<parameter>`, nominal at the
 /// neutral value; states that they add stand behind the model's own.

@@ -132,33 +132,6 @@ side_to_split(box const& x, box const& whole, std::vector<double> const& smear, 
     return best;
 }
 
-/// Notices that the hull of what is left shrinks no more, at two looks one after the other, each of
-/// them when the tests have doubled. One is not enough: a slanting sheet must be cut at all its
-/// ends before a side of it is shorter.
-struct hull_rest {
-    box last; ///< at the last look
-    bool rested = false;
-    std::size_t next_look = 8; ///< tests
-
-    /// @param gain  a side that lost less than this share of its width rests; 0: none ever does
-    /// @param hull  of what is left, called where a look is due
-    /// @returns  true from the second such look on, also when asked again
-    template <class Hull>
-    [[nodiscard]] bool operator()(std::size_t tests, double gain, Hull const& hull) {
-        if (!(gain > 0) || tests < next_look) return false;
-        box now = hull();
-        bool rests = true;
-        for (std::size_t i = 0; i < now.size(); ++i) {
-            rests = rests && width(now[i]) >= (1 - gain) * width(last[i]);
-        }
-        if (rests && rested) return true;
-        rested = rests;
-        next_look = 2 * tests;
-        last = std::move(now);
-        return false;
-    }
-};
-
 } // namespace paving_detail
 
 } // namespace sivid

@@ -31,7 +31,8 @@ struct inversion_options {
     /// `accuracy` is a fraction of the hull of all that is not proved outside, instead.
     bool accuracy_of_hull = false;
     /// Stop when no side of that hull has shrunk by more than this fraction while the boxes tested
-    /// doubled, twice in a row (0: never). `stop_reason::hulls_rest`.
+    /// doubled, twice in a row (0: never), and each of its faces is touched by a box that the test
+    /// saw sharply. `stop_reason::hulls_rest`.
     double hull_gain = 0;
     /// Stop when the inner volume reaches this fraction of the outer one (1: never), whatever the
     /// accuracy. `stop_reason::inside_share`.

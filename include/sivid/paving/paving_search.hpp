@@ -4,6 +4,7 @@
 
 #include <sivid/number/guard.hpp>
 #include <sivid/paving/detail/box_batches.hpp>
+#include <sivid/paving/detail/hull_rest.hpp>
 #include <sivid/paving/detail/lesson.hpp>
 #include <sivid/paving/frontier.hpp>
 #include <sivid/paving/inversion_options.hpp>
@@ -112,7 +113,10 @@ public:
             } else if (next.load.judged->blind) {
                 learn(before, std::move(next));
             } else {
-                settle_judged(std::move(next));
+                auto const judged = std::move(next.load.judged);
+                auto known = judged->knowledge ? std::move(next.load.known) : nullptr;
+                ++tested_;
+                settle(std::move(next), *judged, std::move(known));
             }
         } else {
             auto next = waiting_.pop();
@@ -175,7 +179,8 @@ private:
     void restore(search_state const& s) {
         if constexpr (resumable_set_test<Test>) {
             s.require_valid();
-            if (!same(s.prior, prior_) || s.batches != options_.batches) {
+            if (s.prior.size() != prior_.size() || !subset(s.prior, prior_) ||
+                !subset(prior_, s.prior) || s.batches != options_.batches) {
                 throw std::invalid_argument("search state: it is of another search");
             }
             for (auto const& b : s.paved) paving_.add(b.set, b.verdict);
@@ -198,9 +203,6 @@ private:
         } else {
             throw std::invalid_argument("invert: this kind of test cannot be resumed");
         }
-    }
-    [[nodiscard]] static bool same(box const& a, box const& b) {
-        return a.size() == b.size() && subset(a, b) && subset(b, a);
     }
 
     [[nodiscard]] double seconds() const {
@@ -244,8 +246,12 @@ private:
     }
 
     [[nodiscard]] bool hull_rests() {
-        return rest_(tested_, options_.hull_gain,
-                     [this] { return waiting_.hull(paving_.outer_hull()); });
+        return rest_(
+            tested_, options_.hull_gain, [this] { return waiting_.hull(paving_.outer_hull()); },
+            [this](box const& around) {
+                return paving_detail::faces_are_held(*test_, paving_, waiting_.items(), around,
+                                                     options_.hull_gain);
+            });
     }
 
     [[nodiscard]] double volume(box const& x) const { return relative_volume(x, prior_).upper(); }
@@ -314,13 +320,6 @@ private:
         if (before && before->found() == found) return before;
         return std::make_shared<paving_detail::learnt<knowledge>>(
             found, paving_detail::bytes_of(*test_, prior_, *found), held_);
-    }
-
-    void settle_judged(item of) {
-        auto const judged = std::move(of.load.judged);
-        auto known = judged->knowledge ? std::move(of.load.known) : nullptr;
-        ++tested_;
-        settle(std::move(of), *judged, std::move(known));
     }
 
     /// Replaces every box by its halves; false when one cannot be split.

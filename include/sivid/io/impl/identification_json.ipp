@@ -22,6 +22,11 @@ SIVID_DECL std::string identification_json(identification_problem const& problem
         json.key("source").begin_object().key("folder").string(options.source_folder);
         json.key("sha256").string(options.source_digest).end_object();
     }
+    if (!options.effects.empty()) {
+        json.key("effects").begin_array(layout::one_line);
+        for (auto const& name : options.effects) json.string(name);
+        json.end_array();
+    }
     json.key("verdict").string(to_string(found.verdict));
     bool const inside = found.paving.count(box_verdict::inside) > 0 ||
                         share_of_whole(found.paving.inner_volume()).lower() > 0;

@@ -71,6 +71,9 @@ inline void read_result(json_value const& root, stored_identification& result) {
         result.source_folder = source->at("folder").any_string();
         result.source_digest = source->at("sha256").string();
     }
+    if (auto const* effects = root.find("effects")) {
+        for (auto const& name : effects->elements()) result.effects.push_back(name.string());
+    }
     result.verdict = one_of(root.at("verdict"),
                             {verdict::consistent, verdict::inconsistent, verdict::undecided});
     if (auto const* grounds = root.find("verdict_rests_on")) {

@@ -6,6 +6,13 @@
 
 namespace sivid {
 
+SIVID_DECL std::vector<effect> effects_named(std::vector<effect> const& catalogue,
+                                             std::vector<std::string> const& names) {
+    std::vector<effect> result;
+    for (auto const& name : names) result.push_back(catalogue[index_of(catalogue, name, "effect")]);
+    return result;
+}
+
 SIVID_DECL expression const& effect_scope::parameter(std::size_t k) const {
     return constants_.at(first_parameter_ + k);
 }

@@ -44,6 +44,7 @@ SIVID_DECL effect input_lag(std::string const& name, std::string const& input,
         m.rate(name + "." + input) = (u - d) / m.parameter();
         u = d;
     };
+    e.lags = effect::input_lag{input, rests};
     return e;
 }
 

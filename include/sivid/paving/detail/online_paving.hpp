@@ -2,6 +2,7 @@
 #ifndef SIVID_PAVING_DETAIL_ONLINE_PAVING_HPP
 #define SIVID_PAVING_DETAIL_ONLINE_PAVING_HPP
 
+#include <sivid/paving/detail/hull_rest.hpp>
 #include <sivid/paving/detail/online_refinement.hpp>
 #include <sivid/paving/detail/online_test.hpp>
 #include <sivid/paving/frontier.hpp>
@@ -206,7 +207,9 @@ private:
     [[nodiscard]] bool enough(online_refinement const& how, paving_detail::hull_rest& rest,
                               std::size_t judged) const {
         if (much_inside(how)) return true;
-        return rest(judged, how.hull_gain, [this] { return hull_of_all(); });
+        return rest(
+            judged, how.hull_gain, [this] { return hull_of_all(); },
+            [](box const&) { return true; });
     }
 
     template <class Late>

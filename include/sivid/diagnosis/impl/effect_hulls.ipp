@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_IMPL_EFFECT_HULLS_IPP
+#define SIVID_DIAGNOSIS_IMPL_EFFECT_HULLS_IPP
+
+#include <sivid/diagnosis/effect_hulls.hpp>
+
+#include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/diagnosis/input_slices.hpp>
+#include <sivid/diagnosis/resolve_delays.hpp>
+#include <sivid/paving/identify.hpp>
+#include <sivid/paving/work_limit.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace sivid {
+
+namespace diagnosis_detail {
+
+class hulls_by_slices {
+public:
+    hulls_by_slices(identification_problem const& base, std::vector<effect> const& effects,
+                    effect_hull_options const& options)
+        : base_(&base),
+          effects_(&effects),
+          options_(&options),
+          limit_(options.seconds, options.keep_going) {}
+
+    [[nodiscard]] box operator()() {
+        auto const whole = affected(*base_, *effects_);
+        auto const& model = whole.model;
+        if (model.has_delays()) {
+            if (model.channel_delays.empty() && model.input_delays.size() == 1) {
+                return over_delays(whole, model.input_delays[0]);
+            }
+            return whole.prior;
+        }
+        return over_lags(whole);
+    }
+
+private:
+    /// What a slice leaves of the other parameters; nothing when it explains nothing.
+    [[nodiscard]] std::optional<box> hull_of(identification_problem const& problem, double share) {
+        if (problem.prior.size() == 0) return problem.prior;
+        identify_options how;
+        how.only_hulls = true;
+        how.completing_seconds = 0;
+        how.test = options_->test;
+        how.search.proof_bytes = 0;
+        how.search.keep_outside = false;
+        how.search.seconds = share * limit_.seconds();
+        how.search.boxes = options_->boxes;
+        how.search.keep_going = limit_;
+        auto const found = identify(problem, how);
+        if (found.verdict == verdict::inconsistent) return std::nullopt;
+        return found.hull;
+    }
+
+    /// A box of all parameters from one without parameter `j`, and the range of that.
+    [[nodiscard]] static box joined(box const& others, std::size_t j, interval const& range) {
+        std::vector<interval> sides(others.begin(), others.end());
+        sides.insert(sides.begin() + static_cast<std::ptrdiff_t>(j), range);
+        return box(std::move(sides));
+    }
+    static void add(box& hulls, box const& more) {
+        hulls = hulls.size() == 0 ? more : hull(hulls, more);
+    }
+    [[nodiscard]] static std::size_t index_of_parameter(identification_problem const& problem,
+                                                        std::string const& name) {
+        auto const& names = problem.choice.unknown;
+        return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) -
+                                        names.begin());
+    }
+    [[nodiscard]] static box nothing_of(box const& whole) {
+        return box(std::vector<interval>(whole.size(), interval_traits<interval>::empty()));
+    }
+
+    /// Halves of the prior, the widest first, until they are excluded or narrow.
+    [[nodiscard]] box over_delays(identification_problem const& whole, time_delay const& delay) {
+        auto const& name = whole.model.about.constants[delay.constant].name;
+        auto const j = index_of_parameter(whole, name);
+        if (j == whole.prior.size()) return whole.prior; // a known delay
+        for (auto const& e : whole.experiments) {
+            if (!std::holds_alternative<sampled_signal>(e.inputs[delay.index])) return whole.prior;
+        }
+        struct slice {
+            interval range;
+            box others; ///< contains what the slice leaves
+        };
+        auto middle = mid(whole.prior);
+        box rest;
+        {
+            auto resolved = resolve_delays(whole, middle);
+            rest = resolved.problem.prior;
+        }
+        std::vector<slice> waiting{{whole.prior[j], rest}}; // the widest first: in order of coming
+        double const narrow = options_->accuracy * width(whole.prior[j]);
+        box hulls;
+        for (std::size_t next = 0; next < waiting.size(); ++next) {
+            auto const now = waiting[next];
+            if (!limit_()) {
+                add(hulls, joined(now.others, j, now.range));
+                continue;
+            }
+            middle[j] = mid(now.range);
+            auto problem = resolve_delays(whole, middle).problem;
+            problem.prior = now.others;
+            for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
+                auto const& as_recorded = whole.experiments[s];
+                auto& e = problem.experiments[s];
+                e.inputs[delay.index] =
+                    delayed_within(std::get<sampled_signal>(as_recorded.inputs[delay.index]),
+                                   e.begin, end_of(e), now.range);
+            }
+            start_added_states(problem);
+            auto const left = hull_of(problem, 0.25);
+            if (!left) continue;
+            double const half = mid(now.range);
+            bool const splits = now.range.lower() < half && half < now.range.upper();
+            if (!(width(now.range) > narrow) || !splits) {
+                add(hulls, joined(*left, j, now.range));
+                continue;
+            }
+            using traits = interval_traits<interval>;
+            waiting.push_back({traits::bounds(now.range.lower(), half), *left});
+            waiting.push_back({traits::bounds(half, now.range.upper()), *left});
+        }
+        return hulls.size() == 0 ? nothing_of(whole.prior) : hulls;
+    }
+    [[nodiscard]] static double end_of(experiment const& e) {
+        double end = e.begin;
+        for (auto const& m : e.measurements) end = std::max(end, m.time);
+        return end;
+    }
+
+    /// Where the time constant of a lag may be 0, short ones are excluded as inputs with errors, if
+    /// possible: the lag's equation is for the others.
+    [[nodiscard]] box over_lags(identification_problem whole) {
+        box hulls;
+        for (std::size_t k = 0; k < effects_->size(); ++k) {
+            auto const& e = (*effects_)[k];
+            if (!e.lags || !acts_first(k)) continue;
+            auto const j = index_of_parameter(whole, e.name + "." + e.parameters[0].name);
+            auto const prior = whole.prior[j];
+            if (prior.lower() > 0) continue;
+            for (double const share : {1.0 / 16, 1.0 / 64, 1.0 / 256}) {
+                double const longest = share * prior.upper();
+                auto const quick = without_lag(k, longest);
+                if (!quick || !limit_()) break;
+                auto const left = hull_of(*quick, 0.25);
+                if (left && share > 1.0 / 256) continue; // shorter ones may be excluded
+                if (left) add(hulls, joined(*left, j, interval(prior.lower(), longest)));
+                whole.prior[j] = interval(longest, prior.upper());
+                break;
+            }
+        }
+        if (auto const left = hull_of(whole, 1)) add(hulls, *left);
+        return hulls.size() == 0 ? nothing_of(whole.prior) : hulls;
+    }
+    /// Whether what the lag sees is the recorded input.
+    [[nodiscard]] bool acts_first(std::size_t k) const {
+        auto const& own = (*effects_)[k];
+        for (std::size_t i = 0; i < effects_->size(); ++i) {
+            auto const& other = (*effects_)[i];
+            if (i != k && other.on_inputs && other.order <= own.order) return false;
+        }
+        return true;
+    }
+    /// The problem for all time constants up to the longest; nothing where the input is a formula.
+    [[nodiscard]] std::optional<identification_problem> without_lag(std::size_t k,
+                                                                    double longest) const {
+        auto const& lag = *(*effects_)[k].lags;
+        auto others = *effects_;
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+        auto late = *base_;
+        auto const input = index_of(late.model.about.inputs, lag.input, "input");
+        for (auto& e : late.experiments) {
+            auto const* const recorded = std::get_if<sampled_signal>(&e.inputs[input]);
+            if (recorded == nullptr) return std::nullopt;
+            e.inputs[input] = lagged_within(*recorded, e.begin, end_of(e), longest, lag.rests);
+        }
+        return affected(late, others);
+    }
+
+    identification_problem const* base_;
+    std::vector<effect> const* effects_;
+    effect_hull_options const* options_;
+    work_limit limit_;
+};
+
+} // namespace diagnosis_detail
+
+SIVID_DECL box effect_hulls(identification_problem const& base, std::vector<effect> const& effects,
+                            effect_hull_options const& options) {
+    return diagnosis_detail::hulls_by_slices(base, effects, options)();
+}
+
+} // namespace sivid
+
+#endif
