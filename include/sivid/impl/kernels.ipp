@@ -5,6 +5,9 @@
 /// @file
 /// The integrators of `taylor_kernels.hpp` and `scalar_taylor_run.hpp`, and tubes of doubles.
 
+#include <sivid/paving/continued_run.hpp>
+#include <sivid/paving/experiment_run.hpp>
+
 #include <sivid/enclosure/tube.hpp>
 #include <sivid/paving/detail/scalar_taylor_run.hpp>
 #include <sivid/paving/detail/taylor_continuation.hpp>

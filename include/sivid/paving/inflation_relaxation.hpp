@@ -289,7 +289,7 @@ private:
             for (std::size_t v = 0; v < q.size(); ++v) {
                 for (std::size_t k = 0; k < r.table->exponents[m][v]; ++k) factor *= q[v];
             }
-            double const* const row = &r.coefficients[m * r.outputs()];
+            double const* const row = r.coefficients.data() + m * r.outputs();
             for (std::size_t y = 0; y < values.size(); ++y) values[y] += factor * row[y];
         }
         for (std::size_t y = 0; y < values.size(); ++y) {

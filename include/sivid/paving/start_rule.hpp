@@ -130,6 +130,7 @@ private:
 
     /// Slopes that minimise the squares of what is left of a, and of themselves.
     [[nodiscard]] matrix guess() const {
+        if (p_ == 0) return matrix(s_, 0);
         vector const weight = (margin_.array() < infinity).cast<double>();
         matrix const weighted = weight.asDiagonal() * b_;
         matrix const normal = b_.transpose() * weighted;

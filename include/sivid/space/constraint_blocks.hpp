@@ -59,7 +59,7 @@ public:
             value_.assign(block.offset.begin(), block.offset.end());
             for (std::size_t v = 0; v < block.variable.size(); ++v) {
                 double const d = point[block.variable[v]];
-                double const* const slope = &block.slope[v * count];
+                double const* const slope = block.slope.data() + v * count;
                 for (std::size_t y = 0; y < count; ++y) value_[y] += slope[y] * d;
             }
             for (std::size_t y = 0; y < count; ++y) {

@@ -88,7 +88,7 @@ public:
             schur.selfadjointView<Eigen::Lower>().rankUpdate(z.leftCols(g).transpose(), -1.0);
             right -= z.leftCols(g).transpose() * z.col(g);
         }
-        for (std::size_t e = 0; e < matrices_.size(); ++e) {
+        for (std::size_t e = 0; e < matrices_.size() && g > 0; ++e) {
             diagonal += matrices_[e].diagonal().head(g);
         }
         schur.diagonal() += damping * diagonal.cwiseMax(tiny) + Eigen::VectorXd::Constant(g, tiny);

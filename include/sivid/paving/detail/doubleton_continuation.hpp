@@ -4,7 +4,6 @@
 
 #include <sivid/enclosure/observation.hpp>
 #include <sivid/enclosure/trajectory.hpp>
-#include <sivid/paving/continued_run.hpp>
 #include <sivid/paving/detail/affine_output.hpp>
 
 #include <cstddef>

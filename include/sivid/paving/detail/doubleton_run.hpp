@@ -6,7 +6,6 @@
 #include <sivid/enclosure/trajectory.hpp>
 #include <sivid/paving/detail/affine_output.hpp>
 #include <sivid/paving/detail/measurement_walk.hpp>
-#include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/run_options.hpp>
 
 #include <cstddef>

@@ -4,7 +4,6 @@
 
 #include <sivid/enclosure/parametric_flow.hpp>
 #include <sivid/paving/detail/measurement_walk.hpp>
-#include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/run_options.hpp>
 #include <sivid/paving/taylor_kernels.hpp>
 
