@@ -23,6 +23,7 @@
 #include <sivid/number/inverse_trigonometric.hpp>
 #include <sivid/number/kernel_trial.hpp>
 #include <sivid/number/lanes.hpp>
+#include <sivid/number/monomial_space.hpp>
 #include <sivid/number/monomials.hpp>
 #include <sivid/number/nearest_text.hpp>
 #include <sivid/number/pack.hpp>
@@ -32,6 +33,11 @@
 #include <sivid/number/power.hpp>
 #include <sivid/number/relations.hpp>
 #include <sivid/number/rounding.hpp>
+#include <sivid/number/series_columns.hpp>
+#include <sivid/number/series_rows.hpp>
+#include <sivid/number/sized_bernstein.hpp>
+#include <sivid/number/sized_model.hpp>
+#include <sivid/number/sized_model_functions.hpp>
 #include <sivid/number/stream.hpp>
 #include <sivid/number/taylor_model.hpp>
 #include <sivid/number/taylor_model_functions.hpp>
@@ -81,6 +87,7 @@
 #include <sivid/model/rewrite.hpp>
 #include <sivid/model/series.hpp>
 #include <sivid/model/series_tail.hpp>
+#include <sivid/model/sized_arithmetic.hpp>
 #include <sivid/model/smoothed.hpp>
 #include <sivid/model/substitution.hpp>
 #include <sivid/model/symmetry.hpp>

@@ -29,6 +29,8 @@ struct taylor_arithmetic {
 
     class accumulator {
     public:
+        accumulator() = default;
+        explicit accumulator(value_type& /*place*/) {}
         void
         add_convolution(rows const& left, std::size_t a, rows const& right, std::size_t b,
                         std::size_t k, std::size_t from, std::size_t to, double factor = 1,

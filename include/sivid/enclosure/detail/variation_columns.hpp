@@ -92,6 +92,7 @@ public:
     [[nodiscard]] model get(std::size_t i, std::size_t c, std::size_t k) const {
         return v_.get(i, lane_[c], k);
     }
+    void get_into(model& a, std::size_t i, std::size_t c, std::size_t k) const { a = get(i, c, k); }
 
 private:
     static constexpr std::size_t none = ~std::size_t{0};
