@@ -3,6 +3,7 @@
 #define SIVID_ENCLOSURE_UNCERTAIN_INPUT_HPP
 
 #include <sivid/enclosure/expansion.hpp>
+#include <sivid/number/sized_model.hpp>
 #include <sivid/number/taylor_model.hpp>
 
 #include <cmath>
@@ -40,6 +41,20 @@ struct set_scalar<taylor_model<N, D, C>> {
     static C middle(model const& a) { return a.c[0]; }
     /// @given  m is the middle
     static C beside(model const& a, C const&) { return (a.above + a.r) * model::up; }
+    static model widened(model const& a, C const& w) { return sivid::widened(a, w); }
+};
+
+template <class C>
+struct set_scalar<sized_model<C>> {
+    using model = sized_model<C>;
+    using scalar = C;
+    static C mag(model const& a) { return a.norm(); }
+    static C upper(model const& a) {
+        return a.c(0) + (a.above() + a.r()) + a.norm() * (8 * model::unit);
+    }
+    static C middle(model const& a) { return a.c(0); }
+    /// @given  m is the middle
+    static C beside(model const& a, C const&) { return (a.above() + a.r()) * a.shape().up; }
     static model widened(model const& a, C const& w) { return sivid::widened(a, w); }
 };
 
