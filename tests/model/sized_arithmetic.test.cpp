@@ -19,7 +19,7 @@ using support::mp;
 namespace {
 
 constexpr std::size_t variables = 2, degree = 3, order = 4;
-using model = support::model_of<variables, degree>;
+using model = support::sized_as<variables, degree>;
 using value = sized_model<double>;
 using arithmetic = arithmetic_of<value>;
 using reference = support::power_series<order>;

@@ -19,9 +19,9 @@ using namespace sivid;
 using support::any_polynomial;
 using support::covers;
 using support::draws;
-using support::model_of;
 using support::random_sized;
 using support::rational;
+using support::sized_as;
 
 namespace {
 
@@ -30,7 +30,7 @@ constexpr std::size_t orders = 24;
 /// Two single series, and two rows of columns; what stands beyond the orders known is NaN.
 template <std::size_t N, std::size_t D>
 struct rows_and_factors {
-    using model = model_of<N, D>;
+    using model = sized_as<N, D>;
     std::size_t columns;
     std::array<std::vector<model>, 2> a;
     std::array<std::vector<std::vector<model>>, 2> v; ///< [row][column][k]
@@ -81,7 +81,7 @@ void check_rounding(std::uint64_t seed, int trials) {
         std::size_t const alone = d.below(columns);
         for (int const mode : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
             in_mode(mode, [&] {
-                columns_sum sum(s.kept.groups(), model_of<N, D>::size());
+                columns_sum sum(s.kept.groups(), sized_as<N, D>::size());
                 for (int again = 0; again < 2; ++again) { // what stood there before does not count
                     sum.start(expected, addends);
                     sum.add(alone, s.a[1][k]);
@@ -93,7 +93,7 @@ void check_rounding(std::uint64_t seed, int trials) {
             for (std::size_t c = 0; c < columns; ++c) {
                 any_polynomial exact;
                 auto const share = rational(1) / rational(static_cast<double>(divisor));
-                auto const add = [&](model_of<N, D> const& x, model_of<N, D> const& y) {
+                auto const add = [&](sized_as<N, D> const& x, sized_as<N, D> const& y) {
                     exact = support::sum(
                         exact, support::product(support::exact(x), support::exact(y)), share);
                 };
@@ -120,7 +120,7 @@ void check_members(std::uint64_t seed, int trials) {
     for (int trial = 0; trial < trials; ++trial) {
         std::size_t const k = d.below(orders), columns = 1 + d.below(9);
         rows_and_factors<N, D> s(d, columns, k + 1, 0.2, false);
-        columns_sum sum(s.kept.groups(), model_of<N, D>::size());
+        columns_sum sum(s.kept.groups(), sized_as<N, D>::size());
         sum.start(k + 1, 1);
         sum.add_convolution(s.factors[0], s.kept, 0, k, k);
         sum.divide_into(s.kept, 2, k, 4); // exact
@@ -147,17 +147,17 @@ void check_members(std::uint64_t seed, int trials) {
 
 template <std::size_t N, std::size_t D>
 void check_radii() {
-    using model = model_of<N, D>;
+    using model = sized_as<N, D>;
     auto const convolve = [](std::vector<sized_model<double>> const& a,
                              std::vector<sized_model<double>> const& b, std::size_t k) {
         constexpr std::size_t columns = 9;
-        series_columns v(2, columns, orders, model_of<N, D>::size());
-        column_multiplier factor(orders, model_of<N, D>::size());
+        series_columns v(2, columns, orders, sized_as<N, D>::size());
+        column_multiplier factor(orders, sized_as<N, D>::size());
         for (std::size_t j = 0; j <= k; ++j) {
             factor.put(j, a[j]);
             for (std::size_t c = 0; c < columns; ++c) v.put(0, c, j, b[j]);
         }
-        columns_sum sum(v.groups(), model_of<N, D>::size());
+        columns_sum sum(v.groups(), sized_as<N, D>::size());
         sum.start(k + 1, 1);
         sum.add_convolution(factor, v, 0, k, k);
         sum.divide_into(v, 1, k, 1);
@@ -198,7 +198,7 @@ TEST_CASE("Series columns: a radius that is not finite stays so, in its column")
         auto unknown = s.v[0][8][lost];
         unknown.r() = std::numeric_limits<double>::infinity();
         s.kept.put(0, 8, lost, unknown);
-        columns_sum sum(s.kept.groups(), model_of<2, 1>::size());
+        columns_sum sum(s.kept.groups(), sized_as<2, 1>::size());
         sum.start(10, 1);
         sum.add_convolution(s.factors[0], s.kept, 0, 9, 9);
         sum.divide_into(s.kept, 2, 9, 10);
@@ -216,16 +216,16 @@ TEST_CASE("Series columns: a radius that is not finite stays so, in its column")
 }
 
 TEST_CASE("Series columns: what may have overflowed on the way is not known") {
-    using model = model_of<1, 0>;
+    using model = sized_as<1, 0>;
     for (int const mode : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
-        series_columns v(2, 1, 2, model_of<1, 0>::size());
-        column_multiplier a(2, model_of<1, 0>::size());
+        series_columns v(2, 1, 2, sized_as<1, 0>::size());
+        column_multiplier a(2, sized_as<1, 0>::size());
         a.put(0, model::constant(1e200));
         a.put(1, model::constant(-1e200));
         v.put(0, 0, 0, model::constant(1e200));
         v.put(0, 0, 1, model::constant(1e200));
         in_mode(mode, [&] {
-            columns_sum sum(v.groups(), model_of<1, 0>::size());
+            columns_sum sum(v.groups(), sized_as<1, 0>::size());
             sum.start(2, 1);
             sum.add_convolution(a, v, 0, 1, 1);
             sum.divide_into(v, 1, 1, 1);

@@ -17,9 +17,9 @@ using namespace sivid;
 using support::any_polynomial;
 using support::covers;
 using support::draws;
-using support::model_of;
 using support::random_sized;
 using support::rational;
+using support::sized_as;
 
 namespace {
 
@@ -27,7 +27,7 @@ namespace {
 template <std::size_t N, std::size_t D>
 struct two_series {
     static constexpr std::size_t orders = 26;
-    using model = model_of<N, D>;
+    using model = sized_as<N, D>;
     std::vector<model> a, b;
     series_rows rows{2, orders, model::size()};
 
@@ -80,7 +80,7 @@ void check_rounding(std::uint64_t seed, int trials) {
             }
         }
         for (int const mode : support::rounding_modes) {
-            model_of<N, D> result;
+            sized_as<N, D> result;
             support::in_mode(mode, [&] {
                 sized_sum<double> sum;
                 sum.add_convolution(s.rows, 0, 1, r.k, r.from, r.to, factor, weight);
@@ -125,7 +125,7 @@ void check_members(std::uint64_t seed, int trials) {
 
 template <std::size_t N, std::size_t D>
 void check_radii() {
-    using model = model_of<N, D>;
+    using model = sized_as<N, D>;
     auto const convolve = [](std::vector<sized_model<double>> const& a,
                              std::vector<sized_model<double>> const& b, std::size_t k) {
         series_rows rows(2, k + 1, model::size());

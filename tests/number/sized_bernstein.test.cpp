@@ -12,9 +12,9 @@
 
 using namespace sivid;
 using support::draws;
-using support::model_of;
 using support::random_sized;
 using support::rational;
+using support::sized_as;
 
 namespace {
 
@@ -79,7 +79,7 @@ TEST_CASE("sized ranges are exact where an extremum lies at a corner") {
         REQUIRE(range(a).upper() <= sum * (1 + 1e-12));
         REQUIRE(range(a).upper() >= sum * (1 - 1e-12));
         // multi-affine: all extrema at corners
-        using model = model_of<2, 2>;
+        using model = sized_as<2, 2>;
         auto b = model::variable(0, d.uniform(-1, 1), d.uniform(-1, 1)) *
                  model::variable(1, d.uniform(-1, 1), d.uniform(-1, 1));
         double lo = HUGE_VAL, hi = -HUGE_VAL;
@@ -97,7 +97,7 @@ TEST_CASE("sized ranges are exact where an extremum lies at a corner") {
 
 TEST_CASE("sized ranges see cancellation that the norms do not") {
     // (q - 1)^4 on [-1, 1] is within [0, 16]; its norm is 16 about 1.
-    using model = model_of<1, 4>;
+    using model = sized_as<1, 4>;
     auto const x = model::variable(0, -1, 1);
     auto const y = x * x * x * x;
     REQUIRE(rough_range(y).lower() < -13);
@@ -115,7 +115,7 @@ TEST_CASE("sized ranges of many variables contain all values") {
     draws d(15);
     for (int trial = 0; trial < 30; ++trial) {
         auto a = random_sized<7, 3>(d, 0.3, 1, 0.1);
-        auto const& t = model_of<7, 3>::basis::data;
+        auto const& t = sized_as<7, 3>::basis::data;
         for (std::size_t v = 0; v < 7; ++v) {
             double rest = 0; // of the slope
             for (std::size_t i = 0; i < a.terms(); ++i) {
@@ -139,7 +139,7 @@ TEST_CASE("sized ranges of many variables contain all values") {
 
 TEST_CASE("sized ranges of many variables: nearly monotone is not monotone") {
     // sum of c_v (2 a_v q_v - q_v^2), a_v just below 1: largest at q = a, inside of the box.
-    using model = model_of<7, 3>;
+    using model = sized_as<7, 3>;
     draws d(18);
     for (int trial = 0; trial < 20; ++trial) {
         model a;
@@ -160,11 +160,11 @@ TEST_CASE("sized ranges of many variables side by side") {
     // A variable is set where all lanes agree that it can be, each lane at its own end.
     using pack = sized_model<lanes<8>>;
     using side_by_side = pack::side_by_side;
-    auto const& t = model_of<7, 3>::basis::data;
+    auto const& t = sized_as<7, 3>::basis::data;
     draws d(17);
     for (int trial = 0; trial < 8; ++trial) {
         pack all(model_shape<lanes<8>>::of(7, 3));
-        std::vector<model_of<7, 3>> alone;
+        std::vector<sized_as<7, 3>> alone;
         for (std::size_t l = 0; l < 8; ++l) {
             auto a = random_sized<7, 3>(d, 0.3, 1, 0.1);
             for (std::size_t v = 0; v <= static_cast<std::size_t>(trial) % 7; ++v) {
@@ -193,7 +193,7 @@ TEST_CASE("sized ranges of many variables are exact where they can be") {
     // Multi-affine and monotone in one to seven of seven variables: both ends lie at corners, and
     // Bernstein coefficients of the other variables are means of values at corners.
     constexpr std::size_t variables = 7;
-    using model = support::model_of<variables, 3>;
+    using model = support::sized_as<variables, 3>;
     auto const& t = model::basis::data;
     draws d(16);
     for (int trial = 0; trial < 60; ++trial) {

@@ -18,10 +18,10 @@ using support::covers;
 using support::draws;
 using support::exact;
 using support::holds;
-using support::model_of;
 using support::monomials_of;
 using support::random_sized;
 using support::rational;
+using support::sized_as;
 
 namespace {
 
@@ -29,7 +29,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Numbers of all sizes: ordinary, tiny, subnormal, huge.
 template <std::size_t N, std::size_t D>
-model_of<N, D> wild_model(draws& d) {
+sized_as<N, D> wild_model(draws& d) {
     constexpr double sizes[] = {1, 1e-3, 1e-160, 1e-300, 1e-310, 5e-324, 1e150, 1e160};
     auto a = random_sized<N, D>(d, sizes[d.below(8)], 1, 0);
     for (auto& c : a.coefficients()) {
@@ -62,7 +62,7 @@ void check_rounding(std::uint64_t seed, int trials) {
         auto const p = exact(a);
         auto const s = exact(b);
         for (int const mode : support::rounding_modes) {
-            model_of<N, D> sum, difference, times, twice, negative;
+            sized_as<N, D> sum, difference, times, twice, negative;
             support::in_mode(mode, [&] {
                 sum = a + b;
                 difference = a - b;
@@ -137,7 +137,7 @@ TEST_CASE("Sized models: the radius covers each coefficient's error in every rou
 }
 
 TEST_CASE("Sized models: one rounding bound for hundreds of products") {
-    using model = model_of<2, 3>;
+    using model = sized_as<2, 3>;
     for (std::size_t const addends : {1U, 20U, 400U}) {
         for (int const mode : support::rounding_modes) {
             draws d(addends);
@@ -224,7 +224,7 @@ TEST_CASE("Sized models: the norms of a multiple bound what became of its coeffi
         constexpr double factors[] = {1, -3, 1e-3, 1e-290, 1e-310, 5e-324, 1e150, 0};
         double const m = factors[d.below(8)] * d.uniform(0.5, 1);
         for (int const mode : support::rounding_modes) {
-            model_of<3, 3> b;
+            sized_as<3, 3> b;
             support::in_mode(mode, [&] { b = scaled(a, m); });
             if (!std::isfinite(b.r())) continue;
             CAPTURE(trial, mode, m);
@@ -244,11 +244,11 @@ TEST_CASE("Sized models: the norms of a multiple bound what became of its coeffi
         }
     }
     // What no variable enters stays so.
-    REQUIRE(scaled(model_of<2, 2>::constant(3), 1.0 / 3).is_constant());
+    REQUIRE(scaled(sized_as<2, 2>::constant(3), 1.0 / 3).is_constant());
 }
 
 TEST_CASE("Sized models: constants and variables") {
-    using model = model_of<2, 2>;
+    using model = sized_as<2, 2>;
     auto const x = model::variable(1, 3.0, 0.25);
     REQUIRE(x.r() == 0);
     REQUIRE(support::value<rational>(x, {0.5, 1}) == rational(3.25));
@@ -263,9 +263,9 @@ TEST_CASE("Sized models: conversion moves what does not fit into the radius") {
     draws d(12);
     for (int trial = 0; trial < 60; ++trial) {
         auto const a = random_sized<2, 4>(d, 1, 1, 0.1);
-        auto const lower = converted(a, model_of<2, 2>::size());
-        auto const wider = converted(a, model_of<3, 3>::size());
-        auto const same = converted(a, model_of<3, 5>::size());
+        auto const lower = converted(a, sized_as<2, 2>::size());
+        auto const wider = converted(a, sized_as<3, 3>::size());
+        auto const same = converted(a, sized_as<3, 5>::size());
         REQUIRE(same.r() <= a.r() * (1 + 1e-12));
         for (int sample = 0; sample < 6; ++sample) {
             auto q = support::short_place(d, 2);
@@ -282,9 +282,9 @@ TEST_CASE("Sized models: forgetting the last variable keeps all its values") {
     draws d(13);
     for (int trial = 0; trial < 60; ++trial) {
         auto const a = random_sized<3, 3>(d, 1, 1, 0.1);
-        auto const b = without_last_variable(a, model_of<2, 3>::size());
-        auto const c = without_last_variable(a, model_of<2, 1>::size());
-        auto const e = without_last_variable(a, model_of<2, 4>::size());
+        auto const b = without_last_variable(a, sized_as<2, 3>::size());
+        auto const c = without_last_variable(a, sized_as<2, 1>::size());
+        auto const e = without_last_variable(a, sized_as<2, 4>::size());
         for (int sample = 0; sample < 8; ++sample) {
             auto const q = support::short_place(d, 3);
             auto const x = support::member<rational>(d, a, q);
@@ -297,7 +297,7 @@ TEST_CASE("Sized models: forgetting the last variable keeps all its values") {
 }
 
 TEST_CASE("Sized models: overflow is never a finite radius with a wrong polynomial") {
-    using model = model_of<1, 2>;
+    using model = sized_as<1, 2>;
     auto const hidden = [](model const& a) { return std::isfinite(a.r()) && !all_finite(a); };
     double const big = 1e155;
     REQUIRE_FALSE(hidden(scaled(model::constant(big), big)));
@@ -317,7 +317,7 @@ TEST_CASE("Sized models: overflow is never a finite radius with a wrong polynomi
 }
 
 TEST_CASE("Sized models: a radius that is not finite stays so, and says nothing") {
-    using model = model_of<2, 2>;
+    using model = sized_as<2, 2>;
     for (double const r : {infinity, std::nan("")}) {
         auto a = model::variable(0, 1, 0.5);
         a.r() = r;
@@ -330,8 +330,8 @@ TEST_CASE("Sized models: a radius that is not finite stays so, and says nothing"
         }
         REQUIRE_FALSE(std::isfinite(scaled(a, 0.0).r()));
         REQUIRE_FALSE(std::isfinite(widened(a, 1.0).r()));
-        REQUIRE_FALSE(std::isfinite(converted(a, model_of<2, 1>::size()).r()));
-        REQUIRE_FALSE(std::isfinite(without_last_variable(a, model_of<1, 1>::size()).r()));
+        REQUIRE_FALSE(std::isfinite(converted(a, sized_as<2, 1>::size()).r()));
+        REQUIRE_FALSE(std::isfinite(without_last_variable(a, sized_as<1, 1>::size()).r()));
         REQUIRE(width(rough_range(a)) == infinity);
         REQUIRE(width(range(a)) == infinity);
     }

@@ -18,7 +18,7 @@ namespace {
 
 /// A random model whose values lie in [lo, hi], often up to its ends.
 template <std::size_t N, std::size_t D>
-support::model_of<N, D> within(draws& d, double lo, double hi, double radius_share) {
+support::sized_as<N, D> within(draws& d, double lo, double hi, double radius_share) {
     auto a = support::random_sized<N, D>(d, 1, 0.8, 0);
     a.c()[0] = 0;
     a.r() = radius_share;
@@ -104,7 +104,7 @@ void check_sharp() {
     for (auto const& f : functions) {
         double const x = f.lo + 0.625 * (f.hi - f.lo);
         bool undefined = false;
-        auto const y = image(f.which, support::model_of<N, D>::constant(x), undefined);
+        auto const y = image(f.which, support::sized_as<N, D>::constant(x), undefined);
         REQUIRE_FALSE(undefined);
         CAPTURE(f.name, y.r(), y.c()[0]);
         REQUIRE(y.r() <= 1e-14 * std::abs(y.c()[0]) + 1e-15);
@@ -122,7 +122,7 @@ TEST_CASE("sized models: elementary functions of Taylor models contain the funct
 TEST_CASE("sized models: elementary functions of constants are sharp") { check_sharp<2, 3>(); }
 
 TEST_CASE("sized models: the remainder falls with the power of the range") {
-    using model = support::model_of<1, 3>;
+    using model = support::sized_as<1, 3>;
     for (auto const& f : functions) {
         double const x = f.lo + 0.625 * (f.hi - f.lo);
         bool undefined = false;
@@ -135,7 +135,7 @@ TEST_CASE("sized models: the remainder falls with the power of the range") {
 }
 
 TEST_CASE("sized models: arguments at or beyond the end of a domain are reported") {
-    using model = support::model_of<1, 2>;
+    using model = support::sized_as<1, 2>;
     auto const reports = [](int which, double centre, double slope, double radius) {
         bool undefined = false;
         auto const y = image(which, widened(model::variable(0, centre, slope), radius), undefined);
@@ -159,7 +159,7 @@ TEST_CASE("sized models: arguments at or beyond the end of a domain are reported
 
 TEST_CASE("sized models: a domain that only Bernstein's bounds keep clear of zero") {
     // 1.2 + q + q^2/2 >= 0.7; the norms alone would allow -0.3.
-    using model = support::model_of<1, 4>;
+    using model = support::sized_as<1, 4>;
     auto const x = model::variable(0, 0, 1);
     auto const s = model::constant(1.2) + x + scaled(x * x, 0.5);
     REQUIRE(rough_range(s).lower() < 0);
@@ -180,7 +180,7 @@ TEST_CASE("sized models: a domain that only Bernstein's bounds keep clear of zer
 TEST_CASE("sized models: square roots whose polynomial guess is negative somewhere") {
     // Far from the centre the binomial series of degree 4 turns negative: no bound may use that the
     // guess is positive.
-    using model = support::model_of<1, 4>;
+    using model = support::sized_as<1, 4>;
     draws d(31);
     auto const x = model::variable(0, 0, 1);
     for (double const top : {3.0, 8.0, 20.0, 60.0}) {
@@ -199,7 +199,7 @@ TEST_CASE("sized models: square roots whose polynomial guess is negative somewhe
 }
 
 TEST_CASE("sized models: tiny and huge arguments") {
-    using model = support::model_of<1, 2>;
+    using model = support::sized_as<1, 2>;
     draws d(32);
     for (double const size : {1e-300, 1e-200, 1e-100, 1e100, 1e200, 1e300}) {
         auto const s = model::variable(0, size, 0.25 * size);

@@ -26,23 +26,23 @@ using rational =
 
 /// A model of one size, for tests that are written for it. Goes wherever a model goes.
 template <std::size_t N, std::size_t D>
-struct model_of : sivid::sized_model<double> {
+struct sized_as : sivid::sized_model<double> {
     using base = sivid::sized_model<double>;
     using basis = sivid::monomials<N, D>;
 
     static sivid::model_shape<double> const& size() { return sivid::model_shape<double>::of(N, D); }
-    model_of() : base(size()) {}
-    model_of(base const& a) : base(sivid::in_shape(a, size())) {} // NOLINT: a number is one, too
+    sized_as() : base(size()) {}
+    sized_as(base const& a) : base(sivid::in_shape(a, size())) {} // NOLINT: a number is one, too
     template <class X>
-    static model_of constant(X const& x) {
+    static sized_as constant(X const& x) {
         return base::constant(x);
     }
-    static model_of variable(std::size_t v, double centre, double slope) {
+    static sized_as variable(std::size_t v, double centre, double slope) {
         return base::variable(size(), v, centre, slope);
     }
 };
 template <std::size_t N, std::size_t D>
-constexpr auto const& monomials_of(model_of<N, D> const&) {
+constexpr auto const& monomials_of(sized_as<N, D> const&) {
     return sivid::monomials<N, D>::data;
 }
 
@@ -135,8 +135,8 @@ inline sivid::sized_model<double> random_sized(draws& d, sivid::model_shape<doub
     return a;
 }
 template <std::size_t N, std::size_t D>
-model_of<N, D> random_sized(draws& d, double size, double decay, double radius) {
-    return random_sized(d, model_of<N, D>::size(), size, decay, radius);
+sized_as<N, D> random_sized(draws& d, double size, double decay, double radius) {
+    return random_sized(d, sized_as<N, D>::size(), size, decay, radius);
 }
 /// A function of the model at q: the polynomial plus a part of the radius that is exact.
 template <class T>

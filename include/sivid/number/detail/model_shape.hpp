@@ -35,6 +35,7 @@ struct model_shape {
     product_detail::column_function add_columns;
 
     [[nodiscard]] static model_shape const& of(std::size_t variables, std::size_t degree) {
+        if (degree == 0) variables = 0; // a number is one, whatever it does not depend on
         static std::mutex guard;
         static std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<model_shape const>>
             made;
