@@ -16,6 +16,7 @@
 #include <mutex>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace sivid {
@@ -178,6 +179,13 @@ template <class C>
         result.c(i) = side_by_side::select(m, a.c(i), b.c(i));
     }
     return result;
+}
+
+template <class C>
+[[nodiscard]] sized_model<C> select(typename lane_traits<C>::mask const& m, sized_model<C>&& a,
+                                    sized_model<C> const& b) {
+    if (lane_traits<C>::all(m)) return std::move(a);
+    return select(m, std::as_const(a), b);
 }
 
 namespace number_detail {

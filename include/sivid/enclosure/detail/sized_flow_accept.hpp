@@ -80,24 +80,29 @@ void sized_flow<Model>::accept(mask moved, C const& to, std::size_t order, std::
                     tails_ ? flow_order - 1 : flow_order, length);
                 if (tails_) sum = widened(sum, derivative_tail_.variation(i, c));
                 // Lanes that stay, or jump, keep their generators.
-                j[i * n + c] =
-                    select(moved & !jumps, sum, column_entry::constant(C(i == c ? 1.0 : 0.0)));
+                j[i * n + c] = select(moved & !jumps, std::move(sum),
+                                      column_entry::constant(C(i == c ? 1.0 : 0.0)));
             }
         }
+        mask const carried = moved & !jumps;
+        bool const all = side_by_side::all(carried);
+        image_.resize(n);
+        std::vector<unsigned char> present(n);
         for (auto& g : set_.columns) {
-            typename set_type::column image(n);
-            for (std::size_t i = 0; i < n; ++i) {
-                sized_sum<C> sum;
-                for (std::size_t l = 0; l < n; ++l) {
-                    if (!flow_->sensitive(i, l) || side_by_side::all(g[l].norm() == C(0.0)))
-                        continue;
-                    sum.add(j[i * n + l], g[l]);
-                }
-                image[i] = select(moved & !jumps, sum.result(), g[i]);
-                lost[i] += image[i].r();
-                image[i].r() = 0.0;
+            for (std::size_t l = 0; l < n; ++l) {
+                present[l] = side_by_side::all(g[l].norm() == C(0.0)) ? 0 : 1;
             }
-            g = std::move(image);
+            for (std::size_t i = 0; i < n; ++i) {
+                sized_sum<C> sum(image_[i]);
+                for (std::size_t l = 0; l < n; ++l) {
+                    if (present[l] != 0 && flow_->sensitive(i, l)) sum.add(j[i * n + l], g[l]);
+                }
+                sum.finish();
+                if (!all) image_[i] = select(carried, image_[i], g[i]);
+                lost[i] += image_[i].r();
+                image_[i].r() = 0.0;
+            }
+            g.swap(image_);
         }
     }
     if (perturbed_) {

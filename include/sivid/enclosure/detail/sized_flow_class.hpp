@@ -258,6 +258,7 @@ private:
     std::vector<column_entry> column_parameters_;
     std::vector<tube_entry> tube_parameters_;
     std::vector<column_entry> around_;
+    std::vector<column_entry> image_; ///< of a generator; its memory is used again
     std::vector<tube_entry> path_, tube_box_, swept_;
     std::vector<C> room_, truncation_;
     bool tails_ = false; ///< the last attempt was proved by the tails of the series alone

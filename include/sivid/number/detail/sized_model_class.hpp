@@ -55,7 +55,7 @@ public:
     sized_model() : sized_model(shape_type::number()) {}
     /// The function 0 in so many variables.
     explicit sized_model(shape_type const& s) : sized_model(s, unset{}) {
-        std::fill_n(p_, s.numbers, C(0.0));
+        number_detail::clear_lines(p_, s.lines);
     }
     /// For a result that is written at once, whole vectors at a time.
     struct unset {};
