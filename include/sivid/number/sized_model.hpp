@@ -94,9 +94,18 @@ void scale_into(sized_model<C>& result, sized_model<C> const& a, C const& m, C c
     C const radius =
         (a.r() * (size + rho) + norm * rho + norm * size * model::unit) * a.shape().up +
         model::tiny;
-    product_detail::each_coefficient(
-        a.shape(), [&m](auto& y, auto const& x) { y = x * m; }, result.c(), a.c());
-    result.finish_multiple(a, size);
+    if (a.is_number()) {
+        C const c = a.c(0) * m;
+        C const bound = a.norms()[0] * size * a.shape().up +
+                        model::side_by_side::min(a.norms()[0], C(model::tiny));
+        result.c(0) = c;
+        result.above() = C(0.0);
+        result.norms()[0] = bound;
+    } else {
+        product_detail::each_coefficient(
+            a.shape(), [&m](auto& y, auto const& x) { y = x * m; }, result.c(), a.c());
+        result.finish_multiple(a, size);
+    }
     result.r() = radius;
     result.give_up_when_huge(norm * (size + rho));
 }

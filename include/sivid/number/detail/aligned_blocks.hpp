@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <memory>
 #include <new>
-#include <vector>
 
 namespace sivid::number_detail {
 
@@ -126,23 +125,31 @@ private:
     C* first_ = nullptr;
 };
 
-/// So many zeroed numbers in a row, aligned to a cache line: the memory of what lives longer than
-/// an operation.
+/// So many numbers in a row, aligned to a cache line: the memory of what lives longer than an
+/// operation. Zeros, or not set.
 template <class C>
 class workspace {
 public:
-    workspace() = default;
-    explicit workspace(std::size_t numbers)
-        : lines_((numbers * sizeof(C) + aligned_blocks::line - 1) / aligned_blocks::line) {}
+    struct unset {};
 
-    [[nodiscard]] C* data() { return reinterpret_cast<C*>(lines_.data()); }
-    [[nodiscard]] C const* data() const { return reinterpret_cast<C const*>(lines_.data()); }
+    workspace() = default;
+    workspace(std::size_t numbers, unset)
+        : first_(static_cast<C*>(::operator new (std::max<std::size_t>(numbers, 1) * sizeof(C),
+                                                 std::align_val_t{aligned_blocks::line}))) {}
+    explicit workspace(std::size_t numbers) : workspace(numbers, unset{}) {
+        std::uninitialized_fill_n(first_.get(), numbers, C(0.0));
+    }
+
+    [[nodiscard]] C* data() { return first_.get(); }
+    [[nodiscard]] C const* data() const { return first_.get(); }
 
 private:
-    struct alignas(aligned_blocks::line) cache_line {
-        std::array<std::byte, aligned_blocks::line> bytes{};
+    struct release {
+        void operator()(C* p) const noexcept {
+            ::operator delete (p, std::align_val_t{aligned_blocks::line});
+        }
     };
-    std::vector<cache_line> lines_;
+    std::unique_ptr<C, release> first_;
 };
 
 } // namespace sivid::number_detail

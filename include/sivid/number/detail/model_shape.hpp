@@ -30,12 +30,14 @@ struct model_shape {
     /// Makes a computed sum of at most `terms` + a few dozen non-negative numbers an upper bound.
     double up;
     product_detail::product_function<C> multiply;
+    product_detail::norms_function<C> norms;
     /// Of series of single models alone (C = double).
     product_detail::convolution_function convolve;
     product_detail::column_function add_columns;
 
     [[nodiscard]] static model_shape const& of(std::size_t variables, std::size_t degree) {
-        if (degree == 0) variables = 0; // a number is one, whatever it does not depend on
+        // A number is one, whatever it does not depend on.
+        if (degree == 0 || variables == 0) variables = degree = 0;
         static std::mutex guard;
         static std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<model_shape const>>
             made;
@@ -69,6 +71,7 @@ private:
                 static_cast<double>(s.longest_sum()),
                 1 + (4 * count + 64) * std::numeric_limits<double>::epsilon(),
                 product_detail::product_for<C>(variables, degree),
+                product_detail::norms_for<C>(variables, degree),
                 single ? product_detail::convolution_for(variables, degree) : nullptr,
                 single ? product_detail::columns_for(variables, degree) : nullptr};
     }

@@ -20,10 +20,12 @@ namespace sivid {
 inline namespace SIVID_PACK_TARGET {
 namespace product_detail {
 
-/// Sizes whose products are unrolled: what search and single boxes use but two and
-/// three variables
+/// Sizes whose products are unrolled: what search and single boxes use and of few
+/// variables
 #define SIVID_UNROLLED_PRODUCTS(X)                                                                 \
-    X(2, 2) X(3, 2) X(1, 3) X(2, 3) X(3, 3) X(4, 3) X(2, 4) X(3, 4) X(2, 6)
+    X(2, 1)                                                                                        \
+    X(3, 1) X(4, 1) X(6, 1) X(7, 1) X(2, 2) X(3, 2) X(1, 3) X(2, 3) X(3, 3) X(4, 3) X(2, 4)        \
+        X(3, 4) X(2, 6)
 
 /// What a coefficient starts from where there is nothing to start from.
 struct no_start {
@@ -120,6 +122,77 @@ struct tabled_product {
     }
 };
 
+/// Sums the absolute values of `Count` coefficients, as a tree: additions do not wait for each
+/// other.
+template <std::size_t Count, class C>
+[[gnu::always_inline]] inline C sum_of_sizes(C const* c) {
+    using side_by_side = lane_traits<C>;
+    if constexpr (Count == 1) {
+        return side_by_side::abs(c[0]);
+    } else if constexpr (Count <= 16) {
+        return sum_of_sizes<Count / 2>(c) + sum_of_sizes<Count - Count / 2>(c + Count / 2);
+    } else {
+        constexpr std::size_t chains = 4, rest = Count % chains;
+        C sum[chains]{};
+        for (std::size_t i = 0; i < Count - rest; i += chains) {
+            for (std::size_t j = 0; j < chains; ++j) sum[j] += side_by_side::abs(c[i + j]);
+        }
+        for (std::size_t j = 0; j < rest; ++j) sum[j] += side_by_side::abs(c[Count - rest + j]);
+        return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    }
+}
+/// The same for a number of them that is not known beforehand, at least one.
+template <class C>
+[[gnu::always_inline]] inline C sum_of_sizes(C const* c, std::size_t count) {
+    using side_by_side = lane_traits<C>;
+    C s = side_by_side::abs(c[0]);
+    std::size_t i = 1;
+    if (count >= 4) {
+        C t = side_by_side::abs(c[1]), u = side_by_side::abs(c[2]), v = side_by_side::abs(c[3]);
+        for (i = 4; i + 3 < count; i += 4) {
+            s += side_by_side::abs(c[i]);
+            t += side_by_side::abs(c[i + 1]);
+            u += side_by_side::abs(c[i + 2]);
+            v += side_by_side::abs(c[i + 3]);
+        }
+        s = (s + t) + (u + v);
+    }
+    for (; i < count; ++i) s += side_by_side::abs(c[i]);
+    return s;
+}
+
+/// The norms of a polynomial: above[0] those of degrees 1 .. D together, then those of degrees
+/// 0 .. D.
+template <class C>
+using norms_function = void (*)(monomial_space const&, C const* c, C* above, double up);
+
+template <class Kernel, class C>
+void measure_norms(monomial_space const& space, C const* c, C* above, double up) {
+    C total{};
+    if constexpr (Kernel::fixed) {
+        above[1] = lane_traits<C>::abs(c[0]) * up;
+        if constexpr (Kernel::degree > 0) {
+            constexpr auto const& first = Kernel::table::data.first;
+            [&]<std::size_t... K>(std::index_sequence<K...>) {
+                ((above[K + 2] = sum_of_sizes<first[K + 2] - first[K + 1]>(c + first[K + 1]) * up,
+                  total += above[K + 2]),
+                 ...);
+            }
+            (std::make_index_sequence<Kernel::degree>{});
+        }
+    } else {
+        auto const* const first = space.firsts();
+        std::size_t const degree = space.degree();
+        above[1] = lane_traits<C>::abs(c[0]) * up;
+        for (std::size_t k = 1; k <= degree; ++k) {
+            C const norm = sum_of_sizes(c + first[k], first[k + 1] - first[k]) * up;
+            above[k + 1] = norm;
+            total += norm;
+        }
+    }
+    above[0] = total * up;
+}
+
 /// Calls `use.template operator()<Kernel>()` with the kernel for a size.
 template <class Use>
 [[nodiscard]] auto with_product_kernel(std::size_t variables, std::size_t degree, Use const& use) {
@@ -167,6 +240,13 @@ template <class C>
 [[nodiscard]] product_function<C> product_for(std::size_t variables, std::size_t degree) {
     return with_product_kernel(variables, degree, []<class Kernel>() -> product_function<C> {
         return &accumulate_product<Kernel, C>;
+    });
+}
+
+template <class C>
+[[nodiscard]] norms_function<C> norms_for(std::size_t variables, std::size_t degree) {
+    return with_product_kernel(variables, degree, []<class Kernel>() -> norms_function<C> {
+        return &measure_norms<Kernel, C>;
     });
 }
 

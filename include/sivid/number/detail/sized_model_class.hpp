@@ -142,16 +142,12 @@ public:
     }
     /// Recomputes the norms; to be called after `c` was written.
     void finish() {
-        C* const norm = norms();
-        auto const* const first = shape_->first;
-        double const up = shape_->up;
-        norm[0] = side_by_side::abs(p_[0]) * up;
-        C sum{};
-        for (std::size_t k = 1; k <= shape_->degree; ++k) {
-            norm[k] = sizes(first[k], first[k + 1]) * up;
-            sum += norm[k];
+        if (is_number()) {
+            p_[2] = C(0.0);
+            p_[3] = side_by_side::abs(p_[0]) * shape_->up;
+        } else {
+            shape_->norms(*shape_->space, p_, p_ + shape_->radius + 1, shape_->up);
         }
-        above() = sum * up;
     }
     /// The norms of a multiple, from those of what was multiplied: each coefficient that is not 0
     /// is rounded once, in the subnormal range by less than itself. The radius is overwritten.
@@ -218,26 +214,6 @@ private:
         lines_ = lines;
         p_ = static_cast<C*>(number_detail::aligned_blocks::take(lines_));
     }
-    /// Sum of the absolute values of some coefficients; four at a time, as additions wait for each
-    /// other.
-    [[nodiscard]] C sizes(std::size_t i, std::size_t end) const {
-        C a = side_by_side::abs(p_[i]);
-        if (end - i < 4) {
-            for (++i; i < end; ++i) a += side_by_side::abs(p_[i]);
-            return a;
-        }
-        C b = side_by_side::abs(p_[i + 1]), c = side_by_side::abs(p_[i + 2]),
-          d = side_by_side::abs(p_[i + 3]);
-        for (i += 4; i + 3 < end; i += 4) {
-            a += side_by_side::abs(p_[i]);
-            b += side_by_side::abs(p_[i + 1]);
-            c += side_by_side::abs(p_[i + 2]);
-            d += side_by_side::abs(p_[i + 3]);
-        }
-        for (; i < end; ++i) a += side_by_side::abs(p_[i]);
-        return (a + b) + (c + d);
-    }
-
     shape_type const* shape_;
     C* p_ = nullptr;
     std::size_t lines_ = 0; ///< of memory that it owns
@@ -264,7 +240,8 @@ public:
     using model = sized_model<C>;
 
     sized_models() = default;
-    sized_models(std::size_t count, model_shape<C> const& s) : memory_(count * numbers(s)) {
+    sized_models(std::size_t count, model_shape<C> const& s)
+        : memory_(count * numbers(s), typename number_detail::workspace<C>::unset{}) {
         models_.reserve(count);
         for (std::size_t i = 0; i < count; ++i) {
             models_.emplace_back(typename model::place{memory_.data() + i * numbers(s), s.lines});

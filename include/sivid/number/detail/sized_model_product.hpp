@@ -144,15 +144,17 @@ void sized_sum<C>::finish() {
         if (blocks_ > 0) {
             double* const total = partial_.data() + row_layout::sums(s.terms) * row_layout::at_once;
             product_detail::add_up_rows(s.terms, partial_.data(), total);
+            double const size = total[s.terms + 1];
+            radius_ += total[s.terms];
+            mass_ += size;
+            total[s.terms] = total[s.terms + 1] = 0; // these are no coefficients
             product_detail::each_coefficient(
                 s, [](auto& c, auto const& x) { c += x; }, sum_.c(),
                 static_cast<double const*>(total));
-            radius_ += total[s.terms];
-            mass_ += total[s.terms + 1];
             // A term is weighted, multiplied, stands in the partial sum that is added to at
             // most `longest_sum` times a block, the first time to 0, and in three more where
             // the partial sums join.
-            own_ += total[s.terms + 1] * (blocks_ * s.longest_sum + 4);
+            own_ += size * (blocks_ * s.longest_sum + 4);
             joined += 1;
             operations += 1 + blocks_ * (s.longest_sum + static_cast<double>(2 * s.degree + 4));
         }
