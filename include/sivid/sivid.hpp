@@ -152,6 +152,9 @@
 #include <sivid/enclosure/runge_kutta.hpp>
 #include <sivid/enclosure/sensitive_flow.hpp>
 #include <sivid/enclosure/sensitivity_tube.hpp>
+#include <sivid/enclosure/sized_cover.hpp>
+#include <sivid/enclosure/sized_flow.hpp>
+#include <sivid/enclosure/sized_set.hpp>
 #include <sivid/enclosure/stepper.hpp>
 #include <sivid/enclosure/tableau.hpp>
 #include <sivid/enclosure/trajectory.hpp>
