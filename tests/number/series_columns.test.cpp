@@ -4,9 +4,9 @@
 #include <sivid/number/series_columns.hpp>
 
 #include "support/catch.hpp"
-#include "support/sized_models.hpp"
+#include "support/taylor_models.hpp"
 
-#include <sivid/number/sized_model.hpp>
+#include <sivid/number/taylor_model.hpp>
 
 #include <array>
 #include <cfenv>
@@ -19,9 +19,9 @@ using namespace sivid;
 using support::any_polynomial;
 using support::covers;
 using support::draws;
-using support::random_sized;
+using support::sized_model;
+using support::random_model;
 using support::rational;
-using support::sized_as;
 
 namespace {
 
@@ -30,7 +30,7 @@ constexpr std::size_t orders = 24;
 /// Two single series, and two rows of columns; what stands beyond the orders known is NaN.
 template <std::size_t N, std::size_t D>
 struct rows_and_factors {
-    using model = sized_as<N, D>;
+    using model = sized_model<N, D>;
     std::size_t columns;
     std::array<std::vector<model>, 2> a;
     std::array<std::vector<std::vector<model>>, 2> v; ///< [row][column][k]
@@ -45,7 +45,7 @@ struct rows_and_factors {
         constexpr double sizes[] = {1, 1e-3, 1e-160, 1e-310, 5e-324, 1e150};
         auto const next = [&](std::size_t k) {
             auto const size = wild ? sizes[d.below(6)] : 2.0;
-            return k < known ? random_sized<N, D>(d, size, 0.8, radius) : unknown;
+            return k < known ? random_model<N, D>(d, size, 0.8, radius) : unknown;
         };
         for (std::size_t s = 0; s < 2; ++s) {
             v[s].resize(columns);
@@ -81,7 +81,7 @@ void check_rounding(std::uint64_t seed, int trials) {
         std::size_t const alone = d.below(columns);
         for (int const mode : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
             in_mode(mode, [&] {
-                columns_sum sum(s.kept.groups(), sized_as<N, D>::size());
+                columns_sum sum(s.kept.groups(), sized_model<N, D>::size());
                 for (int again = 0; again < 2; ++again) { // what stood there before does not count
                     sum.start(expected, addends);
                     sum.add(alone, s.a[1][k]);
@@ -93,7 +93,7 @@ void check_rounding(std::uint64_t seed, int trials) {
             for (std::size_t c = 0; c < columns; ++c) {
                 any_polynomial exact;
                 auto const share = rational(1) / rational(static_cast<double>(divisor));
-                auto const add = [&](sized_as<N, D> const& x, sized_as<N, D> const& y) {
+                auto const add = [&](sized_model<N, D> const& x, sized_model<N, D> const& y) {
                     exact = support::sum(
                         exact, support::product(support::exact(x), support::exact(y)), share);
                 };
@@ -120,12 +120,12 @@ void check_members(std::uint64_t seed, int trials) {
     for (int trial = 0; trial < trials; ++trial) {
         std::size_t const k = d.below(orders), columns = 1 + d.below(9);
         rows_and_factors<N, D> s(d, columns, k + 1, 0.2, false);
-        columns_sum sum(s.kept.groups(), sized_as<N, D>::size());
+        columns_sum sum(s.kept.groups(), sized_model<N, D>::size());
         sum.start(k + 1, 1);
         sum.add_convolution(s.factors[0], s.kept, 0, k, k);
         sum.divide_into(s.kept, 2, k, 4); // exact
         for (std::size_t c = 0; c < columns; ++c) {
-            sized_sum<double> single;
+            product_sum<double> single;
             for (std::size_t j = 0; j <= k; ++j) single.add(s.a[0][j], s.v[0][c][k - j]);
             auto const reference = single.result();
             auto const result = s.kept.get(2, c, k);
@@ -133,7 +133,7 @@ void check_members(std::uint64_t seed, int trials) {
             // Not wider than product by product.
             REQUIRE(result.r() * 4 <= reference.r() * (1 + 1e-12) + 1e-12);
             for (int sample = 0; sample < 3; ++sample) {
-                auto const q = support::short_place(d, N);
+                auto const q = support::short_point(d, N);
                 rational y = 0;
                 for (std::size_t j = 0; j <= k; ++j) {
                     y += support::member<rational>(d, s.a[0][j], q) *
@@ -147,26 +147,26 @@ void check_members(std::uint64_t seed, int trials) {
 
 template <std::size_t N, std::size_t D>
 void check_radii() {
-    using model = sized_as<N, D>;
-    auto const convolve = [](std::vector<sized_model<double>> const& a,
-                             std::vector<sized_model<double>> const& b, std::size_t k) {
+    using model = sized_model<N, D>;
+    auto const convolve = [](std::vector<taylor_model<double>> const& a,
+                             std::vector<taylor_model<double>> const& b, std::size_t k) {
         constexpr std::size_t columns = 9;
-        series_columns v(2, columns, orders, sized_as<N, D>::size());
-        column_multiplier factor(orders, sized_as<N, D>::size());
+        series_columns v(2, columns, orders, sized_model<N, D>::size());
+        column_multiplier factor(orders, sized_model<N, D>::size());
         for (std::size_t j = 0; j <= k; ++j) {
             factor.put(j, a[j]);
             for (std::size_t c = 0; c < columns; ++c) v.put(0, c, j, b[j]);
         }
-        columns_sum sum(v.groups(), sized_as<N, D>::size());
+        columns_sum sum(v.groups(), sized_model<N, D>::size());
         sum.start(k + 1, 1);
         sum.add_convolution(factor, v, 0, k, k);
         sum.divide_into(v, 1, k, 1);
-        std::vector<sized_model<double>> result;
+        std::vector<taylor_model<double>> result;
         for (std::size_t c = 0; c < columns; ++c) result.push_back(v.get(1, c, k));
         return result;
     };
     for (std::size_t const k : {0U, 1U, 3U, 4U, 7U, 8U, 15U, 23U}) {
-        support::check_radii_of_sized_orders(model::size(), k, convolve);
+        support::check_radii_of_orders(model::size(), k, convolve);
     }
 }
 
@@ -198,7 +198,7 @@ TEST_CASE("Series columns: a radius that is not finite stays so, in its column")
         auto unknown = s.v[0][8][lost];
         unknown.r() = std::numeric_limits<double>::infinity();
         s.kept.put(0, 8, lost, unknown);
-        columns_sum sum(s.kept.groups(), sized_as<2, 1>::size());
+        columns_sum sum(s.kept.groups(), sized_model<2, 1>::size());
         sum.start(10, 1);
         sum.add_convolution(s.factors[0], s.kept, 0, 9, 9);
         sum.divide_into(s.kept, 2, 9, 10);
@@ -216,16 +216,16 @@ TEST_CASE("Series columns: a radius that is not finite stays so, in its column")
 }
 
 TEST_CASE("Series columns: what may have overflowed on the way is not known") {
-    using model = sized_as<1, 0>;
+    using model = sized_model<1, 0>;
     for (int const mode : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
-        series_columns v(2, 1, 2, sized_as<1, 0>::size());
-        column_multiplier a(2, sized_as<1, 0>::size());
+        series_columns v(2, 1, 2, sized_model<1, 0>::size());
+        column_multiplier a(2, sized_model<1, 0>::size());
         a.put(0, model::constant(1e200));
         a.put(1, model::constant(-1e200));
         v.put(0, 0, 0, model::constant(1e200));
         v.put(0, 0, 1, model::constant(1e200));
         in_mode(mode, [&] {
-            columns_sum sum(v.groups(), sized_as<1, 0>::size());
+            columns_sum sum(v.groups(), sized_model<1, 0>::size());
             sum.start(2, 1);
             sum.add_convolution(a, v, 0, 1, 1);
             sum.divide_into(v, 1, 1, 1);

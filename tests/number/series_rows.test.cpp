@@ -3,9 +3,9 @@
 
 #include "support/catch.hpp"
 #include "support/rounding_modes.hpp"
-#include "support/sized_models.hpp"
+#include "support/taylor_models.hpp"
 
-#include <sivid/number/sized_model.hpp>
+#include <sivid/number/taylor_model.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,9 +17,9 @@ using namespace sivid;
 using support::any_polynomial;
 using support::covers;
 using support::draws;
-using support::random_sized;
+using support::sized_model;
+using support::random_model;
 using support::rational;
-using support::sized_as;
 
 namespace {
 
@@ -27,7 +27,7 @@ namespace {
 template <std::size_t N, std::size_t D>
 struct two_series {
     static constexpr std::size_t orders = 26;
-    using model = sized_as<N, D>;
+    using model = sized_model<N, D>;
     std::vector<model> a, b;
     series_rows rows{2, orders, model::size()};
 
@@ -38,7 +38,7 @@ struct two_series {
         for (std::size_t k = 0; k < orders; ++k) {
             for (auto* s : {&a, &b}) {
                 auto const size = wild ? sizes[d.below(6)] : 2.0;
-                s->push_back(k < known ? random_sized<N, D>(d, size, 0.8, radius) : unknown);
+                s->push_back(k < known ? random_model<N, D>(d, size, 0.8, radius) : unknown);
                 rows.put(s == &a ? 0 : 1, k, s->back());
             }
         }
@@ -80,9 +80,9 @@ void check_rounding(std::uint64_t seed, int trials) {
             }
         }
         for (int const mode : support::rounding_modes) {
-            sized_as<N, D> result;
+            sized_model<N, D> result;
             support::in_mode(mode, [&] {
-                sized_sum<double> sum;
+                product_sum<double> sum;
                 sum.add_convolution(s.rows, 0, 1, r.k, r.from, r.to, factor, weight);
                 if (more) {
                     sum.add(s.a[0], -1);
@@ -103,7 +103,7 @@ void check_members(std::uint64_t seed, int trials) {
     for (int trial = 0; trial < trials; ++trial) {
         auto const r = draw_range(d, 20);
         two_series<N, D> const s(d, r.k + 1, 0.2, false);
-        sized_sum<double> rows, single;
+        product_sum<double> rows, single;
         rows.add_convolution(s.rows, 0, 1, r.k, r.from, r.to);
         for (std::size_t j = r.from; j <= r.to; ++j) single.add(s.a[j], s.b[r.k - j]);
         auto const result = rows.result();
@@ -112,7 +112,7 @@ void check_members(std::uint64_t seed, int trials) {
         // Not wider than product by product.
         REQUIRE(result.r() <= reference.r() * (1 + 1e-12) + 1e-12);
         for (int sample = 0; sample < 6; ++sample) {
-            auto const q = support::short_place(d, N);
+            auto const q = support::short_point(d, N);
             rational y = 0;
             for (std::size_t j = r.from; j <= r.to; ++j) {
                 y += support::member<rational>(d, s.a[j], q) *
@@ -125,20 +125,20 @@ void check_members(std::uint64_t seed, int trials) {
 
 template <std::size_t N, std::size_t D>
 void check_radii() {
-    using model = sized_as<N, D>;
-    auto const convolve = [](std::vector<sized_model<double>> const& a,
-                             std::vector<sized_model<double>> const& b, std::size_t k) {
+    using model = sized_model<N, D>;
+    auto const convolve = [](std::vector<taylor_model<double>> const& a,
+                             std::vector<taylor_model<double>> const& b, std::size_t k) {
         series_rows rows(2, k + 1, model::size());
         for (std::size_t j = 0; j <= k; ++j) {
             rows.put(0, j, a[j]);
             rows.put(1, j, b[j]);
         }
-        sized_sum<double> sum;
+        product_sum<double> sum;
         sum.add_convolution(rows, 0, 1, k, 0, k);
-        return std::vector<sized_model<double>>{sum.result()};
+        return std::vector<taylor_model<double>>{sum.result()};
     };
     for (std::size_t const k : {0U, 3U, 7U, 8U, 15U, 16U, 23U}) {
-        support::check_radii_of_sized_orders(model::size(), k, convolve);
+        support::check_radii_of_orders(model::size(), k, convolve);
     }
 }
 
@@ -169,7 +169,7 @@ TEST_CASE("Series rows: a radius that is not finite stays so") {
         two_series<2, 1> s(d, 10, 0.1, false);
         s.a[lost].r() = std::numeric_limits<double>::infinity();
         s.rows.put(0, lost, s.a[lost]);
-        sized_sum<double> sum, other;
+        product_sum<double> sum, other;
         sum.add_convolution(s.rows, 0, 1, 9, 0, 9);
         REQUIRE(!std::isfinite(sum.result().r()));
         // A convolution that leaves it out knows its value.

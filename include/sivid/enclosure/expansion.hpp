@@ -2,7 +2,6 @@
 #ifndef SIVID_ENCLOSURE_EXPANSION_HPP
 #define SIVID_ENCLOSURE_EXPANSION_HPP
 
-#include <sivid/enclosure/detail/sized_variations.hpp>
 #include <sivid/enclosure/detail/variation_columns.hpp>
 #include <sivid/enclosure/flow.hpp>
 #include <sivid/model/series.hpp>
@@ -60,19 +59,11 @@ template <class T>
 struct columns_of {
     struct type {};
 };
-template <std::size_t N, std::size_t D>
-struct columns_of<taylor_model<N, D>> {
-    using type = variation_columns<N, D>;
-    static type make(flow const& f, tape const& program, std::size_t entries, std::size_t columns,
-                     std::size_t orders, size_of_values<taylor_model<N, D>>) {
-        return {f, program, entries, columns, orders};
-    }
-};
 template <>
-struct columns_of<sized_model<double>> {
-    using type = sized_variations;
+struct columns_of<taylor_model<double>> {
+    using type = variation_columns;
     static type make(flow const& f, tape const& program, std::size_t entries, std::size_t columns,
-                     std::size_t orders, size_of_values<sized_model<double>> const& values) {
+                     std::size_t orders, size_of_values<taylor_model<double>> const& values) {
         return {f, program, entries, columns, orders, *values.shape};
     }
 };

@@ -4,7 +4,6 @@
 
 #include <sivid/model/arithmetic.hpp>
 #include <sivid/model/tape.hpp>
-#include <sivid/number/coefficient_rows.hpp>
 
 #include <cstddef>
 #include <type_traits>
@@ -248,7 +247,7 @@ private:
         if constexpr (arithmetic::keeps_rows) {
             if (to >= worth_rows) {
                 total.add_convolution(rows_, row_[a], rows_, row_[b], k, 1, to, 1,
-                                      convolution_weight::order);
+                                      arithmetic::by_order);
                 return total.result_into(result);
             }
         }

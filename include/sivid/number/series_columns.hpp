@@ -2,7 +2,7 @@
 #ifndef SIVID_NUMBER_SERIES_COLUMNS_HPP
 #define SIVID_NUMBER_SERIES_COLUMNS_HPP
 
-#include <sivid/number/detail/sized_model_class.hpp>
+#include <sivid/number/detail/taylor_model_class.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace sivid {
 /// multiplies such a row multiplies all columns at once, eight in a few vector registers.
 class series_columns {
 public:
-    using model = sized_model<double>;
+    using model = taylor_model<double>;
     static constexpr std::size_t at_once = column_layout::at_once;
 
     series_columns() = default;
@@ -88,7 +88,7 @@ private:
 /// A series in time of single Taylor models, as what multiplies `series_columns`.
 class column_multiplier {
 public:
-    using model = sized_model<double>;
+    using model = taylor_model<double>;
     /// Far above what the least double loses, far below what matters: the radius has that much
     /// more, so that a rounding bound may underflow beside it.
     static constexpr double floor = 1e-300;
@@ -118,7 +118,7 @@ private:
 /// columns: one rounding bound for each of them (`docs/taylor_models.md`, section 1.1).
 class columns_sum {
     using columns = series_columns;
-    using model = sized_model<double>;
+    using model = taylor_model<double>;
 
 public:
     columns_sum() = default;

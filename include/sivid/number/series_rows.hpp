@@ -2,7 +2,7 @@
 #ifndef SIVID_NUMBER_SERIES_ROWS_HPP
 #define SIVID_NUMBER_SERIES_ROWS_HPP
 
-#include <sivid/number/detail/sized_model_class.hpp>
+#include <sivid/number/detail/taylor_model_class.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace sivid {
 /// two series are then dot products of rows, eight orders in one vector register.
 class series_rows {
 public:
-    using model = sized_model<double>;
+    using model = taylor_model<double>;
     static constexpr std::size_t at_once = row_layout::at_once;
 
     series_rows() = default;

@@ -36,8 +36,8 @@ public:
     [[nodiscard]] virtual std::size_t at_once() const { return 1; }
 };
 
-/// The kernel that `make_run` chooses for the same experiment, so that what both say of one region
-/// has the same monomials.
+/// Polynomials of the degree that `make_run` chooses for the same experiment, so that what both say
+/// of one region has the same monomials.
 /// @param prior  contains all boxes of parameters that will be begun with
 /// @given  the flow outlives the result
 [[nodiscard]] SIVID_DECL std::unique_ptr<continued_run>

@@ -59,7 +59,8 @@ namespace paving_detail {
 
 } // namespace paving_detail
 
-/// The kernel that fits the number of unknowns; beyond the largest the sets are of first order.
+/// By Taylor models of the degree that suits the number of unknowns (`suggested_degree`), or by
+/// sets of first order, as the options say.
 /// @param initial, prior  what the boxes to come lie in
 [[nodiscard]] SIVID_DECL std::unique_ptr<experiment_run>
 make_run(flow const& f, experiment const& e, record const& samples, box const& initial,

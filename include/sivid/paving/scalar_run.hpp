@@ -10,7 +10,7 @@
 namespace sivid {
 
 /// An experiment by Taylor models in scalars, one box at a time: for checks that shall share no
-/// packs of numbers with the search. Beyond the largest kernel the sets are of first order.
+/// packs of numbers with the search.
 /// @param initial, prior  what the boxes to come lie in
 /// @guarantee, @cost  as of `make_run`, about eight times as long for eight boxes
 [[nodiscard]] SIVID_DECL std::unique_ptr<experiment_run>

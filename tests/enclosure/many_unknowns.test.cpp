@@ -2,11 +2,11 @@
 // More unknowns than any size that is compiled apart.
 #include "support/catch.hpp"
 #include "support/models.hpp"
+#include "support/parametric_sets.hpp"
 #include "support/random.hpp"
 #include "support/reference.hpp"
-#include "support/sized_sets.hpp"
 
-#include <sivid/enclosure/sized_flow.hpp>
+#include <sivid/enclosure/parametric_flow.hpp>
 
 #include <cmath>
 #include <cstddef>
@@ -36,7 +36,7 @@ enclosure_options patient() {
 
 } // namespace
 
-TEST_CASE("sized flow: as many unknowns as there are") {
+TEST_CASE("parametric flow: as many unknowns as there are") {
     // Twelve states of uncertain start, each decaying at a rate of its own into the next pair:
     // x' = -p x - x^2, with x = p x0 / ((p + x0) e^{p t} - x0).
     constexpr std::size_t states = 12;
@@ -60,7 +60,7 @@ TEST_CASE("sized flow: as many unknowns as there are") {
         return x;
     };
     for (std::size_t const degree : {1U, 2U}) {
-        sized_flow<sized_model<double>> run(*f, patient(), 24, degree);
+        parametric_flow<taylor_model<double>> run(*f, patient(), 24, degree);
         run.begin(0, x0, p);
         REQUIRE(run.unknowns().variables == 24);
         draws d(degree);
@@ -70,7 +70,7 @@ TEST_CASE("sized flow: as many unknowns as there are") {
             REQUIRE(done);
             auto const swept = run.swept();
             for (int sample = 0; sample < 12; ++sample) {
-                auto const q = support::short_place(d, 24);
+                auto const q = support::short_point(d, 24);
                 auto const start = support::at(run.unknowns().initial, q);
                 auto const rate = support::at(run.unknowns().parameters, q);
                 REQUIRE(support::encloses_at(run.set(), q, exact(run.time(), start, rate)));
@@ -92,6 +92,6 @@ TEST_CASE("sized flow: as many unknowns as there are") {
         }
     }
     // One more than there is room for.
-    sized_flow<sized_model<double>> narrow(*f, patient(), 23, 1);
+    parametric_flow<taylor_model<double>> narrow(*f, patient(), 23, 1);
     REQUIRE_THROWS_AS(narrow.begin(0, x0, p), std::invalid_argument);
 }
