@@ -31,7 +31,8 @@ namespace sivid {
 ///
 /// In memory: coefficients in the order of `monomial_space`, zeros up to whole vectors, the radius,
 /// the norms 1 .. D together, the norms 0 .. D; all lanes of a number side by side. A model owns
-/// its memory, or borrows a place in a `taylor_models`: then assignment writes into that place.
+/// its memory (a single number within itself), or borrows a place in a `taylor_models`: then
+/// assignment writes into that place.
 /// @tparam C  `double`, or `lanes<W>`: W such functions side by side
 /// @cost      copies copy the numbers; memory of temporaries is used again, see `aligned_blocks`
 /// @ref  Makino and Berz, Int. J. Pure Appl. Math. 4 (2003); rounding bounds: Higham 2002, chapter
@@ -55,11 +56,15 @@ public:
     taylor_model() : taylor_model(shape_type::number()) {}
     /// The function 0 in so many variables.
     explicit taylor_model(shape_type const& s) : taylor_model(s, unset{}) {
-        number_detail::clear_lines(p_, s.lines);
+        if (s.terms == 1) {
+            std::fill_n(p_, number_size, C(0.0));
+        } else {
+            number_detail::clear_lines(p_, s.lines);
+        }
     }
     /// For a result that is written at once, whole vectors at a time.
     struct unset {};
-    taylor_model(shape_type const& s, unset) : shape_(&s) { take(s.lines); }
+    taylor_model(shape_type const& s, unset) : shape_(&s) { take(s); }
     /// Without memory, to be given a size by `reshape` before anything else.
     explicit taylor_model(unset) : shape_(&shape_type::number()) {}
     /// Memory, so many cache lines of it, that belongs to somebody else.
@@ -70,16 +75,16 @@ public:
     /// The number 0 there.
     explicit taylor_model(place const& p)
         : shape_(&shape_type::number()), p_(p.first), room_(p.lines) {
-        std::fill_n(p_, shape_->numbers, C(0.0));
+        std::fill_n(p_, number_size, C(0.0));
     }
     taylor_model(taylor_model const& a) : shape_(a.shape_) {
-        take(shape_->lines);
-        number_detail::copy_lines(p_, a.p_, lines_);
+        take(*shape_);
+        copy_numbers(a);
     }
     taylor_model(taylor_model&& a) : shape_(a.shape_) {
-        if (a.borrowed()) {
-            take(shape_->lines);
-            number_detail::copy_lines(p_, a.p_, lines_);
+        if (a.lines_ == 0 && a.p_ != nullptr) {
+            take(*shape_);
+            copy_numbers(a);
         } else {
             p_ = std::exchange(a.p_, nullptr);
             lines_ = std::exchange(a.lines_, 0);
@@ -88,11 +93,12 @@ public:
     taylor_model& operator=(taylor_model const& a) {
         if (this == &a) return *this;
         reshape(*a.shape_);
-        number_detail::copy_lines(p_, a.p_, shape_->lines);
+        copy_numbers(a);
         return *this;
     }
     taylor_model& operator=(taylor_model&& a) {
-        if (borrowed() || a.borrowed()) return *this = std::as_const(a);
+        if (borrowed() || a.lines_ == 0) return *this = std::as_const(a);
+        if (lines_ == 0) p_ = nullptr; // what it held within itself is lost
         std::swap(shape_, a.shape_);
         std::swap(p_, a.p_);
         std::swap(lines_, a.lines_);
@@ -127,10 +133,11 @@ public:
     /// be written with them.
     void reshape(shape_type const& s) {
         if (&s == shape_ && p_ != nullptr) return;
-        if (s.lines > (borrowed() ? room_ : lines_)) {
-            if (borrowed()) throw std::logic_error("taylor_model: too large for its place");
+        if (borrowed()) {
+            if (s.lines > room_) throw std::logic_error("taylor_model: too large for its place");
+        } else if (lines_ == 0 || s.lines > lines_) {
             if (lines_ > 0) number_detail::aligned_blocks::give_back(p_, lines_);
-            take(s.lines);
+            take(s);
         }
         shape_ = &s;
     }
@@ -209,15 +216,37 @@ public:
     }
 
 private:
-    [[nodiscard]] bool borrowed() const { return lines_ == 0 && p_ != nullptr; }
-    void take(std::size_t lines) {
-        lines_ = lines;
+    /// Coefficient, radius, norms.
+    static constexpr std::size_t number_size = 4;
+    /// Single numbers need no block: lanes of them would make each handle too large.
+    static constexpr bool holds_numbers = std::is_same_v<C, double>;
+
+    [[nodiscard]] bool borrowed() const { return room_ > 0; }
+    void take(shape_type const& s) {
+        if constexpr (holds_numbers) {
+            if (s.terms == 1) {
+                lines_ = 0;
+                p_ = number_.data();
+                return;
+            }
+        }
+        lines_ = s.lines;
         p_ = static_cast<C*>(number_detail::aligned_blocks::take(lines_));
+    }
+    /// @given  the same shape
+    [[gnu::always_inline]] void copy_numbers(taylor_model const& a) {
+        if (shape_->terms == 1) {
+            std::copy_n(a.p_, number_size, p_);
+        } else {
+            number_detail::copy_lines(p_, a.p_, shape_->lines);
+        }
     }
     shape_type const* shape_;
     C* p_ = nullptr;
     std::size_t lines_ = 0; ///< of memory that it owns
     std::size_t room_ = 0;  ///< lines of a borrowed place
+    [[no_unique_address]] std::conditional_t<holds_numbers, std::array<double, number_size>, unset>
+        number_; ///< where it has no variable and no place
 };
 
 namespace number_detail {
@@ -240,8 +269,13 @@ public:
     using model = taylor_model<C>;
 
     taylor_models() = default;
-    taylor_models(std::size_t count, model_shape<C> const& s)
-        : memory_(count * numbers(s), typename number_detail::workspace<C>::unset{}) {
+    taylor_models(std::size_t count, model_shape<C> const& s) {
+        if (s.terms == 1 && std::is_same_v<C, double>) {
+            models_.resize(count); // these have their numbers within themselves
+            return;
+        }
+        memory_ = number_detail::workspace<C>(count * numbers(s),
+                                              typename number_detail::workspace<C>::unset{});
         models_.reserve(count);
         for (std::size_t i = 0; i < count; ++i) {
             models_.emplace_back(typename model::place{memory_.data() + i * numbers(s), s.lines});
