@@ -20,13 +20,12 @@ namespace sivid {
 inline namespace SIVID_PACK_TARGET {
 namespace product_detail {
 
-/// Sizes whose products are unrolled: what search and single boxes use and of few
-/// variables
+/// Sizes whose products are unrolled: what searches and single boxes use.
 #define SIVID_UNROLLED_PRODUCTS(X)                                                                 \
     X(2, 1)                                                                                        \
     X(3, 1)                                                                                        \
-    X(4, 1) X(6, 1) X(7, 1) X(2, 2) X(3, 2) X(1, 3) X(2, 3) X(3, 3) X(4, 3) X(2, 4) X(3, 4)        \
-        X(2, 6)
+    X(4, 1) X(6, 1) X(7, 1) X(2, 2) X(3, 2) X(1, 3) X(2, 3) X(3, 3) X(4, 3) X(1, 4) X(2, 4)        \
+        X(3, 4) X(2, 6)
 
 /// What a coefficient starts from where there is nothing to start from.
 struct no_start {
