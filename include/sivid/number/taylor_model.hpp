@@ -161,7 +161,7 @@ template <class C>
 /// One of the functions that lie side by side.
 template <class C>
 [[nodiscard]] taylor_model<double> lane_of(taylor_model<C> const& a, std::size_t lane) {
-    auto const& s = model_shape<double>::of(a.shape().variables, a.shape().degree);
+    auto const& s = a.shape().single();
     taylor_model<double> result(s);
     for (std::size_t i = 0; i < s.terms; ++i) result.c(i) = lane_traits<C>::get(a.c(i), lane);
     for (std::size_t i = 0; i < s.numbers - s.radius; ++i) {

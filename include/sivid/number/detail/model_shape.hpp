@@ -34,6 +34,7 @@ struct model_shape {
     /// Of series of single models alone (C = double).
     product_detail::convolution_function convolve;
     product_detail::column_function add_columns;
+    model_shape<double> const* one; ///< that of the models in its lanes; null for single ones
 
     [[nodiscard]] static model_shape const& of(std::size_t variables, std::size_t degree) {
         // A number is one, whatever it does not depend on.
@@ -52,7 +53,23 @@ struct model_shape {
         return one;
     }
 
+    /// Of one of the functions that lie side by side.
+    [[nodiscard]] model_shape<double> const& single() const {
+        if constexpr (std::is_same_v<C, double>) {
+            return *this;
+        } else {
+            return *one;
+        }
+    }
+
 private:
+    static model_shape<double> const* single_shape(std::size_t variables, std::size_t degree) {
+        if constexpr (std::is_same_v<C, double>) {
+            return nullptr;
+        } else {
+            return &model_shape<double>::of(variables, degree);
+        }
+    }
     static model_shape make(std::size_t variables, std::size_t degree) {
         auto const& s = monomial_space::of(variables, degree);
         constexpr bool single = std::is_same_v<C, double>;
@@ -73,7 +90,8 @@ private:
                 product_detail::product_for<C>(variables, degree),
                 product_detail::norms_for<C>(variables, degree),
                 single ? product_detail::convolution_for(variables, degree) : nullptr,
-                single ? product_detail::columns_for(variables, degree) : nullptr};
+                single ? product_detail::columns_for(variables, degree) : nullptr,
+                single_shape(variables, degree)};
     }
 };
 

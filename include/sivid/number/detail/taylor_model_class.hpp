@@ -66,7 +66,7 @@ public:
     struct unset {};
     taylor_model(shape_type const& s, unset) : shape_(&s) { take(s); }
     /// Without memory, to be given a size by `reshape` before anything else.
-    explicit taylor_model(unset) : shape_(&shape_type::number()) {}
+    explicit taylor_model(unset) {}
     /// Memory, so many cache lines of it, that belongs to somebody else.
     struct place {
         C* first;
@@ -241,7 +241,7 @@ private:
             number_detail::copy_lines(p_, a.p_, shape_->lines);
         }
     }
-    shape_type const* shape_;
+    shape_type const* shape_ = nullptr;
     C* p_ = nullptr;
     std::size_t lines_ = 0; ///< of memory that it owns
     std::size_t room_ = 0;  ///< lines of a borrowed place
