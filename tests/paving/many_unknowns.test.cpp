@@ -5,6 +5,7 @@
 #include "support/random.hpp"
 #include "support/reference.hpp"
 
+#include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/identify.hpp>
 
 #include <cstddef>

@@ -3,7 +3,7 @@
 #define SIVID_PAVING_SCALAR_RUN_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/paving/experiment_run.hpp>
+#include <sivid/paving/detail/experiment_run_class.hpp>
 
 #include <memory>
 

@@ -3,7 +3,7 @@
 #define SIVID_PAVING_DETAIL_TAYLOR_CONTINUATION_HPP
 
 #include <sivid/enclosure/parametric_flow.hpp>
-#include <sivid/paving/continued_run.hpp>
+#include <sivid/paving/detail/continued_run_class.hpp>
 
 #include <algorithm>
 #include <array>

@@ -3,6 +3,7 @@
 #define SIVID_PAVING_DETAIL_TAYLOR_RUN_HPP
 
 #include <sivid/enclosure/parametric_flow.hpp>
+#include <sivid/paving/detail/experiment_run_class.hpp>
 #include <sivid/paving/detail/measurement_walk.hpp>
 #include <sivid/paving/run_options.hpp>
 

@@ -7,6 +7,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/paving/detail/doubleton_continuation.hpp>
+#include <sivid/paving/detail/experiment_run_class.hpp>
 #include <sivid/paving/detail/taylor_continuation.hpp>
 
 #include <cstddef>

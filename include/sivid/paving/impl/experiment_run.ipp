@@ -15,12 +15,6 @@
 
 namespace sivid {
 
-// Once more, as `scalar_run.hpp` may have been included first, and has this header in front of it.
-SIVID_DECL std::unique_ptr<experiment_run> make_scalar_run(flow const& f, experiment const& e,
-                                                           record const& samples,
-                                                           box const& initial, box const& prior,
-                                                           run_options options);
-
 SIVID_DECL std::unique_ptr<experiment_run> make_run(flow const& f, experiment const& e,
                                                     record const& samples, box const& initial,
                                                     box const& prior, run_options options) {
