@@ -316,6 +316,8 @@ void merge_windows(report::diagnosis_plot_data& data) {
 } // namespace
 
 int run(diagnose_command const& c) {
+    console::progress_line progress(c.quiet); // its clock is that of the budget
+    auto const left = [&] { return std::max(0.0, c.budget - progress.elapsed()); };
     auto const file = c.folder / c.file;
     auto const record = read_recording(file);
     auto const windows = cut_windows(record, c.windows, file);
@@ -332,11 +334,10 @@ int run(diagnose_command const& c) {
     }
     console::prepare_folder(c.out);
 
-    console::progress_line progress(c.quiet);
     progress.note("diagnosing M v' = F - F_v v on " + std::to_string(windows.size()) +
                   " windows; Ctrl-C stops early");
     // The rest is for the hold-out record and the tables.
-    auto options = console::thorough_diagnosis(0.8 * c.budget);
+    auto options = console::thorough_diagnosis(0.8 * left());
     console::watch(options, progress);
     auto run = sivid::diagnose(problem, axis_catalogue(), options);
     progress.finish();
@@ -345,7 +346,6 @@ int run(diagnose_command const& c) {
     // Whatever happens to what follows, which only adds to it.
     console::write_diagnosis(run.result, id, {}, console::page_options(run, id, c.command_line),
                              c.out, [](report::page&) {});
-    auto const left = [&] { return std::max(0.0, c.budget - progress.elapsed()); };
     if (!console::interrupted()) {
         progress.note("judging by the validation record");
         sivid::judge_by_holdout(run, kept, std::min(left(), 0.1 * c.budget), options.test, 120);

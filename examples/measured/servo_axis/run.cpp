@@ -269,16 +269,17 @@ int exit_code_of(sivid::verdict v) {
 } // namespace
 
 int run(command const& c) {
+    console::progress_line progress(c.quiet); // its clock is that of the budget
     auto const record = read_recording(c.folder / c.file);
     auto const posed = pose(record, c);
     console::prepare_folder(c.out);
 
     console::watch_interrupts();
-    console::progress_line progress(c.quiet);
     progress.note("identifying M, F_v, F_c and the offset from " +
                   std::to_string(posed.used.size()) + " windows; Ctrl-C stops early");
     outcome_of_run o{identify_axis(
-        posed, c.accuracy, c.budget, [&](std::string const& text) { progress.note(text); },
+        posed, c.accuracy, std::max(0.0, c.budget - progress.elapsed()),
+        [&](std::string const& text) { progress.note(text); },
         [&](sivid::paving_progress const& p) {
             progress.show(console::paving_words(p));
             return !console::interrupted();

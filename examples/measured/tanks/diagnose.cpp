@@ -107,11 +107,12 @@ void add_chain(report::page& page, sivid::diagnosis_run const& run,
                                 {"elsewhere [V]", report::column_kind::number},
                                 {"inflation", report::column_kind::text}},
                     .rows = {},
-                    .caption = "Root mean square of the level's misfit over the whole record, by "
-                               "least squares (estimates). The validation record is held out but for "
-                               "its own starts. Near full: from 160 s before to 240 s after a "
-                               "level above 9.5 V, estimation record. Inflation: proved range of "
-                               "the factor by which the bound would have to grow."};
+                    .caption =
+                        "Root mean square of the level's misfit over the whole record, by "
+                        "least squares (estimates). The validation record is held out but for "
+                        "its own starts. Near full: from 160 s before to 240 s after a "
+                        "level above 9.5 V, estimation record. Inflation: proved range of "
+                        "the factor by which the bound would have to grow."};
     for (auto const& link : chain) {
         t.rows.push_back({console::model_words(link.effects), text_of("%.3f", link.estimation),
                           std::isfinite(link.validation) ? text_of("%.3f", link.validation) : "-",
@@ -177,6 +178,8 @@ std::string validity_words(validity const& v) {
 } // namespace
 
 int run(diagnose_command const& c) {
+    console::progress_line progress(c.quiet); // its clock is that of the budget
+    auto const left = [&] { return std::max(0.0, c.budget - progress.elapsed()); };
     auto const problem = tank_problem(read_experiment(c.folder / c.file, c));
     sivid::holdout kept;
     if (std::filesystem::exists(c.folder / c.holdout_file)) {
@@ -184,11 +187,10 @@ int run(diagnose_command const& c) {
     }
     console::prepare_folder(c.out);
 
-    console::progress_line progress(c.quiet);
     progress.note("diagnosing two tanks without rims; Ctrl-C stops early");
     sivid::diagnosis_options options;
     // The rest is for the hold-out record and the tables.
-    options.seconds = 0.75 * c.budget;
+    options.seconds = 0.75 * left();
     options.test.workers = console::threads_for(0);
     // Boxes end a step; the shares of the time only do on a machine that is far too slow. With
     // starts as wide as these, observers prove something and sets of trajectories little.
@@ -205,7 +207,6 @@ int run(diagnose_command const& c) {
     // Whatever happens to what follows, which only adds to it.
     console::write_diagnosis(run.result, id, {}, console::page_options(run, id, c.command_line),
                              c.out, [](report::page&) {});
-    auto const left = [&] { return std::max(0.0, c.budget - progress.elapsed()); };
     if (!console::interrupted()) {
         progress.note("judging by the validation record");
         sivid::judge_by_holdout(run, kept, std::min(left(), 0.08 * c.budget), options.test, 20);
@@ -214,7 +215,7 @@ int run(diagnose_command const& c) {
     if (left() > 0 && !console::interrupted() && !run.result.interrupted &&
         run.result.gap != sivid::gap_verdict::none) {
         progress.note("looking until when the model as it is holds");
-        valid = validity_of(problem, 0.08 * c.budget);
+        valid = validity_of(problem, std::min(left(), 0.08 * c.budget));
     }
     std::vector<chain_link> chain;
     if (run.candidates.size() > 1 && left() > 0 && !console::interrupted()) {

@@ -215,6 +215,7 @@ public:
             auto const rows = std::min(together, j.rows() - first);
             auto const begin = reach.begin() + first;
             auto const n = static_cast<Eigen::Index>(*std::max_element(begin, begin + rows));
+            if (n == 0) continue; // Eigen takes the address of the first entry
             scaled_ = root.segment(first, rows).asDiagonal() * j.block(first, 0, rows, n);
             to.topLeftCorner(n, n).template selfadjointView<Eigen::Lower>().rankUpdate(
                 scaled_.transpose());

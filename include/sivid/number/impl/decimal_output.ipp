@@ -72,9 +72,9 @@ struct binary_parts {
 inline binary_parts parts_of(double x) {
     constexpr std::uint64_t hidden = std::uint64_t{1} << 52;
     auto const field = static_cast<int>(bits(x) >> 52);
-    auto const fraction = bits(x) & (hidden - 1);
-    return field == 0 ? binary_parts{fraction, -1074}
-                      : binary_parts{fraction | hidden, field - 1075};
+    auto const significand = bits(x) & (hidden - 1);
+    return field == 0 ? binary_parts{significand, -1074}
+                      : binary_parts{significand | hidden, field - 1075};
 }
 
 /// The decimals t = n 10^unit with x >= t > next (or x <= t < next), of those the one with the

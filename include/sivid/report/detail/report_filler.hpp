@@ -6,6 +6,7 @@
 #include <sivid/io/explaining_motion.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/identification.hpp>
+#include <sivid/report/identification_report.hpp>
 #include <sivid/report/identification_view.hpp>
 #include <sivid/report/identification_words.hpp>
 #include <sivid/report/paving_projections.hpp>
