@@ -3,7 +3,7 @@
 #define SIVID_MODEL_TAYLOR_ARITHMETIC_HPP
 
 #include <sivid/model/arithmetic.hpp>
-#include <sivid/model/series.hpp>
+#include <sivid/model/detail/series_storage.hpp>
 #include <sivid/number/taylor_model_functions.hpp>
 
 #include <array>
