@@ -152,7 +152,7 @@ std::vector<problem> some_models() {
         {between(0.98, 1.02), between(0.49, 0.51), between(0.7, 0.72), between(0.3, 0.31),
          between(0.4, 0.41), between(0.9, 0.92)},
         1));
-    for (std::size_t const n : {8U, 14U}) { // degrees 2 and 1
+    for (std::size_t const n : {8U, 14U}) {
         box starts(n), flows(n);
         for (std::size_t i = 0; i < n; ++i) {
             starts[i] = between(0.98, 1.02);
