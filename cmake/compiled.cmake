@@ -13,48 +13,9 @@ function(sivid_compiled_source name text)
     set(sivid_compiled_sources ${sivid_compiled_sources} "${source}" PARENT_SCOPE)
 endfunction()
 
-file(STRINGS "${sivid_include_dir}/sivid/paving/taylor_kernels.hpp" kernels REGEX "define SIVID_TAYLOR_KERNELS")
-string(REGEX MATCHALL "[0-9]+, [0-9]+" kernels "${kernels}")
-foreach(kernel IN LISTS kernels)
-    string(REPLACE ", " "_" name "${kernel}")
-    sivid_compiled_source(kernel_${name} "\
-#include <sivid/paving/continued_run.hpp>
-#include <sivid/paving/detail/taylor_continuation.hpp>
-#include <sivid/paving/detail/taylor_run.hpp>
-namespace sivid::paving_detail {
-template std::unique_ptr<experiment_run> make_taylor_run<${kernel}>(
-    flow const&, experiment const&, record const&, run_options const&);
-template std::unique_ptr<continued_run> make_taylor_continuation<${kernel}>(
-    flow const&, double, enclosure_options const&);
-}
-")
-endforeach()
-
-file(STRINGS "${sivid_include_dir}/sivid/paving/detail/scalar_taylor_run.hpp" kernels
-     REGEX "define SIVID_SCALAR_KERNELS")
-string(REGEX MATCHALL "[0-9]+, [0-9]+" kernels "${kernels}")
-foreach(kernel IN LISTS kernels)
-    string(REPLACE ", " "_" name "${kernel}")
-    sivid_compiled_source(scalar_kernel_${name} "\
-#include <sivid/paving/scalar_run.hpp>
-#include <sivid/paving/detail/scalar_taylor_run.hpp>
-namespace sivid::paving_detail {
-template std::unique_ptr<experiment_run> make_scalar_taylor_run<${kernel}>(
-    flow const&, experiment const&, record const&, run_options const&);
-}
-")
-endforeach()
-
-sivid_compiled_source(tube "\
-#include <sivid/enclosure/tube.hpp>
-namespace sivid {
-template tube<interval> integrate(
-    std::shared_ptr<flow const>, box const&, box const&, double, double, enclosure_options const&);
-}
-")
-
 # Each part of include/sivid/impl is one source: they are compiled side by side, and none takes more than 2 GB.
-set(parts library number measurement model approximate enclosure paving paving_further paving_check diagnosis)
+set(parts library number measurement model approximate enclosure tube paving paving_lanes paving_further paving_check
+    diagnosis)
 if(TARGET sivid::io)
     list(APPEND parts io io_check)
 endif()

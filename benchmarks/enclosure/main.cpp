@@ -95,10 +95,9 @@ problem quadrotor_problem(double delta) {
     return autonomous<problems::quadrotor>("quadrotor delta=" + std::to_string(delta).substr(0, 3),
                                            x, 5);
 }
-template <std::size_t D>
-void prove_height(problem const& p, benchmark::setting const& s) {
+void prove_height(std::size_t degree, problem const& p, benchmark::setting const& s) {
     if (!benchmark::asked.wants(p.name)) return;
-    sivid::parametric_flow<6, D> run(*p.flow, s.options());
+    sivid::parametric_flow<> run(*p.flow, s.options(), 6, degree);
     run.begin(0, p.initial, p.parameters);
     bool below = true, above = true;
     for (double const stop : {1.0, p.end}) {
@@ -164,31 +163,31 @@ int main(int argc, char** argv) {
         return hovercraft_problem("H3 w=" + std::to_string(w).substr(0, 4), w);
     };
 
-    measure<1, 0, double>(hovercraft_problem("H3-point", 0), {20, 2e-14, 0}, "0.5 ms, 1e-11");
+    measure<double>(1, 0, hovercraft_problem("H3-point", 0), {20, 2e-14, 0}, "0.5 ms, 1e-11");
     benchmark::measure_corners(hovercraft_problem("H3, eight points at once", 0.05), {20, 2e-14, 0},
                                "1 ms");
-    measure<3, 2, double>(h3(0.01), {8, 1e-7, 1e-4}, "0.5 ms, 1.005");
-    measure<3, 3, double>(h3(0.05), {8, 3e-6, 1e-4}, "0.5 ms, 1.02");
-    measure<3, 2, eight>(h3(0.05), {6, 1e-5, 1e-4, 3}, "0.2 ms a box");
-    measure<3, 3, double>(h3(0.1), {6, 1e-6, 1e-4}, "0.8 ms, 1.05");
-    measure<3, 4, double>(h3(0.2), {8, 1e-5, 1e-4}, "2 ms, 1.07");
-    measure<3, 3, eight>(h3(0.2), {6, 1e-5, 1e-4, 3}, "2 ms, 1.07");
-    measure<3, 4, eight>(h3(0.3), {8, 1e-5, 1e-4, 3}, "10 ms, 1.02");
-    measure<3, 4, eight>(hovercraft_problem("H3 whole prior", -1), {6, 1e-5, 1e-4, 0, 1e-2},
-                         "16 parts, 60 ms");
+    measure<double>(3, 2, h3(0.01), {8, 1e-7, 1e-4}, "0.5 ms, 1.005");
+    measure<double>(3, 3, h3(0.05), {8, 3e-6, 1e-4}, "0.5 ms, 1.02");
+    measure<eight>(3, 2, h3(0.05), {6, 1e-5, 1e-4, 3}, "0.2 ms a box");
+    measure<double>(3, 3, h3(0.1), {6, 1e-6, 1e-4}, "0.8 ms, 1.05");
+    measure<double>(3, 4, h3(0.2), {8, 1e-5, 1e-4}, "2 ms, 1.07");
+    measure<eight>(3, 3, h3(0.2), {6, 1e-5, 1e-4, 3}, "2 ms, 1.07");
+    measure<eight>(3, 4, h3(0.3), {8, 1e-5, 1e-4, 3}, "10 ms, 1.02");
+    measure<eight>(3, 4, hovercraft_problem("H3 whole prior", -1), {6, 1e-5, 1e-4, 0, 1e-2},
+                   "16 parts, 60 ms");
 
     std::printf("\n");
     benchmark::sensitivities_at_a_point(hovercraft_problem("H3-point, sensitivities", 0));
-    benchmark::sensitivities_over_a_box<3, 2>(hovercraft_problem("H3 w=0.01, sensitivities", 0.01),
-                                              {8, 1e-6, 1e-4});
-    benchmark::sensitivities_over_a_box<3, 3>(hovercraft_problem("H3 w=0.05, sensitivities", 0.05),
-                                              {6, 1e-5, 1e-4});
+    benchmark::sensitivities_over_a_box(3, 2, hovercraft_problem("H3 w=0.01, sensitivities", 0.01),
+                                        {8, 1e-6, 1e-4});
+    benchmark::sensitivities_over_a_box(3, 3, hovercraft_problem("H3 w=0.05, sensitivities", 0.05),
+                                        {6, 1e-5, 1e-4});
     std::printf("\n");
 
     auto const vdp = autonomous<problems::van_der_pol>(
         "van der Pol T=7", box{interval(1.25, 1.55), interval(2.35, 2.45)}, 7);
-    measure<2, 4, double>(vdp, {10, 1e-6, 1e-4}, "1 ms, 1.02");
-    measure<2, 6, double>(vdp, {10, 1e-6, 1e-4}, "1 ms, 1.02");
+    measure<double>(2, 4, vdp, {10, 1e-6, 1e-4}, "1 ms, 1.02");
+    measure<double>(2, 6, vdp, {10, 1e-6, 1e-4}, "1 ms, 1.02");
 
     auto const loomis = [](double w) {
         double const centre[7]{1.2, 1.05, 1.5, 2.4, 1, 0.1, 0.45};
@@ -197,12 +196,13 @@ int main(int argc, char** argv) {
         return autonomous<problems::laub_loomis>("Laub-Loomis W=" + std::to_string(w).substr(0, 4),
                                                  x, 20);
     };
-    measure<7, 2, double>(loomis(0.01), {12, 1.5e-6, 3e-4}, "2 ms, 1.06");
-    measure<7, 3, double>(loomis(0.05), {12, 1.5e-6, 3e-4}, "8 ms, 1.06");
-    measure<7, 4, double>(loomis(0.1), {8, 1e-5, 1e-4}, "15 ms, 1.19");
+    measure<double>(7, 2, loomis(0.01), {12, 1.5e-6, 3e-4}, "2 ms, 1.06");
+    measure<double>(7, 3, loomis(0.05), {12, 1.5e-6, 3e-4}, "8 ms, 1.06");
+    measure<double>(7, 4, loomis(0.1), {8, 1e-5, 1e-4}, "15 ms, 1.19");
 
     for (double const end : {10.0, 20.0}) {
-        measure<1, 0, double>(
+        measure<double>(
+            1, 0,
             autonomous<problems::lorenz>("Lorenz T=" + std::to_string(static_cast<int>(end)),
                                          sivid::point_box({15, 15, 36}), end),
             {28, 1e-17, 0}, end < 15 ? "4 ms, 1.3e-7" : "8 ms, 2.5e-4");
@@ -214,26 +214,27 @@ int main(int argc, char** argv) {
         sivid::parameter_choice c;
         c.fixed["beta"] = sivid::enclose(beta);
         c.fixed["gamma"] = sivid::enclose(gamma);
-        measure<1, 0, double>(
-            autonomous<problems::robertson>("Robertson", sivid::point_box({1, 0, 0}), 40, c),
+        measure<double>(
+            1, 0, autonomous<problems::robertson>("Robertson", sivid::point_box({1, 0, 0}), 40, c),
             {20, 1e-14, 0, 0, 1e-7}, goal);
     }
     // ARCH-COMP, without its guard: half-widths of 2021 and of 2020.
     for (double const e : {0.008, 0.012}) {
-        measure<1, 3, double>(autonomous<problems::lotka_volterra>(
-                                  "Lotka-Volterra +-" + std::to_string(e).substr(0, 5),
-                                  box{interval(1.3 - e, 1.3 + e), interval(1.0)}, 3.64),
-                              {10, 1e-7, 1e-4}, "published tables");
+        measure<double>(1, 3,
+                        autonomous<problems::lotka_volterra>(
+                            "Lotka-Volterra +-" + std::to_string(e).substr(0, 5),
+                            box{interval(1.3 - e, 1.3 + e), interval(1.0)}, 3.64),
+                        {10, 1e-7, 1e-4}, "published tables");
     }
     for (double const delta : {0.1, 0.4, 0.8}) {
         auto const p = quadrotor_problem(delta);
-        measure<6, 2, double>(p, {8, 1e-6, 1e-4, 0, 1e-4}, "published tables");
-        prove_height<2>(p, {8, 1e-6, 1e-4, 0, 1e-4});
+        measure<double>(6, 2, p, {8, 1e-6, 1e-4, 0, 1e-4}, "published tables");
+        prove_height(2, p, {8, 1e-6, 1e-4, 0, 1e-4});
     }
     std::printf("\n");
-    measure<2, 3, double>(standstill(0.05), {8, 1e-5, 1e-4}, "1.2");
-    if (benchmark::asked.more) measure<2, 4, double>(standstill(0.2), {10, 1e-6, 1e-4}, "1.2");
-    measure<2, 3, eight>(standstill(0.2), {8, 1e-5, 1e-4, 5}, "1.2");
+    measure<double>(2, 3, standstill(0.05), {8, 1e-5, 1e-4}, "1.2");
+    if (benchmark::asked.more) measure<double>(2, 4, standstill(0.2), {10, 1e-6, 1e-4}, "1.2");
+    measure<eight>(2, 3, standstill(0.2), {8, 1e-5, 1e-4, 5}, "1.2");
 
     std::printf("\n");
     // Kinks: narrow families, one box each, as functions of the unknowns and as doubletons. Steps
@@ -243,7 +244,7 @@ int main(int argc, char** argv) {
     auto const kinked = [&](std::string const& name, servo const& model) {
         auto const p = autonomous<servo>(name, start, 6, {{"gain"}, {}}, gain, model);
         benchmark::setting const s{8, 1e-10, 1e-6, 0, 1e-7};
-        measure<2, 3, double>(p, s, "not absurdly wide");
+        measure<double>(2, 3, p, s, "not absurdly wide");
         benchmark::measure_doubleton(p, s, "not absurdly wide");
     };
     kinked("servo without kinks", {false, false});
@@ -253,7 +254,7 @@ int main(int argc, char** argv) {
     auto const friction = autonomous<problems::dry_friction>(
         "dry friction", box{interval(0.0), interval(0.9996, 1.0004)}, 6, {{"k"}, {}},
         box{interval(0.2498, 0.2502)});
-    measure<2, 3, double>(friction, {8, 1e-10, 1e-6, 0, 1e-7}, "not absurdly wide");
+    measure<double>(2, 3, friction, {8, 1e-10, 1e-6, 0, 1e-7}, "not absurdly wide");
     benchmark::measure_doubleton(friction, {8, 1e-10, 1e-6, 0, 1e-7}, "not absurdly wide");
 
     std::printf("\n");
@@ -264,18 +265,18 @@ int main(int argc, char** argv) {
     for (int const rate : {20, 200, 1000}) {
         std::size_t const samples = asked_samples(rate);
         auto const p = hovercraft_problem("H3 w=0.05, " + std::to_string(rate) + " Hz", 0.05, rate);
-        measure<3, 3, double>(p, {6, 1e-5, 1e-4, 0, 1e-6, samples}, "no collapse");
+        measure<double>(3, 3, p, {6, 1e-5, 1e-4, 0, 1e-6, samples}, "no collapse");
         if (rate > 20 && !benchmark::asked.more) continue;
-        measure<3, 2, eight>(p, {6, 1e-5, 1e-4, 3, 1e-6, samples}, "no collapse");
+        measure<eight>(3, 2, p, {6, 1e-5, 1e-4, 3, 1e-6, samples}, "no collapse");
     }
     // Inputs that are held between their samples: a jump ends every step.
     for (int const rate : {200, 1000}) {
         auto const rated = ", held at " + std::to_string(rate) + " Hz";
         auto const hold = sivid::interpolation::hold;
-        measure<1, 0, double>(hovercraft_problem("H3-point" + rated, 0, rate, hold),
-                              {20, 2e-14, 0, 0, 1e-6}, "no collapse");
-        measure<3, 3, double>(hovercraft_problem("H3 w=0.05" + rated, 0.05, rate, hold),
-                              {6, 1e-5, 1e-4, 0, 1e-6, asked_samples(rate)}, "no collapse");
+        measure<double>(1, 0, hovercraft_problem("H3-point" + rated, 0, rate, hold),
+                        {20, 2e-14, 0, 0, 1e-6}, "no collapse");
+        measure<double>(3, 3, hovercraft_problem("H3 w=0.05" + rated, 0.05, rate, hold),
+                        {6, 1e-5, 1e-4, 0, 1e-6, asked_samples(rate)}, "no collapse");
     }
     std::printf("\n");
     measure_stiff("Radau IIA 5", sivid::radau_iia5());

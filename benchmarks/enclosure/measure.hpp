@@ -167,18 +167,21 @@ struct request {
 };
 inline request asked;
 
-template <std::size_t N, std::size_t D, class C>
-void measure(problem const& p, setting const& s, std::string const& goal) {
+/// By Taylor models in so many variables, one by one or in lanes.
+template <class C>
+void measure(std::size_t variables, std::size_t degree, problem const& p, setting const& s,
+             std::string const& goal) {
     constexpr std::size_t width = sivid::lane_traits<C>::count;
     if (!asked.wants(p.name)) return;
     auto const options = s.options();
     sivid::cover_options const choice{.first_halvings = s.halvings};
-    sivid::parametric_cover<N, D> result;
+    sivid::parametric_cover result;
     double best = HUGE_VAL;
     double total = 0;
     for (int run = 0; run < 25 && (run < 3 || total < 1); ++run) {
         auto const begin = std::chrono::steady_clock::now();
-        result = sivid::cover<N, D, C>(*p.flow, options, p.initial, p.parameters, 0, p.end, choice);
+        result = sivid::cover<C>(variables, degree, *p.flow, options, p.initial, p.parameters, 0,
+                                 p.end, choice);
         double const t = seconds_since(begin);
         best = std::min(best, t);
         total += t;
@@ -186,7 +189,7 @@ void measure(problem const& p, setting const& s, std::string const& goal) {
     std::size_t steps = 0;
     for (auto const& part : result.parts) steps = std::max(steps, part.steps);
     std::printf("%-26s D%zu K%-2zu x%zu %9.3f ms %4zu steps %3zu parts %2zu failed  ",
-                p.name.c_str(), D, s.order, width, 1e3 * best, steps, result.parts.size(),
+                p.name.c_str(), degree, s.order, width, 1e3 * best, steps, result.parts.size(),
                 result.failed);
     if (!result.complete()) {
         std::printf("not enclosed: %s  [%s]\n", result.failure->message("x").c_str(), goal.c_str());

@@ -30,11 +30,11 @@ inline void measure_corners(problem const& p, setting const& s, std::string cons
             points[l].parameters[j] = interval((l >> j) % 2 == 0 ? side.lower() : side.upper());
         }
     }
-    std::optional<sivid::parametric_flow<1, 0, lanes<8>>> run;
+    std::optional<sivid::parametric_flow<sivid::taylor_model<lanes<8>>>> run;
     double best = HUGE_VAL, total = 0;
     for (int k = 0; k < 50 && (k < 3 || total < 1); ++k) {
         auto const begin = std::chrono::steady_clock::now();
-        run.emplace(*p.flow, options);
+        run.emplace(*p.flow, options, 0, 0);
         for (std::size_t l = 0; l < points.size(); ++l) {
             run->begin(l, 0, points[l].initial, points[l].parameters);
         }

@@ -53,7 +53,7 @@ inline void sensitivities_at_a_point(problem const& p) {
         std::printf(
             "%-26s doubleton   K%-2zu %6.3f ms (states alone %.3f ms), derivatives %.1e wide\n",
             p.name.c_str(), order, both, alone, widest(s));
-        sivid::sensitive_flow<1, 0> run(*p.flow, o);
+        sivid::sensitive_flow<> run(*p.flow, o, 0, 0);
         auto const carried = [&] {
             run.begin(0, p.initial, p.parameters);
             while (run.time() < p.end && run.step(p.end)) {
@@ -77,12 +77,12 @@ inline void sensitivities_at_a_point(problem const& p) {
 }
 
 /// Derivatives over a box against those of sampled members, each enclosed at its own point.
-template <std::size_t N, std::size_t D>
-void sensitivities_over_a_box(problem const& p, setting const& s) {
+inline void sensitivities_over_a_box(std::size_t variables, std::size_t degree, problem const& p,
+                                     setting const& s) {
     if (!asked.wants(p.name)) return;
     auto const o = s.options();
-    sivid::sensitive_flow<N, D> run(*p.flow, o);
-    sivid::parametric_flow<N, D> states(*p.flow, o);
+    sivid::sensitive_flow<> run(*p.flow, o, variables, degree);
+    sivid::parametric_flow<> states(*p.flow, o, variables, degree);
     double const both = least_time([&] {
         run.begin(0, p.initial, p.parameters);
         while (run.time() < p.end && run.step(p.end)) {
@@ -93,8 +93,8 @@ void sensitivities_over_a_box(problem const& p, setting const& s) {
         while (states.time() < p.end && states.step(p.end)) {
         }
     });
-    std::printf("%-26s D%zu K%zu %6.3f ms (states alone %.3f ms)  ", p.name.c_str(), D, s.order,
-                both, alone);
+    std::printf("%-26s D%zu K%zu %6.3f ms (states alone %.3f ms)  ", p.name.c_str(), degree,
+                s.order, both, alone);
     if (!run.known() || run.time() < p.end) {
         std::printf("not enclosed\n");
         return;

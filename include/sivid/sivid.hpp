@@ -8,8 +8,6 @@
 #include <sivid/number/arithmetic.hpp>
 #include <sivid/number/bernstein.hpp>
 #include <sivid/number/cancellation.hpp>
-#include <sivid/number/coefficient_columns.hpp>
-#include <sivid/number/coefficient_rows.hpp>
 #include <sivid/number/decimal.hpp>
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/number/decimal_text.hpp>
@@ -23,6 +21,7 @@
 #include <sivid/number/inverse_trigonometric.hpp>
 #include <sivid/number/kernel_trial.hpp>
 #include <sivid/number/lanes.hpp>
+#include <sivid/number/monomial_space.hpp>
 #include <sivid/number/monomials.hpp>
 #include <sivid/number/nearest_text.hpp>
 #include <sivid/number/pack.hpp>
@@ -32,6 +31,8 @@
 #include <sivid/number/power.hpp>
 #include <sivid/number/relations.hpp>
 #include <sivid/number/rounding.hpp>
+#include <sivid/number/series_columns.hpp>
+#include <sivid/number/series_rows.hpp>
 #include <sivid/number/stream.hpp>
 #include <sivid/number/taylor_model.hpp>
 #include <sivid/number/taylor_model_functions.hpp>
@@ -133,6 +134,7 @@
 #include <sivid/enclosure/implicit_tableau.hpp>
 #include <sivid/enclosure/invariant_box.hpp>
 #include <sivid/enclosure/matrix_exponential.hpp>
+#include <sivid/enclosure/normalised_unknowns.hpp>
 #include <sivid/enclosure/observation.hpp>
 #include <sivid/enclosure/options.hpp>
 #include <sivid/enclosure/order_conditions.hpp>
@@ -146,6 +148,7 @@
 #include <sivid/enclosure/sensitive_flow.hpp>
 #include <sivid/enclosure/sensitivity_tube.hpp>
 #include <sivid/enclosure/stepper.hpp>
+#include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/enclosure/tableau.hpp>
 #include <sivid/enclosure/trajectory.hpp>
 #include <sivid/enclosure/tube.hpp>
@@ -217,7 +220,6 @@
 #include <sivid/paving/static_program.hpp>
 #include <sivid/paving/static_test.hpp>
 #include <sivid/paving/subpaving.hpp>
-#include <sivid/paving/taylor_kernels.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/paving/weighted_outputs.hpp>
 #include <sivid/paving/witness.hpp>

@@ -216,7 +216,7 @@ void by_set(any_system const& system, plan const& p, draws& d, tally& done,
 template <std::size_t D, std::size_t W>
 void by_lanes(any_system const& system, plan const& p, draws& d, tally& done) {
     auto const& f = system.equations;
-    parametric_flow<4, D, lanes<W>> run(*f, p.options);
+    support::sized_flow<4, D, lanes<W>> run(*f, p.options);
     struct member {
         std::vector<double> q;
         extended_state x, c;
@@ -282,9 +282,9 @@ void all_ways(any_system system, draws& d, tally& done) {
     redraw();
     p.options.order = std::min<std::size_t>(p.options.order, 12);
     if (d.coin()) {
-        by_set<parametric_flow<4, 1>>(system, p, d, done, "Taylor models, degree 1");
+        by_set<support::sized_flow<4, 1>>(system, p, d, done, "Taylor models, degree 1");
     } else {
-        by_set<parametric_flow<4, 3>>(system, p, d, done, "Taylor models, degree 3");
+        by_set<support::sized_flow<4, 3>>(system, p, d, done, "Taylor models, degree 3");
     }
     redraw();
     p.options.order = std::min<std::size_t>(p.options.order, 10);
@@ -293,7 +293,7 @@ void all_ways(any_system system, draws& d, tally& done) {
         redraw();
         p.options.method = random_method(d);
         p.options.tolerance = std::max(p.options.tolerance, 1e-6);
-        by_set<parametric_runge_kutta<4, 2>>(system, p, d, done, "Taylor models, Runge-Kutta");
+        by_set<support::sized_runge_kutta<4, 2>>(system, p, d, done, "Taylor models, Runge-Kutta");
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include "support/catch.hpp"
 #include "support/models.hpp"
+#include "support/parametric_sets.hpp"
 #include "support/random.hpp"
 #include "support/sampling.hpp"
 
@@ -47,8 +48,8 @@ std::vector<engine> engines() {
     o.tolerance = 1e-7;
     o.minimum_step = 1e-4;
     using tube = trajectory<interval>;
-    using models = parametric_flow<2, 2>;
-    using models_by_method = parametric_runge_kutta<2, 2>;
+    using models = support::sized_flow<2, 2>;
+    using models_by_method = support::sized_runge_kutta<2, 2>;
     std::vector<engine> all{engine_of<tube>("doubletons", o),
                             engine_of<models>("Taylor models", o)};
     o.method = rk4();

@@ -5,6 +5,7 @@
 
 #include "support/catch.hpp"
 #include "support/models.hpp"
+#include "support/parametric_sets.hpp"
 #include "support/random.hpp"
 
 #include "../../examples/hovercraft/model.hpp"
@@ -24,8 +25,8 @@ using support::between;
 namespace {
 
 using doubletons = trajectory<interval>;
-using models = parametric_flow<2, 2>;
-using better_models = parametric_flow<2, 4>;
+using models = support::sized_flow<2, 2>;
+using better_models = support::sized_flow<2, 4>;
 using part = std::pair<box, box>;
 
 struct family {
@@ -181,7 +182,7 @@ TEST_CASE("a blow-up: nothing helps a point, splitting helps some of a box") {
 
 TEST_CASE("van der Pol from a wide box: doubletons need another set") {
     family const y{oscillator(), {between(1.25, 1.55), between(2.35, 2.45)}, {}, 7};
-    auto const said = followed<doubletons, parametric_flow<2, 6>>(y);
+    auto const said = followed<doubletons, support::sized_flow<2, 6>>(y);
     CHECK(said.failure.help == advice::other_set);
     CHECK(said.trials.back().reached == 7);
     CHECK_THAT(said.message("v"), ContainsSubstring("use Taylor models") &&
@@ -290,7 +291,7 @@ TEST_CASE("Runge-Kutta methods are advised, too") {
         REQUIRE(set);
         CHECK(set->failure.help == advice::nothing);
         CHECK(set->failure.reason == failure_reason::blow_up);
-        using by_method = parametric_runge_kutta<2, 2>;
+        using by_method = support::sized_runge_kutta<2, 2>;
         auto const model = explain_failure<by_method>(*y.f, y.options, y.x, y.p, 0, y.end);
         REQUIRE(model);
         CHECK(model->failure.help == advice::nothing);
@@ -342,12 +343,12 @@ TEST_CASE("the hovercraft over its whole prior") {
     family y{f, point_box({2, 0, 0, 0, 0, 0}),
              box{between(0.20, 0.25), between(0.0042, 0.0754), between(0.25, 0.35)}, 3};
     y.options.minimum_step = 2e-3; // doubletons would go on for long in shorter and shorter steps
-    auto const first_order = followed<doubletons, parametric_flow<3, 2>>(y);
+    auto const first_order = followed<doubletons, support::sized_flow<3, 2>>(y);
     CHECK(first_order.failure.help == advice::smaller_box);
     y.options.order = 6;
     y.options.tolerance = 1e-5;
     y.options.minimum_step = 1e-2;
-    auto const second = followed<parametric_flow<3, 2>, parametric_flow<3, 4>>(y);
+    auto const second = followed<support::sized_flow<3, 2>, support::sized_flow<3, 4>>(y);
     CHECK(second.failure.help == advice::smaller_box);
     CHECK(second.failure.time > first_order.failure.time);
 }

@@ -4,6 +4,7 @@
 #include "support/catch.hpp"
 #include "support/flow_simulation.hpp"
 #include "support/models.hpp"
+#include "support/parametric_sets.hpp"
 #include "support/random.hpp"
 #include "support/reference.hpp"
 
@@ -217,7 +218,7 @@ TEST_CASE("parameter boxes stay within twice the true range") {
         // First-order sets for the narrow box, Taylor models in the parameters for the wider one.
         auto const states = [&] {
             if (relative < 0.005) return integrate<interval>(f, start_of(s), p, 0, 3).at(3);
-            parametric_flow<3, 3> run(*f, {.order = 12, .tolerance = 1e-9});
+            support::sized_flow<3, 3> run(*f, {.order = 12, .tolerance = 1e-9});
             run.begin(0, start_of(s), p);
             while (run.time() < 3) REQUIRE(run.step(3));
             return run.set().hull();

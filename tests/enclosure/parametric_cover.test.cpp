@@ -42,7 +42,7 @@ std::size_t check(box const& x0, box const& p, double end, std::size_t halvings)
     options.tolerance = 1e-6;
     options.minimum_step = 1e-3;
     options.remainder_share = 0.05;
-    auto const all = cover<3, D, C>(*f, options, x0, p, 0, end, {.first_halvings = halvings});
+    auto const all = cover<C>(3, D, *f, options, x0, p, 0, end, {.first_halvings = halvings});
     REQUIRE(all.complete());
     double covered = 0;
     for (auto const& part : all.parts) {
@@ -96,8 +96,8 @@ TEST_CASE("a cover that may not split says why it stopped") {
     enclosure_options options;
     options.minimum_step = 1e-3;
     options.remainder_share = 0.05;
-    auto const all = cover<3, 2>(*f, options, box{between(-1, 2.4), between(-0.5, 0.5)},
-                                 box{between(0.8, 1.6)}, 0, 3, {.most_parts = 1});
+    auto const all = cover<double>(3, 2, *f, options, box{between(-1, 2.4), between(-0.5, 0.5)},
+                                   box{between(0.8, 1.6)}, 0, 3, {.most_parts = 1});
     CHECK_FALSE(all.complete());
     REQUIRE(all.failure);
     CHECK(all.failure->time < 3);

@@ -42,7 +42,7 @@ bool encloses_exactly(Set const& set, std::vector<mp> const& x) {
     for (std::size_t i = 0; i < x.size(); ++i) {
         mp reach = 0;
         for (auto const& g : set.columns) reach += mp(g[i].norm());
-        mp const off = x[i] - mp(set.centre[i].c[0]) - mp(set.tail[i]);
+        mp const off = x[i] - mp(set.centre[i].c()[0]) - mp(set.tail[i]);
         if (!(abs(off) <= reach)) return false;
     }
     return true;
@@ -66,7 +66,7 @@ using exact_solution = std::function<std::vector<mp>(mp const& t)>;
 template <std::size_t N, std::size_t D>
 double check(flow const& f, enclosure_options const& options, box const& x0, box const& p,
              double begin, double end, exact_solution const& exact) {
-    parametric_flow<N, D> run(f, options);
+    parametric_flow<taylor_model<double>> run(f, options, N, D);
     run.begin(begin, x0, p);
     double share = 0;
     while (run.time() < end) {
@@ -101,7 +101,7 @@ TEST_CASE("sharp centres: a rotation, at low orders and over long times") {
     }
     // Any degree may carry a point, and lanes as well, the latter in single digits.
     CHECK(check<2, 2>(*f, strict(16, 1e-20), x0, box(), 0, 1, exact) > 1);
-    parametric_flow<1, 1, lanes<8>> eight(*f, strict(16, 1e-20));
+    parametric_flow<taylor_model<lanes<8>>> eight(*f, strict(16, 1e-20), 1, 1);
     eight.begin(0, 0.0, x0, box());
     while (eight.time(0) < 1) (void)eight.advance(1.0);
     CHECK(encloses_exactly(lane_of(eight.set(), 0), exact(mp(1))));
@@ -161,7 +161,7 @@ TEST_CASE("sharp centres: Lorenz's equations against 50 digits") {
                 {10 * (s[1] - s[0]), s[0] * (28 - s[2]) - s[1], s[0] * s[1] - 8 * s[2] / 3});
         }));
     enclosure_options const options = strict(24, 1e-17);
-    parametric_flow<1, 0> run(*f, options);
+    parametric_flow<taylor_model<double>> run(*f, options, 1, 0);
     run.begin(0, point_box({15, 15, 36}), box());
     std::array<mp, 3> x{15, 15, 36};
     constexpr std::size_t K = 40;
@@ -203,7 +203,7 @@ TEST_CASE("sharp centres: families keep single digits") {
         flow_of(model_of({2, 0, 0, 100}, [](auto const&, auto const& x, auto const&, auto const&) {
             return vector<std::decay_t<decltype(x)>>({-x[1], x[0]});
         }));
-    parametric_flow<1, 2> run(*f, strict(16, 1e-18));
+    parametric_flow<taylor_model<double>> run(*f, strict(16, 1e-18), 1, 2);
     run.begin(0, {between(1, 1.125), between(0, 0)}, box());
     while (run.time() < 1) REQUIRE(run.step(1));
     CHECK(run.set().tail[0] == 0);

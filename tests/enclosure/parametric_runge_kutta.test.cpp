@@ -44,7 +44,7 @@ template <std::size_t N, std::size_t D>
 std::size_t check_run(flow const& f, enclosure_options const& options, box const& x0, box const& p,
                       double end, exact_solution const& exact, extended slack = 1e-16L) {
     draws d(661);
-    parametric_runge_kutta<N, D> run(f, options);
+    support::sized_runge_kutta<N, D> run(f, options);
     run.begin(0, x0, p);
     while (run.time() < end) {
         double const from = run.time();
@@ -133,13 +133,13 @@ TEST_CASE("a step without tolerance: only the local error stands between method 
     for (auto const& method : methods()) {
         auto o = patient(method, 0.1);
         o.maximum_step = 0.25;
-        parametric_runge_kutta<1, 2> run(*f, o);
+        support::sized_runge_kutta<1, 2> run(*f, o);
         run.begin(0, box{interval(0.25)}, box{});
         REQUIRE(run.step(0.25));
         REQUIRE(run.time() == 0.25);
         extended const e = std::exp(0.25L);
         extended const exact = 0.25L * e / (1 + 0.25L * (e - 1));
-        extended const off = std::fabs(exact - run.set().centre[0].c[0]);
+        extended const off = std::fabs(exact - run.set().centre[0].c(0));
         CAPTURE(method.name, static_cast<double>(off), run.set().reach[0]);
         CHECK(off > 1e-12L);
         CHECK(off <= run.set().reach[0]);
@@ -159,7 +159,7 @@ TEST_CASE("what is lost at a fixed time shrinks as the step to the power of the 
         for (double const h : {longest, longest / 2, longest / 4}) {
             auto o = patient(method, 0.3); // the tube keeps its margin
             o.maximum_step = h;
-            parametric_runge_kutta<1, 2> run(*f, o);
+            support::sized_runge_kutta<1, 2> run(*f, o);
             run.begin(0, box{interval(1.0), interval(0.5)}, box{});
             while (run.time() < 1) REQUIRE(run.step(1));
             REQUIRE(run.steps() == static_cast<std::size_t>(std::lround(1 / h)));
@@ -180,14 +180,14 @@ TEST_CASE("wide boxes stay as tight as with the Taylor series") {
         }));
     box const x0{between(1.9, 2.1), between(-0.1, 0.1)};
     box const p{between(0.9, 1.1)};
-    parametric_flow<3, 4> series(*f, {});
+    support::sized_flow<3, 4> series(*f, {});
     series.begin(0, x0, p);
     while (series.time() < 2) REQUIRE(series.step(2));
     for (auto const& method : {rk4(), butcher6(), gauss4(), radau_iia5(), gauss6()}) {
         enclosure_options o;
         o.method = method;
         o.tolerance = 1e-6;
-        parametric_runge_kutta<3, 4> run(*f, o);
+        support::sized_runge_kutta<3, 4> run(*f, o);
         run.begin(0, x0, p);
         CAPTURE(method.name);
         while (run.time() < 2) REQUIRE(run.step(2));
@@ -206,9 +206,10 @@ TEST_CASE("failures say why, and options without a method are refused") {
             using namespace support::real;
             return std::vector{sqr(x[0])};
         }));
-    CHECK_THROWS_AS((parametric_runge_kutta<1, 2>(*f, enclosure_options{})), std::invalid_argument);
+    CHECK_THROWS_AS((support::sized_runge_kutta<1, 2>(*f, enclosure_options{})),
+                    std::invalid_argument);
     for (auto const& method : {rk4(), gauss4()}) {
-        parametric_runge_kutta<1, 2> run(*f, patient(method, 1e-6));
+        support::sized_runge_kutta<1, 2> run(*f, patient(method, 1e-6));
         run.begin(0, box{between(0.99, 1.01)}, box{});
         CHECK_THROWS_AS(run.step(0), std::invalid_argument);
         while (run.time() < 2 && run.step(2)) {
@@ -227,7 +228,7 @@ TEST_CASE("failures say why, and options without a method are refused") {
             using namespace support::real;
             return std::vector{-abs(x[0])};
         }));
-    parametric_runge_kutta<1, 2> run(*bent, patient(rk4(), 1e-3));
+    support::sized_runge_kutta<1, 2> run(*bent, patient(rk4(), 1e-3));
     run.begin(0, box{between(-1, 1)}, box{});
     CHECK_FALSE(run.step(1));
 }

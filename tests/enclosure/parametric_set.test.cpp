@@ -24,11 +24,12 @@ using support::rational;
 namespace {
 
 template <std::size_t N, std::size_t D>
-parametric_set<N, D> random_set(draws& d, std::size_t n, std::size_t columns, bool degenerate) {
-    parametric_set<N, D> set;
+parametric_set<taylor_model<double>> random_set(draws& d, std::size_t n, std::size_t columns,
+                                                bool degenerate) {
+    parametric_set<taylor_model<double>> set;
     for (std::size_t i = 0; i < n; ++i) {
         set.centre.push_back(support::random_model<N, D>(d, 1, 1, 0));
-        set.centre.back().r = 0;
+        set.centre.back().r() = 0;
     }
     std::vector<double> const common = [&] {
         std::vector<double> v(n);
@@ -39,11 +40,11 @@ parametric_set<N, D> random_set(draws& d, std::size_t n, std::size_t columns, bo
         auto& g = set.columns.emplace_back();
         double const size = std::pow(10, -d.uniform(0, 6));
         for (std::size_t i = 0; i < n; ++i) {
-            auto entry = support::random_model<N, parametric_set<N, D>::column_degree>(
-                d, degenerate ? 1e-3 * size : size, 0.5, 0);
-            if (degenerate) entry.c[0] += size * common[i]; // nearly parallel columns
+            auto entry =
+                support::random_model<N, (D + 1) / 2>(d, degenerate ? 1e-3 * size : size, 0.5, 0);
+            if (degenerate) entry.c()[0] += size * common[i]; // nearly parallel columns
             if (d.below(6) == 0) entry = {};
-            entry.r = 0;
+            entry.r() = 0;
             entry.finish();
             g.push_back(entry);
         }
@@ -109,15 +110,15 @@ TEST_CASE("unknowns: sides with a width get a variable, the others a rest") {
         rational const reach = rational(s.radius) + rational(s.rest);
         REQUIRE(rational(s.centre) - reach <= rational(side.lower()));
         REQUIRE(rational(side.upper()) <= rational(s.centre) + reach);
-        parametric_set<1, 2> set(1);
+        parametric_set<taylor_model<double>> set(1, model_shape<double>::of(1, 2));
         set.begin(0, 0, one);
         REQUIRE(subset(side, set.hull()[0]));
-        REQUIRE(set.centre[0].r == 0);
+        REQUIRE(set.centre[0].r() == 0);
     }
 }
 
 TEST_CASE("append adds a box, and nothing is dropped that is not a number") {
-    parametric_set<1, 2> set;
+    parametric_set<taylor_model<double>> set;
     set.centre.resize(3);
     set.append({0.5, 0.0, 0.25});
     set.measure();
@@ -199,8 +200,8 @@ TEST_CASE("reduce: the argument, step by step") {
             for (Eigen::Index i = 0; i < 3; ++i) {
                 auto const& entry =
                     after.columns[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)];
-                for (std::size_t k = 1; k < entry.terms; ++k) REQUIRE(entry.c[k] == 0);
-                frame(i, j) = entry.c[0];
+                for (std::size_t k = 1; k < entry.terms(); ++k) REQUIRE(entry.c()[k] == 0);
+                frame(i, j) = entry.c()[0];
             }
         }
         Eigen::MatrixXd const inverse = frame.inverse();
@@ -217,7 +218,7 @@ TEST_CASE("reduce does not lose a column that is not finite") {
     draws d(5);
     for (double const bad : {HUGE_VAL, std::nan("")}) {
         auto set = random_set<1, 2>(d, 2, 30, false);
-        for (auto& c : set.columns[17][1].c) c = bad;
+        for (auto& c : set.columns[17][1].coefficients()) c = bad;
         set.columns[17][1].finish();
         set.reduce(10);
         set.measure();

@@ -92,7 +92,7 @@ std::size_t check_flow(std::uint64_t seed, bool smooth, bool generators) {
     draws d(seed);
     random_flow r(d, smooth, generators);
     if (!r.record()) return 0;
-    parametric_flow<4, D> run(*r.equations, r.options);
+    parametric_flow<taylor_model<double>> run(*r.equations, r.options, 4, D);
     run.begin(0, r.x0, r.p);
     std::vector<member> members(3);
     for (auto& m : members) {

@@ -183,7 +183,7 @@ template <class Run, class System>
 void check_sets(Run& run, System const& s, std::vector<planted> const& all) {
     std::vector<double> times;
     std::vector<box> swept;
-    std::vector<parametric_set<Run::polynomial::variables, Run::polynomial::degree>> sets;
+    std::vector<parametric_set<>> sets;
     while (run.time() < s.horizon) {
         double const from = run.time();
         REQUIRE(run.step(s.horizon));
@@ -221,7 +221,7 @@ TEST_CASE("every engine contains what inputs within their bounds cause") {
         SECTION(s.name + ": doubletons by Taylor series") { check_tube(s, patient(), all); }
         SECTION(s.name + ": Taylor models") {
             auto const f = s.equations();
-            parametric_flow<3, 3> own(*f, patient());
+            support::sized_flow<3, 3> own(*f, patient());
             own.begin(0, s.initial, s.parameters);
             check_sets(own, s, all);
         }
@@ -233,7 +233,7 @@ TEST_CASE("every engine contains what inputs within their bounds cause") {
                     o.method = m;
                     check_tube(s, o, all);
                     auto const f = s.equations();
-                    parametric_runge_kutta<3, 3> run(*f, o);
+                    support::sized_runge_kutta<3, 3> run(*f, o);
                     run.begin(0, s.initial, s.parameters);
                     check_sets(run, s, all);
                 }
@@ -261,9 +261,9 @@ std::vector<std::pair<std::string, box>> ends(System const& s) {
         result.emplace_back(name, run.set().hull(0));
     };
     add("Taylor series");
-    parametric_flow<3, 3> models(*f, o);
+    support::sized_flow<3, 3> models(*f, o);
     run_to_end(models, "Taylor models");
-    parametric_flow<3, 3, lanes<8>> abreast(*f, o);
+    support::sized_flow<3, 3, lanes<8>> abreast(*f, o);
     for (std::size_t l = 0; l < 8; ++l) abreast.begin(l, 0, s.initial, s.parameters);
     for (std::size_t l = 0; l < 8; ++l) {
         while (abreast.time(l) < s.horizon) {
@@ -278,7 +278,7 @@ std::vector<std::pair<std::string, box>> ends(System const& s) {
         o.tolerance = 1e-7;
         o.method = m;
         add(m.name);
-        parametric_runge_kutta<3, 3> run(*f, o);
+        support::sized_runge_kutta<3, 3> run(*f, o);
         run_to_end(run, m.name + " with Taylor models");
     }
     return result;

@@ -22,7 +22,8 @@ constexpr std::size_t K = 12;
 /// parameter is the variable.
 template <std::size_t D>
 void check(auto const& system, double share, draws& d) {
-    using model = taylor_model<1, D>;
+    using model = taylor_model<double>;
+    auto const& shape = model_shape<double>::of(1, D);
     auto const f = system.flow();
     auto const n = f->states();
     box x(n), p(f->parameters());
@@ -37,11 +38,12 @@ void check(auto const& system, double share, draws& d) {
         p[j] = interval(m - r, m + r);
         parameters[j] = model::constant(p[j]);
         if constexpr (D > 0) {
-            if (j == 0 && r > 0) parameters[j] = widened(model::variable(0, m, r), 1e-14 * m);
+            if (j == 0 && r > 0)
+                parameters[j] = widened(model::variable(shape, 0, m, r), 1e-14 * m);
         }
     }
     for (auto const which : {variations::by_state, variations::by_state_and_parameter}) {
-        expansion<model> e(*f, K, which);
+        expansion<model> e(*f, K, which, shape);
         e.set_parameters(parameters);
         // What an earlier expansion, to a higher order, left must not count.
         for (std::size_t const order : {K, std::size_t{0}, K - 3}) {
@@ -95,7 +97,7 @@ TEST_CASE("V by columns: more columns than a group has, and some of the identity
                               return rate;
                           }),
         {});
-    using model = taylor_model<1, 0>;
+    using model = taylor_model<double>;
     std::vector<model> x;
     box at(10);
     for (std::size_t i = 0; i < 10; ++i) {

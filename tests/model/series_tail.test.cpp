@@ -73,7 +73,7 @@ struct bounded {
 
 /// How many values were compared; `sharp` becomes the largest share of a bound that was used.
 int compare(draws& d, support::formula const& f, double radius, double& sharp) {
-    using T = taylor_model<1, 1>;
+    using T = taylor_model<double>;
     graph g;
     auto const root = support::recorded_if_defined(f, g);
     if (!root) return 0;
@@ -189,7 +189,7 @@ TEST_CASE("tails: nothing is known where a step may leave the domain, or meet a 
     where.x[1] = where.x[0];
     auto const finite = [&](expression const& e, double h, double rho) {
         where.rho = {rho, rho};
-        bounded<taylor_model<1, 1>> const b(g, e.in(g), where, 2, h);
+        bounded<taylor_model<double>> const b(g, e.in(g), where, 2, h);
         return b.usable() && std::isfinite(b.tail.tail(b.program.output(0)));
     };
     for (auto const& e : {1 / x, sqrt(x), log(x), abs(x), max(x, 0), min(x, 0)}) {
@@ -215,8 +215,8 @@ TEST_CASE("tails: lanes are those of single models") {
         auto const root = support::recorded_if_defined(f, g);
         if (!root) continue;
         auto const where = random_given(d, 0);
-        bounded<taylor_model<1, 1>> const one(g, *root, where, 4, 0.05);
-        bounded<taylor_model<1, 1, C>> const eight(g, *root, where, 4, 0.05);
+        bounded<taylor_model<double>> const one(g, *root, where, 4, 0.05);
+        bounded<taylor_model<C>> const eight(g, *root, where, 4, 0.05);
         if (!one.usable() || !eight.usable()) continue;
         double const a = one.tail.tail(one.program.output(0));
         double const b = eight.tail.tail(eight.program.output(0))[3];

@@ -12,6 +12,7 @@
 
 using namespace sivid;
 using support::draws;
+using support::sized_model;
 using support::random_model;
 using support::rational;
 
@@ -39,16 +40,17 @@ void check_samples(std::uint64_t seed, int trials) {
 } // namespace
 
 TEST_CASE("the Bernstein basis: coefficients of powers by exact conversion") {
-    // sum_k m[e][k] binomial(D,k) s^k (1-s)^(D-k) is (2s-1)^e: compared at D+1 points.
+    // sum_k m[e * (degree + 1) + k] binomial(D,k) s^k (1-s)^(D-k) is (2s-1)^e: compared at D+1
+    // points.
     constexpr std::size_t degree = 5;
-    auto const& m = number_detail::bernstein_of_power<degree>;
+    auto const* const m = number_detail::bernstein_of_powers(degree);
     for (std::size_t e = 0; e <= degree; ++e) {
         for (std::size_t point = 0; point <= degree; ++point) {
             double const s = static_cast<double>(point) / degree;
             double sum = 0;
             for (std::size_t k = 0; k <= degree; ++k) {
-                REQUIRE(std::abs(m[e][k]) <= 1);
-                sum += m[e][k] * static_cast<double>(binomial(degree, k)) *
+                REQUIRE(std::abs(m[e * (degree + 1) + k]) <= 1);
+                sum += m[e * (degree + 1) + k] * static_cast<double>(binomial(degree, k)) *
                        std::pow(s, static_cast<double>(k)) *
                        std::pow(1 - s, static_cast<double>(degree - k));
             }
@@ -70,14 +72,14 @@ TEST_CASE("ranges are exact where an extremum lies at a corner") {
     for (int trial = 0; trial < 50; ++trial) {
         // all coefficients positive: the maximum is at (1, 1)
         auto a = random_model<2, 4>(d, 1, 1, 0);
-        a.r = 0;
+        a.r() = 0;
         double sum = 0;
-        for (auto& c : a.c) sum += c = std::abs(c);
+        for (auto& c : a.coefficients()) sum += c = std::abs(c);
         a.finish();
         REQUIRE(range(a).upper() <= sum * (1 + 1e-12));
         REQUIRE(range(a).upper() >= sum * (1 - 1e-12));
         // multi-affine: all extrema at corners
-        using model = taylor_model<2, 2>;
+        using model = sized_model<2, 2>;
         auto b = model::variable(0, d.uniform(-1, 1), d.uniform(-1, 1)) *
                  model::variable(1, d.uniform(-1, 1), d.uniform(-1, 1));
         double lo = HUGE_VAL, hi = -HUGE_VAL;
@@ -95,7 +97,7 @@ TEST_CASE("ranges are exact where an extremum lies at a corner") {
 
 TEST_CASE("ranges see cancellation that the norms do not") {
     // (q - 1)^4 on [-1, 1] is within [0, 16]; its norm is 16 about 1.
-    using model = taylor_model<1, 4>;
+    using model = sized_model<1, 4>;
     auto const x = model::variable(0, -1, 1);
     auto const y = x * x * x * x;
     REQUIRE(rough_range(y).lower() < -13);
@@ -113,14 +115,14 @@ TEST_CASE("ranges of many variables contain all values") {
     draws d(15);
     for (int trial = 0; trial < 30; ++trial) {
         auto a = random_model<7, 3>(d, 0.3, 1, 0.1);
-        auto const& t = taylor_model<7, 3>::basis::data;
+        auto const& t = sized_model<7, 3>::basis::data;
         for (std::size_t v = 0; v < 7; ++v) {
             double rest = 0; // of the slope
-            for (std::size_t i = 0; i < a.c.size(); ++i) {
-                if (t.degree[i] > 1) rest += t.exponents[i][v] * std::abs(a.c[i]);
+            for (std::size_t i = 0; i < a.terms(); ++i) {
+                if (t.degree[i] > 1) rest += t.exponents[i][v] * std::abs(a.c()[i]);
             }
             double const share = d.coin() ? d.uniform(0, 1.5) : 1 + d.uniform(-1e-9, 1e-9);
-            a.c[t.variable[v]] = std::copysign(share * rest, a.c[t.variable[v]]);
+            a.c()[t.variable[v]] = std::copysign(share * rest, a.c()[t.variable[v]]);
         }
         a.finish();
         auto const values = range(a);
@@ -137,7 +139,7 @@ TEST_CASE("ranges of many variables contain all values") {
 
 TEST_CASE("ranges of many variables: nearly monotone is not monotone") {
     // sum of c_v (2 a_v q_v - q_v^2), a_v just below 1: largest at q = a, inside of the box.
-    using model = taylor_model<7, 3>;
+    using model = sized_model<7, 3>;
     draws d(18);
     for (int trial = 0; trial < 20; ++trial) {
         model a;
@@ -148,7 +150,7 @@ TEST_CASE("ranges of many variables: nearly monotone is not monotone") {
             auto const x = model::variable(v, 0, 1);
             a = a + scaled(x, 2 * best[v] * c) - scaled(x * x, c);
         }
-        a.r = 0;
+        a.r() = 0;
         REQUIRE(contains_exactly(range(a), support::value<rational>(a, best)));
         REQUIRE(contains_exactly(range(-a), -support::value<rational>(a, best)));
     }
@@ -156,21 +158,21 @@ TEST_CASE("ranges of many variables: nearly monotone is not monotone") {
 
 TEST_CASE("ranges of many variables side by side") {
     // A variable is set where all lanes agree that it can be, each lane at its own end.
-    using pack = taylor_model<7, 3, lanes<8>>;
+    using pack = taylor_model<lanes<8>>;
     using side_by_side = pack::side_by_side;
-    auto const& t = pack::basis::data;
+    auto const& t = sized_model<7, 3>::basis::data;
     draws d(17);
     for (int trial = 0; trial < 8; ++trial) {
-        pack all;
-        std::vector<taylor_model<7, 3>> alone;
+        pack all(model_shape<lanes<8>>::of(7, 3));
+        std::vector<sized_model<7, 3>> alone;
         for (std::size_t l = 0; l < 8; ++l) {
             auto a = random_model<7, 3>(d, 0.3, 1, 0.1);
             for (std::size_t v = 0; v <= static_cast<std::size_t>(trial) % 7; ++v) {
-                a.c[t.variable[v]] = d.coin() ? 100 : -100;
+                a.c()[t.variable[v]] = d.coin() ? 100 : -100;
             }
             a.finish();
-            for (std::size_t i = 0; i < a.c.size(); ++i) side_by_side::put(all.c[i], l, a.c[i]);
-            side_by_side::put(all.r, l, a.r);
+            for (std::size_t i = 0; i < a.terms(); ++i) side_by_side::put(all.c()[i], l, a.c()[i]);
+            side_by_side::put(all.r(), l, a.r());
             alone.push_back(a);
         }
         all.finish();
@@ -191,23 +193,23 @@ TEST_CASE("ranges of many variables are exact where they can be") {
     // Multi-affine and monotone in one to seven of seven variables: both ends lie at corners, and
     // Bernstein coefficients of the other variables are means of values at corners.
     constexpr std::size_t variables = 7;
-    using model = taylor_model<variables, 3>;
+    using model = support::sized_model<variables, 3>;
     auto const& t = model::basis::data;
     draws d(16);
     for (int trial = 0; trial < 60; ++trial) {
         model a;
-        for (std::size_t i = 0; i < a.c.size(); ++i) {
+        for (std::size_t i = 0; i < a.terms(); ++i) {
             bool affine = true;
             for (auto const e : t.exponents[i]) affine = affine && e <= 1;
-            a.c[i] = affine ? d.uniform(-1, 1) : 0;
+            a.c()[i] = affine ? d.uniform(-1, 1) : 0;
         }
         std::size_t const monotone = 1 + d.below(variables);
         for (std::size_t v = 0; v < monotone; ++v) {
             double rest = 0;
-            for (std::size_t i = 0; i < a.c.size(); ++i) {
-                if (t.degree[i] > 1 && t.exponents[i][v] > 0) rest += std::abs(a.c[i]);
+            for (std::size_t i = 0; i < a.terms(); ++i) {
+                if (t.degree[i] > 1 && t.exponents[i][v] > 0) rest += std::abs(a.c()[i]);
             }
-            a.c[t.variable[v]] = std::copysign(1.01 * rest, a.c[t.variable[v]]);
+            a.c()[t.variable[v]] = std::copysign(1.01 * rest, a.c()[t.variable[v]]);
         }
         a.finish();
         auto const values = range(a);

@@ -17,18 +17,18 @@ namespace {
 using eight = lanes<8>;
 
 /// Eight models side by side.
-template <std::size_t N, std::size_t D>
-taylor_model<N, D, eight> together(std::vector<taylor_model<N, D>> const& models) {
-    taylor_model<N, D, eight> m;
+taylor_model<eight> together(std::vector<support::sized_model<2, 3>> const& models) {
+    taylor_model<eight> m(model_shape<eight>::of(2, 3));
     for (std::size_t l = 0; l < 8; ++l) {
-        for (std::size_t i = 0; i < m.terms; ++i) m.c[i].set(l, models[l].c[i]);
-        m.r.set(l, models[l].r);
+        for (std::size_t i = 0; i < m.terms(); ++i) m.c(i).set(l, models[l].c(i));
+        m.r().set(l, models[l].r());
     }
     m.finish();
     return m;
 }
-std::vector<taylor_model<2, 3>> random_models(draws& d, double size, double decay, double radius) {
-    std::vector<taylor_model<2, 3>> models;
+std::vector<support::sized_model<2, 3>> random_models(draws& d, double size, double decay,
+                                                   double radius) {
+    std::vector<support::sized_model<2, 3>> models;
     for (int l = 0; l < 8; ++l) {
         models.push_back(support::random_model<2, 3>(d, size, decay, radius));
     }
@@ -102,25 +102,26 @@ TEST_CASE("products in lanes cover the exact ones, with integer factors and cons
         double const factor = std::vector<double>{1, -1, 2, 7}[d.below(4)];
         for (auto* list : {&a, &b}) {
             for (auto& m : *list) {
-                m.r = 0;
-                if (constant && list == &b) m = taylor_model<2, 3>::constant(m.c[0]);
+                m.r() = 0;
+                if (constant && list == &b) m = support::sized_model<2, 3>::constant(m.c(0));
             }
         }
-        product_sum<2, 3, eight> sum;
+        product_sum<eight> sum;
         sum.add(together(a), together(b), factor);
         sum.add(together(b), -1);
         auto const result = sum.result();
         for (std::size_t l = 0; l < 8; ++l) {
-            product_sum<2, 3> alone;
-            alone.add(a[l], b[l], factor);
-            alone.add(b[l], -1);
+            product_sum<> sum_alone;
+            sum_alone.add(a[l], b[l], factor);
+            sum_alone.add(b[l], -1);
+            auto const alone = sum_alone.result();
             auto product = support::product(support::exact(a[l]), support::exact(b[l]));
             for (auto& term : product) term.second *= support::rational(factor);
             auto const exact = support::sum(product, support::exact(b[l]), support::rational(-1));
             REQUIRE(support::covers(lane_of(result, l), exact));
-            REQUIRE(support::covers(alone.result(), exact));
+            REQUIRE(support::covers(alone, exact));
             // Not needlessly wide either: what is cut off, and some roundings.
-            REQUIRE(result.r[l] <= alone.result().r * (1 + 1e-9) + 1e-280);
+            REQUIRE(result.r()[l] <= alone.r() * (1 + 1e-9) + 1e-280);
         }
     }
 }
@@ -131,7 +132,7 @@ TEST_CASE("functions in lanes enclose the same as alone, undefined lanes apart")
         auto models = random_models(d, 0.3, 0.5, 0.01);
         std::size_t const bad = d.below(8);
         for (std::size_t l = 0; l < 8; ++l) {
-            models[l].c[0] = l == bad ? 0.01 : d.uniform(1, 3);
+            models[l].c(0) = l == bad ? 0.01 : d.uniform(1, 3);
             models[l].finish();
         }
         auto const all = together(models);
@@ -145,15 +146,15 @@ TEST_CASE("functions in lanes enclose the same as alone, undefined lanes apart")
                 auto const lane = lane_of(result, l);
                 if (alone_undefined) {
                     REQUIRE(partial);
-                    REQUIRE_FALSE(std::isfinite(lane.r));
+                    REQUIRE_FALSE(std::isfinite(lane.r()));
                     continue;
                 }
-                REQUIRE(lane.r <= alone.r * (1 + 1e-6) + 1e-15);
+                REQUIRE(lane.r() <= alone.r() * (1 + 1e-6) + 1e-15);
                 for (int sample = 0; sample < 6; ++sample) {
                     auto const q = support::short_point(d, 2);
                     double const apart = std::abs(support::value<double>(lane, q) -
                                                   support::value<double>(alone, q));
-                    REQUIRE(apart <= lane.r + alone.r + 1e-14);
+                    REQUIRE(apart <= lane.r() + alone.r() + 1e-14);
                 }
             }
         };

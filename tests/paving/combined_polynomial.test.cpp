@@ -23,7 +23,8 @@ namespace {
 /// Outputs that are polynomials in three parameters.
 response random_response(draws& d, std::size_t outputs, double curvature, double radius) {
     response r{normalised_unknowns(box{}, box{between(-1, 1), between(-1, 1), between(-1, 1)}),
-               std::make_shared<monomial_table const>(monomial_table::of<3, 4>(3)),
+               std::make_shared<monomial_table const>(
+                   monomial_table::of(sivid::monomial_space::of(3, 4), 3)),
                {},
                {},
                {},
@@ -57,7 +58,8 @@ rational value(response const& r, std::size_t y, std::vector<rational> const& q)
 /// One variable, one output with these coefficients.
 combined_polynomial of_one(std::vector<double> const& c) {
     response r{normalised_unknowns(box{}, box{between(-1, 1)}),
-               std::make_shared<monomial_table const>(monomial_table::of<1, 4>(1)),
+               std::make_shared<monomial_table const>(
+                   monomial_table::of(sivid::monomial_space::of(1, 4), 1)),
                c,
                {0},
                {},
@@ -71,7 +73,8 @@ combined_polynomial of_one(std::vector<double> const& c) {
 /// c0 + cu u + cv v + uu u^2 + uv u v + vv v^2, in graded order.
 combined_polynomial of_two(std::vector<double> const& c) {
     response r{normalised_unknowns(box{}, box{between(-1, 1), between(-1, 1)}),
-               std::make_shared<monomial_table const>(monomial_table::of<2, 2>(2)),
+               std::make_shared<monomial_table const>(
+                   monomial_table::of(sivid::monomial_space::of(2, 2), 2)),
                std::vector<double>(6, 0.0),
                {0},
                {},

@@ -44,7 +44,8 @@ TEST_CASE("measurements that say little one by one cut together") {
     // p0 + p1 and p0 - p1 within 0.1 of zero: each alone allows all of both sides.
     box const prior{between(-1, 1), between(-1, 1)};
     response r{normalised_unknowns(box{}, prior),
-               std::make_shared<monomial_table const>(monomial_table::of<2, 1>(2)),
+               std::make_shared<monomial_table const>(
+                   monomial_table::of(sivid::monomial_space::of(2, 1), 2)),
                {},
                {0, 0},
                {},

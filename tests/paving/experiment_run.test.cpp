@@ -67,8 +67,9 @@ X vector(X const&, std::initializer_list<typename X::value_type> values) {
     return X(values);
 }
 
-/// Ten models over every kernel: the number of unknowns stands in the name.
-std::vector<problem> ten_models() {
+/// Models over every degree, and beyond the sizes that are compiled apart: the number of unknowns
+/// stands in the name.
+std::vector<problem> some_models() {
     std::vector<problem> all;
     auto const one = between(1, 1);
     all.push_back(make(
@@ -151,6 +152,23 @@ std::vector<problem> ten_models() {
         {between(0.98, 1.02), between(0.49, 0.51), between(0.7, 0.72), between(0.3, 0.31),
          between(0.4, 0.41), between(0.9, 0.92)},
         1));
+    for (std::size_t const n : {8U, 14U}) {
+        box starts(n), flows(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            starts[i] = between(0.98, 1.02);
+            flows[i] = between(0.49, 0.51);
+        }
+        all.push_back(make(
+            std::to_string(2 * n) + ": ring",
+            [n](auto const&, auto const& x, auto const& p, auto const&) {
+                auto rate = x;
+                for (std::size_t i = 0; i < n; ++i) {
+                    rate[i] = p[i] * (x[(i + 1) % n] - x[i]) - x[i] * x[i] / 4;
+                }
+                return rate;
+            },
+            starts, flows, 0.8));
+    }
     return all;
 }
 
@@ -199,7 +217,7 @@ void check_containment(draws& d, problem const& p, response const& answer, int s
 
 void check_kernels(std::uint64_t seed, int samples) {
     draws d(seed);
-    for (auto const& p : ten_models()) {
+    for (auto const& p : some_models()) {
         INFO(p.name);
         REQUIRE(paving_detail::unknown_count(p.run.initial, p.prior) ==
                 static_cast<std::size_t>(std::stoi(p.name)));
@@ -223,9 +241,9 @@ void check_kernels(std::uint64_t seed, int samples) {
 
 } // namespace
 
-TEST_CASE("every kernel contains the outputs of ten models") { check_kernels(1, 5); }
+TEST_CASE("every kernel contains the outputs of models of every size") { check_kernels(1, 5); }
 
-TEST_CASE("every kernel contains the outputs of ten models, many draws", "[.long]") {
+TEST_CASE("every kernel contains the outputs of models of every size, many draws", "[.long]") {
     for (std::uint64_t seed = 2; seed < 22; ++seed) check_kernels(seed, 100);
 }
 
@@ -234,7 +252,7 @@ TEST_CASE("first-order sets contain the outputs and agree with Taylor models") {
     run_options first;
     first.set = carried_set::doubleton;
     first.enclosure.tolerance = 1e-9;
-    for (auto const& p : ten_models()) {
+    for (auto const& p : some_models()) {
         INFO(p.name);
         auto const initial = part_of(d, p.run.initial, 0.02);
         auto const part = part_of(d, p.prior, 0.02);
@@ -264,7 +282,7 @@ TEST_CASE("first-order sets contain the outputs and agree with Taylor models") {
 
 TEST_CASE("a part of a box: the response of the whole stays valid for it") {
     draws d(4);
-    auto const p = ten_models()[2];
+    auto const p = some_models()[2];
     auto const whole =
         (*make_run(*p.equations, p.run, p.run.measurements, p.prior, {}))(p.run.initial, p.prior);
     for (int trial = 0; trial < 10; ++trial) {
@@ -282,7 +300,7 @@ TEST_CASE("a part of a box: the response of the whole stays valid for it") {
 }
 
 TEST_CASE("a run ends where it fails, where enough measurements fail, or where nothing is known") {
-    auto p = ten_models()[2];
+    auto p = some_models()[2];
     auto const result = [&] {
         return (*make_run(*p.equations, p.run, p.run.measurements, p.prior, {}))(p.run.initial,
                                                                                  p.prior);
@@ -302,7 +320,7 @@ TEST_CASE("a run ends where it fails, where enough measurements fail, or where n
 }
 
 TEST_CASE("measurements at the begin, and several of one channel at one time") {
-    auto p = ten_models()[0];
+    auto p = some_models()[0];
     p.run.measurements = {{0, 0, between(-9, 9)},
                           {0, 0, between(-9, 9)},
                           {0, 1, between(2, 3)},

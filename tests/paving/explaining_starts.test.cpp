@@ -120,7 +120,8 @@ TEST_CASE("nothing is claimed where some parameter would need a start beyond its
     for (double const reach : {0.9, 0.95}) {
         box const prior{between(-2, 2)}, initial{between(-0.5, 0.5)};
         response r{normalised_unknowns(initial, prior),
-                   std::make_shared<monomial_table const>(monomial_table::of<2, 2>(2)),
+                   std::make_shared<monomial_table const>(
+                       monomial_table::of(sivid::monomial_space::of(2, 2), 2)),
                    {},
                    {0.0},
                    {},
@@ -135,7 +136,8 @@ TEST_CASE("nothing is claimed where some parameter would need a start beyond its
 
 TEST_CASE("nothing is claimed without starts, with outputs that were not reached or not bounded") {
     box const prior{between(-1, 1)}, initial{between(-1, 1)};
-    auto const table = std::make_shared<monomial_table const>(monomial_table::of<2, 2>(2));
+    auto const table = std::make_shared<monomial_table const>(
+        monomial_table::of(sivid::monomial_space::of(2, 2), 2));
     response r{normalised_unknowns(initial, prior),
                table,
                {0, 1, 1, 0, 0, 0},
@@ -155,7 +157,8 @@ TEST_CASE("nothing is claimed without starts, with outputs that were not reached
     r.radius[0] = HUGE_VAL;
     CHECK_FALSE(explaining_starts(r, part)());
     response const still{normalised_unknowns(box{interval(0)}, prior),
-                         std::make_shared<monomial_table const>(monomial_table::of<1, 2>(1)),
+                         std::make_shared<monomial_table const>(
+                             monomial_table::of(sivid::monomial_space::of(1, 2), 1)),
                          {0, 1, 0},
                          {0.0},
                          {},

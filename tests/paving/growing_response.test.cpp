@@ -23,7 +23,8 @@ struct scene {
     std::vector<growing_response::arrival> all;
 
     scene(draws& d, std::size_t samples, std::size_t wild) {
-        table = std::make_shared<monomial_table const>(monomial_table::of<2, 2>(2));
+        table = std::make_shared<monomial_table const>(
+            monomial_table::of(sivid::monomial_space::of(2, 2), 2));
         std::vector<double> const truth{d.uniform(-1, 1), d.uniform(-1, 1)};
         for (std::size_t n = 0; n < samples; ++n) {
             output_polynomial y{{}, 0.001};

@@ -22,7 +22,8 @@ std::shared_ptr<response const> two_parabolas(box const& region, std::vector<dou
                                               std::vector<double> const& second,
                                               std::vector<interval> const& bounds, double radius) {
     response r{normalised_unknowns(box{}, region),
-               std::make_shared<monomial_table const>(monomial_table::of<1, 2>(1)),
+               std::make_shared<monomial_table const>(
+                   monomial_table::of(sivid::monomial_space::of(1, 2), 1)),
                {},
                {radius, radius},
                {},
@@ -92,8 +93,8 @@ TEST_CASE("unknowns: parameters are shared, starts are not, points have none") {
     box const region{between(0, 2), interval(1.0), between(0, 4)};
     auto const about = [&](box const& start) {
         response r{normalised_unknowns(start, region), nullptr, {}, {}, {}, {}, 0, 0};
-        r.table =
-            std::make_shared<monomial_table const>(monomial_table::of<4, 1>(r.unknowns.variables));
+        r.table = std::make_shared<monomial_table const>(
+            monomial_table::of(sivid::monomial_space::of(4, 1), r.unknowns.variables));
         return std::make_shared<response const>(std::move(r));
     };
     response_list const known{about({between(0, 1), interval(0.0)}),

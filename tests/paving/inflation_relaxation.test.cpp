@@ -29,7 +29,8 @@ struct random_experiments {
             box const start{d.coin() ? between(-1, 2) : interval(1.0)};
             response r{normalised_unknowns(start, prior), nullptr, {}, {}, {}, {}, outputs, 0};
             auto const used = r.unknowns.variables;
-            r.table = std::make_shared<monomial_table const>(monomial_table::of<3, 3>(used));
+            r.table = std::make_shared<monomial_table const>(
+                monomial_table::of(sivid::monomial_space::of(3, 3), used));
             for (std::size_t m = 0; m < r.table->size(); ++m) {
                 std::size_t degree = 0;
                 for (auto const e : r.table->exponents[m]) degree += e;
@@ -136,7 +137,8 @@ TEST_CASE("affine outputs without outliers: the bound is attained") {
 TEST_CASE("groups of measurements prove more than single ones when outliers are allowed") {
     // Pairs that contradict each other: y = p, measured as -1 +- 0.1 and as 1 +- 0.1, five times.
     response r{normalised_unknowns(box{}, box{between(-1, 1)}),
-               std::make_shared<monomial_table const>(monomial_table::of<1, 1>(1)),
+               std::make_shared<monomial_table const>(
+                   monomial_table::of(sivid::monomial_space::of(1, 1), 1)),
                {},
                {},
                {},
@@ -165,7 +167,8 @@ TEST_CASE("groups of measurements prove more than single ones when outliers are 
 
 TEST_CASE("a relaxation of odd measurements") {
     response r{normalised_unknowns(box{}, box{between(-1, 1)}),
-               std::make_shared<monomial_table const>(monomial_table::of<1, 1>(1)),
+               std::make_shared<monomial_table const>(
+                   monomial_table::of(sivid::monomial_space::of(1, 1), 1)),
                {0, 0, 1, 1},
                {0, 0},
                {},
@@ -224,7 +227,8 @@ TEST_CASE("a remainder that hides the worst measurement counts as blur") {
 TEST_CASE("what ends an experiment early is told by the parameters that spread its last outputs") {
     // Thirty outputs: the first parameter moves the early ones, the second one the last ones.
     response r{normalised_unknowns(box{}, box{between(-1, 1), between(0, 4)}),
-               std::make_shared<monomial_table const>(monomial_table::of<2, 1>(2)),
+               std::make_shared<monomial_table const>(
+                   monomial_table::of(sivid::monomial_space::of(2, 1), 2)),
                std::vector<double>(90, 0.0),
                std::vector<double>(30, 0.0),
                {},
@@ -256,7 +260,8 @@ TEST_CASE("what ends an experiment early is told by the parameters that spread i
 TEST_CASE("a measurement that its curvature hides smears the parameters in its nonlinear terms") {
     // One output is off by two bounds everywhere, one by five and more or less with p q.
     response r{normalised_unknowns(box{}, box{between(-1, 1), between(-1, 1)}),
-               std::make_shared<monomial_table const>(monomial_table::of<2, 2>(2)),
+               std::make_shared<monomial_table const>(
+                   monomial_table::of(sivid::monomial_space::of(2, 2), 2)),
                {},
                {0, 0},
                {},

@@ -8,8 +8,8 @@
 
 using namespace sivid;
 
-TEST_CASE("the run-time table of monomials agrees with the compile-time one") {
-    auto const all = monomial_table::of<3, 4>(3);
+TEST_CASE("the monomials of some variables of a space") {
+    auto const all = monomial_table::of(monomial_space::of(3, 4), 3);
     REQUIRE(all.variables == 3);
     REQUIRE(all.degree == 4);
     REQUIRE(all.size() == monomials<3, 4>::count);
@@ -18,19 +18,21 @@ TEST_CASE("the run-time table of monomials agrees with the compile-time one") {
             REQUIRE(all.exponents[m][v] == monomials<3, 4>::data.exponents[m][v]);
         }
     }
+    std::vector<std::size_t> place;
     // Of three variables only the first: powers 0 .. 4.
-    auto const one = monomial_table::of<3, 4>(1);
+    auto const one = monomial_table::of(monomial_space::of(3, 4), 1, &place);
     REQUIRE(one.size() == 5);
+    REQUIRE(place == std::vector<std::size_t>{0, 1, 4, 10, 20});
     for (std::size_t m = 0; m < 5; ++m) {
         REQUIRE(one.exponents[m].size() == 1);
         REQUIRE(one.exponents[m][0] == m);
     }
-    REQUIRE(monomial_table::of<3, 4>(0).size() == 1);
+    REQUIRE(monomial_table::of(monomial_space::of(3, 4), 0).size() == 1);
 }
 
 TEST_CASE("lines: each monomial once per variable, with powers that grow by one") {
     for (std::size_t const used : {1U, 2U, 3U}) {
-        auto const t = monomial_table::of<3, 3>(used);
+        auto const t = monomial_table::of(monomial_space::of(3, 3), used);
         REQUIRE(t.lines.size() == used);
         for (std::size_t v = 0; v < used; ++v) {
             std::vector<int> seen(t.size(), 0);

@@ -6,13 +6,26 @@
 #include "support/reference.hpp"
 #include "support/taylor_models.hpp"
 
-#include <sivid/enclosure/parametric_set.hpp>
+#include <sivid/enclosure/parametric_flow.hpp>
+#include <sivid/enclosure/parametric_runge_kutta.hpp>
 
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
 namespace support {
+
+/// A flow of one size, for tests that are written for it.
+template <std::size_t N, std::size_t D, class C = double>
+struct sized_flow : sivid::parametric_flow<sivid::taylor_model<C>> {
+    sized_flow(sivid::flow const& f, sivid::enclosure_options const& options)
+        : sivid::parametric_flow<sivid::taylor_model<C>>(f, options, N, D) {}
+};
+template <std::size_t N, std::size_t D>
+struct sized_runge_kutta : sivid::parametric_runge_kutta<> {
+    sized_runge_kutta(sivid::flow const& f, sivid::enclosure_options const& options)
+        : sivid::parametric_runge_kutta<>(f, options, N, D) {}
+};
 
 /// x within P(q), its tail and the generators at this q, componentwise; `slack` covers the
 /// reference.

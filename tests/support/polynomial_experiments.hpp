@@ -31,7 +31,7 @@ struct polynomial_experiments {
                 sivid::normalised_unknowns(start, prior), nullptr, {}, {}, {}, {}, outputs, q};
             auto const used = r.unknowns.variables;
             r.table = std::make_shared<sivid::monomial_table const>(
-                sivid::monomial_table::of<3, 3>(used));
+                sivid::monomial_table::of(sivid::monomial_space::of(3, 3), used));
             for (auto const& e : r.table->exponents) {
                 std::size_t degree = 0;
                 for (auto const k : e) degree += k;

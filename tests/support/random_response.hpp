@@ -28,8 +28,8 @@ struct random_response {
         : initial(std::move(starts)),
           prior(std::move(parameters)),
           known{sivid::normalised_unknowns(initial, prior),
-                std::make_shared<sivid::monomial_table const>(
-                    sivid::monomial_table::of<variables, degree>(variables)),
+                std::make_shared<sivid::monomial_table const>(sivid::monomial_table::of(
+                    sivid::monomial_space::of(variables, degree), variables)),
                 {},
                 {},
                 {},

@@ -59,9 +59,13 @@ template <class T>
 struct columns_of {
     struct type {};
 };
-template <std::size_t N, std::size_t D>
-struct columns_of<taylor_model<N, D>> {
-    using type = variation_columns<N, D>;
+template <>
+struct columns_of<taylor_model<double>> {
+    using type = variation_columns;
+    static type make(flow const& f, tape const& program, std::size_t entries, std::size_t columns,
+                     std::size_t orders, size_of_values<taylor_model<double>> const& values) {
+        return {f, program, entries, columns, orders, *values.shape};
+    }
 };
 } // namespace enclosure_detail
 
@@ -78,20 +82,24 @@ enum class variations {
 template <class T>
 class expansion {
     using arithmetic = arithmetic_of<T>;
+    using storage = model_detail::storage_of<T>;
 
 public:
+    /// @param values  see `series`
     expansion(flow const& f, std::size_t max_order,
-              variations which = variations::by_state_and_parameter)
+              variations which = variations::by_state_and_parameter,
+              size_of_values<T> const& values = {})
         : flow_(&f),
           stride_(max_order + 1),
           columns_(f.states() + (which == variations::by_state_and_parameter ? f.parameters() : 0)),
           program_(which == variations::by_state ? &f.rate_state_jacobian() : &f.rate_jacobian()),
           entries_(which == variations::by_state ? f.state_entries() : f.entries().size()),
-          series_(*program_, max_order),
-          x_(f.states() * stride_, arithmetic::point(0.0)),
-          v_(f.states() * columns_ * stride_, arithmetic::point(0.0)) {
+          series_(*program_, max_order, values),
+          x_(storage::make(f.states() * stride_, values)),
+          v_(storage::make(f.states() * columns_ * stride_, values)) {
         if constexpr (arithmetic::keeps_rows) {
-            columns_at_once_ = {f, *program_, entries_, columns_, stride_};
+            columns_at_once_ = enclosure_detail::columns_of<T>::make(f, *program_, entries_,
+                                                                     columns_, stride_, values);
         }
     }
 
@@ -111,8 +119,12 @@ public:
             series_.advance_principal(k, state_at(), inputs_);
             for (std::size_t i = 0; i < n; ++i) {
                 bool const zero = k > 0 && !flow_->rate().output_varies(i);
-                x_[i * stride_ + k + 1] =
-                    zero ? arithmetic::point(0.0) : over(series_.output(i, k), k + 1);
+                T& next = x_[i * stride_ + k + 1];
+                if (zero) {
+                    next = arithmetic::point(0.0);
+                } else {
+                    over(series_.output(i, k), k + 1, next);
+                }
             }
         }
         jumped_ = series_.jumped();
@@ -134,7 +146,7 @@ public:
             for (std::size_t i = 0; i < n; ++i) {
                 for (auto const c : columns_at_once_.columns(i)) {
                     for (std::size_t k = 1; k <= order; ++k) {
-                        v(i, c, k) = columns_at_once_.get(i, c, k);
+                        columns_at_once_.get_into(v(i, c, k), i, c, k);
                     }
                 }
             }
@@ -142,8 +154,7 @@ public:
             for (std::size_t k = 0; k < order; ++k) {
                 for (std::size_t i = 0; i < n; ++i) {
                     for (std::size_t c = 0; c < columns_; ++c) {
-                        if (flow_->sensitive(i, c))
-                            v(i, c, k + 1) = over(next_variation(i, c, k), k + 1);
+                        if (flow_->sensitive(i, c)) next_variation(i, c, k, v(i, c, k + 1));
                     }
                 }
             }
@@ -187,10 +198,10 @@ private:
     [[nodiscard]] auto state_at() const {
         return [this](std::size_t i, std::size_t k) -> T const& { return x_[i * stride_ + k]; };
     }
-    /// Coefficient k of row i of the Jacobian times column c of V.
-    [[nodiscard]] T next_variation(std::size_t i, std::size_t c, std::size_t k) {
+    /// Coefficient k of row i of the Jacobian times column c of V, divided by k + 1.
+    void next_variation(std::size_t i, std::size_t c, std::size_t k, T& result) {
         auto const n = flow_->states();
-        typename arithmetic::accumulator sum;
+        typename arithmetic::accumulator sum(result);
         for (std::size_t m = 0; m < entries_; ++m) {
             auto const& e = flow_->entries()[m];
             if (e.row != i) continue;
@@ -206,9 +217,18 @@ private:
                 sum.add_product(series_.output(e.output, j), v(e.column, c, k - j));
             }
         }
-        return sum.result();
+        sum.result_into(result);
+        if (k > 0) over(result, k + 1, result);
     }
-    static T over(T const& a, std::size_t k) { return k == 1 ? a : arithmetic::over(a, k); }
+    static void over(T const& a, std::size_t k, T& result) {
+        if (k == 1) {
+            result = a;
+        } else if constexpr (requires { arithmetic::over_into(result, a, k); }) {
+            arithmetic::over_into(result, a, k);
+        } else {
+            result = arithmetic::over(a, k);
+        }
+    }
 
     flow const* flow_;
     std::size_t stride_;
@@ -217,8 +237,8 @@ private:
     std::size_t entries_; ///< of the Jacobian, that the program computes
     series<T> series_;
     input_pieces<T> inputs_;
-    std::vector<T> x_;
-    std::vector<T> v_;
+    typename storage::type x_;
+    typename storage::type v_;
     [[no_unique_address]] typename enclosure_detail::columns_of<T>::type columns_at_once_;
     typename arithmetic::mask jumped_{};
 };

@@ -17,7 +17,8 @@ namespace sivid {
 /// @returns nothing when the enclosure reaches `end`
 /// @guarantee  what it says was reached, was proved. That nothing helps, or that a trajectory
 ///             grows without bound, is what the trials show, and no proof.
-/// @tparam Run    `trajectory<interval>`, `parametric_flow<N, D>` or `parametric_runge_kutta<N, D>`
+/// @tparam Run    `trajectory<interval>`, `parametric_flow<>` or `parametric_runge_kutta<>`;
+///                Taylor models get the degree that suits the unknowns (`suggested_degree`)
 /// @tparam Other  another set to try, or void
 /// @given  boxes that `Run` and `Other` take (checked there: std::invalid_argument)
 /// @cost  some ten runs, and two for each halving of each side with a width where only parts help,

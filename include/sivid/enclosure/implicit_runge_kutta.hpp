@@ -28,8 +28,9 @@ class implicit_runge_kutta {
 
 public:
     /// @throws std::invalid_argument for a tableau of another shape, or not of its stated order
-    implicit_runge_kutta(flow const& f, tableau const& method)
-        : flow_(&f), order_(method.order), stages_(f, method) {
+    /// @param values  see `series`
+    implicit_runge_kutta(flow const& f, tableau const& method, size_of_values<T> const& values = {})
+        : flow_(&f), order_(method.order), stages_(f, method, values) {
         for (auto const& x : method.b) {
             b_.push_back(arithmetic::enclose(x.template enclose<interval>()));
         }

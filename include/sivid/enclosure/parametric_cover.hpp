@@ -16,17 +16,15 @@
 namespace sivid {
 
 /// A part of a box of starts and parameters with the family that it leads to.
-template <std::size_t N, std::size_t D>
 struct covered_part {
     box initial;
     box parameters;
-    parametric_set<N, D> set; ///< at the end, in the part's own unknowns
+    parametric_set<taylor_model<double>> set; ///< at the end, in the part's own unknowns
     std::size_t steps = 0;
 };
 
-template <std::size_t N, std::size_t D>
 struct parametric_cover {
-    std::vector<covered_part<N, D>> parts;
+    std::vector<covered_part> parts;
     std::size_t failed = 0; ///< parts that were tried and split
     /// Why it stopped before all was covered.
     std::optional<enclosure_failure> failure;
@@ -55,8 +53,9 @@ struct cover_options {
 
 /// The side, of the starts and then of the parameters, along which the states of a lane vary most:
 /// by the linear terms, each state measured against its own range.
-template <std::size_t N, std::size_t D, class C>
-[[nodiscard]] std::size_t steepest_side(parametric_flow<N, D, C> const& run, std::size_t lane) {
+template <class Model>
+[[nodiscard]] std::size_t steepest_side(parametric_flow<Model> const& run, std::size_t lane) {
+    using C = typename Model::scalar;
     auto const& u = run.unknowns(lane);
     auto const& about = run.equations().model().about.states;
     std::size_t best = 0;
@@ -66,8 +65,7 @@ template <std::size_t N, std::size_t D, class C>
         double slope = 0;
         for (std::size_t i = 0; i < about.size(); ++i) {
             auto const& p = run.set().centre[i];
-            double const c =
-                lane_traits<C>::get(p.c[monomials<N, D>::data.variable[s.variable]], lane);
+            double const c = lane_traits<C>::get(p.c()[p.space().variable(s.variable)], lane);
             slope += std::abs(c) / about[i].limit;
         }
         if (!(slope > most)) return;
@@ -99,14 +97,15 @@ template <std::size_t N, std::size_t D, class C>
 /// depended most when it failed, and a lane that is free takes the next part.
 /// @guarantee  if complete, the parts cover the box, and each part's set contains all its ends
 /// @tparam C  `double`, or `lanes<W>` for W parts at a time
-template <std::size_t N, std::size_t D, class C = double>
-[[nodiscard]] parametric_cover<N, D> cover(flow const& f, enclosure_options const& options,
-                                           box const& initial, box const& parameters, double begin,
-                                           double end, cover_options const& choice = {}) {
+template <class C = double>
+[[nodiscard]] parametric_cover cover(std::size_t variables, std::size_t degree, flow const& f,
+                                     enclosure_options const& options, box const& initial,
+                                     box const& parameters, double begin, double end,
+                                     cover_options const& choice = {}) {
     using side_by_side = lane_traits<C>;
     constexpr std::size_t width = side_by_side::count;
     using part = std::pair<box, box>;
-    parametric_cover<N, D> result;
+    parametric_cover result;
     std::deque<part> waiting{{initial, parameters}};
     auto const halve = [&](part const& whole, std::size_t side) {
         std::array<part, 2> halves{whole, whole};
@@ -139,7 +138,7 @@ template <std::size_t N, std::size_t D, class C = double>
             halve(whole, sides[k % sides.size()]);
         }
     }
-    parametric_flow<N, D, C> run(f, options);
+    parametric_flow<taylor_model<C>> run(f, options, variables, degree);
     std::array<std::optional<part>, width> lane;
     std::size_t in_work = 0;
     while (!waiting.empty() || in_work > 0) {

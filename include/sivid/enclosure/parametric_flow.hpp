@@ -9,9 +9,9 @@
 
 namespace sivid {
 
-template <std::size_t N, std::size_t D, class C>
-void parametric_flow<N, D, C>::begin(std::size_t lane, double time, box const& initial,
-                                     box const& parameters) {
+template <class Model>
+void parametric_flow<Model>::begin(std::size_t lane, double time, box const& initial,
+                                   box const& parameters) {
     require_sound_environment();
     if (lane >= width) throw std::out_of_range("parametric_flow: no such lane");
     if (initial.size() != flow_->states() || parameters.size() != flow_->parameters()) {
@@ -25,7 +25,7 @@ void parametric_flow<N, D, C>::begin(std::size_t lane, double time, box const& i
         }
     }
     normalised_unknowns unknowns(initial, parameters);
-    if (unknowns.variables > (D == 0 ? 0 : N))
+    if (unknowns.variables > (shape_->degree == 0 ? 0 : shape_->variables))
         throw std::invalid_argument("parametric_flow: too many unknowns");
     end(lane);
     // Whatever the lanes held must not show: one that stands idle may decide which of several
@@ -34,9 +34,9 @@ void parametric_flow<N, D, C>::begin(std::size_t lane, double time, box const& i
     for (std::size_t l = 0; l < width; ++l) {
         if (l != lane && !alone) continue;
         for (std::size_t j = 0; j < parameters_.size(); ++j) {
-            normalised_unknowns::put(unknowns.parameters[j], l, parameters_[j]);
-            normalised_unknowns::put(unknowns.parameters[j], l, column_parameters_[j]);
-            normalised_unknowns::put(unknowns.parameters[j], l, tube_parameters_[j]);
+            enclosure_detail::put(unknowns.parameters[j], l, parameters_[j]);
+            enclosure_detail::put(unknowns.parameters[j], l, column_parameters_[j]);
+            enclosure_detail::put(unknowns.parameters[j], l, tube_parameters_[j]);
         }
     }
     centre_.set_parameters(parameters_);
@@ -49,7 +49,7 @@ void parametric_flow<N, D, C>::begin(std::size_t lane, double time, box const& i
         side_by_side::put(x, lane, 0.0);
     }
     if (alone) { // a fresh start for all
-        set_ = set_type(flow_->states());
+        set_ = set_type(flow_->states(), *shape_);
         // Knots of sampled inputs keep steps short; what lies between them decides on the order.
         order_ = flow_->sampled_inputs().empty() ? options_.order
                                                  : std::min<std::size_t>(options_.order, 6);
@@ -64,8 +64,8 @@ void parametric_flow<N, D, C>::begin(std::size_t lane, double time, box const& i
     stale_ = true;
 }
 
-template <std::size_t N, std::size_t D, class C>
-std::vector<typename parametric_flow<N, D, C>::polynomial> parametric_flow<N, D, C>::outputs() {
+template <class Model>
+std::vector<typename parametric_flow<Model>::polynomial> parametric_flow<Model>::outputs() {
     std::vector<polynomial> x;
     for (std::size_t i = 0; i < set_.centre.size(); ++i) {
         x.push_back(widened(set_.centre[i], set_.reach[i]));
@@ -79,13 +79,13 @@ std::vector<typename parametric_flow<N, D, C>::polynomial> parametric_flow<N, D,
     std::vector<polynomial> result;
     for (std::size_t y = 0; y < flow_->channels(); ++y) {
         auto& p = result.emplace_back(observe_.output(y, 0));
-        p.r = side_by_side::select(observe_.undefined(), C(infinity), p.r);
+        p.r() = side_by_side::select(observe_.undefined(), C(infinity), p.r());
     }
     return result;
 }
 
-template <std::size_t N, std::size_t D, class C>
-void parametric_flow<N, D, C>::expand(std::size_t order) {
+template <class Model>
+void parametric_flow<Model>::expand(std::size_t order) {
     auto const through = [&](std::vector<polynomial> const& start) {
         centre_.expand(set_.time, polynomial::constant(set_.time), start,
                        std::max<std::size_t>(order, 1));
@@ -106,10 +106,10 @@ void parametric_flow<N, D, C>::expand(std::size_t order) {
     expanded_ = 0;
 }
 
-template <std::size_t N, std::size_t D, class C>
-void parametric_flow<N, D, C>::expand_flow(std::size_t flow_order) {
+template <class Model>
+void parametric_flow<Model>::expand_flow(std::size_t flow_order) {
     for (std::size_t i = 0; i < set_.centre.size(); ++i) {
-        around_[i] = widened(converted<N, column_degree>(set_.centre[i]), set_.reach[i]);
+        around_[i] = widened(converted(set_.centre[i], *column_shape_), set_.reach[i]);
     }
     derivative_.expand_with_variations(set_.time, column_entry::constant(set_.time), around_,
                                        flow_order - 1);
@@ -117,8 +117,8 @@ void parametric_flow<N, D, C>::expand_flow(std::size_t flow_order) {
 }
 
 /// The step length at which a coefficient reaches what is allowed, and its state.
-template <std::size_t N, std::size_t D, class C>
-std::pair<double, std::size_t> parametric_flow<N, D, C>::estimate(std::size_t lane) const {
+template <class Model>
+std::pair<double, std::size_t> parametric_flow<Model>::estimate(std::size_t lane) const {
     std::pair<double, std::size_t> least{infinity, 0};
     for (std::size_t k = std::max<std::size_t>(order_, 2) - 1; k <= order_; ++k) {
         for (std::size_t i = 0; i < set_.centre.size(); ++i) {
@@ -133,8 +133,8 @@ std::pair<double, std::size_t> parametric_flow<N, D, C>::estimate(std::size_t la
 }
 
 /// Step length from the last coefficients; a preference, no proof rests on it.
-template <std::size_t N, std::size_t D, class C>
-double parametric_flow<N, D, C>::propose(std::size_t lane, double rest) const {
+template <class Model>
+double parametric_flow<Model>::propose(std::size_t lane, double rest) const {
     double const h =
         std::min({options_.maximum_step, rest, lanes_[lane].learned * estimate(lane).first});
     // A little longer rather than once more: the length aims at a tenth of what is allowed.
@@ -149,9 +149,9 @@ double parametric_flow<N, D, C>::propose(std::size_t lane, double rest) const {
 ///   short steps, \f$ \ell(h)/h \to r_1 \f$; on long ones every term is magnified by norms,
 ///   like \f$ e^{3 h |A|} \f$. Where it is more than a step may lose, it should stay below \f$ 2 h
 ///   r_1 \f$. A preference, no proof rests on it.
-template <std::size_t N, std::size_t D, class C>
-double parametric_flow<N, D, C>::gentle(std::size_t lane, double h) const {
-    if constexpr (D == 0)
+template <class Model>
+double parametric_flow<Model>::gentle(std::size_t lane, double h) const {
+    if (shape_->degree == 0)
         return h; // no degree: all of it are roundings, which do not want more steps
     constexpr double most = 2, rounding = 1e-12;
     std::array<double, 64> lost{}; // the largest share of what the step may lose, for each order
@@ -159,7 +159,7 @@ double parametric_flow<N, D, C>::gentle(std::size_t lane, double h) const {
     for (std::size_t k = 1; k <= last; ++k) {
         for (std::size_t i = 0; i < set_.centre.size(); ++i) {
             auto const& x = centre_.state(i, k);
-            C const share = (x.r - x.norm() * rounding) / allowed(i);
+            C const share = (x.r() - x.norm() * rounding) / allowed(i);
             lost[k] = std::max(lost[k], side_by_side::get(share, lane));
         }
     }
@@ -174,8 +174,8 @@ double parametric_flow<N, D, C>::gentle(std::size_t lane, double h) const {
 
 /// One order more where the tolerance limits the step, one less where the end of an interval or
 /// `gentle` does.
-template <std::size_t N, std::size_t D, class C>
-void parametric_flow<N, D, C>::adapt_order(mask moved, C const& h, bool clamped) {
+template <class Model>
+void parametric_flow<Model>::adapt_order(mask moved, C const& h, bool clamped) {
     if (!clamped) {
         order_ = std::min(options_.order, order_ + 1);
         return;
@@ -194,8 +194,8 @@ void parametric_flow<N, D, C>::adapt_order(mask moved, C const& h, bool clamped)
 }
 
 /// The lanes whose sets still say enough; the others fail.
-template <std::size_t N, std::size_t D, class C>
-typename parametric_flow<N, D, C>::mask parametric_flow<N, D, C>::useful(mask lanes) {
+template <class Model>
+typename parametric_flow<Model>::mask parametric_flow<Model>::useful(mask lanes) {
     for (std::size_t i = 0; i < set_.centre.size(); ++i) {
         double const limit = flow_->model().about.states[i].limit;
         // What uncertain inputs cause is no weakness of the set: no smaller box would lose less.
@@ -219,8 +219,8 @@ typename parametric_flow<N, D, C>::mask parametric_flow<N, D, C>::useful(mask la
     return lanes;
 }
 
-template <std::size_t N, std::size_t D, class C>
-void parametric_flow<N, D, C>::reject(mask lanes, failure_reason reason, C const& shorten) {
+template <class Model>
+void parametric_flow<Model>::reject(mask lanes, failure_reason reason, C const& shorten) {
     for (std::size_t l = 0; l < width; ++l) {
         if (!side_by_side::test(lanes, l)) continue;
         lanes_[l].why.reason = reason;
@@ -228,11 +228,11 @@ void parametric_flow<N, D, C>::reject(mask lanes, failure_reason reason, C const
     }
 }
 
-template <std::size_t N, std::size_t D, class C>
+template <class Model>
 template <class Entry>
-std::optional<domain_edge> parametric_flow<N, D, C>::edge(std::size_t lane, Entry const& times,
-                                                          std::vector<Entry> const& x,
-                                                          std::vector<Entry> const& p) const {
+std::optional<domain_edge> parametric_flow<Model>::edge(std::size_t lane, Entry const& times,
+                                                        std::vector<Entry> const& x,
+                                                        std::vector<Entry> const& p) const {
     return find_domain_edge(
         *flow_, set_.time, times, x, p,
         [lane](mask const& m) { return side_by_side::test(m, lane); },
@@ -242,8 +242,8 @@ std::optional<domain_edge> parametric_flow<N, D, C>::edge(std::size_t lane, Entr
         });
 }
 
-template <std::size_t N, std::size_t D, class C>
-void parametric_flow<N, D, C>::note_steepest(mask lanes, square const& m) {
+template <class Model>
+void parametric_flow<Model>::note_steepest(mask lanes, square const& m) {
     auto const n = flow_->states();
     for (std::size_t l = 0; l < width; ++l) {
         if (!side_by_side::test(lanes, l)) continue;
@@ -258,8 +258,8 @@ void parametric_flow<N, D, C>::note_steepest(mask lanes, square const& m) {
     }
 }
 
-template <std::size_t N, std::size_t D, class C>
-typename parametric_flow<N, D, C>::mask parametric_flow<N, D, C>::advance(C const& limit) {
+template <class Model>
+typename parametric_flow<Model>::mask parametric_flow<Model>::advance(C const& limit) {
     mask trying = running_ & (set_.time < limit);
     bool const cancelled = options_.cancelled();
     for (std::size_t l = 0; l < width; ++l) {
@@ -332,9 +332,11 @@ typename parametric_flow<N, D, C>::mask parametric_flow<N, D, C>::advance(C cons
             (lane.next < options_.minimum_step && target < end)) {
             if (lane.why.reason == failure_reason::undefined) {
                 C const half = (C(lane.why.until) - set_.time) * 0.5;
-                lane.why.note(
-                    edge(l, tube_entry::constant(set_.time) + tube_entry::variable(N, half, half),
-                         tube_box_, tube_parameters_));
+                lane.why.note(edge(
+                    l,
+                    tube_entry::constant(set_.time) +
+                        tube_entry::variable(*tube_shape_, tube_shape_->variables - 1, half, half),
+                    tube_box_, tube_parameters_));
             }
             if (lane.attempts == 1)
                 lane.why.component = estimate(l).second; // too short to be tried

@@ -6,8 +6,8 @@
 
 namespace sivid {
 
-template <std::size_t N, std::size_t D>
-void parametric_runge_kutta<N, D>::begin(double time, box const& initial, box const& parameters) {
+template <class Model>
+void parametric_runge_kutta<Model>::begin(double time, box const& initial, box const& parameters) {
     require_sound_environment();
     if (initial.size() != flow_->states() || parameters.size() != flow_->parameters()) {
         throw std::invalid_argument("parametric_runge_kutta: the boxes do not have the model's "
@@ -21,13 +21,13 @@ void parametric_runge_kutta<N, D>::begin(double time, box const& initial, box co
         }
     }
     unknowns_.emplace(initial, parameters);
-    if (unknowns_->variables > N) {
+    if (unknowns_->variables > shape_->variables) {
         throw std::invalid_argument("parametric_runge_kutta: too many unknowns");
     }
-    auto const p = parameter_models<N, D>();
-    auto const wide = parameter_models<N + 1, tube_degree>();
+    auto const p = parameter_models(*shape_);
+    auto const wide = parameter_models(*tube_shape_);
     centre_.set_parameters(p);
-    derivative_.set_parameters(parameter_models<N, column_degree>());
+    derivative_.set_parameters(parameter_models(*column_shape_));
     tube_.set_parameters(wide);
     if (explicit_value_) {
         explicit_value_->set_parameters(p);
@@ -38,7 +38,7 @@ void parametric_runge_kutta<N, D>::begin(double time, box const& initial, box co
     }
     if (perturbed_) perturbed_->set_parameters(wide);
     disturbed_.assign(flow_->states(), 0.0);
-    set_ = set_type(flow_->states());
+    set_ = set_type(flow_->states(), *shape_);
     set_.begin(0, time, *unknowns_);
     swept_.clear();
     failure_.reset();
@@ -46,15 +46,15 @@ void parametric_runge_kutta<N, D>::begin(double time, box const& initial, box co
     learned_ = 1;
 }
 
-template <std::size_t N, std::size_t D>
-double parametric_runge_kutta<N, D>::propose(double rest) const {
+template <class Model>
+double parametric_runge_kutta<Model>::propose(double rest) const {
     double const h = std::min({options_.maximum_step, rest, learned_ * estimate().first});
     if (h >= rest) return rest;
     return h > 0.5 * rest ? std::max(0.5 * rest, std::min(h, options_.minimum_step)) : h;
 }
 
-template <std::size_t N, std::size_t D>
-Eigen::MatrixXd parametric_runge_kutta<N, D>::sizes(double h, std::size_t from) const {
+template <class Model>
+Eigen::MatrixXd parametric_runge_kutta<Model>::sizes(double h, std::size_t from) const {
     auto const n = flow_->states();
     Eigen::MatrixXd result =
         Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
@@ -73,9 +73,9 @@ Eigen::MatrixXd parametric_runge_kutta<N, D>::sizes(double h, std::size_t from) 
     return result;
 }
 
-template <std::size_t N, std::size_t D>
-bool parametric_runge_kutta<N, D>::bound_flow(double h, Eigen::MatrixXd const& last,
-                                              Eigen::MatrixXd& w) const {
+template <class Model>
+bool parametric_runge_kutta<Model>::bound_flow(double h, Eigen::MatrixXd const& last,
+                                               Eigen::MatrixXd& w) const {
     auto const base = sizes(h, 1);
     auto const one = Eigen::MatrixXd::Identity(base.rows(), base.cols());
     auto const image = [&](Eigen::MatrixXd const& x) -> Eigen::MatrixXd {
@@ -94,8 +94,8 @@ bool parametric_runge_kutta<N, D>::bound_flow(double h, Eigen::MatrixXd const& l
     return false;
 }
 
-template <std::size_t N, std::size_t D>
-bool parametric_runge_kutta<N, D>::useful(enclosure_failure& why) const {
+template <class Model>
+bool parametric_runge_kutta<Model>::useful(enclosure_failure& why) const {
     for (std::size_t i = 0; i < set_.centre.size(); ++i) {
         double const limit = flow_->model().about.states[i].limit;
         double const spread = set_.centre[i].spread() + disturbed_[i];
@@ -110,8 +110,8 @@ bool parametric_runge_kutta<N, D>::useful(enclosure_failure& why) const {
     return true;
 }
 
-template <std::size_t N, std::size_t D>
-bool parametric_runge_kutta<N, D>::step(double limit) {
+template <class Model>
+bool parametric_runge_kutta<Model>::step(double limit) {
     if (failure_) return false;
     if (!(limit > set_.time)) {
         throw std::invalid_argument("parametric_runge_kutta: a step must go forward");
@@ -130,14 +130,14 @@ bool parametric_runge_kutta<N, D>::step(double limit) {
     double const from = set_.time;
     double const rest = limit - from;
     centre_.expand(from, polynomial::constant(from), set_.centre, order_);
-    std::vector<column_entry> around;
+    std::vector<polynomial> around;
     for (std::size_t i = 0; i < set_.centre.size(); ++i) {
-        around.push_back(widened(converted<N, column_degree>(set_.centre[i]), set_.reach[i]));
+        around.push_back(widened(converted(set_.centre[i], *column_shape_), set_.reach[i]));
     }
-    derivative_.expand_with_variations(from, column_entry::constant(from), around, flow_order_ - 1);
+    derivative_.expand_with_variations(from, polynomial::constant(from), around, flow_order_ - 1);
     if (centre_.undefined() || derivative_.undefined()) {
         why.reason = failure_reason::undefined;
-        why.note(edge(column_entry::constant(from), around));
+        why.note(edge(*column_shape_, polynomial::constant(from), around));
         return fail(why);
     }
     double h = propose(rest);
@@ -161,19 +161,19 @@ bool parametric_runge_kutta<N, D>::step(double limit) {
     if (!(why.until > from)) why.component = estimate().second; // too short to be tried
     if (why.reason == failure_reason::undefined) {
         double const half = 0.5 * (why.until - from);
-        why.note(edge(tube_entry::constant(from) + tube_entry::variable(N, half, half), tube_box_));
+        why.note(edge(*tube_shape_, polynomial::constant(from) + within_step(half), tube_box_));
     }
     return fail(why);
 }
 
-template <std::size_t N, std::size_t D>
-bool parametric_runge_kutta<N, D>::apply_method(interval const& h) {
+template <class Model>
+bool parametric_runge_kutta<Model>::apply_method(interval const& h) {
     double const from = set_.time;
     auto const length = polynomial::constant(h);
     // All times of the step: s = h/2 (1 + tau).
-    auto const s = tube_entry::variable(N, 0.5 * h.upper(), 0.5 * h.upper());
-    std::vector<tube_entry> start;
-    for (auto const& p : set_.centre) start.push_back(converted<N + 1, tube_degree>(p));
+    auto const s = within_step(0.5 * h.upper());
+    std::vector<polynomial> start;
+    for (auto const& p : set_.centre) start.push_back(converted(p, *tube_shape_));
     if (explicit_value_) {
         bool undefined = false;
         value_ = explicit_value_->coefficient(from, set_.centre, length, 0, undefined);
@@ -186,10 +186,10 @@ bool parametric_runge_kutta<N, D>::apply_method(interval const& h) {
     value_ = implicit_value_->value(set_.centre, length, *last);
     // One region of uniqueness for the whole step, which holds the stages at its begin and those
     // that make the value: they are on one branch.
-    std::vector<tube_entry> there;
-    for (auto const& k : last->value) there.push_back(converted<N + 1, tube_degree>(k));
-    auto const zero = std::vector<tube_entry>(there.size());
-    auto const first = implicit_next_->stages().apply(from, start, tube_entry::constant(0.0), zero);
+    std::vector<polynomial> there;
+    for (auto const& k : last->value) there.push_back(converted(k, *tube_shape_));
+    auto const zero = std::vector<polynomial>(there.size());
+    auto const first = implicit_next_->stages().apply(from, start, polynomial::constant(0.0), zero);
     if (!first) return false;
     auto const all = implicit_next_->stages().prove(from, start, s, {*first, there});
     if (!all || !all->holds(*first) || !all->holds(there)) return false;
@@ -199,8 +199,8 @@ bool parametric_runge_kutta<N, D>::apply_method(interval const& h) {
     return true;
 }
 
-template <std::size_t N, std::size_t D>
-bool parametric_runge_kutta<N, D>::try_step(double to, double& shorten, enclosure_failure& why) {
+template <class Model>
+bool parametric_runge_kutta<Model>::try_step(double to, double& shorten, enclosure_failure& why) {
     using traits = interval_traits<interval>;
     auto const n = flow_->states();
     auto const states = static_cast<Eigen::Index>(n);
@@ -211,20 +211,20 @@ bool parametric_runge_kutta<N, D>::try_step(double to, double& shorten, enclosur
     std::size_t const L = flow_order_;
     why.reason = failure_reason::minimum_step;
     if (centre_.kinked() || derivative_.kinked()) return false;
-    auto const s = tube_entry::variable(N, 0.5 * h, 0.5 * h);
-    auto const times = tube_entry::constant(from) + s;
+    auto const s = within_step(0.5 * h);
+    auto const times = polynomial::constant(from) + s;
     Eigen::VectorXd reach(states);
     for (std::size_t i = 0; i < n; ++i) reach[static_cast<Eigen::Index>(i)] = set_.reach[i];
     Eigen::VectorXd const carried = sizes(h, 0) * reach;
     bool never = false;
     double const power = traits::pown(length, static_cast<int>(K + 1), never).upper();
     double const flow_power = traits::pown(length, static_cast<int>(L), never).upper();
-    std::vector<tube_entry> path;
+    std::vector<polynomial> path;
     std::vector<double> room;
     for (std::size_t i = 0; i < n; ++i) {
-        auto b = converted<N + 1, tube_degree>(centre_.state(i, K));
+        auto b = converted(centre_.state(i, K), *tube_shape_);
         for (std::size_t k = K; k-- > 0;) {
-            b = b * s + converted<N + 1, tube_degree>(centre_.state(i, k));
+            b = b * s + converted(centre_.state(i, k), *tube_shape_);
         }
         path.push_back(b);
         room.push_back(1.2 * carried[static_cast<Eigen::Index>(i)] +
@@ -244,7 +244,7 @@ bool parametric_runge_kutta<N, D>::try_step(double to, double& shorten, enclosur
         for (std::size_t i = 0; i < n; ++i) {
             auto const& last = tube_.state(i, K + 1);
             truncation.push_back(last.norm() * power * up);
-            double const share = (last.spread() + last.r) * power / (10 * allowed(i));
+            double const share = (last.spread() + last.r()) * power / (10 * allowed(i));
             if (!(share <= ratio)) {
                 ratio = share;
                 why.component = i;
@@ -300,7 +300,7 @@ bool parametric_runge_kutta<N, D>::try_step(double to, double& shorten, enclosur
         }
         // What of the local error does not depend on the time within the step goes into the centre.
         for (std::size_t i = 0; i < n && h > 4 * options_.minimum_step; ++i) {
-            if ((next_[i].spread() + next_[i].r) * power <= 20 * allowed(i)) continue;
+            if ((next_[i].spread() + next_[i].r()) * power <= 20 * allowed(i)) continue;
             shorten = 0.7;
             why.component = i;
             return false;
@@ -316,8 +316,8 @@ bool parametric_runge_kutta<N, D>::try_step(double to, double& shorten, enclosur
     return false;
 }
 
-template <std::size_t N, std::size_t D>
-void parametric_runge_kutta<N, D>::accept(double to, interval const& h, Eigen::MatrixXd const& w) {
+template <class Model>
+void parametric_runge_kutta<Model>::accept(double to, interval const& h, Eigen::MatrixXd const& w) {
     using traits = interval_traits<interval>;
     auto const n = flow_->states();
     std::size_t const L = flow_order_;
@@ -328,15 +328,15 @@ void parametric_runge_kutta<N, D>::accept(double to, interval const& h, Eigen::M
     std::vector<polynomial> next(n);
     for (std::size_t i = 0; i < n; ++i) {
         auto const error = tube_.state(i, order_ + 1) - next_[i];
-        next[i] = value_[i] + scaled(without_last_variable<N, D>(error), power);
-        lost[i] = next[i].r;
-        next[i].r = 0;
+        next[i] = value_[i] + scaled(without_last_variable(error, *shape_), power);
+        lost[i] = next[i].r();
+        next[i].r() = 0;
     }
-    std::vector<column_entry> j(n * n);
+    std::vector<polynomial> j(n * n);
     for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t c = 0; c < n; ++c) {
             if (!flow_->sensitive(i, c)) continue;
-            auto last = without_last_variable<N, column_degree>(tube_.variation(i, c, L));
+            auto last = without_last_variable(tube_.variation(i, c, L), *column_shape_);
             double spread = 0; // |J_L(b)| W
             for (std::size_t l = 0; l < n; ++l) {
                 if (!flow_->sensitive(i, l)) continue;
@@ -354,13 +354,13 @@ void parametric_runge_kutta<N, D>::accept(double to, interval const& h, Eigen::M
     for (auto& g : set_.columns) {
         typename set_type::column image(n);
         for (std::size_t i = 0; i < n; ++i) {
-            product_sum<N, column_degree> sum;
+            product_sum<> sum;
             for (std::size_t l = 0; l < n; ++l) {
                 if (flow_->sensitive(i, l) && g[l].norm() != 0) sum.add(j[i * n + l], g[l]);
             }
             image[i] = sum.result();
-            lost[i] += image[i].r;
-            image[i].r = 0;
+            lost[i] += image[i].r();
+            image[i].r() = 0;
         }
         g = std::move(image);
     }

@@ -3,6 +3,7 @@
 #define SIVID_ENCLOSURE_PARAMETRIC_SET_HPP
 
 #include <sivid/enclosure/failure.hpp>
+#include <sivid/enclosure/normalised_unknowns.hpp>
 #include <sivid/number/taylor_model_functions.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/space/common_frame.hpp>
@@ -17,52 +18,18 @@
 
 namespace sivid {
 
-/// What is unknown about a family of trajectories, as variables \f$ q \in [-1,1]^N \f$: every side
-/// of the boxes of parameters and initial states that has a width is centre + radius * q_v.
-struct normalised_unknowns {
-    struct side {
-        double centre = 0;
-        double radius = 0; ///< 0: the side is a point up to `rest`
-        double rest = 0;   ///< width of what has no variable
-        std::size_t variable = 0;
-    };
-    std::vector<side> initial;
-    std::vector<side> parameters;
-    std::size_t variables = 0;
-
-    /// Sides narrower than this, relative to their size, get no variable: they are decimals.
-    static constexpr double negligible = 1e-13;
-
-    normalised_unknowns(box const& x0, box const& p) {
-        auto const add = [this](interval const& x) {
-            side s;
-            s.centre = mid(x);
-            double const r = rad(x);
-            if (r <= negligible * std::abs(s.centre)) {
-                s.rest = r;
-            } else {
-                s.radius = r;
-                s.variable = variables++;
-            }
-            return s;
-        };
-        for (auto const& x : p) parameters.push_back(add(x));
-        for (auto const& x : x0) initial.push_back(add(x));
-    }
-
-    /// Writes one side's model into a lane.
-    template <std::size_t N, std::size_t D, class C>
-    static void put(side const& s, std::size_t lane, taylor_model<N, D, C>& m) {
-        using side_by_side = lane_traits<C>;
-        for (auto& c : m.c) side_by_side::put(c, lane, 0.0);
-        side_by_side::put(m.c[0], lane, s.centre);
-        side_by_side::put(m.r, lane, s.radius == 0 ? s.rest : 0.0);
-        if (s.radius != 0) {
-            side_by_side::put(m.c[monomials<N, D>::data.variable[s.variable]], lane, s.radius);
-        }
-        m.finish();
-    }
-};
+namespace enclosure_detail {
+/// Writes one side's model into a lane.
+template <class C>
+void put(normalised_unknowns::side const& s, std::size_t lane, taylor_model<C>& m) {
+    using side_by_side = lane_traits<C>;
+    for (auto& c : m.coefficients()) side_by_side::put(c, lane, 0.0);
+    side_by_side::put(m.c(0), lane, s.centre);
+    side_by_side::put(m.r(), lane, s.radius == 0 ? s.rest : 0.0);
+    if (s.radius != 0) side_by_side::put(m.c(m.space().variable(s.variable)), lane, s.radius);
+    m.finish();
+}
+} // namespace enclosure_detail
 
 /// The states of a family at one time,
 ///   \f$ x(q) \in P(q) + \ell + \sum_j g_j(q) \xi_j,\; \xi \in [-1,1]^m \f$, for each q in
@@ -70,40 +37,40 @@ struct normalised_unknowns {
 /// polynomials of degree D in the unknowns, digits of theirs beyond those of doubles, and what is
 /// lost on the way in generators that are themselves polynomials of degree (D+1)/2, so that they
 /// keep their dependence on q as they are carried, and never have to be inverted.
-/// @tparam C  `double`, or `lanes<W>`: W families side by side, each at its own time
-template <std::size_t N, std::size_t D, class C = double>
+/// @tparam Model  of single families, or in lanes: families side by side, each at its own time
+template <class Model = taylor_model<double>>
 struct parametric_set {
-    static constexpr std::size_t column_degree = (D + 1) / 2;
+    using C = typename Model::scalar;
+    using shape_type = typename Model::shape_type;
     using side_by_side = lane_traits<C>;
     using mask = typename side_by_side::mask;
-    using polynomial = taylor_model<N, D, C>;
-    using column_entry = taylor_model<N, column_degree, C>;
-    using column = std::vector<column_entry>;
+    using column = std::vector<Model>;
 
     C time{};
-    std::vector<polynomial> centre; ///< P, radii 0
-    std::vector<C> tail;            ///< \f$ \ell \f$, 0 but for points: see `parametric_flow`
-    std::vector<column> columns;    ///< g_j, radii 0
-    std::vector<C> reach;           ///< \f$ E_i \ge |\ell_i| + \sum_j \|g_{ij}\| \f$
+    std::vector<Model> centre;   ///< P, radii 0
+    std::vector<C> tail;         ///< \f$ \ell \f$, 0 but for points: see `parametric_flow`
+    std::vector<column> columns; ///< g_j, radii 0
+    std::vector<C> reach;        ///< \f$ E_i \ge |\ell_i| + \sum_j \|g_{ij}\| \f$
 
-    explicit parametric_set(std::size_t states = 0) : centre(states), tail(states), reach(states) {}
+    explicit parametric_set(std::size_t states = 0, shape_type const& s = shape_type::number())
+        : centre(states, Model(s)), tail(states), reach(states) {}
 
     /// Starts the family of one lane.
     void begin(std::size_t lane, double t, normalised_unknowns const& unknowns) {
         side_by_side::put(time, lane, t);
         for (auto& g : columns) {
             for (auto& entry : g) {
-                for (auto& c : entry.c) side_by_side::put(c, lane, 0.0);
-                side_by_side::put(entry.r, lane, 0.0); // infinite where the lane was lost
+                for (auto& c : entry.coefficients()) side_by_side::put(c, lane, 0.0);
+                side_by_side::put(entry.r(), lane, 0.0); // infinite where the lane was lost
                 entry.finish();
             }
         }
         std::vector<C> rest(centre.size());
         tail.resize(centre.size());
         for (std::size_t i = 0; i < centre.size(); ++i) {
-            normalised_unknowns::put(unknowns.initial[i], lane, centre[i]);
-            side_by_side::put(rest[i], lane, side_by_side::get(centre[i].r, lane));
-            centre[i].r = 0.0;
+            enclosure_detail::put(unknowns.initial[i], lane, centre[i]);
+            side_by_side::put(rest[i], lane, side_by_side::get(centre[i].r(), lane));
+            centre[i].r() = 0.0;
             side_by_side::put(tail[i], lane, 0.0);
         }
         append(rest);
@@ -115,7 +82,7 @@ struct parametric_set {
         for (std::size_t i = 0; i < s.size(); ++i) {
             if (side_by_side::all(s[i] == C(0.0))) continue;
             column g(s.size());
-            g[i] = column_entry::constant(known(s[i])); // NaN: nothing is known
+            g[i] = Model::constant(known(s[i])); // NaN: nothing is known
             columns.push_back(std::move(g));
         }
     }
@@ -126,7 +93,7 @@ struct parametric_set {
         for (auto const& g : columns) {
             for (std::size_t i = 0; i < g.size(); ++i) reach[i] += g[i].norm();
         }
-        double const up = 1 + static_cast<double>(columns.size() + 4) * polynomial::unit;
+        double const up = 1 + static_cast<double>(columns.size() + 4) * Model::unit;
         for (auto& e : reach) e = known(e * up);
     }
 
@@ -171,10 +138,10 @@ private:
 
 /// Completes a failure by what its state spans as a function of the unknowns, what the set has lost
 /// besides, and what is likely to help.
-template <std::size_t N, std::size_t D, class C>
-void complete(enclosure_failure& why, parametric_set<N, D, C> const& set, std::size_t lane,
+template <class Model>
+void complete(enclosure_failure& why, parametric_set<Model> const& set, std::size_t lane,
               normalised_unknowns const& unknowns) {
-    using side_by_side = lane_traits<C>;
+    using side_by_side = typename parametric_set<Model>::side_by_side;
     why.time = side_by_side::get(set.time, lane);
     why.until = std::max(why.until, why.time);
     why.spread = side_by_side::get(set.centre[why.component].spread(), lane);
@@ -183,9 +150,10 @@ void complete(enclosure_failure& why, parametric_set<N, D, C> const& set, std::s
 }
 
 /// One of the families that lie side by side.
-template <std::size_t N, std::size_t D, class C>
-[[nodiscard]] parametric_set<N, D> lane_of(parametric_set<N, D, C> const& set, std::size_t lane) {
-    parametric_set<N, D> result;
+template <class Model>
+[[nodiscard]] auto lane_of(parametric_set<Model> const& set, std::size_t lane) {
+    using C = typename Model::scalar;
+    parametric_set<decltype(lane_of(set.centre.front(), lane))> result;
     result.time = lane_traits<C>::get(set.time, lane);
     for (auto const& p : set.centre) result.centre.push_back(lane_of(p, lane));
     for (auto const& x : set.tail) result.tail.push_back(lane_traits<C>::get(x, lane));
@@ -197,8 +165,8 @@ template <std::size_t N, std::size_t D, class C>
     return result;
 }
 
-template <std::size_t N, std::size_t D, class C>
-void parametric_set<N, D, C>::reduce(std::size_t most, mask used) {
+template <class Model>
+void parametric_set<Model>::reduce(std::size_t most, mask used) {
     auto const n = centre.size();
     if (columns.size() <= most || columns.size() < 2 * n) return;
     std::vector<C> length(columns.size());
@@ -215,10 +183,14 @@ void parametric_set<N, D, C>::reduce(std::size_t most, mask used) {
     std::vector<std::vector<C>> directions;
     for (std::size_t k = kept; k < order.size(); ++k) {
         auto& d = directions.emplace_back(n);
-        for (std::size_t i = 0; i < n; ++i) d[i] = columns[order[k]][i].c[0];
+        for (std::size_t i = 0; i < n; ++i) d[i] = columns[order[k]][i].c()[0];
     }
     auto const frame =
         common_frame(std::move(directions), [&](auto const& x) { return shares(x, used); });
+    double up = 1; // enough for the sums over the terms of an entry
+    for (auto const& g : columns) {
+        for (auto const& entry : g) up = std::max(up, entry.shape().up);
+    }
     // Coordinates of the dropped columns in the frame: (1 + R)^{-1} Q^T g with |R| <= defect.
     std::vector<C> side(n);
     std::vector<C> along(n);
@@ -227,16 +199,19 @@ void parametric_set<N, D, C>::reduce(std::size_t most, mask used) {
         C most_along{};
         for (std::size_t i = 0; i < n; ++i) {
             C sum{}, mass{};
-            for (std::size_t m = 0; m < column_entry::terms; ++m) {
-                C c = frame.axis[i][0] * g[0].c[m];
-                for (std::size_t l = 1; l < n; ++l) c += frame.axis[i][l] * g[l].c[m];
+            std::size_t terms = 1;
+            for (auto const& entry : g) terms = std::max(terms, entry.terms());
+            for (std::size_t m = 0; m < terms; ++m) {
+                C c{};
+                for (std::size_t l = 0; l < n; ++l) {
+                    if (m < g[l].terms()) c += frame.axis[i][l] * g[l].c(m);
+                }
                 sum += side_by_side::abs(c);
             }
             for (std::size_t l = 0; l < n; ++l) {
                 mass += side_by_side::abs(frame.axis[i][l]) * g[l].norm();
             }
-            along[i] = sum * column_entry::up +
-                       mass * (static_cast<double>(n + 4) * polynomial::unit) + polynomial::tiny;
+            along[i] = sum * up + mass * (static_cast<double>(n + 4) * Model::unit) + Model::tiny;
             most_along = side_by_side::max(along[i], most_along);
         }
         for (std::size_t i = 0; i < n; ++i) side[i] += along[i] + frame.defect * most_along;
@@ -245,18 +220,18 @@ void parametric_set<N, D, C>::reduce(std::size_t most, mask used) {
     for (std::size_t k = 0; k < kept; ++k) next.push_back(std::move(columns[order[k]]));
     std::vector<C> lost(n); // by rounding the new columns
     for (std::size_t i = 0; i < n; ++i) {
-        C const s = side[i] * (1 + 8 * static_cast<double>(order.size() + 4) * polynomial::unit);
+        C const s = side[i] * (1 + 8 * static_cast<double>(order.size() + 4) * Model::unit);
         if (side_by_side::all(s == C(0.0))) continue;
         column g(n);
         for (std::size_t l = 0; l < n; ++l) {
             C const e = frame.axis[i][l] * s;
-            g[l] = column_entry::constant(e);
-            lost[l] += side_by_side::abs(e) * (2 * polynomial::unit) + polynomial::tiny;
+            g[l] = Model::constant(e);
+            lost[l] += side_by_side::abs(e) * (2 * Model::unit) + Model::tiny;
         }
         next.push_back(std::move(g));
     }
     columns = std::move(next);
-    for (auto& l : lost) l *= 1 + 64 * polynomial::unit;
+    for (auto& l : lost) l *= 1 + 64 * Model::unit;
     append(lost);
 }
 

@@ -98,7 +98,8 @@ public:
     using side_by_side = lane_traits<scalar>;
     using mask = typename side_by_side::mask;
 
-    explicit perturbed_step(flow const& f) : flow_(&f) {
+    /// @param values  see `series`
+    explicit perturbed_step(flow const& f, size_of_values<T> const& values = {}) : flow_(&f) {
         auto const& model = f.model();
         auto outputs = model.rate;
         for (auto const* derivatives : {&model.rate_dx, &model.rate_du}) {
@@ -113,7 +114,7 @@ public:
             }
         }
         program_ = std::make_shared<tape const>(model.g, outputs, model.rate.size());
-        series_ = std::make_unique<series<T>>(*program_, 0);
+        series_ = std::make_unique<series<T>>(*program_, 0, values);
     }
 
     template <class Box>

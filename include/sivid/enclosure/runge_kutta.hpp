@@ -36,8 +36,9 @@ class runge_kutta {
 
 public:
     /// @throws std::invalid_argument for a tableau of another shape, or not of its stated order
-    runge_kutta(flow const& f, tableau const& method)
-        : flow_(&f), method_(method), rate_(f.rate(), method.order + 1) {
+    /// @param values  see `series`
+    runge_kutta(flow const& f, tableau const& method, size_of_values<T> const& values = {})
+        : flow_(&f), method_(method), rate_(f.rate(), method.order + 1, values) {
         method_.require_explicit();
         require_order(method_);
         auto const enter = [](surd const& x) {

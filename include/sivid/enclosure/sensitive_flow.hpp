@@ -6,6 +6,7 @@
 #include <sivid/enclosure/detail/power_sum.hpp>
 #include <sivid/enclosure/framed_radii.hpp>
 #include <sivid/enclosure/parametric_flow.hpp>
+#include <sivid/enclosure/suggested_degree.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -38,25 +39,26 @@ namespace sivid {
 ///             at that q.
 /// @cost  about (n + parameters) / 2 times that of the flow's own derivatives
 /// @ref   Zgliczynski 2002 (C1)
-template <std::size_t N, std::size_t D>
+template <class Model = taylor_model<double>>
 class sensitive_flow {
 public:
-    using flow_type = parametric_flow<N, D>;
-    using entry = taylor_model<N, D>;
-    using tube_entry = typename flow_type::tube_entry;
+    using entry = Model;
+    using flow_type = parametric_flow<Model>;
 
+    /// @param variables, degree  of the polynomials: see `parametric_flow`
     /// @throws std::invalid_argument for inputs with error bounds: the tubes that bound derivatives
     ///         are those of the recorded inputs
-    sensitive_flow(flow const& f, enclosure_options const& options)
+    sensitive_flow(flow const& f, enclosure_options const& options, std::size_t variables,
+                   std::size_t degree)
         : flow_(&f),
           options_(options),
-          run_(f, options),
-          series_(f, options.order + 1),
-          tube_(f, options.order + 1),
+          run_(f, options, variables, degree),
+          series_(f, options.order + 1, variations::by_state_and_parameter, run_.shape()),
+          tube_(f, options.order + 1, variations::by_state_and_parameter, run_.tube_shape()),
           tail_(f, series_),
-          observe_(f.observe_jacobian(), 0),
-          parameters_(f.parameters()),
-          tube_parameters_(f.parameters()),
+          observe_(f.observe_jacobian(), 0, run_.shape()),
+          parameters_(f.parameters(), entry(run_.shape())),
+          tube_parameters_(f.parameters(), entry(run_.tube_shape())),
           around_(f.states()) {
         if (f.uncertain()) {
             throw std::invalid_argument("sensitive_flow: inputs with error bounds are not "
@@ -70,8 +72,8 @@ public:
         auto const n = flow_->states();
         auto const& sides = run_.unknowns().parameters;
         for (std::size_t j = 0; j < sides.size(); ++j) {
-            normalised_unknowns::put(sides[j], 0, parameters_[j]);
-            normalised_unknowns::put(sides[j], 0, tube_parameters_[j]);
+            enclosure_detail::put(sides[j], 0, parameters_[j]);
+            enclosure_detail::put(sides[j], 0, tube_parameters_[j]);
         }
         series_.set_parameters(parameters_);
         tube_.set_parameters(tube_parameters_);
@@ -127,7 +129,7 @@ public:
         for (std::size_t i = 0; i < n; ++i) {
             for (std::size_t c = 0; c < columns(); ++c) s.push_back(derivative(i, c));
         }
-        std::vector<product_sum<N, D>> sums(flow_->channels() * columns());
+        std::vector<product_sum<>> sums(flow_->channels() * columns());
         for (auto const& e : flow_->observe_entries()) {
             auto const& d = observe_.output(e.output, 0);
             auto* const row = &sums[e.row * columns()];
@@ -140,9 +142,9 @@ public:
             }
         }
         std::vector<entry> result;
-        for (auto const& sum : sums) {
+        for (auto& sum : sums) {
             result.push_back(sum.result());
-            if (unknown) result.back().r = std::numeric_limits<double>::infinity();
+            if (unknown) result.back().r() = std::numeric_limits<double>::infinity();
         }
         return result;
     }
@@ -205,10 +207,10 @@ private:
     /// @returns false where they do not exist or could not be bounded
     [[nodiscard]] bool follow(typename flow_type::set_type const& before, double to) {
         double const from = before.time;
-        double const length = to - from;                          // off by less than a unit
-        double const h = length * (1 + 4 * entry::unit);          // not less than the length
-        auto const s = tube_entry::variable(N, h * 0.5, h * 0.5); // as in the tube's proof
-        auto const times = tube_entry::constant(from) + s;
+        double const length = to - from;                 // off by less than a unit
+        double const h = length * (1 + 4 * entry::unit); // not less than the length
+        auto const s = run_.within_step(h);              // as in the tube's proof
+        auto const times = entry::constant(from) + s;
         around(before);
         std::size_t L = std::clamp<std::size_t>(order_, 1, options_.order);
         std::optional<std::vector<double>> w;
@@ -255,14 +257,15 @@ private:
                         if (!flow_->sensitive(i, l)) continue;
                         more += tube_.variation(i, l, L).norm() * (*w)[l * m + c];
                     }
-                    last =
-                        widened(without_last_variable<N, D>(tube_.variation(i, c, L)), more * up);
+                    last = widened(without_last_variable(tube_.variation(i, c, L), run_.shape()),
+                                   more * up);
                     row += last.norm();
                 } else {
                     row += tail_.variation(i, c);
                 }
                 auto& over_step = map[i * m + c];
-                over_step = at_time<entry>(
+                over_step = at_time(
+                    run_.shape(),
                     [&](std::size_t k) -> entry const& {
                         return k < L ? series_.variation(i, c, k) : last;
                     },
@@ -298,15 +301,15 @@ private:
             }
             for (std::size_t c = 0; c < m; ++c) {
                 if (!flow_->sensitive(i, c)) continue;
-                product_sum<N, D> sum;
+                product_sum<> sum;
                 for (std::size_t l = 0; l < n; ++l) {
                     if (flow_->sensitive(i, l) && flow_->sensitive(l, c))
                         sum.add(map[i * m + l], centre_[l * m + c]);
                 }
                 if (c >= n) sum.add(map[i * m + c]);
                 auto image = sum.result();
-                at(lost, i, c) = image.r;
-                image.r = 0;
+                at(lost, i, c) = image.r();
+                image.r() = 0;
                 next[i * m + c] = std::move(image);
             }
         }
@@ -322,11 +325,11 @@ private:
     enclosure_options options_;
     flow_type run_;
     expansion<entry> series_;
-    expansion<tube_entry> tube_;
+    expansion<entry> tube_;
     expansion_tail<entry> tail_;
     series<entry> observe_;
     std::vector<entry> parameters_;
-    std::vector<tube_entry> tube_parameters_;
+    std::vector<entry> tube_parameters_;
     std::vector<entry> around_;
     std::vector<entry> centre_; ///< K, radii 0, n x columns
     framed_radii rest_;         ///< B R
@@ -336,11 +339,11 @@ private:
 
 /// What the channels are at a time, and how they depend on initial states and parameters: functions
 /// of the normalised unknowns of a box.
-template <std::size_t N, std::size_t D>
+template <class Model = taylor_model<double>>
 struct measured_sensitivities {
     double time = 0;
-    std::vector<taylor_model<N, D>> outputs;
-    std::vector<taylor_model<N, D>> derivatives; ///< channels x (n + parameters), by rows
+    std::vector<Model> outputs;
+    std::vector<Model> derivatives; ///< channels x (n + parameters), by rows
 
     /// Encloses \f$ \partial y_k / \partial (x_0, p)_c \f$ over the whole box.
     [[nodiscard]] interval over_box(std::size_t k, std::size_t c) const {
@@ -352,14 +355,15 @@ struct measured_sensitivities {
 /// at each of the times of measurement.
 /// @param times  increasing, none before `begin`
 /// @returns one value for each time that was reached; all of them unless `failure` is set
-template <std::size_t N, std::size_t D>
-[[nodiscard]] std::vector<measured_sensitivities<N, D>>
+template <class Model = taylor_model<double>>
+[[nodiscard]] std::vector<measured_sensitivities<Model>>
 sensitivities_at(flow const& f, enclosure_options const& options, box const& initial,
                  box const& parameters, double begin, std::vector<double> const& times,
                  std::optional<enclosure_failure>* failure = nullptr) {
-    sensitive_flow<N, D> run(f, options);
+    auto const unknowns = normalised_unknowns(initial, parameters).variables;
+    sensitive_flow<Model> run(f, options, unknowns, suggested_degree(unknowns));
     run.begin(begin, initial, parameters);
-    std::vector<measured_sensitivities<N, D>> result;
+    std::vector<measured_sensitivities<Model>> result;
     for (double const t : times) {
         if (t < run.time())
             throw std::invalid_argument("sensitivities_at: times must increase from the begin");

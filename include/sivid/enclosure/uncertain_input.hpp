@@ -29,17 +29,17 @@ struct set_scalar {
         return std::isfinite(w) ? traits::add(a, traits::bounds(-w, w)) : traits::entire();
     }
 };
-template <std::size_t N, std::size_t D, class C>
-struct set_scalar<taylor_model<N, D, C>> {
-    using model = taylor_model<N, D, C>;
+template <class C>
+struct set_scalar<taylor_model<C>> {
+    using model = taylor_model<C>;
     using scalar = C;
     static C mag(model const& a) { return a.norm(); }
     static C upper(model const& a) {
-        return a.c[0] + (a.above + a.r) + a.norm() * (8 * model::unit);
+        return a.c(0) + (a.above() + a.r()) + a.norm() * (8 * model::unit);
     }
-    static C middle(model const& a) { return a.c[0]; }
+    static C middle(model const& a) { return a.c(0); }
     /// @given  m is the middle
-    static C beside(model const& a, C const&) { return (a.above + a.r) * model::up; }
+    static C beside(model const& a, C const&) { return (a.above() + a.r()) * a.shape().up; }
     static model widened(model const& a, C const& w) { return sivid::widened(a, w); }
 };
 

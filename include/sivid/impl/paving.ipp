@@ -2,8 +2,6 @@
 #ifndef SIVID_IMPL_PAVING_IPP
 #define SIVID_IMPL_PAVING_IPP
 
-#include <sivid/paving/impl/continued_run.ipp>
-#include <sivid/paving/impl/experiment_run.ipp>
 #include <sivid/paving/impl/holdout_inflation.ipp>
 #include <sivid/paving/impl/identify.ipp>
 #include <sivid/paving/impl/inflation.ipp>

@@ -19,12 +19,13 @@
 #include <sivid/impl/approximate.ipp>
 #include <sivid/impl/diagnosis.ipp>
 #include <sivid/impl/enclosure.ipp>
-#include <sivid/impl/kernels.ipp>
 #include <sivid/impl/measurement.ipp>
 #include <sivid/impl/model.ipp>
 #include <sivid/impl/number.ipp>
 #include <sivid/impl/paving.ipp>
 #include <sivid/impl/paving_check.ipp>
 #include <sivid/impl/paving_further.ipp>
+#include <sivid/impl/paving_lanes.ipp>
+#include <sivid/impl/tube.ipp>
 
 #endif

@@ -29,6 +29,9 @@ class plain_accumulator {
     using value_type = typename A::value_type;
 
 public:
+    plain_accumulator() = default;
+    /// @param place  where the result will go
+    explicit plain_accumulator(value_type& /*place*/) {}
     /// Adds a times a small integer.
     void add(value_type const& a, double factor = 1) {
         sum_ = factor == -1 ? A::sub(sum_, a) : A::add(sum_, times(a, factor));

@@ -3,28 +3,13 @@
 #define SIVID_MODEL_SERIES_HPP
 
 #include <sivid/model/arithmetic.hpp>
+#include <sivid/model/detail/series_storage.hpp>
 #include <sivid/model/tape.hpp>
-#include <sivid/number/coefficient_rows.hpp>
 
 #include <cstddef>
-#include <type_traits>
 #include <vector>
 
 namespace sivid {
-
-namespace model_detail {
-struct nothing {};
-/// What an arithmetic keeps coefficients in for convolutions, if it does.
-template <class Arithmetic>
-struct rows_of {
-    using type = nothing;
-};
-template <class Arithmetic>
-    requires(Arithmetic::keeps_rows)
-struct rows_of<Arithmetic> {
-    using type = typename Arithmetic::rows;
-};
-} // namespace model_detail
 
 /// Taylor series in time of every quantity of a tape, computed order by order.
 ///   Slot s holds \f$ s^{[k]} = s^{(k)}/k! \f$ for k = 0 .. order, where the states' coefficients
@@ -42,25 +27,27 @@ public:
     using arithmetic = arithmetic_of<T>;
     using mask = typename arithmetic::mask;
 
-    series(tape const& program, std::size_t max_order)
+    /// @param values  their size, where values of the type have different ones
+    series(tape const& program, std::size_t max_order, size_of_values<T> const& values = {})
         : program_(&program),
           stride_(max_order + 1),
           place_(program.slots()),
-          reciprocal_(arithmetic::keeps_reciprocals ? program.slots() : 0, arithmetic::point(0.0)) {
+          reciprocal_(storage::make(arithmetic::keeps_reciprocals ? program.slots() : 0, values)) {
         std::size_t next = 0;
         for (std::size_t slot = 0; slot < program.slots(); ++slot) {
             bool const all = program.keeps_history(slot);
             place_[slot] = {next, all ? ~std::size_t{0} : std::size_t{0}};
             next += all ? stride_ : 1;
         }
-        c_.assign(next, arithmetic::point(0.0));
+        c_ = storage::make(next, values);
         if constexpr (arithmetic::keeps_rows) {
             row_.assign(program.slots(), no_row);
             std::size_t rows = 0;
             for (std::size_t slot = 0; slot < program.slots(); ++slot) {
                 if (program.convolved(slot)) row_[slot] = rows++;
             }
-            rows_ = typename model_detail::rows_of<arithmetic>::type(rows, stride_);
+            using rows_type = typename model_detail::rows_of<arithmetic>::type;
+            rows_ = storage::template make_rows<rows_type>(rows, stride_, values);
         }
         for (std::size_t i = 0; i < program.literals().size(); ++i) {
             at(program.literal_slots()[i], 0) = arithmetic::enclose(program.literals()[i]);
@@ -129,6 +116,7 @@ public:
     }
 
 private:
+    using storage = model_detail::storage_of<T>;
     static constexpr std::size_t no_row = ~std::size_t{0};
     /// Fewer products than that are faster one by one.
     static constexpr std::size_t worth_rows = 3;
@@ -156,11 +144,13 @@ private:
                 if (i.is_sum()) {
                     sum(i, k, result);
                 } else if (k > 0 && i.op == operation::mul && i.a_varies && i.b_varies) {
-                    accumulator total;
+                    accumulator total(result);
                     convolve(total, i.a, i.b, k, 0, k);
                     total.result_into(result);
+                } else if (k == 0) {
+                    result = value(i, now_.undefined);
                 } else {
-                    result = k == 0 ? value(i, now_.undefined) : higher(i, k);
+                    higher(i, k, result);
                 }
                 break;
             }
@@ -221,19 +211,25 @@ private:
         for (std::size_t j = from; j <= to; ++j) sum.add_product(get(a, j), get(b, k - j), sign);
     }
     /// \f$ \sum_{j=1}^{to} j a_j b_{k-j} \f$
-    T weighted(std::size_t a, std::size_t b, std::size_t k, std::size_t to) const {
-        accumulator total;
+    /// @param result  none of the operands
+    void weighted(std::size_t a, std::size_t b, std::size_t k, std::size_t to, T& result) const {
+        accumulator total(result);
         if constexpr (arithmetic::keeps_rows) {
             if (to >= worth_rows) {
                 total.add_convolution(rows_, row_[a], rows_, row_[b], k, 1, to, 1,
-                                      convolution_weight::order);
-                return total.result();
+                                      arithmetic::by_order);
+                return total.result_into(result);
             }
         }
         for (std::size_t j = 1; j <= to; ++j) {
             total.add_product(get(a, j), get(b, k - j), static_cast<double>(j));
         }
-        return total.result();
+        total.result_into(result);
+    }
+    /// The same divided by k.
+    void mean(std::size_t a, std::size_t b, std::size_t k, std::size_t to, T& result) const {
+        weighted(a, b, k, to, result);
+        over(result, k, result);
     }
     /// Adds \f$ \pm \sum_{j=from}^{k-from} a_j a_{k-j} \f$: each product once, the middle one as a
     /// square.
@@ -257,7 +253,7 @@ private:
         if (k % 2 == 0 && k / 2 >= from) sum.add_square(get(a, k / 2), sign);
     }
     void sum(instruction const& i, std::size_t k, T& result) const {
-        accumulator total;
+        accumulator total(result);
         auto const* const terms = program_->terms(i);
         for (std::size_t n = 0; n < i.last_term - i.first_term; ++n) {
             auto const& t = terms[n];
@@ -273,61 +269,82 @@ private:
         total.result_into(result);
     }
     static T number(std::size_t k) { return arithmetic::point(static_cast<double>(k)); }
-    T over(T const& a, std::size_t k) const { return arithmetic::over(a, k); }
+    /// a divided by k.
+    static void over(T const& a, std::size_t k, T& result) {
+        if constexpr (requires { arithmetic::over_into(result, a, k); }) {
+            arithmetic::over_into(result, a, k);
+        } else {
+            result = arithmetic::over(a, k);
+        }
+    }
+    /// @param result  none of the factors
+    static void multiply(T const& a, T const& b, T& result) {
+        if constexpr (requires { arithmetic::mul_into(result, a, b); }) {
+            arithmetic::mul_into(result, a, b);
+        } else {
+            result = arithmetic::mul(a, b);
+        }
+    }
     /// a divided by coefficient 0 of a slot, or of twice it.
-    T divide(T const& a, instruction const& i, std::size_t slot, bool twice = false) {
+    void divide(T const& a, instruction const& i, std::size_t slot, T& result, bool twice = false) {
         if constexpr (arithmetic::keeps_reciprocals) {
-            return arithmetic::mul(a, reciprocal_[i.target]);
+            multiply(a, reciprocal_[i.target], result);
         } else {
             auto const& b = get(slot, 0);
-            return arithmetic::div(a, twice ? arithmetic::mul(number(2), b) : b, now_.undefined);
+            result = arithmetic::div(a, twice ? arithmetic::mul(number(2), b) : b, now_.undefined);
         }
     }
 
-    T higher(instruction const& i, std::size_t k) {
+    void higher(instruction const& i, std::size_t k, T& result) {
         using A = arithmetic;
         auto const a = i.a;
         auto const y = i.target;
         switch (i.op) {
         case operation::mul:
-            if (!i.a_varies) return A::mul(get(a, 0), get(i.b, k));
-            return A::mul(get(a, k), get(i.b, 0));
+            if (!i.a_varies) return multiply(get(a, 0), get(i.b, k), result);
+            return multiply(get(a, k), get(i.b, 0), result);
         case operation::div:
-            if (!i.b_varies) return divide(get(a, k), i, i.b);
+            if (!i.b_varies) return divide(get(a, k), i, i.b, result);
             {
                 accumulator rest; // a_k - sum_{j<k} y_j b_{k-j}
                 if (i.a_varies) rest.add(get(a, k));
                 convolve(rest, y, i.b, k, 0, k - 1, -1);
-                return divide(rest.result(), i, i.b);
+                return divide(rest.result(), i, i.b, result);
             }
         case operation::sqr: {
-            accumulator total;
+            accumulator total(result);
             square(total, a, k, 0);
-            return total.result();
+            return total.result_into(result);
         }
         case operation::sqrt: {
             accumulator rest;
             rest.add(get(a, k));
             square(rest, y, k, 1, -1);
-            return divide(rest.result(), i, y, true);
+            return divide(rest.result(), i, y, result, true);
         }
         case operation::exp:
-            return over(weighted(a, y, k, k), k);
+            return mean(a, y, k, k, result);
         case operation::log:
-            return divide(A::sub(get(a, k), over(weighted(y, a, k, k - 1), k)), i, a);
+            mean(y, a, k, k - 1, result);
+            return divide(A::sub(get(a, k), result), i, a, result);
         case operation::atan:
-            return divide(A::sub(get(a, k), over(weighted(y, i.companion, k, k - 1), k)), i,
-                          i.companion);
+            mean(y, i.companion, k, k - 1, result);
+            return divide(A::sub(get(a, k), result), i, i.companion, result);
         case operation::sin:
         case operation::tan:
         case operation::tanh:
-            return over(weighted(a, i.companion, k, k), k);
+            return mean(a, i.companion, k, k, result);
         case operation::cos:
-            return A::neg(over(weighted(a, i.companion, k, k), k));
-        case operation::pown:
-            return over(A::mul(A::point(i.index), weighted(a, i.companion, k, k)), k);
+            mean(a, i.companion, k, k, result);
+            result = A::neg(result);
+            return;
+        case operation::pown: {
+            weighted(a, i.companion, k, k, result);
+            result = A::mul(A::point(i.index), result);
+            return over(result, k, result);
+        }
         default:
-            return kink(i, k);
+            result = kink(i, k);
         }
     }
 
@@ -361,8 +378,9 @@ private:
         std::size_t orders = 0; ///< all bits set where the others follow it, else none
     };
     std::vector<place> place_;
-    std::vector<T> c_;
-    std::vector<T> reciprocal_; ///< of what order 0 divides by, where the arithmetic keeps it
+    typename storage::type c_;
+    typename storage::type
+        reciprocal_; ///< of what order 0 divides by, where the arithmetic keeps it
     T time_ = arithmetic::point(0.0);
     T time_slope_ = arithmetic::point(1.0);
     [[no_unique_address]]

@@ -3,6 +3,7 @@
 #define SIVID_MODEL_TAYLOR_ARITHMETIC_HPP
 
 #include <sivid/model/arithmetic.hpp>
+#include <sivid/model/detail/series_storage.hpp>
 #include <sivid/number/taylor_model_functions.hpp>
 
 #include <array>
@@ -10,14 +11,15 @@
 #include <cstddef>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 namespace sivid {
 
 /// Taylor models behind the names of `interval_traits`, so that a recorded model and its series in
 /// time run on them as on intervals.
-template <std::size_t N, std::size_t D, class C = double>
+template <class C = double>
 struct taylor_arithmetic {
-    using value_type = taylor_model<N, D, C>;
+    using value_type = taylor_model<C>;
     using side_by_side = lane_traits<C>;
     using mask = typename side_by_side::mask;
     static constexpr std::size_t lanes = side_by_side::count;
@@ -25,26 +27,29 @@ struct taylor_arithmetic {
     /// Whether convolutions are done in rows of coefficients: where the lanes are not taken by
     /// boxes, they are free for orders in time.
     static constexpr bool keeps_rows = std::is_same_v<C, double>;
-    using rows = coefficient_rows<N, D>;
+    using rows = series_rows;
+    static constexpr convolved_by by_order = convolved_by::order;
 
     class accumulator {
     public:
-        void
-        add_convolution(rows const& left, std::size_t a, rows const& right, std::size_t b,
-                        std::size_t k, std::size_t from, std::size_t to, double factor = 1,
-                        convolution_weight weight = convolution_weight::one) requires(keeps_rows) {
-            sum_.add_convolution(left, a, right, b, k, from, to, factor, weight);
+        accumulator() = default;
+        /// Forms the sum in the memory of `place`, where no addend may be.
+        explicit accumulator(value_type& place) : sum_(place) {}
+        void add_convolution(rows const& r, std::size_t a, rows const&, std::size_t b,
+                             std::size_t k, std::size_t from, std::size_t to, double factor = 1,
+                             convolved_by weight = convolved_by::one) requires(keeps_rows) {
+            sum_.add_convolution(r, a, b, k, from, to, factor, weight);
         }
         void add(value_type const& a, double factor = 1) { sum_.add(a, factor); }
         void add_product(value_type const& a, value_type const& b, double factor = 1) {
             sum_.add(a, b, factor);
         }
         void add_square(value_type const& a, double factor = 1) { sum_.add(a, a, factor); }
-        [[nodiscard]] value_type result() const { return sum_.result(); }
-        void result_into(value_type& a) const { sum_.result_into(a); }
+        [[nodiscard]] value_type result() { return sum_.result(); }
+        void result_into(value_type& a) { sum_.result_into(a); }
 
     private:
-        product_sum<N, D, C> sum_;
+        product_sum<C> sum_;
     };
 
     static value_type point(double x) { return value_type::constant(C(x)); }
@@ -55,8 +60,8 @@ struct taylor_arithmetic {
         value_type result;
         for (std::size_t l = 0; l < lanes; ++l) {
             interval const x = get(l);
-            side_by_side::put(result.c[0], l, mid(x));
-            side_by_side::put(result.r, l,
+            side_by_side::put(result.c(0), l, mid(x));
+            side_by_side::put(result.r(), l,
                               is_empty(x) ? std::numeric_limits<double>::infinity() : rad(x));
         }
         result.finish();
@@ -67,17 +72,32 @@ struct taylor_arithmetic {
     static value_type add(value_type const& a, value_type const& b) { return a + b; }
     static value_type sub(value_type const& a, value_type const& b) { return a - b; }
     static value_type mul(value_type const& a, value_type const& b) {
-        if (a.is_constant()) return scaled(b, a.c[0], a.r);
-        if (b.is_constant()) return scaled(a, b.c[0], b.r);
-        return a * b;
+        value_type result(typename value_type::unset{});
+        mul_into(result, a, b);
+        return result;
     }
     static value_type over(value_type const& a, std::size_t k) {
+        value_type result(a.shape(), typename value_type::unset{});
+        over_into(result, a, k);
+        return result;
+    }
+    /// @param result  may be a
+    static void over_into(value_type& result, value_type const& a, std::size_t k) {
         static auto const inverses = [] {
-            std::array<interval, 64> result;
-            for (std::size_t n = 1; n < result.size(); ++n) result[n] = inverse(n);
-            return result;
+            std::array<std::pair<double, double>, 64> all;
+            for (std::size_t n = 1; n < all.size(); ++n) all[n] = inverse(n);
+            return all;
         }();
-        return scaled(a, k < inverses.size() ? inverses[k] : inverse(k));
+        auto const [m, rho] = k < inverses.size() ? inverses[k] : inverse(k);
+        number_detail::scale_into(result, a, C(m), C(rho));
+    }
+    /// @param result  neither a nor b
+    static void mul_into(value_type& result, value_type const& a, value_type const& b) {
+        if (a.is_constant()) return number_detail::scale_into(result, b, a.c(0), a.r());
+        if (b.is_constant()) return number_detail::scale_into(result, a, b.c(0), b.r());
+        product_sum<C> sum(result);
+        sum.add(a, b);
+        sum.finish();
     }
     static value_type reciprocal(value_type const& a, mask& undefined) {
         return sivid::reciprocal(a, undefined);
@@ -151,16 +171,19 @@ struct taylor_arithmetic {
     static value_type max(value_type const& a, value_type const& b) { return -min(-a, -b); }
 
 private:
-    static interval inverse(std::size_t k) {
+    /// Middle and radius of 1/k.
+    static std::pair<double, double> inverse(std::size_t k) {
         using traits = interval_traits<interval>;
         bool never = false;
-        return traits::div(traits::point(1.0), traits::point(static_cast<double>(k)), never);
+        auto const x =
+            traits::div(traits::point(1.0), traits::point(static_cast<double>(k)), never);
+        return {mid(x), rad(x)};
     }
     /// A function of the arguments' ranges, lane by lane.
     template <class F, class... Models>
     static value_type by_range(F const& f, Models const&... models) {
         auto result = enclose_lanes([&](std::size_t l) { return f(range(lane_of(models, l))...); });
-        result.give_up_when_huge(result.norms[0]);
+        result.give_up_when_huge(result.norms()[0]);
         return result;
     }
     /// A bounded function: its range is the answer where the polynomial fails.
@@ -177,9 +200,26 @@ private:
 };
 
 namespace model_detail {
-template <std::size_t N, std::size_t D, class C>
-struct arithmetic_for<taylor_model<N, D, C>> {
-    using type = taylor_arithmetic<N, D, C>;
+template <class C>
+struct arithmetic_for<taylor_model<C>> {
+    using type = taylor_arithmetic<C>;
+};
+
+/// All in one workspace, as large as the largest may be.
+template <class C>
+struct storage_of<taylor_model<C>> {
+    struct size {
+        model_shape<C> const* shape = &model_shape<C>::number();
+
+        size() = default;
+        size(model_shape<C> const& s) : shape(&s) {} // NOLINT: a size is what a shape says
+    };
+    using type = taylor_models<C>;
+    static type make(std::size_t count, size const& s) { return type(count, *s.shape); }
+    template <class Rows>
+    static Rows make_rows(std::size_t series, std::size_t orders, size const& s) {
+        return Rows(series, orders, *s.shape);
+    }
 };
 } // namespace model_detail
 

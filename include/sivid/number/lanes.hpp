@@ -178,6 +178,15 @@ public:
         }
         return r;
     }
+    /// a where x is below a limit, else b. NaN is not below.
+    [[nodiscard, gnu::always_inline]] static lanes where_below(lanes const& x, double limit,
+                                                               lanes const& a, double b) {
+        lanes r;
+        for (std::size_t p = 0; p < parts; ++p) {
+            r.parts_[p] = x.parts_[p] < vector{} + limit ? a.parts_[p] : vector{} + b;
+        }
+        return r;
+    }
 
 private:
     static std::uint64_t signs(lanes_detail::vector_mask m, std::size_t p) {
@@ -199,6 +208,9 @@ struct lane_traits<double> {
     static double get(double x, std::size_t) { return x; }
     static void put(double& x, std::size_t, double value) { x = value; }
     static double select(bool m, double a, double b) { return m ? a : b; }
+    static double where_below(double x, double limit, double a, double b) {
+        return x < limit ? a : b;
+    }
     static double abs(double x) { return std::abs(x); }
     static double max(double a, double b) { return a > b ? a : b; }
     static double min(double a, double b) { return a < b ? a : b; }
@@ -216,6 +228,9 @@ struct lane_traits<lanes<W>> {
     static void put(lanes<W>& x, std::size_t lane, double value) { x.set(lane, value); }
     static lanes<W> select(mask m, lanes<W> const& a, lanes<W> const& b) {
         return lanes<W>::select(m, a, b);
+    }
+    static lanes<W> where_below(lanes<W> const& x, double limit, lanes<W> const& a, double b) {
+        return lanes<W>::where_below(x, limit, a, b);
     }
     static lanes<W> abs(lanes<W> const& x) { return lanes<W>::abs(x); }
     static lanes<W> max(lanes<W> const& a, lanes<W> const& b) { return lanes<W>::max(a, b); }

@@ -23,15 +23,13 @@ inline constexpr double inverse_factorial = [] {
 /// Functions of one variable whose Taylor coefficients are known here.
 enum class univariate { exp, log, sin, cos, tan, atan, tanh };
 
-/// Encloses \f$ f^{(k)}(x)/k! \f$ for k = 0 .. Order at every x in the interval.
+/// Encloses \f$ f^{(k)}(x)/k! \f$ for k = 0 .. order at every x in the interval.
+/// @param y          gets the order + 1 enclosures
 /// @param undefined  set where f is not defined (or not smooth) on all of x
 /// @ref  recurrences as in Griewank and Walther 2008, table 13.2
-template <std::size_t Order>
-[[nodiscard]] std::array<interval, Order + 1> taylor_coefficients(univariate f, interval const& x,
-                                                                  bool& undefined) {
+inline void taylor_coefficients(univariate f, interval const& x, std::size_t order, interval* y,
+                                bool& undefined) {
     using T = interval_traits<interval>;
-    std::array<interval, Order + 1> y;
-    std::array<interval, Order + 1> z; // the companion series
     auto const number = [](std::size_t k) { return T::point(static_cast<double>(k)); };
     auto const over = [&](interval const& a, std::size_t k) {
         return T::div(a, number(k), undefined);
@@ -44,13 +42,13 @@ template <std::size_t Order>
     switch (f) {
     case univariate::exp:
         y[0] = T::exp(x);
-        for (std::size_t k = 1; k <= Order; ++k) y[k] = over(y[k - 1], k);
+        for (std::size_t k = 1; k <= order; ++k) y[k] = over(y[k - 1], k);
         break;
     case univariate::log: { // (-1)^(k+1) / (k x^k)
         y[0] = T::log(x, undefined);
         if (!(x.lower() > 0)) undefined = true;
         interval power = T::point(-1.0);
-        for (std::size_t k = 1; k <= Order; ++k) {
+        for (std::size_t k = 1; k <= order; ++k) {
             power = T::neg(T::div(power, x, undefined));
             y[k] = over(power, k);
         }
@@ -59,31 +57,40 @@ template <std::size_t Order>
     case univariate::sin:
     case univariate::cos:
         y[0] = f == univariate::sin ? T::sin(x) : T::cos(x);
-        if constexpr (Order >= 1) y[1] = f == univariate::sin ? T::cos(x) : T::neg(T::sin(x));
-        for (std::size_t k = 2; k <= Order; ++k) y[k] = T::neg(over(y[k - 2], k * (k - 1)));
+        if (order >= 1) y[1] = f == univariate::sin ? T::cos(x) : T::neg(T::sin(x));
+        for (std::size_t k = 2; k <= order; ++k) y[k] = T::neg(over(y[k - 2], k * (k - 1)));
         break;
     case univariate::tan:
     case univariate::tanh: // y' = 1 +- y^2
         y[0] = f == univariate::tan ? T::tan(x, undefined) : T::tanh(x);
-        for (std::size_t k = 0; k < Order; ++k) {
+        for (std::size_t k = 0; k < order; ++k) {
             auto const s = f == univariate::tan ? square(k) : T::neg(square(k));
-            z[k] = k == 0 ? T::add(T::point(1.0), s) : s;
-            y[k + 1] = over(z[k], k + 1);
+            y[k + 1] = over(k == 0 ? T::add(T::point(1.0), s) : s, k + 1);
         }
         break;
     case univariate::atan: { // y' (1 + x^2) = 1, with (1 + (x+s)^2) = w0 + 2 x s + s^2
         y[0] = T::atan(x);
         auto const w0 = T::add(T::point(1.0), T::sqr(x));
-        for (std::size_t k = 0; k < Order; ++k) { // z = y', z_k w0 = [k=0] - 2 x z_{k-1} - z_{k-2}
+        interval before = T::point(0.0), last = before; // y'_{k-2}, y'_{k-1}
+        for (std::size_t k = 0; k < order; ++k) { // z = y', z_k w0 = [k=0] - 2 x z_{k-1} - z_{k-2}
             interval sum = T::point(k == 0 ? 1.0 : 0.0);
-            if (k >= 1) sum = T::sub(sum, T::mul(T::mul(number(2), x), z[k - 1]));
-            if (k >= 2) sum = T::sub(sum, z[k - 2]);
-            z[k] = T::div(sum, w0, undefined);
-            y[k + 1] = over(z[k], k + 1);
+            if (k >= 1) sum = T::sub(sum, T::mul(T::mul(number(2), x), last));
+            if (k >= 2) sum = T::sub(sum, before);
+            before = last;
+            last = T::div(sum, w0, undefined);
+            y[k + 1] = over(last, k + 1);
         }
         break;
     }
     }
+}
+
+/// The same for an order that is known beforehand.
+template <std::size_t Order>
+[[nodiscard]] std::array<interval, Order + 1> taylor_coefficients(univariate f, interval const& x,
+                                                                  bool& undefined) {
+    std::array<interval, Order + 1> y;
+    taylor_coefficients(f, x, Order, y.data(), undefined);
     return y;
 }
 

@@ -3,63 +3,14 @@
 #define SIVID_PAVING_EXPERIMENT_RUN_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/enclosure/flow.hpp>
-#include <sivid/model/problem.hpp>
-#include <sivid/paving/response.hpp>
-#include <sivid/paving/run_options.hpp>
+#include <sivid/paving/detail/experiment_run_class.hpp>
 
-#include <algorithm>
-#include <cstddef>
 #include <memory>
-#include <variant>
-#include <vector>
 
 namespace sivid {
 
-/// One experiment over boxes of parameters and starts: integrates, stepping onto the measurements,
-/// and keeps the measured outputs as polynomials. Owns its work space; one object per thread.
-class experiment_run {
-public:
-    virtual ~experiment_run() = default;
-    /// @returns for each box of parameters the outputs that were reached; fewer than all when the
-    ///          enclosure failed, became hopeless, or more measurements than allowed already fail
-    ///          for the whole box
-    [[nodiscard]] virtual std::vector<std::shared_ptr<response const>>
-    operator()(box const& initial, std::vector<box> const& parameters) = 0;
-    [[nodiscard]] std::shared_ptr<response const> operator()(box const& initial,
-                                                             box const& parameters) {
-        return (*this)(initial, std::vector<box>{parameters})[0];
-    }
-    /// How many boxes are best given together.
-    [[nodiscard]] virtual std::size_t at_once() const { return 1; }
-};
-
-namespace paving_detail {
-
-/// Number of sides of an experiment that have a width.
-[[nodiscard]] inline std::size_t unknown_count(box const& initial, box const& prior) {
-    return normalised_unknowns(initial, prior).variables;
-}
-
-/// The smallest step for an experiment. A smallest step that is not much shorter than the pieces of
-/// an input ends runs that only have to start gently after each knot: then every piece may take 500
-/// steps. Samples that nearly coincide do not count.
-[[nodiscard]] inline double minimum_step_for(experiment const& e, double asked) {
-    double shortest = detail::infinity;
-    for (auto const& input : e.inputs) {
-        auto const* u = std::get_if<sampled_signal>(&input);
-        if (u == nullptr) continue;
-        for (std::size_t k = 1; k < u->times().size(); ++k) {
-            shortest = std::min(shortest, u->times()[k] - u->times()[k - 1]);
-        }
-    }
-    if (!(shortest < 40 * asked)) return asked;
-    return std::min(asked, std::max(shortest / 500, 1e-6));
-}
-
-} // namespace paving_detail
-
-/// The kernel that fits the number of unknowns; beyond the largest the sets are of first order.
+/// By Taylor models of the degree that suits the number of unknowns (`suggested_degree`), or by
+/// sets of first order, as the options say.
 /// @param initial, prior  what the boxes to come lie in
 [[nodiscard]] SIVID_DECL std::unique_ptr<experiment_run>
 make_run(flow const& f, experiment const& e, record const& samples, box const& initial,

@@ -2,9 +2,9 @@
 #ifndef SIVID_PAVING_RESPONSE_HPP
 #define SIVID_PAVING_RESPONSE_HPP
 
-#include <sivid/enclosure/parametric_set.hpp>
-#include <sivid/number/monomials.hpp>
-#include <sivid/number/taylor_model.hpp>
+#include <sivid/enclosure/normalised_unknowns.hpp>
+#include <sivid/number/interval.hpp>
+#include <sivid/number/monomial_space.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 
 namespace sivid {
 
-/// The monomials of a response: like `monomials<N, D>`, chosen at run time.
+/// The monomials of a response, by degree as those of a `monomial_space`.
 struct monomial_table {
     std::size_t variables = 0;
     std::size_t degree = 0;
@@ -26,18 +26,20 @@ struct monomial_table {
     /// lines[v]: chains of monomials in which only the power of variable v grows, from 0 on.
     std::vector<std::vector<std::vector<std::size_t>>> lines;
 
-    /// The monomials of N variables up to degree D that use only the first `used` ones.
-    template <std::size_t N, std::size_t D>
-    [[nodiscard]] static monomial_table of(std::size_t used) {
+    /// The monomials of a space that use only its first `used` variables.
+    /// @param place  gets where each of them stands in the space, if given
+    [[nodiscard]] static monomial_table of(monomial_space const& space, std::size_t used,
+                                           std::vector<std::size_t>* place = nullptr) {
         monomial_table t;
         t.variables = used;
-        t.degree = D;
-        for (auto const& e : monomials<N, D>::data.exponents) {
-            if (std::any_of(e.begin() + static_cast<std::ptrdiff_t>(used), e.end(),
-                            [](std::uint8_t x) { return x != 0; })) {
-                continue;
-            }
-            t.exponents.emplace_back(e.begin(), e.begin() + static_cast<std::ptrdiff_t>(used));
+        t.degree = space.degree();
+        for (std::size_t m = 0; m < space.terms(); ++m) {
+            auto const* const e = space.exponents(m);
+            auto const* const end = e + space.variables();
+            auto const* const first_unused = e + std::min(used, space.variables());
+            if (std::any_of(first_unused, end, [](std::uint8_t x) { return x != 0; })) continue;
+            t.exponents.emplace_back(e, first_unused);
+            if (place != nullptr) place->push_back(m);
         }
         t.find_lines();
         return t;

@@ -3,14 +3,14 @@
 #define SIVID_PAVING_SCALAR_RUN_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/paving/experiment_run.hpp>
+#include <sivid/paving/detail/experiment_run_class.hpp>
 
 #include <memory>
 
 namespace sivid {
 
 /// An experiment by Taylor models in scalars, one box at a time: for checks that shall share no
-/// packs of numbers with the search. Beyond the largest kernel the sets are of first order.
+/// packs of numbers with the search.
 /// @param initial, prior  what the boxes to come lie in
 /// @guarantee, @cost  as of `make_run`, about eight times as long for eight boxes
 [[nodiscard]] SIVID_DECL std::unique_ptr<experiment_run>

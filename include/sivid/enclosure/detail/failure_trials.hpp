@@ -4,6 +4,7 @@
 
 #include <sivid/enclosure/implicit_tableau.hpp>
 #include <sivid/enclosure/parametric_set.hpp>
+#include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/enclosure/trajectory.hpp>
 
 #include <algorithm>
@@ -17,8 +18,8 @@
 namespace sivid::enclosure_detail {
 
 [[nodiscard]] inline box hull_of(doubleton<interval> const& set) { return set.hull; }
-template <std::size_t N, std::size_t D>
-[[nodiscard]] box hull_of(parametric_set<N, D> const& set) {
+template <class Model>
+[[nodiscard]] box hull_of(parametric_set<Model> const& set) {
     return set.hull();
 }
 
@@ -31,16 +32,13 @@ template <std::size_t N, std::size_t D>
     }
     return result;
 }
-template <std::size_t N, std::size_t D>
-[[nodiscard]] std::vector<double> slopes(taylor_model<N, D> const& p,
-                                         normalised_unknowns const& unknowns) {
+[[nodiscard]] inline std::vector<double> slopes(taylor_model<double> const& p,
+                                                normalised_unknowns const& unknowns) {
     std::vector<double> result;
     for (auto const* sides : {&unknowns.initial, &unknowns.parameters}) {
         for (auto const& s : *sides) {
             double slope = 0;
-            if constexpr (D > 0) {
-                if (s.radius != 0) slope = p.c[monomials<N, D>::data.variable[s.variable]];
-            }
+            if (s.radius != 0 && !p.is_number()) slope = p.c(p.space().variable(s.variable));
             result.push_back(slope);
         }
     }
@@ -55,6 +53,18 @@ template <class Run>
 [[nodiscard]] inline tableau higher(tableau const& m) {
     if (m.is_explicit()) return butcher6();
     return m.order < 5 ? radau_iia5() : lobatto_iiic6();
+}
+
+/// A run for a box, of the degree that suits its unknowns where a run has one.
+template <class Run>
+[[nodiscard]] Run run_for(flow const& f, enclosure_options const& options, box const& initial,
+                          box const& parameters) {
+    if constexpr (std::is_constructible_v<Run, flow const&, enclosure_options const&>) {
+        return Run(f, options);
+    } else {
+        auto const unknowns = normalised_unknowns(initial, parameters).variables;
+        return Run(f, options, unknowns, suggested_degree(unknowns));
+    }
 }
 
 /// Runs a failed enclosure again, and what could help it.
@@ -94,7 +104,7 @@ private:
     template <class Engine>
     [[nodiscard]] outcome follow(part const& p, enclosure_options const& options,
                                  bool record = false) const {
-        Engine run(flow_, options);
+        auto run = run_for<Engine>(flow_, options, p.first, p.second);
         run.begin(begin_, p.first, p.second);
         outcome result;
         auto const note = [&] {
@@ -112,7 +122,7 @@ private:
 
     /// The failure of the whole box; learns its directions.
     [[nodiscard]] std::optional<enclosure_failure> run_whole() {
-        Run run(flow_, options_);
+        auto run = run_for<Run>(flow_, options_, initial_, parameters_);
         run.begin(begin_, initial_, parameters_);
         std::vector<double> times;
         while (run.time() < end_ && run.step(end_)) times.push_back(run.time());

@@ -66,11 +66,13 @@ class implicit_stages {
 
 public:
     /// @throws std::invalid_argument for a tableau of another shape, or not of its stated order
-    implicit_stages(flow const& f, tableau const& method)
-        : flow_(&f),
-          stages_(method.stages()),
-          rates_(method.stages(), series<T>(f.rate(), method.order + 1)),
-          derivatives_(f.rate_jacobian(), 0) {
+    /// @param values  see `series`
+    implicit_stages(flow const& f, tableau const& method, size_of_values<T> const& values = {})
+        : flow_(&f), stages_(method.stages()), derivatives_(f.rate_jacobian(), 0, values) {
+        rates_.reserve(stages_);
+        for (std::size_t i = 0; i < stages_; ++i) {
+            rates_.emplace_back(f.rate(), method.order + 1, values);
+        }
         method.require_implicit();
         require_order(method);
         auto const enter = [](surd const& x) {

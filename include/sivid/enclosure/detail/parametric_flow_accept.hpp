@@ -11,9 +11,9 @@
 
 namespace sivid {
 
-template <std::size_t N, std::size_t D, class C>
-void parametric_flow<N, D, C>::accept(mask moved, C const& to, std::size_t order,
-                                      std::size_t flow_order, square const& w, mask jumps) {
+template <class Model>
+void parametric_flow<Model>::accept(mask moved, C const& to, std::size_t order,
+                                    std::size_t flow_order, square const& w, mask jumps) {
     auto const n = flow_->states();
     C const length = to - set_.time; // off by less than a unit
     std::vector<C> lost(n);
@@ -25,21 +25,21 @@ void parametric_flow<N, D, C>::accept(mask moved, C const& to, std::size_t order
     std::size_t const top = tails_ ? order : order + 1;
     for (std::size_t i = 0; i < n; ++i) {
         polynomial last;
-        if (!tails_) last = without_last_variable<N, D>(tube_.state(i, order + 1));
+        if (!tails_) last = without_last_variable(tube_.state(i, order + 1), *shape_);
         auto const coefficient = [&](std::size_t k) -> polynomial const& {
             return k <= order ? centre_.state(i, k) : last;
         };
-        next[i] = at_time<polynomial>(coefficient, top, length);
+        next[i] = at_time(*shape_, coefficient, top, length);
         if (sharply) {
-            C const rounding = next[i].r;
+            C const rounding = next[i].r();
             C const beyond = tails_ ? truncation_[i] : C(0.0);
             tails[i] = sharpen(i, coefficient, top, to, sharp, beyond, next[i]);
-            pays = pays || side_by_side::all(next[i].r < beyond + rounding * 0.5);
+            pays = pays || side_by_side::all(next[i].r() < beyond + rounding * 0.5);
         } else if (tails_) {
             next[i] = widened(next[i], truncation_[i]);
         }
-        lost[i] = side_by_side::select(moved, next[i].r, C(0.0));
-        next[i].r = 0.0;
+        lost[i] = side_by_side::select(moved, next[i].r(), C(0.0));
+        next[i].r() = 0.0;
     }
     if (sharp > 0) sharp_pays_ = pays;
     // The order of V follows the size of its Lagrange term.
@@ -64,8 +64,7 @@ void parametric_flow<N, D, C>::accept(mask moved, C const& to, std::size_t order
                 if (!flow_->sensitive(i, c)) continue;
                 column_entry last;
                 if (!tails_) {
-                    last =
-                        without_last_variable<N, column_degree>(tube_.variation(i, c, flow_order));
+                    last = without_last_variable(tube_.variation(i, c, flow_order), *column_shape_);
                     C spread{}; // |J_L(b)| W
                     for (std::size_t l = 0; l < n; ++l) {
                         if (!flow_->sensitive(i, l)) continue;
@@ -73,31 +72,37 @@ void parametric_flow<N, D, C>::accept(mask moved, C const& to, std::size_t order
                     }
                     last = widened(last, spread * up);
                 }
-                auto sum = at_time<column_entry>(
+                auto sum = at_time(
+                    *column_shape_,
                     [&](std::size_t k) -> column_entry const& {
                         return k < flow_order ? derivative_.variation(i, c, k) : last;
                     },
                     tails_ ? flow_order - 1 : flow_order, length);
                 if (tails_) sum = widened(sum, derivative_tail_.variation(i, c));
                 // Lanes that stay, or jump, keep their generators.
-                j[i * n + c] =
-                    select(moved & !jumps, sum, column_entry::constant(C(i == c ? 1.0 : 0.0)));
+                j[i * n + c] = select(moved & !jumps, std::move(sum),
+                                      column_entry::constant(C(i == c ? 1.0 : 0.0)));
             }
         }
+        mask const carried = moved & !jumps;
+        bool const all = side_by_side::all(carried);
+        image_.resize(n);
+        std::vector<unsigned char> present(n);
         for (auto& g : set_.columns) {
-            typename set_type::column image(n);
-            for (std::size_t i = 0; i < n; ++i) {
-                product_sum<N, column_degree, C> sum;
-                for (std::size_t l = 0; l < n; ++l) {
-                    if (!flow_->sensitive(i, l) || side_by_side::all(g[l].norm() == C(0.0)))
-                        continue;
-                    sum.add(j[i * n + l], g[l]);
-                }
-                image[i] = select(moved & !jumps, sum.result(), g[i]);
-                lost[i] += image[i].r;
-                image[i].r = 0.0;
+            for (std::size_t l = 0; l < n; ++l) {
+                present[l] = side_by_side::all(g[l].norm() == C(0.0)) ? 0 : 1;
             }
-            g = std::move(image);
+            for (std::size_t i = 0; i < n; ++i) {
+                product_sum<C> sum(image_[i]);
+                for (std::size_t l = 0; l < n; ++l) {
+                    if (present[l] != 0 && flow_->sensitive(i, l)) sum.add(j[i * n + l], g[l]);
+                }
+                sum.finish();
+                if (!all) image_[i] = select(carried, image_[i], g[i]);
+                lost[i] += image_[i].r();
+                image_[i].r() = 0.0;
+            }
+            g.swap(image_);
         }
     }
     if (perturbed_) {

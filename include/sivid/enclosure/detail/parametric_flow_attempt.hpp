@@ -11,9 +11,9 @@
 namespace sivid {
 
 /// \f$ \sum_{from \le k < order} h^k \|V_k\| \f$, componentwise, rounded up.
-template <std::size_t N, std::size_t D, class C>
-void parametric_flow<N, D, C>::sizes(C const& h, std::size_t order, std::size_t from,
-                                     square& result) const {
+template <class Model>
+void parametric_flow<Model>::sizes(C const& h, std::size_t order, std::size_t from,
+                                   square& result) const {
     auto const n = flow_->states();
     result.assign(n * n, C(0.0));
     for (std::size_t i = 0; i < n; ++i) {
@@ -29,10 +29,10 @@ void parametric_flow<N, D, C>::sizes(C const& h, std::size_t order, std::size_t 
     }
 }
 
-template <std::size_t N, std::size_t D, class C>
-typename parametric_flow<N, D, C>::mask
-parametric_flow<N, D, C>::bound_flow(square const& base, square const& last, mask pending,
-                                     square& w) const {
+template <class Model>
+typename parametric_flow<Model>::mask
+parametric_flow<Model>::bound_flow(square const& base, square const& last, mask pending,
+                                   square& w) const {
     auto const n = flow_->states();
     auto const image = [&](square const& x, square& y) { // (base + last (1 + x)) rounded up
         for (std::size_t i = 0; i < n; ++i) {
@@ -64,10 +64,10 @@ parametric_flow<N, D, C>::bound_flow(square const& base, square const& last, mas
 }
 
 /// The lanes whose truncation is allowed; the others try again with a shorter step.
-template <std::size_t N, std::size_t D, class C>
-typename parametric_flow<N, D, C>::mask
-parametric_flow<N, D, C>::short_enough(mask trying, C const& h, std::size_t order,
-                                       std::vector<C> const& truncation) {
+template <class Model>
+typename parametric_flow<Model>::mask
+parametric_flow<Model>::short_enough(mask trying, C const& h, std::size_t order,
+                                     std::vector<C> const& truncation) {
     C ratio{}; // of the truncation to what is allowed
     for (std::size_t i = 0; i < truncation.size(); ++i) {
         C const share = truncation[i] / (allowed(i) * (order > 0 ? 10.0 : 1e4));
@@ -99,18 +99,18 @@ parametric_flow<N, D, C>::short_enough(mask trying, C const& h, std::size_t orde
 }
 
 /// The tube's middle: the Taylor polynomials over s = h (1 + tau)/2, in q and tau.
-template <std::size_t N, std::size_t D, class C>
-void parametric_flow<N, D, C>::guess_tube(C const& h, std::size_t order) {
+template <class Model>
+void parametric_flow<Model>::guess_tube(C const& h, std::size_t order) {
     for (std::size_t i = 0; i < path_.size(); ++i) {
-        path_[i] = polynomial_in_time_of<tube_degree, N, D, C>(
-            [&](std::size_t k) -> polynomial const& { return centre_.state(i, k); }, order, h);
+        path_[i] = path_of_([&](std::size_t k) -> polynomial const& { return centre_.state(i, k); },
+                            order, h);
     }
 }
 
-template <std::size_t N, std::size_t D, class C>
-typename parametric_flow<N, D, C>::mask
-parametric_flow<N, D, C>::attempt(mask trying, C const& to, std::size_t order,
-                                  std::size_t flow_order, square& w, mask& jumps) {
+template <class Model>
+typename parametric_flow<Model>::mask
+parametric_flow<Model>::attempt(mask trying, C const& to, std::size_t order, std::size_t flow_order,
+                                square& w, mask& jumps) {
     auto const n = flow_->states();
     std::size_t const K = order;
     std::size_t const L = flow_order;
@@ -152,7 +152,7 @@ parametric_flow<N, D, C>::attempt(mask trying, C const& to, std::size_t order,
     for (std::size_t k = 1; k < L; ++k) flow_power *= h;
     power *= up;
     flow_power *= up;
-    auto const s = tube_entry::variable(N, h * 0.5, h * 0.5);
+    auto const s = within_step(h);
     auto const times = tube_entry::constant(set_.time) + s;
     // What the reach becomes during the step, as far as the series knows.
     square all, base, last;
@@ -196,7 +196,7 @@ parametric_flow<N, D, C>::attempt(mask trying, C const& to, std::size_t order,
         for (std::size_t i = 0; i < n; ++i) {
             auto const& lagrange = tube_.state(i, K + 1);
             truncation_[i] = lagrange.norm() * power * up;
-            share[i] = (lagrange.spread() + lagrange.r) * power;
+            share[i] = (lagrange.spread() + lagrange.r()) * power;
         }
         trying = short_enough(trying, h, K, share);
         if (!side_by_side::any(trying)) return mask{};
@@ -278,10 +278,11 @@ parametric_flow<N, D, C>::attempt(mask trying, C const& to, std::size_t order,
     return proved;
 }
 
-template <std::size_t N, std::size_t D, class C>
-typename parametric_flow<N, D, C>::mask parametric_flow<N, D, C>::perturb(mask moved, C const& to) {
+template <class Model>
+typename parametric_flow<Model>::mask parametric_flow<Model>::perturb(mask moved, C const& to) {
     C const half = (to - set_.time) * (0.5 * (1 + 4 * polynomial::unit));
-    auto const times = tube_entry::constant(set_.time) + tube_entry::variable(N, half, half);
+    auto const times = tube_entry::constant(set_.time) +
+                       tube_entry::variable(*tube_shape_, tube_shape_->variables - 1, half, half);
     mask const bounded = perturbed_->prove(set_.time, to, times, tube_box_, moved);
     reject(moved & !bounded, failure_reason::minimum_step, C(0.5));
     return bounded;

@@ -3,6 +3,7 @@
 #define SIVID_ENCLOSURE_DETAIL_PARAMETRIC_FLOW_CLASS_HPP
 
 #include <sivid/enclosure/detail/expansion_tail.hpp>
+#include <sivid/enclosure/detail/power_sum.hpp>
 #include <sivid/enclosure/domain_edge.hpp>
 #include <sivid/enclosure/expansion.hpp>
 #include <sivid/enclosure/failure.hpp>
@@ -47,39 +48,46 @@ namespace sivid {
 /// several bounds is evaluated.
 /// @guarantee  after each successful step, for every q and every member of the set before, the
 ///             solution lies in the set after (same q), and during the step in `swept()`.
-/// @tparam N  number of variables, at least that of the unknowns
-/// @tparam D  degree of the polynomials
-/// @tparam C  `double`, or `lanes<W>`
+/// @tparam Model  of single families, or in lanes
 /// @cost  O(nodes K^2 products of degree D in N variables) a step, as many in N + 1 variables where
 ///        it needs a tube
 /// @ref   Makino and Berz 2003 (Taylor models for flows); Kühn 1998 (zonotopes); Zgliczynski 2002
 /// (C1)
-template <std::size_t N, std::size_t D, class C = double>
+template <class Model = taylor_model<double>>
 class parametric_flow {
 public:
-    using set_type = parametric_set<N, D, C>;
-    using polynomial = typename set_type::polynomial;
-    using column_entry = typename set_type::column_entry;
+    using C = typename Model::scalar;
+    using set_type = parametric_set<Model>;
+    using polynomial = Model;
+    using column_entry = Model;
+    using tube_entry = Model;
+    using shape_type = typename Model::shape_type;
     using side_by_side = lane_traits<C>;
     using mask = typename side_by_side::mask;
     static constexpr std::size_t width = side_by_side::count;
-    static constexpr std::size_t column_degree = set_type::column_degree;
-    static constexpr std::size_t tube_degree = D >= 5 ? 3 : D >= 2 ? 2 : 1;
-    using tube_entry = taylor_model<N + 1, tube_degree, C>;
 
-    parametric_flow(flow const& f, enclosure_options const& options)
+    /// @param variables  at least as many as the unknowns
+    /// @param degree     of the polynomials
+    parametric_flow(flow const& f, enclosure_options const& options, std::size_t variables,
+                    std::size_t degree)
         : flow_(&f),
           options_(options),
-          set_(f.states()),
-          centre_(f, options.order + 1, variations::by_state),
-          derivative_(f, options.order + 1, variations::by_state),
-          tube_(f, options.order + 1, variations::by_state),
+          shape_(&shape_type::of(variables, degree)),
+          column_shape_(&shape_type::of(variables, (degree + 1) / 2)),
+          tube_shape_(&shape_type::of(variables + 1, degree >= 5   ? 3
+                                                     : degree >= 2 ? 2
+                                                                   : 1)),
+          path_of_(*shape_, *tube_shape_),
+          set_(f.states(), *shape_),
+          centre_(f, options.order + 1, variations::by_state, *shape_),
+          derivative_(f, options.order + 1, variations::by_state, *column_shape_),
+          tube_(f, options.order + 1, variations::by_state, *tube_shape_),
           centre_tail_(f, centre_),
           derivative_tail_(f, derivative_),
-          observe_(f.observe(), 0),
-          parameters_(f.parameters()),
-          column_parameters_(f.parameters()),
-          tube_parameters_(f.parameters()),
+          observe_(f.observe(), 0, *shape_),
+          parameters_(f.parameters(), Model(*shape_)),
+          column_parameters_(f.parameters(), Model(*column_shape_)),
+          tube_parameters_(f.parameters(), Model(*tube_shape_)),
           around_(f.states()),
           path_(f.states()),
           tube_box_(f.states()),
@@ -88,12 +96,12 @@ public:
           truncation_(f.states()) {
         if (options.order < 1)
             throw std::invalid_argument("enclosure_options: order must be at least 1");
-        if (f.uncertain()) perturbed_.emplace(f);
+        if (f.uncertain()) perturbed_.emplace(f, *tube_shape_);
         disturbed_.resize(f.states());
     }
 
     /// Starts the family of one lane; what the other lanes do goes on.
-    /// @given  the unknowns have at most N variables (checked)
+    /// @given  the unknowns have at most as many variables as the flow (checked)
     void begin(std::size_t lane, double time, box const& initial, box const& parameters);
     /// The same in the first, or only, lane.
     void begin(double time, box const& initial, box const& parameters) {
@@ -129,6 +137,14 @@ public:
         return lanes_[lane].failure;
     }
     [[nodiscard]] std::size_t steps(std::size_t lane = 0) const { return lanes_[lane].steps; }
+    /// Variables and degree of the polynomials.
+    [[nodiscard]] shape_type const& shape() const { return *shape_; }
+    /// Those of the tubes: one variable more, the time within a step.
+    [[nodiscard]] shape_type const& tube_shape() const { return *tube_shape_; }
+    /// \f$ h (1 + \tau) / 2 \f$, the time since the begin of a step, as a tube has it.
+    [[nodiscard]] tube_entry within_step(C const& h) const {
+        return tube_entry::variable(*tube_shape_, tube_shape_->variables - 1, h * 0.5, h * 0.5);
+    }
     [[nodiscard]] flow const& equations() const { return *flow_; }
     /// The outputs at the lanes' times, as functions of the unknowns.
     [[nodiscard]] std::vector<polynomial> outputs();
@@ -171,7 +187,7 @@ private:
 
     [[nodiscard]] C allowed(std::size_t i) const {
         auto const& p = set_.centre[i];
-        return (side_by_side::abs(p.c[0]) + C(1.0)) * options_.tolerance +
+        return (side_by_side::abs(p.c()[0]) + C(1.0)) * options_.tolerance +
                (p.spread() + set_.reach[i]) * options_.relative_tolerance;
     }
     void expand(std::size_t order);
@@ -229,6 +245,8 @@ private:
 
     flow const* flow_;
     enclosure_options options_;
+    shape_type const *shape_, *column_shape_, *tube_shape_;
+    polynomials_in_time<C> path_of_;
     set_type set_;
     expansion<polynomial> centre_;
     expansion<column_entry> derivative_;
@@ -246,6 +264,7 @@ private:
     std::vector<column_entry> column_parameters_;
     std::vector<tube_entry> tube_parameters_;
     std::vector<column_entry> around_;
+    std::vector<column_entry> image_; ///< of a generator; its memory is used again
     std::vector<tube_entry> path_, tube_box_, swept_;
     std::vector<C> room_, truncation_;
     bool tails_ = false; ///< the last attempt was proved by the tails of the series alone

@@ -15,8 +15,8 @@
 
 namespace sivid {
 
-template <std::size_t N, std::size_t D, class C>
-std::size_t parametric_flow<N, D, C>::sharp_orders(C const& length, std::size_t order) const {
+template <class Model>
+std::size_t parametric_flow<Model>::sharp_orders(C const& length, std::size_t order) const {
     if constexpr (!std::is_same_v<C, double>) {
         return 0;
     } else {
@@ -24,7 +24,7 @@ std::size_t parametric_flow<N, D, C>::sharp_orders(C const& length, std::size_t 
         // What the roundings of an order cost, as `at_time` counts them.
         auto const cost = [&](std::size_t i, std::size_t k, double power) {
             auto const& a = centre_.state(i, k);
-            return (a.r + a.norms[0] * (static_cast<double>(3 * k + 1) * a.unit)) * power;
+            return (a.r() + a.norms()[0] * (static_cast<double>(3 * k + 1) * a.unit)) * power;
         };
         std::size_t orders = 0;
         for (std::size_t i = 0; i < set_.centre.size(); ++i) {
@@ -42,8 +42,8 @@ std::size_t parametric_flow<N, D, C>::sharp_orders(C const& length, std::size_t 
     }
 }
 
-template <std::size_t N, std::size_t D, class C>
-bool parametric_flow<N, D, C>::expand_sharply(std::size_t orders) {
+template <class Model>
+bool parametric_flow<Model>::expand_sharply(std::size_t orders) {
     if constexpr (!std::is_same_v<C, double>) {
         return false;
     } else {
@@ -56,34 +56,36 @@ bool parametric_flow<N, D, C>::expand_sharply(std::size_t orders) {
         }
         std::vector<twofold> x;
         for (std::size_t i = 0; i < set_.centre.size(); ++i) {
-            x.emplace_back(set_.centre[i].c[0], set_.tail[i], 0.0);
+            x.emplace_back(set_.centre[i].c()[0], set_.tail[i], 0.0);
         }
         sharp_->expand(set_.time, twofold(set_.time), x, orders - 1);
         return !sharp_->undefined() && !sharp_->kinked();
     }
 }
 
-template <std::size_t N, std::size_t D, class C>
+template <class Model>
 template <class Coefficient>
-C parametric_flow<N, D, C>::sharpen(std::size_t i, Coefficient const& coefficient, std::size_t top,
-                                    C const& to, std::size_t orders, C const& beyond,
-                                    polynomial& next) {
+typename parametric_flow<Model>::C
+parametric_flow<Model>::sharpen(std::size_t i, Coefficient const& coefficient, std::size_t top,
+                                C const& to, std::size_t orders, C const& beyond,
+                                polynomial& next) {
     next = widened(next, beyond);
     if constexpr (!std::is_same_v<C, double>) {
         return C(0.0);
     } else {
         polynomial const none;
-        auto const high = at_time<polynomial>(
+        auto const high = at_time(
+            *shape_,
             [&](std::size_t k) -> polynomial const& { return k < orders ? none : coefficient(k); },
             top, to - set_.time);
         twofold const h = twofold(to) - twofold(set_.time);
         twofold sum = sharp_->state(i, orders - 1);
         for (std::size_t k = orders - 1; k-- > 0;) sum = sum * h + sharp_->state(i, k);
         // No variable enters a point, so there is no spread.
-        sum = sum + twofold(high.c[0], 0.0, (high.r + high.spread() + beyond) * up);
-        if (!(sum.radius() < next.r)) return 0.0;
+        sum = sum + twofold(high.c()[0], 0.0, (high.r() + high.spread() + beyond) * up);
+        if (!(sum.radius() < next.r())) return 0.0;
         next = polynomial::constant(sum.head());
-        next.r = sum.radius();
+        next.r() = sum.radius();
         return sum.tail();
     }
 }

@@ -10,9 +10,9 @@
 
 namespace sivid {
 
-template <std::size_t N, std::size_t D, class C>
-typename parametric_flow<N, D, C>::mask
-parametric_flow<N, D, C>::bound_tails(C const& h, std::size_t order, std::size_t flow_order) {
+template <class Model>
+typename parametric_flow<Model>::mask
+parametric_flow<Model>::bound_tails(C const& h, std::size_t order, std::size_t flow_order) {
     mask const proved = centre_tail_.bound_states(centre_, h, order, false);
     for (std::size_t i = 0; i < truncation_.size(); ++i) truncation_[i] = centre_tail_.state(i);
     if (!side_by_side::any(proved)) return proved;
@@ -21,9 +21,9 @@ parametric_flow<N, D, C>::bound_tails(C const& h, std::size_t order, std::size_t
 
 /// The lanes in which what V has beyond its coefficients does not add much to the reach; the others
 /// try again with more of them or, if there are no more, with a shorter step.
-template <std::size_t N, std::size_t D, class C>
-typename parametric_flow<N, D, C>::mask
-parametric_flow<N, D, C>::carries_well(mask trying, C const& h, std::size_t flow_order) {
+template <class Model>
+typename parametric_flow<Model>::mask parametric_flow<Model>::carries_well(mask trying, C const& h,
+                                                                           std::size_t flow_order) {
     auto const n = flow_->states();
     C most{};
     for (std::size_t i = 0; i < n; ++i) {

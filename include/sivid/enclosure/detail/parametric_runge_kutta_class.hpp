@@ -35,41 +35,42 @@ namespace sivid {
 /// Smooth models only: a step whose tube touches a kink is not taken.
 /// @guarantee  after each successful `step`, for every q and every member of the set before, the
 ///             solution lies in the set after (same q), and during the step in `swept()`.
-/// @tparam N  number of variables, at least that of the unknowns
-/// @tparam D  degree of the polynomials
 /// @ref  docs/runge_kutta.md
-template <std::size_t N, std::size_t D>
+template <class Model = taylor_model<double>>
 class parametric_runge_kutta {
 public:
-    using set_type = parametric_set<N, D>;
-    using polynomial = typename set_type::polynomial;
-    using column_entry = typename set_type::column_entry;
-    static constexpr std::size_t column_degree = set_type::column_degree;
-    static constexpr std::size_t tube_degree = D >= 5 ? 3 : 2;
-    using tube_entry = taylor_model<N + 1, tube_degree>;
+    using polynomial = Model;
+    using set_type = parametric_set<polynomial>;
+    using shape_type = typename polynomial::shape_type;
 
+    /// @param variables  at least as many as the unknowns
+    /// @param degree     of the polynomials
     /// @throws std::invalid_argument when the options name no method
-    parametric_runge_kutta(flow const& f, enclosure_options const& options)
+    parametric_runge_kutta(flow const& f, enclosure_options const& options, std::size_t variables,
+                           std::size_t degree)
         : flow_(&f),
           options_(options),
+          shape_(&shape_type::of(variables, degree)),
+          column_shape_(&shape_type::of(variables, (degree + 1) / 2)),
+          tube_shape_(&shape_type::of(variables + 1, degree >= 5 ? 3 : 2)),
           order_(order_of(options)),
           flow_order_(std::max<std::size_t>(2, (order_ + 2) / 2)),
-          set_(f.states()),
-          centre_(f, order_ + 1, variations::by_state),
-          derivative_(f, order_ + 1, variations::by_state),
-          tube_(f, order_ + 1, variations::by_state) {
+          set_(f.states(), *shape_),
+          centre_(f, order_ + 1, variations::by_state, *shape_),
+          derivative_(f, order_ + 1, variations::by_state, *column_shape_),
+          tube_(f, order_ + 1, variations::by_state, *tube_shape_) {
         if (options.method->is_explicit()) {
-            explicit_value_.emplace(f, *options.method);
-            explicit_next_.emplace(f, *options.method);
+            explicit_value_.emplace(f, *options.method, *shape_);
+            explicit_next_.emplace(f, *options.method, *tube_shape_);
         } else {
-            implicit_value_.emplace(f, *options.method);
-            implicit_next_.emplace(f, *options.method);
+            implicit_value_.emplace(f, *options.method, *shape_);
+            implicit_next_.emplace(f, *options.method, *tube_shape_);
         }
-        if (f.uncertain()) perturbed_.emplace(f);
+        if (f.uncertain()) perturbed_.emplace(f, *tube_shape_);
         disturbed_.resize(f.states());
     }
 
-    /// @given  the unknowns have at most N variables (checked)
+    /// @given  the unknowns have at most as many variables as the flow (checked)
     void begin(double time, box const& initial, box const& parameters);
 
     /// One proved step, at most to `limit`.
@@ -100,16 +101,19 @@ private:
     }
     [[nodiscard]] double allowed(std::size_t i) const {
         auto const& p = set_.centre[i];
-        return options_.tolerance * (1 + std::abs(p.c[0])) +
+        return options_.tolerance * (1 + std::abs(p.c(0))) +
                options_.relative_tolerance * (p.spread() + set_.reach[i]);
     }
-    template <std::size_t M, std::size_t E>
-    [[nodiscard]] std::vector<taylor_model<M, E>> parameter_models() const {
-        std::vector<taylor_model<M, E>> models;
+    [[nodiscard]] std::vector<polynomial> parameter_models(shape_type const& shape) const {
+        std::vector<polynomial> models;
         for (auto const& s : unknowns_->parameters) {
-            normalised_unknowns::put(s, 0, models.emplace_back());
+            enclosure_detail::put(s, 0, models.emplace_back(shape));
         }
         return models;
+    }
+    /// \f$ h (1 + \tau) / 2 \f$, as the tube has it.
+    [[nodiscard]] polynomial within_step(double half) const {
+        return polynomial::variable(*tube_shape_, tube_shape_->variables - 1, half, half);
     }
     /// The step length at which a coefficient reaches what is allowed, and its state.
     [[nodiscard]] std::pair<double, std::size_t> estimate() const {
@@ -147,12 +151,11 @@ private:
         return false;
     }
     /// What is not defined for some states.
-    template <std::size_t M, std::size_t E>
-    [[nodiscard]] std::optional<domain_edge> edge(taylor_model<M, E> const& times,
-                                                  std::vector<taylor_model<M, E>> const& x) const {
+    [[nodiscard]] std::optional<domain_edge> edge(shape_type const& shape, polynomial const& times,
+                                                  std::vector<polynomial> const& x) const {
         return find_domain_edge(
-            *flow_, set_.time, times, x, parameter_models<M, E>(), [](bool flag) { return flag; },
-            [](taylor_model<M, E> const& a) {
+            *flow_, set_.time, times, x, parameter_models(shape), [](bool flag) { return flag; },
+            [](polynomial const& a) {
                 auto const b = rough_bounds(a);
                 return std::pair{b.lower, b.upper};
             });
@@ -160,22 +163,23 @@ private:
 
     flow const* flow_;
     enclosure_options options_;
+    shape_type const *shape_, *column_shape_, *tube_shape_;
     std::size_t order_;      ///< p
     std::size_t flow_order_; ///< L
     std::optional<normalised_unknowns> unknowns_;
     set_type set_;
     expansion<polynomial> centre_;
-    expansion<column_entry> derivative_;
-    expansion<tube_entry> tube_;
+    expansion<polynomial> derivative_;
+    expansion<polynomial> tube_;
     std::optional<runge_kutta<polynomial>> explicit_value_;
-    std::optional<runge_kutta<tube_entry>> explicit_next_;
+    std::optional<runge_kutta<polynomial>> explicit_next_;
     std::optional<implicit_runge_kutta<polynomial>> implicit_value_;
-    std::optional<implicit_runge_kutta<tube_entry>> implicit_next_;
-    std::optional<perturbed_step<tube_entry>> perturbed_; ///< where inputs are uncertain
+    std::optional<implicit_runge_kutta<polynomial>> implicit_next_;
+    std::optional<perturbed_step<polynomial>> perturbed_; ///< where inputs are uncertain
     std::vector<double> disturbed_; ///< about how much of the reach they cause; a preference
     std::vector<polynomial> value_; ///< phi(h; P)
-    std::vector<tube_entry> next_;  ///< phi_{p+1}
-    std::vector<tube_entry> tube_box_, swept_;
+    std::vector<polynomial> next_;  ///< phi_{p+1}
+    std::vector<polynomial> tube_box_, swept_;
     double learned_ = 1;
     std::size_t steps_ = 0;
     std::optional<enclosure_failure> failure_;

@@ -35,9 +35,9 @@ struct stage_arithmetic {
 };
 
 /// The same with functions: sizes are bounds over all variables, the core is the polynomial.
-template <std::size_t N, std::size_t D>
-struct stage_arithmetic<taylor_model<N, D>> {
-    using T = taylor_model<N, D>;
+template <>
+struct stage_arithmetic<taylor_model<double>> {
+    using T = taylor_model<double>;
 
     [[nodiscard]] static double size(T const& a) {
         double const m = a.norm();
@@ -45,10 +45,10 @@ struct stage_arithmetic<taylor_model<N, D>> {
     }
     [[nodiscard]] static T widened(T const& a, double r) { return sivid::widened(a, r); }
     [[nodiscard]] static T core(T a) {
-        a.r = 0;
+        a.r() = 0;
         return a;
     }
-    [[nodiscard]] static double approximate(T const& a) { return a.c[0]; }
+    [[nodiscard]] static double approximate(T const& a) { return a.c(0); }
 };
 
 } // namespace sivid::enclosure_detail

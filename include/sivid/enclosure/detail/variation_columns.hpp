@@ -3,7 +3,8 @@
 #define SIVID_ENCLOSURE_DETAIL_VARIATION_COLUMNS_HPP
 
 #include <sivid/enclosure/flow.hpp>
-#include <sivid/number/coefficient_columns.hpp>
+#include <sivid/model/taylor_arithmetic.hpp>
+#include <sivid/number/series_columns.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -14,16 +15,15 @@ namespace sivid {
 /// Taylor coefficients of the solution of \f$ V' = \partial_x f \, V + [0, \partial_p f] \f$,
 /// \f$ V(0) = [1, 0] \f$, as single Taylor models, all columns at once. Columns that no entry of
 /// the Jacobian has are those of the identity and are left out.
-template <std::size_t N, std::size_t D>
 class variation_columns {
 public:
-    using model = taylor_model<N, D>;
+    using model = taylor_model<double>;
 
     variation_columns() = default;
     /// @param entries  of the flow's, the first ones, that the program computes
     /// @param columns  of V: by states, or by states and parameters
     variation_columns(flow const& f, tape const& program, std::size_t entries, std::size_t columns,
-                      std::size_t orders)
+                      std::size_t orders, model_shape<double> const& s)
         : lane_(columns, none), rows_(f.states()) {
         auto const n = f.states();
         std::vector<bool> used(columns, false);
@@ -46,9 +46,9 @@ public:
                 }
             }
         }
-        factors_.assign(entries, column_factor<N, D>(orders));
-        v_ = coefficient_columns<N, D>(n, lanes_, orders);
-        sum_ = column_sum<N, D>(v_.groups());
+        for (std::size_t m = 0; m < entries; ++m) factors_.emplace_back(orders, s);
+        v_ = series_columns(n, lanes_, orders, s);
+        sum_ = columns_sum(v_.groups(), s);
     }
 
     /// Coefficients 0 .. order.
@@ -89,8 +89,8 @@ public:
         return rows_[i].columns;
     }
     /// \f$ V_{ic}^{[k]} \f$, c one of `columns(i)`.
-    [[nodiscard]] model get(std::size_t i, std::size_t c, std::size_t k) const {
-        return v_.get(i, lane_[c], k);
+    void get_into(model& a, std::size_t i, std::size_t c, std::size_t k) const {
+        v_.get_into(a, i, lane_[c], k);
     }
 
 private:
@@ -111,9 +111,9 @@ private:
     std::vector<std::size_t> lane_; ///< of each column
     std::size_t lanes_ = 0;
     std::vector<row_of_v> rows_;
-    std::vector<column_factor<N, D>> factors_;
-    coefficient_columns<N, D> v_;
-    column_sum<N, D> sum_;
+    std::vector<column_multiplier> factors_;
+    series_columns v_;
+    columns_sum sum_;
     model zero_;
 };
 

@@ -2,8 +2,8 @@
 #ifndef SIVID_PAVING_DETAIL_AFFINE_OUTPUT_HPP
 #define SIVID_PAVING_DETAIL_AFFINE_OUTPUT_HPP
 
+#include <sivid/enclosure/normalised_unknowns.hpp>
 #include <sivid/enclosure/observation.hpp>
-#include <sivid/enclosure/parametric_set.hpp>
 #include <sivid/paving/detail/output_polynomial.hpp>
 #include <sivid/paving/response.hpp>
 #include <sivid/space/box.hpp>

@@ -5,6 +5,7 @@
 #include <sivid/enclosure/observation.hpp>
 #include <sivid/enclosure/trajectory.hpp>
 #include <sivid/paving/detail/affine_output.hpp>
+#include <sivid/paving/detail/continued_run_class.hpp>
 
 #include <cstddef>
 #include <memory>

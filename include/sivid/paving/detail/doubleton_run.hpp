@@ -5,6 +5,7 @@
 #include <sivid/enclosure/observation.hpp>
 #include <sivid/enclosure/trajectory.hpp>
 #include <sivid/paving/detail/affine_output.hpp>
+#include <sivid/paving/detail/experiment_run_class.hpp>
 #include <sivid/paving/detail/measurement_walk.hpp>
 #include <sivid/paving/run_options.hpp>
 

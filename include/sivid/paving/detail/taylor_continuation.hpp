@@ -3,7 +3,7 @@
 #define SIVID_PAVING_DETAIL_TAYLOR_CONTINUATION_HPP
 
 #include <sivid/enclosure/parametric_flow.hpp>
-#include <sivid/paving/taylor_kernels.hpp>
+#include <sivid/paving/detail/continued_run_class.hpp>
 
 #include <algorithm>
 #include <array>
@@ -19,11 +19,12 @@ namespace sivid {
 namespace paving_detail {
 
 /// Taylor models in lanes; a family keeps its lane until it ends.
-template <std::size_t N, std::size_t D>
 class taylor_continuation final : public continued_run {
 public:
-    taylor_continuation(flow const& f, double begin, enclosure_options const& options)
-        : flow_(&f), begin_(begin), options_(options) {}
+    /// @param unknowns, degree  of the polynomials
+    taylor_continuation(flow const& f, double begin, enclosure_options const& options,
+                        std::size_t unknowns, std::size_t degree)
+        : flow_(&f), begin_(begin), options_(options), unknowns_(unknowns), degree_(degree) {}
 
     [[nodiscard]] std::size_t at_once() const override { return width; }
 
@@ -35,19 +36,13 @@ public:
             l = 0;
             ++b;
         }
-        if (b == banks_.size()) banks_.push_back(std::make_unique<bank>(*flow_, options_));
+        if (b == banks_.size())
+            banks_.push_back(std::make_unique<bank>(*flow_, options_, unknowns_, degree_));
         auto& own = *banks_[b];
         own.carried.begin(l, begin_, initial, parameters);
         auto& lane = own.lanes[l].emplace(normalised_unknowns(initial, parameters));
         lane.table = std::make_shared<monomial_table const>(
-            monomial_table::of<N, D>(lane.unknowns.variables));
-        for (std::size_t m = 0; m < monomials<N, D>::count; ++m) {
-            auto const& e = monomials<N, D>::data.exponents[m];
-            if (std::all_of(e.begin() + static_cast<std::ptrdiff_t>(lane.unknowns.variables),
-                            e.end(), [](std::uint8_t x) { return x == 0; })) {
-                lane.place.push_back(m);
-            }
-        }
+            monomial_table::of(*own.carried.shape().space, lane.unknowns.variables, &lane.place));
         return b * width + l;
     }
     void end(family f) override {
@@ -94,8 +89,10 @@ public:
                 for (auto const c : channels) {
                     auto const y = lane_of(seen[c], l);
                     auto& out = result[k].emplace_back();
-                    for (auto const m : place) out.coefficients.push_back(y.c[m]);
-                    out.radius = y.r;
+                    for (auto const m : place) {
+                        out.coefficients.push_back(m < y.terms() ? y.c(m) : 0.0);
+                    }
+                    out.radius = y.r();
                 }
             }
         }
@@ -113,8 +110,10 @@ private:
         std::vector<std::size_t> place; ///< of the used monomials among all
     };
     struct bank {
-        bank(flow const& f, enclosure_options const& options) : carried(f, options) {}
-        parametric_flow<N, D, scalar> carried;
+        bank(flow const& f, enclosure_options const& options, std::size_t unknowns,
+             std::size_t degree)
+            : carried(f, options, unknowns, degree) {}
+        parametric_flow<taylor_model<scalar>> carried;
         std::array<std::optional<occupant>, width> lanes;
     };
     [[nodiscard]] occupant const& lane_of_family(family f) const {
@@ -124,23 +123,9 @@ private:
     flow const* flow_;
     double begin_;
     enclosure_options options_;
+    std::size_t unknowns_, degree_;
     std::vector<std::unique_ptr<bank>> banks_;
 };
-
-/// Not inline, for the same reason as `make_taylor_run`.
-template <std::size_t N, std::size_t D>
-std::unique_ptr<continued_run> make_taylor_continuation(flow const& f, double begin,
-                                                        enclosure_options const& options) {
-    return std::make_unique<taylor_continuation<N, D>>(f, begin, options);
-}
-
-#ifdef SIVID_COMPILED
-#define SIVID_KERNEL(N, D)                                                                         \
-    extern template std::unique_ptr<continued_run> make_taylor_continuation<N, D>(                 \
-        flow const&, double, enclosure_options const&);
-SIVID_TAYLOR_KERNELS(SIVID_KERNEL)
-#undef SIVID_KERNEL
-#endif
 
 } // namespace paving_detail
 

@@ -3,9 +3,9 @@
 #define SIVID_PAVING_DETAIL_TAYLOR_RUN_HPP
 
 #include <sivid/enclosure/parametric_flow.hpp>
+#include <sivid/paving/detail/experiment_run_class.hpp>
 #include <sivid/paving/detail/measurement_walk.hpp>
 #include <sivid/paving/run_options.hpp>
-#include <sivid/paving/taylor_kernels.hpp>
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -22,13 +21,17 @@ namespace sivid {
 
 namespace paving_detail {
 
-/// Taylor models in lanes: a lane that is done takes the next box. Points are run one by one.
-template <std::size_t N, std::size_t D, class C = std::conditional_t<D == 0, double, lanes<8>>>
+/// Taylor models, in lanes or one by one: a lane that is done takes the next box.
+template <class C>
 class taylor_run final : public experiment_run {
 public:
+    /// @param unknowns, degree  of the polynomials
     taylor_run(flow const& f, experiment const& e, record const& samples,
-               run_options const& options)
-        : experiment_(&e), samples_(&samples), options_(options), flow_(f, options.enclosure) {}
+               run_options const& options, std::size_t unknowns, std::size_t degree)
+        : experiment_(&e),
+          samples_(&samples),
+          options_(options),
+          flow_(f, options.enclosure, unknowns, degree) {}
 
     using experiment_run::operator();
     [[nodiscard]] std::size_t at_once() const override { return width; }
@@ -55,7 +58,7 @@ public:
                 if (lanes[l]) lane_traits<C>::put(limit, l, lanes[l]->walk.time());
             }
             (void)flow_.advance(limit);
-            std::vector<taylor_model<N, D, C>> seen;
+            std::vector<taylor_model<C>> seen;
             for (std::size_t l = 0; l < width; ++l) {
                 if (!lanes[l]) continue;
                 auto& mine = *lanes[l];
@@ -85,15 +88,17 @@ private:
         std::size_t box = 0;
         measurement_walk walk;
         std::shared_ptr<response> answer;
-        std::vector<std::size_t> place; ///< of the used monomials among all
+        std::vector<std::size_t> const* place; ///< of the used monomials among all
         response_builder collected;
 
-        kept_output keep(taylor_model<N, D> const& y, interval const& bound, double hopeless) {
-            collected.add([&](std::size_t m) { return y.c[place[m]]; }, y.r, bound);
+        kept_output keep(taylor_model<double> const& y, interval const& bound, double hopeless) {
+            collected.add(
+                [&](std::size_t m) { return (*place)[m] < y.terms() ? y.c((*place)[m]) : 0.0; },
+                y.r(), bound);
             auto const value = rough_range(y);
             double const known = 2 * y.spread() + sivid::width(bound);
             return {interval_traits<interval>::disjoint(value, bound),
-                    !(2 * y.r <= hopeless * known)};
+                    !(2 * y.r() <= hopeless * known)};
         }
         std::shared_ptr<response const> finish() && {
             std::move(collected).finish(*answer);
@@ -104,49 +109,26 @@ private:
     lane begin(std::size_t l, std::size_t index, box const& initial, box const& parameters) {
         auto answer = start_response(*experiment_, *samples_, initial, parameters);
         flow_.begin(l, experiment_->begin, initial, parameters);
-        auto& table = tables_[answer->unknowns.variables];
+        auto& [table, place] = tables_[answer->unknowns.variables];
         if (!table) {
             table = std::make_shared<monomial_table const>(
-                monomial_table::of<N, D>(answer->unknowns.variables));
+                monomial_table::of(*flow_.shape().space, answer->unknowns.variables, &place));
         }
         answer->table = table;
-        std::vector<std::size_t> place;
-        for (std::size_t m = 0; m < monomials<N, D>::count; ++m) {
-            auto const& exponents = monomials<N, D>::data.exponents[m];
-            if (std::all_of(exponents.begin() + static_cast<std::ptrdiff_t>(table->variables),
-                            exponents.end(), [](std::uint8_t x) { return x == 0; })) {
-                place.push_back(m);
-            }
-        }
-        auto const terms = place.size();
         auto const allowed = answer->allowed;
-        return {index, measurement_walk(*samples_, allowed), std::move(answer), std::move(place),
-                response_builder(terms)};
+        return {index, measurement_walk(*samples_, allowed), std::move(answer), &place,
+                response_builder(place.size())};
     }
 
     experiment const* experiment_;
     record const* samples_;
     run_options options_;
-    parametric_flow<N, D, C> flow_;
-    std::map<std::size_t, std::shared_ptr<monomial_table const>> tables_;
+    parametric_flow<taylor_model<C>> flow_;
+    /// For each number of unknowns, and where their monomials are among those of the flow.
+    std::map<std::size_t,
+             std::pair<std::shared_ptr<monomial_table const>, std::vector<std::size_t>>>
+        tables_;
 };
-
-/// Not inline, so that it can be compiled once and apart from what uses it
-/// (SIVID_COMPILED).
-template <std::size_t N, std::size_t D>
-std::unique_ptr<experiment_run> make_taylor_run(flow const& f, experiment const& e,
-                                                record const& samples, run_options const& options) {
-    return std::make_unique<taylor_run<N, D>>(f, e, samples, options);
-}
-
-#ifdef SIVID_COMPILED
-// The library sivid::compiled holds these: the expensive part of every program that identifies.
-#define SIVID_KERNEL(N, D)                                                                         \
-    extern template std::unique_ptr<experiment_run> make_taylor_run<N, D>(                         \
-        flow const&, experiment const&, record const&, run_options const&);
-SIVID_TAYLOR_KERNELS(SIVID_KERNEL)
-#undef SIVID_KERNEL
-#endif
 
 } // namespace paving_detail
 

@@ -5,9 +5,10 @@
 #include <sivid/paving/continued_run.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/paving/detail/doubleton_continuation.hpp>
+#include <sivid/paving/detail/experiment_run_class.hpp>
 #include <sivid/paving/detail/taylor_continuation.hpp>
-#include <sivid/paving/taylor_kernels.hpp>
 
 #include <cstddef>
 #include <memory>
@@ -22,10 +23,8 @@ SIVID_DECL std::unique_ptr<continued_run> make_continued_run(flow const& f, expe
     auto how = options.enclosure;
     how.minimum_step = minimum_step_for(e, how.minimum_step);
     if (options.set == carried_set::taylor_model) {
-        auto run = with_taylor_kernel(unknowns, [&]<std::size_t N, std::size_t D>() {
-            return make_taylor_continuation<N, D>(f, e.begin, how);
-        });
-        if (run) return run;
+        return std::make_unique<taylor_continuation>(f, e.begin, how, unknowns,
+                                                     suggested_degree(unknowns));
     }
     return std::make_unique<doubleton_continuation>(f, e.begin, how);
 }

@@ -5,9 +5,10 @@
 #include <sivid/paving/experiment_run.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/paving/detail/doubleton_run.hpp>
 #include <sivid/paving/detail/taylor_run.hpp>
-#include <sivid/paving/taylor_kernels.hpp>
+#include <sivid/paving/scalar_run.hpp>
 
 #include <cstddef>
 #include <memory>
@@ -23,10 +24,10 @@ SIVID_DECL std::unique_ptr<experiment_run> make_run(flow const& f, experiment co
     // What uncertain inputs cost, no smaller box gives back.
     if (f.uncertain()) options.hopeless = 1e300;
     if (options.set == carried_set::taylor_model) {
-        auto run = with_taylor_kernel(unknowns, [&]<std::size_t N, std::size_t D>() {
-            return make_taylor_run<N, D>(f, e, samples, options);
-        });
-        if (run) return run;
+        auto const degree = suggested_degree(unknowns);
+        // Points one by one: where nothing is unknown there are no boxes to fill the lanes.
+        if (degree == 0) return make_scalar_run(f, e, samples, initial, prior, options);
+        return std::make_unique<taylor_run<lanes<8>>>(f, e, samples, options, unknowns, degree);
     }
     return std::make_unique<doubleton_run>(f, e, samples, options);
 }

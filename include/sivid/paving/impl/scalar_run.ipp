@@ -5,8 +5,8 @@
 #include <sivid/paving/scalar_run.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/paving/detail/doubleton_run.hpp>
-#include <sivid/paving/detail/scalar_taylor_run.hpp>
+#include <sivid/enclosure/suggested_degree.hpp>
+#include <sivid/paving/detail/taylor_run.hpp>
 
 #include <memory>
 
@@ -20,11 +20,8 @@ SIVID_DECL std::unique_ptr<experiment_run> make_scalar_run(flow const& f, experi
     options.enclosure.minimum_step = minimum_step_for(e, options.enclosure.minimum_step);
     if (f.uncertain()) options.hopeless = 1e300;
     auto const unknowns = unknown_count(initial, prior);
-#define SIVID_KERNEL(N, D)                                                                         \
-    if (unknowns <= N) return make_scalar_taylor_run<N, D>(f, e, samples, options);
-    SIVID_SCALAR_KERNELS(SIVID_KERNEL)
-#undef SIVID_KERNEL
-    return std::make_unique<doubleton_run>(f, e, samples, options);
+    return std::make_unique<taylor_run<double>>(f, e, samples, options, unknowns,
+                                                suggested_degree(unknowns));
 }
 
 } // namespace sivid

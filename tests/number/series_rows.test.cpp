@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/number/coefficient_rows.hpp>
+#include <sivid/number/series_rows.hpp>
 
 #include "support/catch.hpp"
 #include "support/rounding_modes.hpp"
@@ -14,9 +14,10 @@
 #include <vector>
 
 using namespace sivid;
+using support::any_polynomial;
 using support::covers;
 using support::draws;
-using support::exact_polynomial;
+using support::sized_model;
 using support::random_model;
 using support::rational;
 
@@ -26,14 +27,14 @@ namespace {
 template <std::size_t N, std::size_t D>
 struct two_series {
     static constexpr std::size_t orders = 26;
-    using model = taylor_model<N, D>;
+    using model = sized_model<N, D>;
     std::vector<model> a, b;
-    coefficient_rows<N, D> rows{2, orders};
+    series_rows rows{2, orders, model::size()};
 
     two_series(draws& d, std::size_t known, double radius, bool wild) {
         constexpr double sizes[] = {1, 1e-3, 1e-160, 1e-310, 5e-324, 1e150};
         auto unknown = model::constant(std::numeric_limits<double>::quiet_NaN());
-        unknown.r = std::numeric_limits<double>::infinity();
+        unknown.r() = std::numeric_limits<double>::infinity();
         for (std::size_t k = 0; k < orders; ++k) {
             for (auto* s : {&a, &b}) {
                 auto const size = wild ? sizes[d.below(6)] : 2.0;
@@ -63,12 +64,12 @@ void check_rounding(std::uint64_t seed, int trials) {
         // those of b above k - from.
         two_series<N, D> const s(d, r.k + 1, 0, wild);
         double const factor = std::array{1.0, -1.0, 2.0}[d.below(3)];
-        auto const weight = d.coin() ? convolution_weight::one : convolution_weight::order;
+        auto const weight = d.coin() ? convolved_by::one : convolved_by::order;
         bool const more = d.coin();
-        exact_polynomial<N> expected;
+        any_polynomial expected;
         for (std::size_t j = r.from; j <= r.to; ++j) {
             auto const p = support::product(support::exact(s.a[j]), support::exact(s.b[r.k - j]));
-            double const w = weight == convolution_weight::one ? 1 : static_cast<double>(j);
+            double const w = weight == convolved_by::one ? 1 : static_cast<double>(j);
             expected = support::sum(expected, p, rational(factor * w));
         }
         if (more) { // other addends in the same sum, another convolution among them
@@ -79,19 +80,19 @@ void check_rounding(std::uint64_t seed, int trials) {
             }
         }
         for (int const mode : support::rounding_modes) {
-            taylor_model<N, D> result;
+            sized_model<N, D> result;
             support::in_mode(mode, [&] {
-                product_sum<N, D> sum;
-                sum.add_convolution(s.rows, 0, s.rows, 1, r.k, r.from, r.to, factor, weight);
+                product_sum<double> sum;
+                sum.add_convolution(s.rows, 0, 1, r.k, r.from, r.to, factor, weight);
                 if (more) {
                     sum.add(s.a[0], -1);
-                    sum.add_convolution(s.rows, 1, s.rows, 0, r.k, 0, r.k);
+                    sum.add_convolution(s.rows, 1, 0, r.k, 0, r.k);
                 }
                 result = sum.result();
             });
             CAPTURE(N, D, trial, mode, r.k, r.from, r.to, factor, more);
-            if (!wild) REQUIRE(std::isfinite(result.r));
-            if (std::isfinite(result.r)) REQUIRE(covers(result, expected));
+            if (!wild) REQUIRE(std::isfinite(result.r()));
+            if (std::isfinite(result.r())) REQUIRE(covers(result, expected));
         }
     }
 }
@@ -102,14 +103,14 @@ void check_members(std::uint64_t seed, int trials) {
     for (int trial = 0; trial < trials; ++trial) {
         auto const r = draw_range(d, 20);
         two_series<N, D> const s(d, r.k + 1, 0.2, false);
-        product_sum<N, D> rows, single;
-        rows.add_convolution(s.rows, 0, s.rows, 1, r.k, r.from, r.to);
+        product_sum<double> rows, single;
+        rows.add_convolution(s.rows, 0, 1, r.k, r.from, r.to);
         for (std::size_t j = r.from; j <= r.to; ++j) single.add(s.a[j], s.b[r.k - j]);
         auto const result = rows.result();
         auto const reference = single.result();
         CAPTURE(N, D, trial, r.k, r.from, r.to);
         // Not wider than product by product.
-        REQUIRE(result.r <= reference.r * (1 + 1e-12) + 1e-12);
+        REQUIRE(result.r() <= reference.r() * (1 + 1e-12) + 1e-12);
         for (int sample = 0; sample < 6; ++sample) {
             auto const q = support::short_point(d, N);
             rational y = 0;
@@ -124,26 +125,26 @@ void check_members(std::uint64_t seed, int trials) {
 
 template <std::size_t N, std::size_t D>
 void check_radii() {
-    using model = taylor_model<N, D>;
-    auto const convolve = [](std::vector<model> const& a, std::vector<model> const& b,
-                             std::size_t k) {
-        coefficient_rows<N, D> rows(2, k + 1);
+    using model = sized_model<N, D>;
+    auto const convolve = [](std::vector<taylor_model<double>> const& a,
+                             std::vector<taylor_model<double>> const& b, std::size_t k) {
+        series_rows rows(2, k + 1, model::size());
         for (std::size_t j = 0; j <= k; ++j) {
             rows.put(0, j, a[j]);
             rows.put(1, j, b[j]);
         }
-        product_sum<N, D> sum;
-        sum.add_convolution(rows, 0, rows, 1, k, 0, k);
-        return std::vector<model>{sum.result()};
+        product_sum<double> sum;
+        sum.add_convolution(rows, 0, 1, k, 0, k);
+        return std::vector<taylor_model<double>>{sum.result()};
     };
     for (std::size_t const k : {0U, 3U, 7U, 8U, 15U, 16U, 23U}) {
-        support::check_radii_of_orders<N, D>(k, convolve);
+        support::check_radii_of_orders(model::size(), k, convolve);
     }
 }
 
 } // namespace
 
-TEST_CASE("Coefficient rows: the radius covers what a convolution rounds and cuts off") {
+TEST_CASE("Series rows: the radius covers what a convolution rounds and cuts off") {
     check_rounding<1, 0>(1, 150);
     check_rounding<2, 1>(2, 100);
     check_rounding<3, 2>(3, 40);
@@ -151,30 +152,30 @@ TEST_CASE("Coefficient rows: the radius covers what a convolution rounds and cut
     check_rounding<4, 3>(5, 8); // its products are not unrolled
 }
 
-TEST_CASE("Coefficient rows: a convolution contains all products of members") {
+TEST_CASE("Series rows: a convolution contains all products of members") {
     check_members<1, 0>(11, 60);
     check_members<2, 2>(12, 40);
     check_members<3, 3>(13, 10);
 }
 
-TEST_CASE("Coefficient rows: every order's radius counts") {
+TEST_CASE("Series rows: every order's radius counts") {
     check_radii<1, 0>();
     check_radii<2, 1>();
 }
 
-TEST_CASE("Coefficient rows: a radius that is not finite stays so") {
+TEST_CASE("Series rows: a radius that is not finite stays so") {
     draws d(31);
     for (std::size_t const lost : {0U, 4U, 9U}) {
         two_series<2, 1> s(d, 10, 0.1, false);
-        s.a[lost].r = std::numeric_limits<double>::infinity();
+        s.a[lost].r() = std::numeric_limits<double>::infinity();
         s.rows.put(0, lost, s.a[lost]);
-        product_sum<2, 1> sum, other;
-        sum.add_convolution(s.rows, 0, s.rows, 1, 9, 0, 9);
-        REQUIRE(!std::isfinite(sum.result().r));
+        product_sum<double> sum, other;
+        sum.add_convolution(s.rows, 0, 1, 9, 0, 9);
+        REQUIRE(!std::isfinite(sum.result().r()));
         // A convolution that leaves it out knows its value.
-        if (lost == 0) other.add_convolution(s.rows, 0, s.rows, 1, 9, 1, 9);
-        if (lost == 4) other.add_convolution(s.rows, 0, s.rows, 1, 9, 5, 9);
-        if (lost == 9) other.add_convolution(s.rows, 0, s.rows, 1, 9, 0, 8);
-        REQUIRE(std::isfinite(other.result().r));
+        if (lost == 0) other.add_convolution(s.rows, 0, 1, 9, 1, 9);
+        if (lost == 4) other.add_convolution(s.rows, 0, 1, 9, 5, 9);
+        if (lost == 9) other.add_convolution(s.rows, 0, 1, 9, 0, 8);
+        REQUIRE(std::isfinite(other.result().r()));
     }
 }

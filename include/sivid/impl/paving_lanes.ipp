@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IMPL_PAVING_LANES_IPP
+#define SIVID_IMPL_PAVING_LANES_IPP
+
+/// @file
+/// What runs Taylor models in lanes: the most expensive part to compile.
+
+#include <sivid/paving/impl/continued_run.ipp>
+#include <sivid/paving/impl/experiment_run.ipp>
+
+#endif

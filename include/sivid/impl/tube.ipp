@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IMPL_TUBE_IPP
+#define SIVID_IMPL_TUBE_IPP
+
+/// @file
+/// Tubes of doubles.
+
+#include <sivid/enclosure/tube.hpp>
+
+#include <memory>
+
+namespace sivid {
+
+template tube<interval> integrate(std::shared_ptr<flow const>, box const&, box const&, double,
+                                  double, enclosure_options const&);
+
+} // namespace sivid
+
+#endif
