@@ -7,6 +7,7 @@
 // clang-format off
 #include <sivid/number/arithmetic.hpp>
 #include <sivid/number/bernstein.hpp>
+#include <sivid/number/boost_interval.hpp>
 #include <sivid/number/cancellation.hpp>
 #include <sivid/number/coefficient_columns.hpp>
 #include <sivid/number/coefficient_rows.hpp>
@@ -42,6 +43,7 @@
 #include <sivid/space/basis_factors.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/space/box_cover.hpp>
+#include <sivid/space/box_lanes.hpp>
 #include <sivid/space/certified_rank.hpp>
 #include <sivid/space/common_frame.hpp>
 #include <sivid/space/constraint_blocks.hpp>
@@ -152,7 +154,9 @@
 #include <sivid/enclosure/tube_step.hpp>
 #include <sivid/enclosure/uncertain_input.hpp>
 #include <sivid/enclosure/variation_bound.hpp>
+#include <sivid/paving/bisection_test.hpp>
 #include <sivid/paving/box_explorer.hpp>
+#include <sivid/paving/box_test.hpp>
 #include <sivid/paving/certificate.hpp>
 #include <sivid/paving/change_of_variables.hpp>
 #include <sivid/paving/combined_polynomial.hpp>
