@@ -124,6 +124,7 @@
 #include <sivid/enclosure/dissipative_step.hpp>
 #include <sivid/enclosure/domain_edge.hpp>
 #include <sivid/enclosure/doubleton.hpp>
+#include <sivid/enclosure/enclose.hpp>
 #include <sivid/enclosure/enclosed_motion.hpp>
 #include <sivid/enclosure/expansion.hpp>
 #include <sivid/enclosure/failure.hpp>
@@ -210,6 +211,7 @@
 #include <sivid/paving/response.hpp>
 #include <sivid/paving/response_audit.hpp>
 #include <sivid/paving/run_options.hpp>
+#include <sivid/paving/runge_kutta_run.hpp>
 #include <sivid/paving/scalar_run.hpp>
 #include <sivid/paving/search_state.hpp>
 #include <sivid/paving/set_test.hpp>

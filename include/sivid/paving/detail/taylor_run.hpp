@@ -23,7 +23,9 @@ namespace sivid {
 namespace paving_detail {
 
 /// Taylor models in lanes: a lane that is done takes the next box. Points are run one by one.
-template <std::size_t N, std::size_t D, class C = std::conditional_t<D == 0, double, lanes<8>>>
+/// @tparam Flow  what carries the sets
+template <std::size_t N, std::size_t D, class C = std::conditional_t<D == 0, double, lanes<8>>,
+          class Flow = parametric_flow<N, D, C>>
 class taylor_run final : public experiment_run {
 public:
     taylor_run(flow const& f, experiment const& e, record const& samples,
@@ -127,7 +129,7 @@ private:
     experiment const* experiment_;
     record const* samples_;
     run_options options_;
-    parametric_flow<N, D, C> flow_;
+    Flow flow_;
     std::map<std::size_t, std::shared_ptr<monomial_table const>> tables_;
 };
 

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <stdexcept>
 
 namespace sivid {
 
@@ -23,6 +24,14 @@ SIVID_DECL std::unique_ptr<experiment_run> make_run(flow const& f, experiment co
     // What uncertain inputs cost, no smaller box gives back.
     if (f.uncertain()) options.hopeless = 1e300;
     if (options.set == carried_set::taylor_model) {
+        if (options.make != nullptr) return options.make(f, e, samples, initial, prior, options);
+        if (options.enclosure.method) {
+            throw std::invalid_argument(
+                "run_options: Taylor models follow the method '" + options.enclosure.method->name +
+                "' with make = runge_kutta_run<> (sivid/paving/runge_kutta_run.hpp), else the "
+                "Taylor "
+                "series alone; sets of first order (carried_set::doubleton) take any method");
+        }
         auto run = with_taylor_kernel(unknowns, [&]<std::size_t N, std::size_t D>() {
             return make_taylor_run<N, D>(f, e, samples, options);
         });
