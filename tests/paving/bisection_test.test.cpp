@@ -3,6 +3,7 @@
 #include <sivid/paving/bisection_test.hpp>
 
 #include <sivid/enclosure/implicit_tableau.hpp>
+#include <sivid/enclosure/tube.hpp>
 
 #include "paving/plain_problem.hpp"
 #include "support/catch.hpp"
@@ -11,6 +12,7 @@
 
 #include <cmath>
 #include <map>
+#include <memory>
 #include <tuple>
 #include <vector>
 
@@ -208,4 +210,35 @@ TEST_CASE("a search that is told to stop returns what is proved") {
     auto bad = plain_problem::make();
     bad.prior = box{interval_traits<interval>::entire()};
     CHECK_THROWS_AS(identify_by_bisection<interval>(bad), std::invalid_argument);
+}
+
+TEMPLATE_TEST_CASE("the hovercraft's tube in each interval type holds the motion", "",
+                   SIVID_SINGLE_TYPES) {
+    using traits = interval_traits<TestType>;
+    auto const problem = hovercraft_turn(0);
+    auto const& e = problem.experiments[0];
+    auto const f = std::make_shared<flow const>(problem.model, problem.choice, e.inputs);
+    enclosure_options const options{.order = 12, .tolerance = 1e-7, .minimum_step = 1e-3};
+    box const region{between(0.219, 0.221)};
+    auto const reference = integrate(f, e.initial, region, 0, 0.5, options);
+    auto const point = integrate(f, e.initial, box{interval(0.22)}, 0, 0.5);
+    auto const tube = integrate<TestType>(f, box_in<TestType>(e.initial), box_in<TestType>(region),
+                                          0, 0.5, options);
+    REQUIRE(tube.complete());
+    for (double const t : {0.07, 0.25, 0.5}) {
+        auto const own = tube.at(t), all = tube.over(0.5 * t, t);
+        auto const truth = point.at(t), same = reference.at(t);
+        for (std::size_t i = 0; i < 6; ++i) {
+            CAPTURE(t, i);
+            interval const seen(traits::lower(own[i]), traits::upper(own[i]));
+            // Each contains the motion, none is far from the others, times between steps included.
+            CHECK_FALSE(disjoint(seen, truth[i]));
+            CHECK(subset(interval(mid(truth[i])), seen));
+            CHECK(traits::lower(all[i]) <= seen.lower());
+            CHECK(seen.upper() <= traits::upper(all[i]));
+            double const slack = std::is_same_v<TestType, support::coarse> ? 1e-4 : 1e-9;
+            CHECK(std::abs(seen.lower() - same[i].lower()) <= slack);
+            CHECK(std::abs(seen.upper() - same[i].upper()) <= slack);
+        }
+    }
 }
