@@ -11,7 +11,7 @@
 #include <sivid/number/mp_functions.hpp>
 #endif
 
-#include "custom_interval/middle_radius.hpp"
+#include "../../examples/custom_interval/middle_radius.hpp"
 
 #include <cmath>
 #include <cstddef>
