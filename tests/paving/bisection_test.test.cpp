@@ -198,6 +198,13 @@ TEST_CASE("a domain that the box leaves proves nothing of the box") {
     CHECK_FALSE(over(0.5, 3).inside);
     CHECK_FALSE(over(0.5, 3).outside);
     CHECK_FALSE(over(0, 0.5).inside);
+    // What is no box of parameters is refused, whatever marks it in the type.
+    double const nan = detail::not_a_number;
+    using I = support::boost_type;
+    for (I const& bad : {I(nan, nan, true), I(nan, 2, true), I(3, 2, true),
+                         interval_traits<I>::entire(), I(1, detail::infinity, true)}) {
+        CHECK_THROWS_AS(test(basic_box<I>{bad}), std::invalid_argument);
+    }
 }
 
 TEST_CASE("a search that is told to stop returns what is proved") {
