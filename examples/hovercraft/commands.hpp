@@ -2,6 +2,7 @@
 #ifndef HOVERCRAFT_COMMANDS_HPP
 #define HOVERCRAFT_COMMANDS_HPP
 
+#include "enclosing.hpp"
 #include "generate.hpp"
 #include "model.hpp"
 
@@ -21,6 +22,7 @@ struct identify_command {
     std::filesystem::path dataset, out;
     std::vector<std::string> effects;      ///< of the catalogue, joined to the model
     std::string algorithm = "contracting"; ///< or report-1, report-2
+    enclosing how{.set = "taylor-model"};
     /// Least width of a box that is split, as a share of what is left, and then the only thing
     /// beside budgets that ends the search. Without it 0.003, and so much being proved inside.
     std::optional<double> accuracy;
@@ -84,6 +86,7 @@ struct simulate_command {
     double rate = 100;
     std::optional<double> input_rate; ///< of sampled inputs; without it the shapes are exact
     bool validated = false;
+    enclosing how{.set = "first-order"};
     std::string command_line;
 };
 [[nodiscard]] int run(simulate_command const& command);

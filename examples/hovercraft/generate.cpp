@@ -132,7 +132,7 @@ private:
         std::vector<sivid::signal> signals;
         for (auto const& input : out.inputs) signals.emplace_back(input.signal);
         auto const f = std::make_shared<sivid::flow const>(model_, true_constants_, signals);
-        sivid::enclosed_motion const motion(f, start, sivid::box{}, 0, s.duration);
+        auto const motion = enclosed(options_.how, f, start, s.duration);
         if (!motion.complete())
             throw bad_request(
                 std::string{"scenario "} + s.name + ": the true motion could not be enclosed: " +

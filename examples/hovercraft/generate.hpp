@@ -2,6 +2,7 @@
 #ifndef HOVERCRAFT_GENERATE_HPP
 #define HOVERCRAFT_GENERATE_HPP
 
+#include "enclosing.hpp"
 #include "scenario.hpp"
 
 #include <sivid/io/dataset_value.hpp>
@@ -45,6 +46,7 @@ struct generate_options {
     double outlier_size = 20; ///< their distance from the truth, in bounds
     std::map<std::string, sivid::exact_decimal> set; ///< true values that differ from the nominal
     std::vector<unknown_parameter> unknown;
+    enclosing how{.set = "first-order"}; ///< of the true motion
 };
 
 /// A sample that was spoilt on purpose.

@@ -269,6 +269,8 @@ int run(identify_command const& c) {
     auto const digest = sivid::dataset_digest(c.dataset);
     if (c.online && (c.compare || c.algorithm != "contracting"))
         throw bad_request("--online goes with neither --algorithm nor --compare");
+    if (c.online && (c.how.method != "taylor" || c.how.set != "taylor-model"))
+        throw bad_request("--online goes with neither --method nor --set");
     if (!c.picture.empty())
         static_cast<void>(sivid::index_of(model.about.channels, c.picture, "channel"));
     if (c.online && c.verdict_only) throw bad_request("--online goes not with --verdict-only");
@@ -288,6 +290,7 @@ int run(identify_command const& c) {
     console::progress_line progress(c.quiet);
     sivid::identify_options options;
     options.algorithm = algorithm_of(c.algorithm);
+    apply(c.how, options.test.run);
     options.search.accuracy = c.accuracy.value_or(0.003);
     if (c.accuracy) options.search.sufficient_ratio = 1;
     if (c.boxes) options.search.boxes = *c.boxes;

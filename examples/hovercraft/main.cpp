@@ -114,6 +114,30 @@ void add_variants(CLI::App& command, shared_text& shared) {
         ->capture_default_str();
 }
 
+/// Takes the kind of sets out of a list that else assigns values to constants.
+void take_set(std::vector<std::string>& list, enclosing& how) {
+    for (auto const* const kind : {"first-order", "taylor-model"}) {
+        if (std::erase(list, kind) > 0) how.set = kind;
+    }
+}
+
+void add_method(CLI::App& command, enclosing& how, std::string const& what) {
+    command
+        .add_option("--method", how.method,
+                    what + " follow the Taylor series or a validated Runge-Kutta method")
+        ->check(CLI::IsMember(method_names()))
+        ->capture_default_str();
+}
+void add_enclosing(CLI::App& command, enclosing& how) {
+    add_method(command, how, "enclosures");
+    command
+        .add_option("--set", how.set,
+                    "sets that are carried: of first order (doubletons), or Taylor models, with a "
+                    "Runge-Kutta method in six unknowns at most")
+        ->check(CLI::IsMember({"first-order", "taylor-model"}))
+        ->capture_default_str();
+}
+
 /// The program: what is parsed, then run by `action`.
 class program {
 public:
@@ -151,6 +175,7 @@ private:
         s->add_option("--algorithm", c.algorithm, "contracting, or the report's Algorithm 1 or 2")
             ->check(CLI::IsMember({"contracting", "report-1", "report-2"}))
             ->capture_default_str();
+        add_enclosing(*s, c.how);
         s->add_option("--accuracy", accuracy_,
                       "leave boxes undecided when no side is wider than this share of what is left "
                       "(report-1, report-2: of the prior). When given, nothing but a budget ends "
@@ -298,9 +323,12 @@ private:
         s->add_option("--outlier-size", o.outlier_size, "their distance from the truth, in bounds")
             ->check(console::number_between(1.0, 1e9))
             ->capture_default_str();
-        s->add_option("--set", shared_.set, "true values, such as Sg=0.05");
+        s->add_option("--set", shared_.set,
+                      "true values, such as Sg=0.05; or the sets by which the true motion is "
+                      "enclosed: first-order (the default), taylor-model");
         s->add_option("--unknown", unknown_, "what is to be identified: Sv,Sg,L or m=1.2:1.4")
             ->delimiter(',');
+        add_method(*s, o.how, "enclosures of the true motion");
         add_variants(*s, shared_);
         s->callback([this] { action_ = [this] { return run_generate(); }; });
     }
@@ -324,6 +352,7 @@ private:
         }
         if (o.absolute.size() == 1) o.absolute.resize(hovercraft::channels.size(), o.absolute[0]);
         o.interpolation = hold_ ? sivid::interpolation::hold : sivid::interpolation::linear;
+        take_set(shared_.set, o.how);
         o.set = constants_from(shared_.set);
         o.unknown = unknown_from(unknown_);
         return run(generate_);
@@ -334,16 +363,20 @@ private:
             app_.add_subcommand("simulate", "trajectories by Boost.Odeint, as CSV and pictures");
         auto& c = simulate_;
         add_scenario(*s, c.scenario, c.out);
-        s->add_option("--set", shared_.set, "values of constants, such as Sg=0.05");
+        s->add_option("--set", shared_.set,
+                      "values of constants, such as Sg=0.05; or the sets that tubes carry: "
+                      "first-order (the default), taylor-model");
         s->add_option("--rate", c.rate, "rows of the CSV a second")->capture_default_str();
         s->add_option("--input-rate", c.input_rate,
                       "sample the inputs so often, as `generate` does; else their exact shapes")
             ->check(console::number_between(1e-3, 1e5));
         s->add_flag("--validated", c.validated, "the proven tube beside it");
+        add_method(*s, c.how, "the proven tubes");
         add_variants(*s, shared_);
         s->callback([this] {
             action_ = [this] {
                 simulate_.craft = shared_.craft();
+                take_set(shared_.set, simulate_.how);
                 simulate_.set = constants_from(shared_.set);
                 simulate_.command_line = line_;
                 return run(simulate_);

@@ -57,8 +57,9 @@ public:
         sivid::enclosure_options options;
         options.maximum_step = s.duration / 300;
         options.minimum_step = 1e-5 * s.duration; // a tube that needs shorter ones gets no further
-        tube_.emplace(flow_, start, sivid::box{}, 0, s.duration, options);
-        if (!tube_->complete())
+        options.method = method_of(c.how);
+        tube_ = enclosed(c.how, flow_, start, s.duration, options);
+        if (!tube_->complete() && c.how.set == "first-order")
             why_ =
                 sivid::explain_enclosed_motion(*flow_, start, sivid::box{}, 0, s.duration, options);
     }
@@ -81,7 +82,9 @@ public:
     [[nodiscard]] bool validated() const { return tube_.has_value(); }
     [[nodiscard]] bool complete() const { return !tube_ || tube_->complete(); }
     [[nodiscard]] std::string failure() const {
-        return why_->message(about_.states[why_->failure.component].name);
+        auto const& why = why_ ? why_->failure : *tube_->failure();
+        auto const& state = about_.states[why.component].name;
+        return why_ ? why_->message(state) : why.message(state);
     }
 
     [[nodiscard]] std::string tube_csv() const {
@@ -188,7 +191,7 @@ private:
     std::shared_ptr<sivid::flow const> flow_;
     sivid::approximate_trajectory line_;
     std::optional<sivid::enclosed_motion> tube_;
-    std::optional<sivid::advised_failure> why_; ///< where the tube ends early
+    std::optional<sivid::advised_failure> why_; ///< where a tube of first order ends early
 };
 
 } // namespace

@@ -7,6 +7,7 @@
 // clang-format off
 #include <sivid/number/arithmetic.hpp>
 #include <sivid/number/bernstein.hpp>
+#include <sivid/number/boost_interval.hpp>
 #include <sivid/number/cancellation.hpp>
 #include <sivid/number/decimal.hpp>
 #include <sivid/number/decimal_output.hpp>
@@ -43,6 +44,7 @@
 #include <sivid/space/basis_factors.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/space/box_cover.hpp>
+#include <sivid/space/box_lanes.hpp>
 #include <sivid/space/certified_rank.hpp>
 #include <sivid/space/common_frame.hpp>
 #include <sivid/space/constraint_blocks.hpp>
@@ -123,6 +125,7 @@
 #include <sivid/enclosure/dissipative_step.hpp>
 #include <sivid/enclosure/domain_edge.hpp>
 #include <sivid/enclosure/doubleton.hpp>
+#include <sivid/enclosure/enclose.hpp>
 #include <sivid/enclosure/enclosed_motion.hpp>
 #include <sivid/enclosure/expansion.hpp>
 #include <sivid/enclosure/failure.hpp>
@@ -155,7 +158,9 @@
 #include <sivid/enclosure/tube_step.hpp>
 #include <sivid/enclosure/uncertain_input.hpp>
 #include <sivid/enclosure/variation_bound.hpp>
+#include <sivid/paving/bisection_test.hpp>
 #include <sivid/paving/box_explorer.hpp>
+#include <sivid/paving/box_test.hpp>
 #include <sivid/paving/certificate.hpp>
 #include <sivid/paving/change_of_variables.hpp>
 #include <sivid/paving/combined_polynomial.hpp>
@@ -209,6 +214,7 @@
 #include <sivid/paving/response.hpp>
 #include <sivid/paving/response_audit.hpp>
 #include <sivid/paving/run_options.hpp>
+#include <sivid/paving/runge_kutta_run.hpp>
 #include <sivid/paving/scalar_run.hpp>
 #include <sivid/paving/search_state.hpp>
 #include <sivid/paving/set_test.hpp>

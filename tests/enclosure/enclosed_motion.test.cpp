@@ -49,6 +49,8 @@ TEST_CASE("an enclosed motion is the tube of integrate") {
         check_equal(motion.at(t), expected.at(t));
         check_equal(motion.observe_at(t), expected.observe_at(t));
         CHECK(motion.steps().steps().size() == motion.spans().size());
+        check_equal(motion.over(0.5 * t, t), expected.over(0.5 * t, t));
+        CHECK_THROWS_AS(motion.over(t, 0.5 * t), std::invalid_argument);
         CHECK_THROWS_AS(motion.at(end + 1), std::out_of_range);
         if (motion.complete()) return;
         ++ended;

@@ -3,9 +3,13 @@
 // of their nodes. That they have their orders is tested with the rooted trees in
 // order_conditions.test.cpp.
 #include <sivid/enclosure/implicit_tableau.hpp>
+#include <sivid/enclosure/order_conditions.hpp>
 
 #include "support/catch.hpp"
 #include "support/runge_kutta.hpp"
+
+#include <set>
+#include <string>
 
 using namespace sivid;
 using support::exact;
@@ -96,4 +100,15 @@ TEST_CASE("a tableau with rows of other lengths is no implicit method") {
     CHECK_THROWS_WITH(m.require_implicit(), ContainsSubstring("gauss4"));
     CHECK_FALSE(m.is_explicit());
     CHECK_THROWS(rk4().require_implicit());
+}
+
+TEST_CASE("the shipped methods are what they claim, each with a name of its own") {
+    std::set<std::string> names;
+    for (auto const& m : shipped_methods()) {
+        CAPTURE(m.name);
+        CHECK(names.insert(m.name).second);
+        CHECK_NOTHROW(require_order(m));
+    }
+    CHECK(names.size() == 14);
+    CHECK(names.count("rk4") == 1);
 }

@@ -136,6 +136,38 @@ TEST_CASE("a quiet run says nothing on stderr, 3 when undecided, 4 when inconsis
     CHECK(r.code == 0);
 }
 
+TEST_CASE("the report's own means are one command, and each set takes each kind of method") {
+    temporary_folder const folder;
+    auto const data = (folder.path() / "data").string(), out = (folder.path() / "out").string();
+    REQUIRE(run({"generate", "--scenario", "S1", "--out", data, "--absolute", "0.05", "--method",
+                 "rk4", "--set", "taylor-model"})
+                .code == 0);
+    for (std::string const method : {"taylor", "rk4", "gauss4"}) {
+        for (std::string const set : {"first-order", "taylor-model"}) {
+            CAPTURE(method, set);
+            auto const r = run({"identify", data, "--out", out, "--quiet", "--algorithm",
+                                "report-1", "--method", method, "--set", set});
+            CHECK(r.code == 0);
+            CHECK_THAT(r.out, ContainsSubstring("consistent"));
+            auto const how = json_of(out + "/result.json")["enclosures"];
+            CHECK(how["set"] == set);
+            CHECK(how.contains("method") == (method != "taylor"));
+            auto const drawn = run({"simulate", "--scenario", "S1", "--out", out, "--validated",
+                                    "--method", method, "--set", set, "--set", "Sv=0.21"});
+            CHECK(drawn.code == 0);
+            CHECK_THAT(drawn.out, ContainsSubstring("proved, width"));
+        }
+    }
+    auto r = run({"identify", data, "--out", out, "--quiet", "--method", "rk4"});
+    CHECK(r.code == 0);
+    CHECK(run({"check", out, "--sample", "4"}).code != 5);
+    CHECK(run({"identify", data, "--out", out, "--method", "rk5"}).code == 2);
+    CHECK(run({"identify", data, "--out", out, "--set", "second-order"}).code == 2);
+    r = run({"identify", data, "--out", out, "--online", "--method", "rk4"});
+    CHECK(r.code == 2);
+    CHECK_THAT(r.err, ContainsSubstring("--method"));
+}
+
 TEST_CASE("a comparison shows Algorithm 1 beside") {
     temporary_folder const folder;
     auto const out = folder.path() / "out";

@@ -3,6 +3,7 @@
 
 #include "paving/plain_problem.hpp"
 #include "support/catch.hpp"
+#include "support/interval_types.hpp"
 
 #ifdef SIVID_HAS_MPFI
 #include <sivid/number/mp_functions.hpp>
@@ -83,4 +84,20 @@ TEST_CASE("an unknown start is eliminated by linear contraction") {
     box const wrong{interval(0.8, 0.81)}, right{interval(0.495, 0.505)};
     CHECK(over<interval>(problem, wrong, wrong) == run_finding::refuted);
     CHECK(over<interval>(problem, right, right) == run_finding::open);
+}
+
+TEST_CASE("a measurement between the numbers of a type is not widened to call it met") {
+    // In single precision the bound would be read as the wider set that the output may be in.
+    using I = support::coarse;
+    using t = interval_traits<I>;
+    interval const bound(0.1, 0.3);
+    I const output = t::bounds(0.1, 0.3);
+    REQUIRE(t::lower(output) < bound.lower());
+    plain_outputs<I> known;
+    known.outputs.push_back({output, {0.0, 0.0}, output, true});
+    known.deviation = {t::point(0), t::point(0)};
+    known.parameter_centre = {0.0};
+    CHECK(decide(known, record{{0, 0, bound}}, box{interval(0.0)}, 0) == run_finding::open);
+    known.outputs[0].value = known.outputs[0].rest = t::bounds(0.125, 0.25);
+    CHECK(decide(known, record{{0, 0, bound}}, box{interval(0.0)}, 0) == run_finding::explained);
 }

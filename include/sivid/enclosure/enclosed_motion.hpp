@@ -10,6 +10,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace sivid {
@@ -23,9 +24,18 @@ struct swept_span {
     box states;              ///< contains all of them at all times in [from, to]
 };
 
+/// What says more of an enclosed motion than its spans do.
+class motion_between_spans {
+public:
+    virtual ~motion_between_spans() = default;
+    /// A box that contains all states, or channels, at a time within the proved span.
+    [[nodiscard]] virtual box at(double t) const = 0;
+    [[nodiscard]] virtual box observe_at(double t) const = 0;
+};
+
 /// All trajectories of a family, enclosed: the `tube` that `integrate` proves over intervals of
-/// doubles, for tables and pictures. It asks for less than a tube, and is quick to compile where
-/// sivid::compiled is linked to.
+/// doubles, or what `enclose` proves by any set, for tables and pictures. It asks for less than
+/// these, and is quick to compile where sivid::compiled is linked to.
 class enclosed_motion {
 public:
     /// Encloses x' = f(t, x, p, u) from the box `initial` at time `from` to time `to`, or over the
@@ -35,6 +45,12 @@ public:
     /// @cost  one integration
     enclosed_motion(std::shared_ptr<flow const> f, box const& initial, box const& parameters,
                     double from, double to, enclosure_options const& options = {});
+
+    /// Of spans that somebody else has proved, one after the other.
+    enclosed_motion(std::shared_ptr<motion_between_spans const> between,
+                    std::vector<swept_span> spans, double end,
+                    std::optional<enclosure_failure> const& failure)
+        : between_(std::move(between)), end_(end), failure_(failure), spans_(std::move(spans)) {}
 
     /// Everything up to this time is proved.
     [[nodiscard]] double end_time() const { return end_; }
@@ -49,10 +65,17 @@ public:
     /// A box that contains all channels at time t; an entire side for one that is not defined.
     /// @throws std::out_of_range  outside the proved span
     [[nodiscard]] box observe_at(double t) const;
-    [[nodiscard]] tube<interval> const& steps() const { return *tube_; }
+    /// A box that contains all states at all times in [from, to].
+    /// @throws std::out_of_range  outside the proved span
+    /// @throws std::invalid_argument  for a span that ends before it begins
+    [[nodiscard]] box over(double from, double to) const;
+    /// The proved steps themselves.
+    /// @throws std::logic_error  where other sets than those of first order were carried
+    [[nodiscard]] tube<interval> const& steps() const;
 
 private:
     std::shared_ptr<tube<interval> const> tube_;
+    std::shared_ptr<motion_between_spans const> between_; ///< where there is no tube
     double end_ = 0;
     std::optional<enclosure_failure> failure_;
     std::vector<swept_span> spans_;

@@ -4,6 +4,8 @@
 
 #include <sivid/enclosure/tableau.hpp>
 
+#include <vector>
+
 namespace sivid {
 
 // The implicit methods, with the nodes of the Gauss, Radau and Lobatto quadratures; the roots are
@@ -81,6 +83,14 @@ namespace sivid {
              {{1, 12}, {5, 12}, {5, 12}, {1, 12}}},
             {{1, 12}, {5, 12}, {5, 12}, {1, 12}},
             {{0, 1}, {5, 10, -1, 5}, {5, 10, 1, 5}, {1, 1}}};
+}
+
+/// All methods that sivid brings along, explicit ones first; each has its `name`.
+[[nodiscard]] inline std::vector<tableau> shipped_methods() {
+    return {
+        explicit_midpoint(), heun(),          kutta3(),        rk4(),          dormand_prince5(),
+        butcher6(),          gauss2(),        gauss4(),        gauss6(),       radau_iia3(),
+        radau_iia5(),        lobatto_iiic2(), lobatto_iiic4(), lobatto_iiic6()};
 }
 
 } // namespace sivid

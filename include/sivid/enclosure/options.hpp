@@ -10,6 +10,12 @@
 
 namespace sivid {
 
+/// Which sets are carried along the trajectories.
+enum class carried_set {
+    taylor_model, ///< polynomials in the unknowns: tight over wide boxes
+    doubleton     ///< first order: Lohner's sets, the readable reference
+};
+
 /// How trajectories are enclosed. Every choice is sound; they trade width against time.
 struct enclosure_options {
     /// Highest order of the Taylor series. Each step uses the lowest order that meets the

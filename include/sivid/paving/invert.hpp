@@ -2,6 +2,7 @@
 #ifndef SIVID_PAVING_INVERT_HPP
 #define SIVID_PAVING_INVERT_HPP
 
+#include <sivid/paving/box_test.hpp>
 #include <sivid/paving/inversion_options.hpp>
 #include <sivid/paving/paving_search.hpp>
 #include <sivid/paving/set_test.hpp>
@@ -21,6 +22,24 @@ template <set_test Test>
     paving_search<Test> search(test, prior, options);
     while (!search.done() && !search.must_stop()) search.step();
     return std::move(search).finish();
+}
+
+/// The same with a test in any interval type; with packs, so many boxes at a time as they have
+/// lanes: `invert<pack<8>>(test, prior)`. What is paved are boxes of doubles, which share their
+/// faces exactly; each is handed to the test in type I, and what it answers is read outward.
+template <interval_scalar I, box_test<I> Test>
+[[nodiscard]] inversion invert(Test& test, box const& prior,
+                               inversion_options const& options = {}) {
+    paving_detail::box_test_in_lanes<I, Test> in_lanes(test);
+    return invert(in_lanes, prior, options);
+}
+
+/// The same; the prior, a box in type I, is read outward.
+template <class Test, single_interval I>
+    requires box_test<Test, I>
+[[nodiscard]] inversion invert(Test& test, basic_box<I> const& prior,
+                               inversion_options const& options = {}) {
+    return invert<I>(test, lane_of(prior), options);
 }
 
 } // namespace sivid

@@ -5,6 +5,7 @@
 #include <sivid/enclosure/observation.hpp>
 #include <sivid/enclosure/trajectory.hpp>
 #include <sivid/model/problem.hpp>
+#include <sivid/space/box_lanes.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -48,33 +49,37 @@ public:
     /// All outputs for all starts and parameters of the boxes, up to where the enclosure ends.
     /// @guarantee  every output of every trajectory from the boxes is in the forms given
     [[nodiscard]] plain_outputs<I> operator()(box const& starts, box const& parameters) {
-        run_->begin(begin_, converted(starts), converted(parameters));
-        look_->set_ensemble(run_->ensemble());
         plain_outputs<I> result;
+        each(box_in<I>(starts), box_in<I>(parameters), [&](std::size_t, observation<I> const& o) {
+            result.outputs.push_back(o);
+            return true;
+        });
         result.deviation = run_->ensemble().deviation;
         result.parameter_centre = run_->ensemble().parameter_centre;
+        return result;
+    }
+
+    /// Hands the output of one measurement after the other to `take`, in the order of time, up to
+    /// where the enclosure ends or `take` says false.
+    /// @param take  (index of the measurement, observation<I>), says whether to go on
+    template <class Take>
+    void each(basic_box<I> const& starts, basic_box<I> const& parameters, Take const& take) {
+        run_->begin(begin_, starts, parameters);
+        look_->set_ensemble(run_->ensemble());
         std::vector<observation<I>> seen;
         double seen_at = std::nan("");
-        for (auto const& m : samples_) {
+        for (std::size_t k = 0; k < samples_.size(); ++k) {
+            auto const& m = samples_[k];
             while (run_->time() < m.time) {
-                if (!run_->step(m.time)) return result;
+                if (!run_->step(m.time)) return;
             }
             if (seen_at != m.time) seen = (*look_)(run_->set());
             seen_at = m.time;
-            result.outputs.push_back(seen[m.channel]);
+            if (!take(k, seen[m.channel])) return;
         }
-        return result;
     }
 
 private:
-    static basic_box<I> converted(box const& x) {
-        basic_box<I> result(x.size());
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            result[i] = traits::bounds(x[i].lower(), x[i].upper());
-        }
-        return result;
-    }
-
     std::unique_ptr<flow> flow_;
     record samples_;
     double begin_;
@@ -179,11 +184,10 @@ template <class I>
             y = traits::add(y, traits::mul(traits::point(o.gradient[c]), d[c]));
         }
         y = traits::intersect(y, o.value);
-        auto const bound = traits::bounds(samples[k].bound.lower(), samples[k].bound.upper());
         if (traits::is_empty(y)) continue; // says nothing: never for a sound enclosure
-        if (traits::subset(y, bound)) {
+        if (lies_in(y, samples[k].bound)) {
             ++hits;
-        } else if (traits::disjoint(y, bound)) {
+        } else if (sivid::misses(y, samples[k].bound)) {
             ++misses;
         } else {
             open.push_back(k);

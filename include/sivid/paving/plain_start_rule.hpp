@@ -104,10 +104,7 @@ public:
         for (std::size_t k = 0; k < known_->outputs.size(); ++k) {
             auto const& o = known_->outputs[k];
             auto const& bound = (*samples_)[k].bound;
-            held += o.defined && traits::subset(value(o, rule),
-                                                traits::bounds(bound.lower(), bound.upper()))
-                        ? 1
-                        : 0;
+            if (o.defined && lies_in(value(o, rule), bound)) ++held;
         }
         return held + q >= samples_->size();
     }

@@ -91,6 +91,14 @@ private:
     bool has_outer_ = false;
 };
 
+/// What a paving proves of the whole prior.
+[[nodiscard]] inline verdict proved_verdict(subpaving const& paving) {
+    if (paving.inner_volume().lower() > 0 || paving.count(box_verdict::inside) > 0) {
+        return verdict::consistent;
+    }
+    return paving.has_outer() ? verdict::undecided : verdict::inconsistent;
+}
+
 /// The same paving, where what a box that is proved inside covers is inside: boxes that were not
 /// decided are cut along its faces.
 /// @given  all of `core` is proved inside; the volumes are those of the boxes

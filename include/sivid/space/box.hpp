@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <initializer_list>
 #include <stdexcept>
@@ -15,7 +16,9 @@
 namespace sivid {
 
 /// A Cartesian product of intervals, \f$ [x_1] \times \dots \times [x_n] \f$; empty as soon as one
-/// factor is empty.
+/// factor is empty. With a pack of W intervals, W boxes side by side: lane k of the sides is box k,
+/// and what is asked of the box has an answer for each lane (`lane_mask`). What cuts a box, and the
+/// boxes of lanes, is in `space/box_lanes.hpp`.
 template <class I>
 class basic_box {
     using traits = interval_traits<I>;
@@ -39,10 +42,29 @@ private:
 
 using box = basic_box<interval>;
 
+/// One truth value for each lane of I: a bool, or the bits of a number.
 template <class I>
-[[nodiscard]] bool is_empty(basic_box<I> const& x) {
-    return std::any_of(x.begin(), x.end(),
-                       [](I const& s) { return interval_traits<I>::is_empty(s); });
+using lane_mask = typename interval_traits<I>::mask;
+
+/// An interval type of one lane: its boxes can be cut.
+template <class I>
+concept single_interval = interval_traits<I>::lanes == 1 && std::same_as<lane_mask<I>, bool>;
+
+/// True in every lane.
+template <class I>
+[[nodiscard]] constexpr lane_mask<I> every_lane() {
+    if constexpr (single_interval<I>) {
+        return true;
+    } else {
+        return interval_traits<I>::all_lanes;
+    }
+}
+
+template <class I>
+[[nodiscard]] lane_mask<I> is_empty(basic_box<I> const& x) {
+    lane_mask<I> any{};
+    for (I const& side : x) any |= interval_traits<I>::is_empty(side);
+    return any;
 }
 
 /// The box that holds one point.
@@ -56,10 +78,26 @@ template <class I = interval>
 /// The smallest box that contains both; an empty operand adds nothing.
 template <class I>
 [[nodiscard]] basic_box<I> hull(basic_box<I> const& a, basic_box<I> const& b) {
-    if (is_empty(a)) return b;
-    if (is_empty(b)) return a;
+    using traits = interval_traits<I>;
+    if (is_empty(a) == every_lane<I>()) return b;
+    if (is_empty(b) == every_lane<I>()) return a;
     basic_box<I> result(a.size());
-    for (std::size_t i = 0; i < a.size(); ++i) result[i] = interval_traits<I>::hull(a[i], b[i]);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        if constexpr (single_interval<I>) {
+            result[i] = traits::hull(a[i], b[i]);
+        } else { // a lane that is empty in one side is so in each
+            auto const counted = [](I const& side, lane_mask<I> none) {
+                return traits::intersect(side, traits::from_lanes(
+                                                   [&](std::size_t k) {
+                                                       return (none >> k & 1) != 0
+                                                                  ? detail::not_a_number
+                                                                  : -detail::infinity;
+                                                   },
+                                                   [](std::size_t) { return detail::infinity; }));
+            };
+            result[i] = traits::hull(counted(a[i], is_empty(a)), counted(b[i], is_empty(b)));
+        }
+    }
     return result;
 }
 
@@ -73,27 +111,24 @@ template <class I>
 }
 
 template <class I>
-[[nodiscard]] bool subset(basic_box<I> const& a, basic_box<I> const& b) {
-    if (is_empty(a)) return true;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        if (!interval_traits<I>::subset(a[i], b[i])) return false;
-    }
-    return true;
+[[nodiscard]] lane_mask<I> subset(basic_box<I> const& a, basic_box<I> const& b) {
+    auto all = every_lane<I>();
+    for (std::size_t i = 0; i < a.size(); ++i) all &= interval_traits<I>::subset(a[i], b[i]);
+    return static_cast<lane_mask<I>>(all | is_empty(a));
 }
 
 template <class I>
-[[nodiscard]] bool contains(basic_box<I> const& a, std::vector<double> const& x) {
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        if (!interval_traits<I>::contains(a[i], x[i])) return false;
-    }
-    return true;
+[[nodiscard]] lane_mask<I> contains(basic_box<I> const& a, std::vector<double> const& x) {
+    auto all = every_lane<I>();
+    for (std::size_t i = 0; i < a.size(); ++i) all &= interval_traits<I>::contains(a[i], x[i]);
+    return all;
 }
 
 /// A point of the box close to its centre; finite even for unbounded sides.
 template <class I>
-[[nodiscard]] std::vector<double> mid(basic_box<I> const& x) {
+[[nodiscard]] std::vector<double> mid(basic_box<I> const& x, std::size_t lane = 0) {
     std::vector<double> result(x.size());
-    for (std::size_t i = 0; i < x.size(); ++i) result[i] = interval_traits<I>::mid(x[i]);
+    for (std::size_t i = 0; i < x.size(); ++i) result[i] = interval_traits<I>::mid(x[i], lane);
     return result;
 }
 
@@ -101,7 +136,7 @@ template <class I>
 /// decimals that are meant. A side that has no double off its bounds stays whole: what is proved
 /// over the result holds for some point of the box that is meant.
 /// @given  finite sides
-template <class I>
+template <single_interval I>
 [[nodiscard]] basic_box<I> point_within(basic_box<I> const& where, std::vector<double> const& x) {
     using traits = interval_traits<I>;
     basic_box<I> result(where.size());
@@ -119,15 +154,15 @@ template <class I>
 
 /// The width of the widest side, rounded up.
 template <class I>
-[[nodiscard]] double width(basic_box<I> const& x) {
+[[nodiscard]] double width(basic_box<I> const& x, std::size_t lane = 0) {
     double result = 0;
-    for (I const& side : x) result = std::max(result, interval_traits<I>::width(side));
+    for (I const& side : x) result = std::max(result, interval_traits<I>::width(side, lane));
     return result;
 }
 
 /// The two halves of `x` along side `i`, cut at the double `at`; they share the face at the cut.
 /// @throws std::invalid_argument when `at` does not lie in the side
-template <class I>
+template <single_interval I>
 [[nodiscard]] std::pair<basic_box<I>, basic_box<I>> bisect(basic_box<I> const& x, std::size_t i,
                                                            double at) {
     using traits = interval_traits<I>;
@@ -142,7 +177,7 @@ template <class I>
 
 /// Boxes that cover the closure of `outer` without `inner`; neighbours share faces only.
 /// @returns at most 2n boxes; `{outer}` when `inner` is empty.
-template <class I>
+template <single_interval I>
 [[nodiscard]] std::vector<basic_box<I>> difference(basic_box<I> const& outer,
                                                    basic_box<I> const& inner) {
     using traits = interval_traits<I>;
@@ -171,7 +206,7 @@ template <class I>
 
 /// Volume of `x` relative to `whole`, as an interval; sides of zero width in `whole` are left out.
 /// @guarantee contains \f$ \prod_i w(x_i) / w(whole_i) \f$ in exact arithmetic.
-template <class I>
+template <single_interval I>
 [[nodiscard]] I relative_volume(basic_box<I> const& x, basic_box<I> const& whole) {
     using traits = interval_traits<I>;
     if (is_empty(x)) return traits::point(0.0);

@@ -11,6 +11,7 @@
 
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace sivid {
@@ -24,8 +25,25 @@ SIVID_DECL enclosed_motion::enclosed_motion(std::shared_ptr<flow const> f, box c
       failure_(tube_->failure()) {
     for (auto const& step : tube_->steps()) spans_.push_back({step.from, step.to, step.swept});
 }
-SIVID_DECL box enclosed_motion::at(double t) const { return tube_->at(t); }
-SIVID_DECL box enclosed_motion::observe_at(double t) const { return tube_->observe_at(t); }
+SIVID_DECL box enclosed_motion::at(double t) const {
+    return between_ ? between_->at(t) : tube_->at(t);
+}
+SIVID_DECL box enclosed_motion::observe_at(double t) const {
+    return between_ ? between_->observe_at(t) : tube_->observe_at(t);
+}
+SIVID_DECL box enclosed_motion::over(double from, double to) const {
+    if (!(from <= to))
+        throw std::invalid_argument("enclosed_motion: a span must not end before it begins");
+    auto result = hull(at(from), at(to));
+    for (auto const& span : spans_) {
+        if (span.from < to && span.to > from) result = hull(result, span.states);
+    }
+    return result;
+}
+SIVID_DECL tube<interval> const& enclosed_motion::steps() const {
+    if (!tube_) throw std::logic_error("enclosed_motion: its sets are not of first order");
+    return *tube_;
+}
 
 SIVID_DECL std::optional<advised_failure>
 explain_enclosed_motion(flow const& f, box const& initial, box const& parameters, double from,

@@ -50,6 +50,9 @@ SIVID_DECL std::string identification_json(identification_problem const& problem
     json.key("enclosures").begin_object(layout::one_line); // of the search, for certificates.csv
     json.key("set").string(found.run.set == carried_set::taylor_model ? "taylor-model"
                                                                       : "first-order");
+    if (found.run.enclosure.method) {
+        json.key("method").string(found.run.enclosure.method->name);
+    }
     json.key("order").integer(found.run.enclosure.order);
     json.key("tolerance").nearest(found.run.enclosure.tolerance);
     json.key("relative_tolerance").nearest(found.run.enclosure.relative_tolerance);

@@ -22,7 +22,8 @@ namespace sivid {
 namespace paving_detail {
 
 /// Taylor models, in lanes or one by one: a lane that is done takes the next box.
-template <class C>
+/// @tparam Flow  what carries the sets
+template <class C, class Flow = parametric_flow<taylor_model<C>>>
 class taylor_run final : public experiment_run {
 public:
     /// @param unknowns, degree  of the polynomials
@@ -123,7 +124,7 @@ private:
     experiment const* experiment_;
     record const* samples_;
     run_options options_;
-    parametric_flow<taylor_model<C>> flow_;
+    Flow flow_;
     /// For each number of unknowns, and where their monomials are among those of the flow.
     std::map<std::size_t,
              std::pair<std::shared_ptr<monomial_table const>, std::vector<std::size_t>>>

@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <stdexcept>
 
 namespace sivid {
 
@@ -24,6 +25,14 @@ SIVID_DECL std::unique_ptr<experiment_run> make_run(flow const& f, experiment co
     // What uncertain inputs cost, no smaller box gives back.
     if (f.uncertain()) options.hopeless = 1e300;
     if (options.set == carried_set::taylor_model) {
+        if (options.make != nullptr) return options.make(f, e, samples, initial, prior, options);
+        if (options.enclosure.method) {
+            throw std::invalid_argument(
+                "run_options: Taylor models follow the method '" + options.enclosure.method->name +
+                "' with make = runge_kutta_run (sivid/paving/runge_kutta_run.hpp), else the "
+                "Taylor "
+                "series alone; sets of first order (carried_set::doubleton) take any method");
+        }
         auto const degree = suggested_degree(unknowns);
         // Points one by one: where nothing is unknown there are no boxes to fill the lanes.
         if (degree == 0) return make_scalar_run(f, e, samples, initial, prior, options);

@@ -143,12 +143,7 @@ SIVID_DECL identification identify(identification_problem const& problem,
         result.paving = std::move(found.paving);
         result.hull = left;
     }
-    if (result.witness || result.paving.inner_volume().lower() > 0 ||
-        result.paving.count(box_verdict::inside) > 0) {
-        result.verdict = verdict::consistent;
-    } else if (!result.paving.has_outer()) {
-        result.verdict = verdict::inconsistent;
-    }
+    result.verdict = result.witness ? verdict::consistent : proved_verdict(result.paving);
     if (result.paving.has_outer()) {
         result.entangled = structure.entangled;
         for (std::size_t c = 0; c < structure.combinations.size(); ++c) {

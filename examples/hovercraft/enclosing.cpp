@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "enclosing.hpp"
+#include "generate.hpp"
+
+#include <sivid/enclosure/enclose.hpp>
+#include <sivid/enclosure/implicit_tableau.hpp>
+#include <sivid/paving/runge_kutta_run.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace hovercraft_example {
+
+namespace {
+
+std::string name_of(sivid::tableau const& method) {
+    auto name = method.name;
+    std::replace(name.begin(), name.end(), ' ', '-');
+    return name;
+}
+
+/// What a method of low order can reach in steps that are worth taking.
+void suit(sivid::enclosure_options& options) {
+    if (!options.method) return;
+    double const order = static_cast<double>(options.method->order);
+    options.tolerance = std::max(options.tolerance, std::pow(10.0, -2 - 2 * order));
+    options.minimum_step = std::min(options.minimum_step, 1e-5);
+}
+
+sivid::carried_set set_of(enclosing const& how) {
+    return how.set == "taylor-model" ? sivid::carried_set::taylor_model
+                                     : sivid::carried_set::doubleton;
+}
+
+} // namespace
+
+std::vector<std::string> method_names() {
+    std::vector<std::string> names{"taylor"};
+    for (auto const& method : sivid::shipped_methods()) names.push_back(name_of(method));
+    return names;
+}
+
+std::optional<sivid::tableau> method_of(enclosing const& how) {
+    if (how.method == "taylor") return std::nullopt;
+    for (auto const& method : sivid::shipped_methods()) {
+        if (name_of(method) == how.method) return method;
+    }
+    throw bad_request("--method: there is no method '" + how.method + "'");
+}
+
+void apply(enclosing const& how, sivid::run_options& run) {
+    run.enclosure.method = method_of(how);
+    run.set = set_of(how);
+    suit(run.enclosure);
+    if (run.enclosure.method) run.make = &sivid::runge_kutta_run;
+}
+
+sivid::enclosed_motion enclosed(enclosing const& how, std::shared_ptr<sivid::flow const> f,
+                                sivid::box const& start, double duration,
+                                sivid::enclosure_options options) {
+    options.method = method_of(how);
+    suit(options);
+    return sivid::enclose(std::move(f), start, sivid::box{}, 0, duration, set_of(how), options);
+}
+
+} // namespace hovercraft_example
