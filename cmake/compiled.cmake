@@ -54,7 +54,7 @@ template tube<interval> integrate(
 ")
 
 # Each part of include/sivid/impl is one source: they are compiled side by side, and none takes more than 2 GB.
-set(parts library number measurement model approximate enclosure paving paving_further paving_check diagnosis)
+set(parts library number measurement model approximate enclosure paving paving_further paving_check decision diagnosis)
 if(TARGET sivid::io)
     list(APPEND parts io io_check)
 endif()

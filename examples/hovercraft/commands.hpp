@@ -2,6 +2,7 @@
 #ifndef HOVERCRAFT_COMMANDS_HPP
 #define HOVERCRAFT_COMMANDS_HPP
 
+#include "console/decision_command.hpp"
 #include "generate.hpp"
 #include "model.hpp"
 
@@ -86,6 +87,10 @@ struct simulate_command {
     std::string command_line;
 };
 [[nodiscard]] int run(simulate_command const& command);
+
+/// What a stored identification says of a scenario: tubes, or whether a requirement holds.
+[[nodiscard]] int run_predict(hovercraft const& craft, console::decision_command const& command);
+[[nodiscard]] int run_verify(hovercraft const& craft, console::decision_command const& command);
 
 struct rank_command {
     hovercraft craft;
