@@ -7,6 +7,7 @@
 #include "decision_command.hpp"
 #include "parameter_ranges.hpp"
 #include "program.hpp"
+#include "result_files.hpp"
 
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/approximate/simulate/simulate.hpp>
@@ -14,6 +15,7 @@
 #include <sivid/decision/prediction.hpp>
 #include <sivid/decision/requirement.hpp>
 #include <sivid/decision/verification.hpp>
+#include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset_digest.hpp>
 #include <sivid/io/decision_json.hpp>
@@ -51,9 +53,9 @@ namespace report = sivid::report;
 /// A result, its data set and its scenario.
 class decision_task {
 public:
-    decision_task(sivid::recorded_model const& model, decision_command const& c,
-                  scenario_finder const& find)
-        : command_{c}, model_{model} {
+    decision_task(sivid::recorded_model const& model, std::vector<sivid::effect> const& catalogue,
+                  decision_command const& c, scenario_finder const& find)
+        : command_{c} {
         stored_ = sivid::read_identification(c.result);
         if (c.dataset.empty() && stored_.source_folder.empty())
             throw std::invalid_argument(
@@ -61,6 +63,7 @@ public:
         auto const folder = c.dataset.empty() ? c.result / stored_.source_folder : c.dataset;
         auto const data = sivid::read_dataset(folder, sivid::names_of(model.about));
         problem_ = sivid::problem_from_dataset(data, model);
+        auto const effects = effects_of_result(catalogue);
         if (!stored_.source_digest.empty() &&
             sivid::dataset_digest(folder) != stored_.source_digest)
             throw sivid::input_error{{.file = folder.string()},
@@ -85,7 +88,18 @@ public:
             for (auto const& input : s.inputs)
                 request_.inputs.push_back(sivid::exact_signal(input, s.duration));
         }
+        if (effects.empty()) return;
+        // The scenario as an experiment, so that states which effects add get their starts.
+        auto scenario = problem_;
+        scenario.experiments.resize(1);
+        scenario.experiments[0].inputs = request_.inputs;
+        scenario.experiments[0].initial = request_.initial;
+        problem_ = sivid::affected(problem_, effects);
+        request_.initial = sivid::affected(scenario, effects).experiments[0].initial;
     }
+
+    /// The model, with the effects that the result speaks of.
+    [[nodiscard]] sivid::recorded_model const& model() const { return problem_.model; }
 
     [[nodiscard]] double end() const { return request_.end; }
     [[nodiscard]] std::string const& scenario() const { return scenario_; }
@@ -105,12 +119,7 @@ public:
     [[nodiscard]] sivid::decision_json_options json_options() const {
         sivid::decision_json_options o;
         o.dataset = dataset_;
-        std::error_code fault;
-        if (!command_.out.empty()) {
-            auto const seen = std::filesystem::relative(command_.result, command_.out, fault);
-            o.source_folder = fault || seen.empty() ? command_.result.generic_string()
-                                                    : seen.generic_string();
-        }
+        if (!command_.out.empty()) o.source_folder = seen_from(command_.out, command_.result);
         o.source_digest =
             sivid::sha256(sivid::read_text(command_.result / "result.json"));
         o.scenario = scenario_;
@@ -177,6 +186,18 @@ public:
     }
 
 private:
+    /// Those whose parameters the result identifies: a diagnosis added them to the model.
+    [[nodiscard]] std::vector<sivid::effect>
+    effects_of_result(std::vector<sivid::effect> const& catalogue) const {
+        std::vector<sivid::effect> result;
+        for (auto const& e : catalogue) {
+            bool const named =
+                std::any_of(stored_.parameters.begin(), stored_.parameters.end(),
+                            [&](auto const& p) { return p.name.starts_with(e.name + "."); });
+            if (named) result.push_back(e);
+        }
+        return result;
+    }
     [[nodiscard]] std::vector<double> with_set(std::vector<double> point) const {
         for (auto const& [name, range] : request_.set) {
             if (width(range) > sivid::normalised_unknowns::negligible * mag(range))
@@ -209,7 +230,6 @@ private:
     }
 
     decision_command const& command_;
-    sivid::recorded_model const& model_;
     sivid::stored_identification stored_;
     sivid::identification_problem problem_;
     sivid::prediction_request request_;
@@ -236,14 +256,14 @@ inline void add_lines(report::decision_page_options& o, decision_task const& tas
 } // namespace detail
 
 /// `predict`: writes prediction.html, prediction.json and tubes.csv. @returns an exit code
-inline int run_predict(sivid::recorded_model const& model, decision_command const& c,
-                       scenario_finder const& find) {
+inline int run_predict(sivid::recorded_model const& model, std::vector<sivid::effect> const& catalogue,
+                   decision_command const& c, scenario_finder const& find) {
     namespace report = sivid::report;
-    detail::decision_task task(model, c, find);
+    detail::decision_task task(model, catalogue, c, find);
     prepare_folder(c.out);
     watch_interrupts();
     progress_line progress(c.quiet);
-    auto const about = task.prediction_for(model, {});
+    auto const about = task.prediction_for(task.model(), {});
     progress.note("predicting " + task.scenario() + " for all that " + task.dataset() + " leaves");
     auto const found = sivid::predict(about->problem, detail::options_for(c.budget));
     auto options = task.page_options();
@@ -277,14 +297,14 @@ inline int run_predict(sivid::recorded_model const& model, decision_command cons
 
 /// `verify`: prints the answer; with `out`, writes verification.html and verification.json.
 /// @returns done when proved, refuted, or undecided
-inline int run_verify(sivid::recorded_model const& model, decision_command const& c,
-                      scenario_finder const& find) {
+inline int run_verify(sivid::recorded_model const& model, std::vector<sivid::effect> const& catalogue,
+                   decision_command const& c, scenario_finder const& find) {
     namespace report = sivid::report;
-    detail::decision_task task(model, c, find);
+    detail::decision_task task(model, catalogue, c, find);
     if (!c.out.empty()) prepare_folder(c.out);
     watch_interrupts();
     progress_line progress(c.quiet);
-    auto asked_model = model;
+    auto asked_model = task.model();
     auto const asked = sivid::parse_requirement(c.requirement, asked_model, task.end());
     auto const about = task.prediction_for(asked_model, asked.margins);
     progress.note("verifying " + task.scenario() + " for all that " + task.dataset() + " leaves");

@@ -16,8 +16,8 @@ struct prediction_options {
     std::size_t cells = 120;    ///< of the grid in time, at least; `verify` refines it
     /// Tubes may be wider than what is reached by this share.
     double excess = 0.02;
-    run_options run;
-    std::function<bool()> keep_going; ///< false ends the work; what is proved stays proved
+    run_options run{};
+    std::function<bool()> keep_going{}; ///< false ends the work; what is proved stays proved
 };
 
 } // namespace sivid

@@ -61,9 +61,9 @@ struct feasible_points {
     /// The same prediction, with the user's parameters as sides.
     prediction_problem const* direct = nullptr;
     /// Points of `direct` to be tried for a point of the problem, most promising first.
-    std::function<std::vector<std::vector<double>>(std::vector<double> const&)> candidates;
+    std::function<std::vector<std::vector<double>>(std::vector<double> const&)> candidates{};
     /// Whether a point of `direct` is proved feasible; false says nothing.
-    std::function<bool(std::vector<double> const&)> proved;
+    std::function<bool(std::vector<double> const&)> proved{};
 };
 
 /// A requirement over a set of parameters and starts.

@@ -168,6 +168,9 @@ private:
             all = all ? join(kind::conjunction, *all, next, next.position) : next;
             left = right;
         }
+        if (!all && left.time)
+            words_.fail("a comparison is missing behind 'at'",
+                        "write (x + 1) at 2 > 3: 'at' stands behind the whole expression");
         return all.value_or(left);
     }
 
@@ -196,9 +199,14 @@ private:
         need_number(a);
         need_number(b);
         auto const time = a.time ? a.time : b.time;
+        auto const moves = [&](operand const& side) {
+            return (g().depends(side.value) & (on_time | on_state | on_input)) != 0;
+        };
+        // Behind a constant, as in x > 2 at 1, the time can but be that of the comparison.
+        bool const of_all = (a.time && !moves(a)) || (b.time && !moves(b));
         for (auto const* side : {&a, &b}) {
-            bool const moves = (g().depends(side->value) & (on_time | on_state | on_input)) != 0;
-            if (time && ((side->time && *side->time != *time) || (!side->time && moves)))
+            bool const other = side->time ? *side->time != *time : moves(*side) && !of_all;
+            if (time && other)
                 words_.fail_at(side->position, "the two sides are not asked at the same time",
                                "compare at one time, as in (x > y) at 2");
         }

@@ -199,6 +199,18 @@ SIVID_DECL void motion_cover::segments(part const& p, view const& v, std::size_t
         high[2 * k] = v.high[k * m + output];
     }
     using traits = interval_traits<interval>;
+    // What holds throughout a cell holds at its ends, and may be sharper: constants are exact.
+    auto const also = [&](std::size_t s, interval const& direct) {
+        if (!(direct.lower() <= high[s] && low[s] <= direct.upper())) return;
+        low[s] = std::max(low[s], direct.lower());
+        high[s] = std::min(high[s], direct.upper());
+    };
+    for (std::size_t k = 0; k + 1 < v.reached; ++k) {
+        auto const& course = p.known->courses[k];
+        if (course.empty()) continue;
+        also(2 * k, course[output].direct);
+        if (!course[output].jumps_at_end) also(2 * k + 2, course[output].direct);
+    }
     for (std::size_t k = 0; k + 1 < v.reached; ++k) {
         auto const& course = p.known->courses[k];
         if (course.empty()) continue;

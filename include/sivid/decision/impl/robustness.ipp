@@ -188,14 +188,16 @@ private:
                               std::size_t offset, std::size_t s,
                               requirement::part const& p) const {
         auto result = always_false();
-        { // from below: g somewhere in a segment that all windows meet, f up to its end
+        { // from below: g in a segment that all windows meet, f up to its end; at an instant f may
+          // end there, and now needs no f at all
             auto const [first, last] = met(s, p);
             auto so_far = always_true();
             for (auto k = s; first <= last && k <= last; ++k) {
-                both(so_far, before[k - offset]);
-                if (k < first) continue;
                 auto here = after[k - offset];
-                both(here, so_far);
+                if (k % 2 == 0) both(here, so_far);
+                both(so_far, before[k - offset]);
+                if (k % 2 == 1 && !(k == s && p.from == 0)) both(here, so_far);
+                if (k < first) continue;
                 if (here.low > result.low) {
                     result.low = here.low;
                     result.low_from = here.low_from;
