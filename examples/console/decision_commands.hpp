@@ -11,11 +11,11 @@
 
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/approximate/simulate/simulate.hpp>
-#include <sivid/enclosure/parametric_set.hpp>
 #include <sivid/decision/prediction.hpp>
 #include <sivid/decision/requirement.hpp>
 #include <sivid/decision/verification.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/enclosure/parametric_set.hpp>
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset_digest.hpp>
 #include <sivid/io/decision_json.hpp>
@@ -34,8 +34,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <iostream>
 #include <functional>
+#include <iostream>
 #include <map>
 #include <memory>
 #include <optional>
@@ -107,8 +107,7 @@ public:
 
     /// @param model  that of the task, with further nodes
     [[nodiscard]] std::unique_ptr<sivid::stored_prediction>
-    prediction_for(sivid::recorded_model const& model,
-                   std::vector<sivid::node_id> const& margins) {
+    prediction_for(sivid::recorded_model const& model, std::vector<sivid::node_id> const& margins) {
         auto made = sivid::predict_from(problem_, stored_, model, margins, request_,
                                         command_.result / "result.json");
         for (auto const& words : set_words())
@@ -120,8 +119,7 @@ public:
         sivid::decision_json_options o;
         o.dataset = dataset_;
         if (!command_.out.empty()) o.source_folder = seen_from(command_.out, command_.result);
-        o.source_digest =
-            sivid::sha256(sivid::read_text(command_.result / "result.json"));
+        o.source_digest = sivid::sha256(sivid::read_text(command_.result / "result.json"));
         o.scenario = scenario_;
         o.set = request_.set;
         return o;
@@ -208,17 +206,16 @@ private:
     [[nodiscard]] std::vector<std::string> set_words() const {
         std::vector<std::string> words;
         for (auto const& [name, range] : request_.set)
-            words.push_back(name + " in " +
-                            report::given_text({range.lower(), range.upper()}));
+            words.push_back(name + " in " + report::given_text({range.lower(), range.upper()}));
         return words;
     }
     void use_recorded(std::string const& name) {
-        auto const found =
-            std::find_if(problem_.experiments.begin(), problem_.experiments.end(),
-                         [&](auto const& e) { return e.name == name; });
+        auto const found = std::find_if(problem_.experiments.begin(), problem_.experiments.end(),
+                                        [&](auto const& e) { return e.name == name; });
         if (found == problem_.experiments.end()) {
             std::string known;
-            for (auto const& e : problem_.experiments) known += (known.empty() ? "" : ", ") + e.name;
+            for (auto const& e : problem_.experiments)
+                known += (known.empty() ? "" : ", ") + e.name;
             throw std::invalid_argument("the data set has no scenario " + sivid::in_quotes(name) +
                                         " of the role fit; it has: " + known);
         }
@@ -256,8 +253,9 @@ inline void add_lines(report::decision_page_options& o, decision_task const& tas
 } // namespace detail
 
 /// `predict`: writes prediction.html, prediction.json and tubes.csv. @returns an exit code
-inline int run_predict(sivid::recorded_model const& model, std::vector<sivid::effect> const& catalogue,
-                   decision_command const& c, scenario_finder const& find) {
+inline int run_predict(sivid::recorded_model const& model,
+                       std::vector<sivid::effect> const& catalogue, decision_command const& c,
+                       scenario_finder const& find) {
     namespace report = sivid::report;
     detail::decision_task task(model, catalogue, c, find);
     prepare_folder(c.out);
@@ -275,8 +273,9 @@ inline int run_predict(sivid::recorded_model const& model, std::vector<sivid::ef
     files.add("prediction.json", sivid::prediction_json(*about, found, task.json_options()));
     files.commit();
     std::cout << task.scenario() << " for all parameters that " << task.dataset() << " leaves: "
-              << (found.complete ? "proved"
-                                 : "proved up to t = " + report::exact_text(found.reached) + " s only")
+              << (found.complete
+                      ? "proved"
+                      : "proved up to t = " + report::exact_text(found.reached) + " s only")
               << "\n";
     for (auto const& channel : found.channels) {
         report::range const r{channel.low.back(), channel.high.back()};
@@ -290,15 +289,17 @@ inline int run_predict(sivid::recorded_model const& model, std::vector<sivid::ef
                                           {.significant = 2, .shift = 2})
                   << " % wider than what these parameters reach\n";
     std::cout << "  " << report::duration_text(found.seconds) << ", " << found.parts << " parts, "
-              << found.integrations << " validated integrations\n  written: "
-              << (c.out / "prediction.html").string() << " and prediction.json, tubes.csv\n";
+              << found.integrations
+              << " validated integrations\n  written: " << (c.out / "prediction.html").string()
+              << " and prediction.json, tubes.csv\n";
     return found.complete ? done : undecided;
 }
 
 /// `verify`: prints the answer; with `out`, writes verification.html and verification.json.
 /// @returns done when proved, refuted, or undecided
-inline int run_verify(sivid::recorded_model const& model, std::vector<sivid::effect> const& catalogue,
-                   decision_command const& c, scenario_finder const& find) {
+inline int run_verify(sivid::recorded_model const& model,
+                      std::vector<sivid::effect> const& catalogue, decision_command const& c,
+                      scenario_finder const& find) {
     namespace report = sivid::report;
     detail::decision_task task(model, catalogue, c, find);
     if (!c.out.empty()) prepare_folder(c.out);
@@ -331,7 +332,8 @@ inline int run_verify(sivid::recorded_model const& model, std::vector<sivid::eff
     }
     std::cout << task.scenario() << ", " << task.dataset() << ": " << to_string(found.answer)
               << "\n  " << asked.text << "\n  " << report::answer_sentence(*about, found) << "\n";
-    for (auto const& line : report::decision_assumptions(*about)) std::cout << "  - " << line << "\n";
+    for (auto const& line : report::decision_assumptions(*about))
+        std::cout << "  - " << line << "\n";
     std::cout << "  " << report::duration_text(found.seconds) << ", " << found.parts << " parts, "
               << found.integrations << " validated integrations\n";
     if (!c.out.empty())

@@ -35,8 +35,7 @@ inline std::map<std::string, sivid::interval> ranges_from(std::vector<std::strin
         auto const low = number(text.substr(
             equals + 1, colon == std::string::npos ? std::string::npos : colon - equals - 1));
         auto const high = colon == std::string::npos ? low : number(text.substr(colon + 1));
-        if (high < low)
-            throw std::invalid_argument(what + " " + name + ": lower is above upper");
+        if (high < low) throw std::invalid_argument(what + " " + name + ": lower is above upper");
         if (!result.emplace(name, *sivid::enclose(low, high)).second)
             throw std::invalid_argument(what + " " + name + " is given twice");
     }

@@ -14,7 +14,8 @@
 namespace console {
 
 /// The way from one folder to another, if there is one.
-inline std::string seen_from(std::filesystem::path const& here, std::filesystem::path const& there) {
+inline std::string seen_from(std::filesystem::path const& here,
+                             std::filesystem::path const& there) {
     std::error_code fault;
     auto const way = std::filesystem::relative(there, here, fault);
     return fault ? std::string{} : way.generic_string();

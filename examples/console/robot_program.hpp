@@ -38,9 +38,8 @@ namespace console {
 /// @throws sivid::output_error
 inline void write_identified_model(sivid::identification_problem const& problem,
                                    std::string const& id, std::filesystem::path const& folder,
-                                   std::filesystem::path const& out,
-                                   double seconds, std::string const& command,
-                                   progress_line& progress) {
+                                   std::filesystem::path const& out, double seconds,
+                                   std::string const& command, progress_line& progress) {
     namespace report = sivid::report;
     if (problem.model.has_delays()) {
         std::cout << "  ranges of its parameters: not proved, the model has a delay\n";
@@ -111,7 +110,7 @@ inline int diagnose_folder(sivid::recorded_model const& model,
         write_diagnosis(run.result, data.id, plot_data(run, kept),
                         page_options(run, data.id, command), out, [](auto&) {});
     };
-    write();                                                // whatever happens to what follows
+    write(); // whatever happens to what follows
     for (auto const* name : {"model.html", "model.json", "model/result.json"}) { // earlier ones
         std::error_code none;
         std::filesystem::remove(out / name, none);

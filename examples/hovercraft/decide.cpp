@@ -11,8 +11,7 @@ namespace {
 sivid::scenario_description find_one(sivid::recorded_model const& model, std::string const& name) {
     auto const names = sivid::names_of(model.about);
     auto const found = find_scenarios(name, names);
-    if (found.size() != 1)
-        throw std::invalid_argument("--scenario: name one scenario, such as S2");
+    if (found.size() != 1) throw std::invalid_argument("--scenario: name one scenario, such as S2");
     return found.front();
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// hovercraft identify | check | predict | verify | diagnose | generate | simulate | rank | describe:
-// the reference
-// example on the command line.
+// hovercraft identify | check | predict | verify | diagnose | generate | simulate | rank |
+// describe: the reference example on the command line.
 #include "commands.hpp"
 #include "console/number_range.hpp"
 #include "console/program.hpp"

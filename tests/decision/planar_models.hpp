@@ -16,7 +16,8 @@ namespace decision_support {
 using support::between;
 
 /// x0' = -p0 x0 + u0 with y0 = x0 (without an input when `driven` is false).
-inline sivid::prediction_problem decay(std::vector<sivid::box> sets, sivid::box initial, double end) {
+inline sivid::prediction_problem decay(std::vector<sivid::box> sets, sivid::box initial,
+                                       double end) {
     sivid::prediction_problem p;
     p.model = support::model_of(
         {.states = 1, .constants = 1},

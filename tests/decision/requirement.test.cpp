@@ -85,38 +85,38 @@ TEST_CASE("errors name place and remedy") {
     struct bad {
         char const *text, *words;
     };
-    for (auto const& [text, words] : std::vector<bad>{
-             {"", "something is missing"},
-             {"x0", "compare it"},
-             {"x0 == 3", "tolerance"},
-             {"nan > 1", "unknown name 'nan'"},
-             {"x0 > inf", "unknown name 'inf'"},
-             {"x0 > -inf", "unknown name 'inf'"},
-             {"x0 > 1e999", "no finite number"},
-             {"x0 > 1/0", "division by 0"},
-             {"always(x0 > 0", "')' is missing"},
-             {"always[0, 12](x0 > 0)", "the motion ends at 10 s"},
-             {"always(eventually[0, 2](x0 > 1))", "the motion ends at 10 s"},
-             {"always[3, 1] x0 > 1", "ends before it begins"},
-             {"always[-1, 1] x0 > 1", "a time in seconds"},
-             {"always[0, nan] x0 > 1", "a time in seconds"},
-             {"always[0, 1e999] x0 > 1", "a time in seconds"},
-             {"x0 at 11 > 2", "beyond the end"},
-             {"x0 at 2 > x1", "not asked at the same time"},
-             {"x0 > x1 at 2", "not asked at the same time"},
-             {"x0 at 2 > 1 at 3", "not asked at the same time"},
-             {"x0 at 2 + 1 > 3", "comparison is missing"},
-             {"(x0 at 2) + 1 > 3", "comparison is missing"},
-             {"(x0 > 1) + 2 > 3", "a number is needed"},
-             {"x0 and x1 > 1", "compare it"},
-             {"x0 ^ 0 > 1", "whole number from 1 to 32"},
-             {"foo(x0) > 1", "unknown function 'foo'"},
-             {"measured(x0) > 1", "no channel"},
-             {"x0 > 1 2", "nothing can follow"},
-             {"2x0 > 1", "no number"},
-             {"x0 in 3", "[lower, upper]"},
-             {"max(x0) > 1", "two numbers"},
-             {"x0 > end", "cannot stand here"}}) {
+    for (auto const& [text, words] :
+         std::vector<bad>{{"", "something is missing"},
+                          {"x0", "compare it"},
+                          {"x0 == 3", "tolerance"},
+                          {"nan > 1", "unknown name 'nan'"},
+                          {"x0 > inf", "unknown name 'inf'"},
+                          {"x0 > -inf", "unknown name 'inf'"},
+                          {"x0 > 1e999", "no finite number"},
+                          {"x0 > 1/0", "division by 0"},
+                          {"always(x0 > 0", "')' is missing"},
+                          {"always[0, 12](x0 > 0)", "the motion ends at 10 s"},
+                          {"always(eventually[0, 2](x0 > 1))", "the motion ends at 10 s"},
+                          {"always[3, 1] x0 > 1", "ends before it begins"},
+                          {"always[-1, 1] x0 > 1", "a time in seconds"},
+                          {"always[0, nan] x0 > 1", "a time in seconds"},
+                          {"always[0, 1e999] x0 > 1", "a time in seconds"},
+                          {"x0 at 11 > 2", "beyond the end"},
+                          {"x0 at 2 > x1", "not asked at the same time"},
+                          {"x0 > x1 at 2", "not asked at the same time"},
+                          {"x0 at 2 > 1 at 3", "not asked at the same time"},
+                          {"x0 at 2 + 1 > 3", "comparison is missing"},
+                          {"(x0 at 2) + 1 > 3", "comparison is missing"},
+                          {"(x0 > 1) + 2 > 3", "a number is needed"},
+                          {"x0 and x1 > 1", "compare it"},
+                          {"x0 ^ 0 > 1", "whole number from 1 to 32"},
+                          {"foo(x0) > 1", "unknown function 'foo'"},
+                          {"measured(x0) > 1", "no channel"},
+                          {"x0 > 1 2", "nothing can follow"},
+                          {"2x0 > 1", "no number"},
+                          {"x0 in 3", "[lower, upper]"},
+                          {"max(x0) > 1", "two numbers"},
+                          {"x0 > end", "cannot stand here"}}) {
         CAPTURE(text);
         CHECK_THAT(error_of(text), ContainsSubstring(words));
         CHECK_THAT(error_of(text), ContainsSubstring("requirement: character "));
@@ -142,19 +142,20 @@ TEST_CASE("depth and length are bounded") {
 TEST_CASE("any text ends in a requirement or an error") {
     support::draws d{11};
     std::vector<std::string> const words{
-        "always", "eventually", "until", "not", "and",  "or",  "implies", "(",   ")",   "[",
-        "]",      ",",          "x0",    "x1",  "u0",   "p0",  "t",       "1",   "2.5", "1e3",
-        "<",      "<=",         ">",     "+",   "-",    "*",   "/",       "^",   "abs(", "max(",
-        "at",     "end",        "in",    "measured(", "sqrt(", "\xff", "[0, 1]", "x0 > 1", "(x1 < 2)"};
-    std::vector<std::string> const good{
-        "eventually(abs(x1) < 0.01) and x0 at end in [3, 7]",
-        "always[1, 4] eventually[0.5, 2] x0 > 1",
-        "x0 > 1 until[1, end] x1 > 0 or max(x0, x1)^2 < sqrt(p0)"};
+        "always", "eventually", "until", "not",  "and",    "or",     "implies", "(",
+        ")",      "[",          "]",     ",",    "x0",     "x1",     "u0",      "p0",
+        "t",      "1",          "2.5",   "1e3",  "<",      "<=",     ">",       "+",
+        "-",      "*",          "/",     "^",    "abs(",   "max(",   "at",      "end",
+        "in",     "measured(",  "sqrt(", "\xff", "[0, 1]", "x0 > 1", "(x1 < 2)"};
+    std::vector<std::string> const good{"eventually(abs(x1) < 0.01) and x0 at end in [3, 7]",
+                                        "always[1, 4] eventually[0.5, 2] x0 > 1",
+                                        "x0 > 1 until[1, end] x1 > 0 or max(x0, x1)^2 < sqrt(p0)"};
     std::size_t accepted = 0;
     for (int n = 0; n < 3000; ++n) {
         std::string text;
         if (n % 2 == 0) {
-            for (std::size_t k = d.below(12); k > 0; --k) text += words[d.below(words.size())] + " ";
+            for (std::size_t k = d.below(12); k > 0; --k)
+                text += words[d.below(words.size())] + " ";
         } else {
             text = good[d.below(good.size())];
             for (std::size_t k = 1 + d.below(3); k > 0; --k) {
@@ -171,8 +172,10 @@ TEST_CASE("any text ends in a requirement or an error") {
             REQUIRE(r.labels.size() == r.margins.size());
             REQUIRE(std::is_sorted(r.times.begin(), r.times.end()));
             sivid::margin_bounds unknown{r.times, {}, {}};
-            unknown.low.assign(r.margins.size(), std::vector<double>(unknown.segments(), -HUGE_VAL));
-            unknown.high.assign(r.margins.size(), std::vector<double>(unknown.segments(), HUGE_VAL));
+            unknown.low.assign(r.margins.size(),
+                               std::vector<double>(unknown.segments(), -HUGE_VAL));
+            unknown.high.assign(r.margins.size(),
+                                std::vector<double>(unknown.segments(), HUGE_VAL));
             auto const says = sivid::evaluate(r, unknown);
             REQUIRE_FALSE((says.proved() && says.refuted()));
         } catch (sivid::requirement_error const&) {

@@ -123,8 +123,8 @@ TEST_CASE("a margin is certain, possible or neither") {
     CHECK(t(0, 1, false).proved());
     CHECK(t(-1, 0, true).refuted());
     CHECK_FALSE(t(-1, 0, false).refuted());
-    for (auto const& nothing : {t(NAN, 1, true), t(1, NAN, true), t(NAN, NAN, false),
-                                t(-infinity, infinity, true)}) {
+    for (auto const& nothing :
+         {t(NAN, 1, true), t(1, NAN, true), t(NAN, NAN, false), t(-infinity, infinity, true)}) {
         CHECK_FALSE(nothing.proved());
         CHECK_FALSE(nothing.refuted());
         CHECK(nothing.low == -infinity);
@@ -176,9 +176,8 @@ TEST_CASE("a dip between two instants is not overlooked") {
 }
 
 TEST_CASE("what is unknown at the end keeps an answer open") {
-    sivid::margin_bounds const b{{0, 0.5, 1},
-                                 {{1, 1, 1, -infinity, -infinity}},
-                                 {{1, 1, 1, infinity, infinity}}};
+    sivid::margin_bounds const b{
+        {0, 0.5, 1}, {{1, 1, 1, -infinity, -infinity}}, {{1, 1, 1, infinity, infinity}}};
     CHECK_FALSE(sivid::evaluate(read("always x0 > 0", 1), b).proved());
     CHECK(sivid::evaluate(read("always[0, 0.5] x0 > 0", 1), b).proved());
     CHECK(sivid::evaluate(read("eventually x0 > 0", 1), b).proved());

@@ -46,7 +46,8 @@ public:
     struct view {
         std::size_t reached = 0;
         /// [instant * outputs + output]: within [low, high]; and between them at least
-        /// [low + 2 rest, high - 2 rest] is attained by parameters of the sets, if that is not empty.
+        /// [low + 2 rest, high - 2 rest] is attained by parameters of the sets, if that is not
+        /// empty.
         std::vector<double> low, high, rest;
         std::vector<double> slope;     ///< [variable][instant * outputs + output]
         std::vector<double> curvature; ///< [variable]: its share in all rests

@@ -13,8 +13,8 @@
 
 namespace sivid {
 
-/// Bounds of one quantity over time, in segments: the instants of a grid, 2 k, and what lies between
-/// them, 2 k + 1. Infinite where nothing is known.
+/// Bounds of one quantity over time, in segments: the instants of a grid, 2 k, and what lies
+/// between them, 2 k + 1. Infinite where nothing is known.
 struct predicted_tube {
     std::string name, unit;
     std::vector<double> low, high;
@@ -25,8 +25,8 @@ struct prediction {
     std::vector<double> times; ///< the grid
     std::vector<predicted_tube> states, channels;
     std::vector<predicted_tube> further; ///< of the expressions that were asked for
-    double reached = 0;    ///< instants up to here are bounded [s]
-    bool complete = false; ///< every instant of the scenario is bounded
+    double reached = 0;                  ///< instants up to here are bounded [s]
+    bool complete = false;               ///< every instant of the scenario is bounded
     /// The tubes at the instants are at most this much wider, as a share, than what the parameters
     /// and starts of the problem reach themselves; widths below a millionth do not count.
     double excess = std::numeric_limits<double>::infinity();
@@ -36,7 +36,8 @@ struct prediction {
 
 /// Encloses all motions: tubes of states and channels, tight at the instants of a grid and valid
 /// between them.
-///   Parts of the sets are integrated side by side as polynomials in the unknowns, and split where a
+///   Parts of the sets are integrated side by side as polynomials in the unknowns, and split where
+///   a
 /// tube is wider than what is reached, those first that hold its bounds.
 /// @param further  expressions to follow besides: nodes of the model's graph
 /// @throws std::invalid_argument  what does not fit (`prediction_problem::require_valid`)

@@ -95,8 +95,8 @@ private:
     }
 };
 
-/// Instants that part a motion into cells: `wanted` ones, those at which a sampled input changes its
-/// course, and others, so that no cell is longer than `longest`.
+/// Instants that part a motion into cells: `wanted` ones, those at which a sampled input changes
+/// its course, and others, so that no cell is longer than `longest`.
 [[nodiscard]] inline std::vector<double> time_cells(prediction_problem const& p,
                                                     std::vector<double> wanted, double longest) {
     wanted.push_back(0);

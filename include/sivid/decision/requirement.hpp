@@ -27,14 +27,15 @@ namespace sivid {
 ///               sin cos tan atan tanh abs sign min max; measured(c) is the channel c where a state
 ///               has its name, too
 ///
-/// Windows [a, b] count from the time at which their formula is asked, the outermost from 0; without
-/// one they reach to the end, which may be written `end`. Times T are those of the motion. From the
-/// tightest: at, comparisons, not / always / eventually, until, and, or, implies.
+/// Windows [a, b] count from the time at which their formula is asked, the outermost from 0;
+/// without one they reach to the end, which may be written `end`. Times T are those of the motion.
+/// From the tightest: at, comparisons, not / always / eventually, until, and, or, implies.
 ///   A formula holds at an instant as usual; time is dense: `always` speaks of every instant. `f
 /// until g`: g holds at some t' in the window, and f from now until just before t'.
-///   Robustness: that of a < b is b - a; min for and and always, max for or and eventually, the sign
-/// turns with not. Where it is above 0 the formula holds, below 0 it does not. Comparisons with abs,
-/// min or max on top are taken apart into those of their operands; truth and robustness stay.
+///   Robustness: that of a < b is b - a; min for and and always, max for or and eventually, the
+///   sign
+/// turns with not. Where it is above 0 the formula holds, below 0 it does not. Comparisons with
+/// abs, min or max on top are taken apart into those of their operands; truth and robustness stay.
 struct requirement {
     enum class kind : std::uint8_t {
         comparison,
@@ -58,10 +59,10 @@ struct requirement {
     };
 
     std::string text;
-    std::vector<part> parts;      ///< the last one is the whole
-    std::vector<node_id> margins; ///< in the model's graph: the comparison asks for more than 0
+    std::vector<part> parts;         ///< the last one is the whole
+    std::vector<node_id> margins;    ///< in the model's graph: the comparison asks for more than 0
     std::vector<std::string> labels; ///< of the margins: the comparison's text
-    std::vector<double> times;    ///< at which the verdict may hang: begin and end among them
+    std::vector<double> times;       ///< at which the verdict may hang: begin and end among them
 };
 
 /// What is wrong with a requirement, where, and what to do.

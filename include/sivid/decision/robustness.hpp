@@ -21,8 +21,8 @@ struct decisive_place {
 struct truth {
     double low = -std::numeric_limits<double>::infinity(); ///< the robustness is at least this,
     double high = std::numeric_limits<double>::infinity(); ///< and at most this
-    bool certain = false; ///< it holds for all of them
-    bool possible = true; ///< it may hold for one of them
+    bool certain = false;                                  ///< it holds for all of them
+    bool possible = true;                                  ///< it may hold for one of them
     decisive_place low_from{}, high_from{};
 
     [[nodiscard]] bool proved() const { return certain; }

@@ -22,7 +22,6 @@
 #include <sivid/io/impl/problem_from_dataset.ipp>
 #include <sivid/io/impl/same_problem.ipp>
 #include <sivid/io/impl/scenario.ipp>
-#include <sivid/io/impl/stored_prediction.ipp>
 #include <sivid/io/impl/text_file.ipp>
 
 #endif

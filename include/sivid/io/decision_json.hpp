@@ -29,7 +29,8 @@ struct decision_json_options {
 /// `tubes.csv`: from, to and the bounds of each channel and state; instants have from = to.
 [[nodiscard]] SIVID_DECL std::string tubes_csv(prediction const& found);
 
-/// `verification.json` in the format sivid-verification-1: answer, robustness, witness or open boxes.
+/// `verification.json` in the format sivid-verification-1: answer, robustness, witness or open
+/// boxes.
 [[nodiscard]] SIVID_DECL std::string verification_json(stored_prediction const& about,
                                                        requirement const& asked,
                                                        verification const& found,

@@ -63,21 +63,22 @@ struct input_shape {
 
 struct scenario_description {
     std::string name, about;
-    double duration = 0;                      ///< [s]
-    std::vector<input_shape> inputs;          ///< one for each input of the model
+    double duration = 0;               ///< [s]
+    std::vector<input_shape> inputs;   ///< one for each input of the model
     std::vector<stated_range> initial; ///< one for each state of the model
 };
 
 /// Reads a scenario from a text.
 /// @param name  of the text, for messages
 /// @throws input_error that says what is wrong and where
-[[nodiscard]] SIVID_DECL scenario_description parse_scenario(std::string const& name, std::string const& text,
-                                                  model_names const& model);
+[[nodiscard]] SIVID_DECL scenario_description parse_scenario(std::string const& name,
+                                                             std::string const& text,
+                                                             model_names const& model);
 
 /// Reads a scenario file.
 /// @throws input_error
 [[nodiscard]] SIVID_DECL scenario_description read_scenario(std::filesystem::path const& file,
-                                                 model_names const& model);
+                                                            model_names const& model);
 
 } // namespace sivid
 

@@ -28,11 +28,11 @@ struct prediction_request {
     double proof_seconds = 5; ///< to prove one parameter feasible
 };
 
-/// The parameters that a stored identification leaves, for a scenario: in the products that the data
-/// fix where those tell the motions, else in the parameters themselves.
+/// The parameters that a stored identification leaves, for a scenario: in the products that the
+/// data fix where those tell the motions, else in the parameters themselves.
 struct stored_prediction {
-    prediction_problem problem; ///< over all that the result does not exclude
-    prediction_problem direct;  ///< the same, the parameters and `set` themselves as sides
+    prediction_problem problem;     ///< over all that the result does not exclude
+    prediction_problem direct;      ///< the same, the parameters and `set` themselves as sides
     std::vector<std::string> sides; ///< of `problem`: formulas
     bool in_products = false;
     std::string not_in_products; ///< why not, where the result has products

@@ -45,8 +45,8 @@ struct decision_page_options {
 /// A page with the answer, the margins of all comparisons against zero, and the tubes.
 /// @param tubes  of the same prediction, followed with `asked.margins`
 [[nodiscard]] SIVID_DECL page verification_page(stored_prediction const& about,
-                                                requirement const& asked,
-                                                verification const& found, prediction const& tubes,
+                                                requirement const& asked, verification const& found,
+                                                prediction const& tubes,
                                                 decision_page_options const& options);
 
 } // namespace sivid::report

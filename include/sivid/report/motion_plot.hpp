@@ -16,9 +16,9 @@ namespace sivid::report {
 /// A predicted quantity: its tube, a dashed line that proves nothing, and a full line of a single
 /// motion.
 struct motion_series {
-    channel_series tube{};        ///< its `reference` is the dashed line
-    std::vector<point> single{};  ///< the full line
-    bool zero = false;            ///< a margin: draw the line that it must not fall below
+    channel_series tube{};       ///< its `reference` is the dashed line
+    std::vector<point> single{}; ///< the full line
+    bool zero = false;           ///< a margin: draw the line that it must not fall below
 };
 
 struct motion_plot_options {

@@ -70,7 +70,8 @@ public:
         auto const start = mid(p.initial), middle = mid(p.parameters);
         auto const v = cover_.look(p);
         auto const count = v.low.size();
-        auto const instant = std::min(found.low_from.segment / 2, std::max(v.reached, std::size_t{1}) - 1);
+        auto const instant =
+            std::min(found.low_from.segment / 2, std::max(v.reached, std::size_t{1}) - 1);
         auto const y = instant * cover_.outputs() + outputs_.margins[found.low_from.comparison];
         for (double const sign : {-1.0, 1.0}) {
             if (!(y < count)) break;
@@ -146,7 +147,7 @@ private:
             }
         }
         result.worn = lost > 0.25 * reach || (lost > 0.5 * rest && lost > 0.05 * reach) ||
-                      !p.known->complete;
+                      p.known->reached < cover_.times().size();
         double most = 0;
         for (std::size_t side = 0; side < cover_.sides(); ++side) {
             auto const q = cover_.variable_of(p, side);

@@ -71,10 +71,11 @@ SIVID_DECL void motion_cover::learn(std::vector<part*> const& parts) {
         std::vector<box> parameters;
         for (std::size_t k = first; k < parts.size(); ++k) {
             auto const& own = parts[k]->initial;
-            bool const same = std::equal(own.begin(), own.end(), initial.begin(), initial.end(),
-                                         [](interval const& a, interval const& b) {
-                                             return a.lower() == b.lower() && a.upper() == b.upper();
-                                         });
+            bool const same =
+                std::equal(own.begin(), own.end(), initial.begin(), initial.end(),
+                           [](interval const& a, interval const& b) {
+                               return a.lower() == b.lower() && a.upper() == b.upper();
+                           });
             if (done[k] || !same) continue;
             done[k] = true;
             group.push_back(parts[k]);
@@ -217,9 +218,9 @@ SIVID_DECL void motion_cover::segments(part const& p, view const& v, std::size_t
         if (!std::isfinite(low[2 * k]) || !std::isfinite(high[2 * k]) ||
             !std::isfinite(low[2 * k + 2]) || !std::isfinite(high[2 * k + 2]))
             continue;
-        auto const range = cell_bounds::between(
-            course[output], times_[k], times_[k + 1], traits::bounds(low[2 * k], high[2 * k]),
-            traits::bounds(low[2 * k + 2], high[2 * k + 2]));
+        auto const range = cell_bounds::between(course[output], times_[k], times_[k + 1],
+                                                traits::bounds(low[2 * k], high[2 * k]),
+                                                traits::bounds(low[2 * k + 2], high[2 * k + 2]));
         low[2 * k + 1] = range.lower();
         high[2 * k + 1] = range.upper();
     }

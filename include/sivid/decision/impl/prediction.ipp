@@ -32,11 +32,11 @@ public:
           limit_(options.seconds, options.keep_going),
           outputs_(problem.model, further) {
         options_.run.enclosure.keep_going = limit_;
-        cover_.emplace(problem, outputs_,
-                       time_cells(problem, {},
-                                  problem.end /
-                                      static_cast<double>(std::max<std::size_t>(options.cells, 1))),
-                       options_.run);
+        cover_.emplace(
+            problem, outputs_,
+            time_cells(problem, {},
+                       problem.end / static_cast<double>(std::max<std::size_t>(options.cells, 1))),
+            options_.run);
     }
 
     [[nodiscard]] prediction operator()() {
@@ -184,8 +184,8 @@ private:
             ++taken;
             bool const worn = lost_share(*i) > 0.4;
             auto const side = most_curved(*i);
-            auto halves = side == motion_cover::none ? cover_->split(i->what)
-                                                     : cover_->split(i->what, side);
+            auto halves =
+                side == motion_cover::none ? cover_->split(i->what) : cover_->split(i->what, side);
             if (halves.empty()) {
                 i->settled = true;
                 continue;
@@ -267,9 +267,9 @@ private:
         }
         for (auto const y : outputs_.margins) result.further.push_back(tubes[y]);
         for (auto const& tube : result.channels) { // of functions that are not defined everywhere
-            result.complete = result.complete &&
-                              std::none_of(tube.low.begin(), tube.low.end(),
-                                           [infinity](double x) { return x == -infinity; });
+            result.complete =
+                result.complete && std::none_of(tube.low.begin(), tube.low.end(),
+                                                [infinity](double x) { return x == -infinity; });
         }
     }
 
@@ -283,8 +283,7 @@ private:
 
 } // namespace decision_detail
 
-SIVID_DECL prediction predict(prediction_problem const& problem,
-                              prediction_options const& options,
+SIVID_DECL prediction predict(prediction_problem const& problem, prediction_options const& options,
                               std::vector<node_id> const& further) {
     problem.require_valid();
     return decision_detail::prediction_search(problem, options, further)();

@@ -185,8 +185,7 @@ private:
     }
 
     [[nodiscard]] truth until(std::vector<truth> const& before, std::vector<truth> const& after,
-                              std::size_t offset, std::size_t s,
-                              requirement::part const& p) const {
+                              std::size_t offset, std::size_t s, requirement::part const& p) const {
         auto result = always_false();
         { // from below: g in a segment that all windows meet, f up to its end; at an instant f may
           // end there, and now needs no f at all

@@ -150,7 +150,7 @@ private:
                 continue;
             }
             for (auto& p : parts) {
-                if (i.says.worn || !i.what.known->complete) p.known = nullptr;
+                if (i.says.worn) p.known = nullptr;
                 halves.push_back({std::move(p), i.says, false, false, i.violations});
             }
             i.judged = false; // its halves take its place
@@ -195,8 +195,8 @@ private:
         auto const points = motions_->suspicious_points(worst.what, worst.says.found);
         if (!direct_ || direct_times_ != times_) {
             direct_times_ = times_;
-            direct_ = std::make_unique<judged_motions>(*feasible_.direct, what_, times_,
-                                                       options_.run);
+            direct_ =
+                std::make_unique<judged_motions>(*feasible_.direct, what_, times_, options_.run);
         }
         auto& cover = direct_->cover();
         std::vector<motion_cover::part> singles;
@@ -209,8 +209,7 @@ private:
                 if (tried_.insert(key).second) singles.push_back(std::move(p));
             }
         }
-        for (std::size_t first = 0; first < singles.size() && limit_();
-             first += cover.at_once()) {
+        for (std::size_t first = 0; first < singles.size() && limit_(); first += cover.at_once()) {
             auto const last = std::min(first + cover.at_once(), singles.size());
             std::vector<motion_cover::part*> some;
             for (auto k = first; k < last; ++k) some.push_back(&singles[k]);
@@ -221,8 +220,8 @@ private:
                 auto const parameters = mid(p->parameters);
                 if (!feasible_.proved(parameters)) continue;
                 auto const segment = says.found.high_from.segment;
-                result_.witness = violating_motion{parameters, mid(p->initial), says.found,
-                                                   times_[segment / 2]};
+                result_.witness =
+                    violating_motion{parameters, mid(p->initial), says.found, times_[segment / 2]};
                 return;
             }
         }
@@ -232,7 +231,7 @@ private:
         note(i.says.found);
         open_box box{i.what.parameters, i.what.initial, i.says.found, open_reason::undecided,
                      i.says.reached};
-        if (i.judged && i.what.known && !i.what.known->complete)
+        if (i.judged && i.says.reached < problem_.end)
             box.why = open_reason::not_enclosed;
         else if (i.says.found.refuted())
             box.why = open_reason::infeasible;
@@ -253,9 +252,8 @@ private:
         auto const size = [&](open_box const& b) {
             return relative_volume(b.parameters, problem_.around()).upper();
         };
-        std::stable_sort(left_.begin(), left_.end(), [&](open_box const& a, open_box const& b) {
-            return size(a) > size(b);
-        });
+        std::stable_sort(left_.begin(), left_.end(),
+                         [&](open_box const& a, open_box const& b) { return size(a) > size(b); });
         result_.open = std::move(left_);
         result_.times = times_;
         result_.parts = parts_;
@@ -282,8 +280,7 @@ private:
 } // namespace decision_detail
 
 SIVID_DECL verification verify(prediction_problem const& problem, requirement const& what,
-                               feasible_points const& feasible,
-                               prediction_options const& options) {
+                               feasible_points const& feasible, prediction_options const& options) {
     problem.require_valid();
     if (feasible.direct != nullptr) feasible.direct->require_valid();
     return decision_detail::verification_search(problem, what, feasible, options)();

@@ -76,8 +76,7 @@ private:
     static void only(json_value const& list, std::vector<name_unit> const& names) {
         for (std::size_t i = 0; i < list.members().size(); ++i)
             if (!index_of(names, list.name_of(i)))
-                list.members()[i].fail(std::string{"unknown name "} +
-                                           in_quotes(list.name_of(i)),
+                list.members()[i].fail(std::string{"unknown name "} + in_quotes(list.name_of(i)),
                                        std::string{"the model has: "} + joined_names(names));
     }
 
@@ -147,12 +146,12 @@ private:
 } // namespace io_detail
 
 SIVID_DECL scenario_description parse_scenario(std::string const& name, std::string const& text,
-                                    model_names const& model) {
+                                               model_names const& model) {
     return io_detail::scenario_reader(model).read(parse_json(name, text));
 }
 
 SIVID_DECL scenario_description read_scenario(std::filesystem::path const& file,
-                                   model_names const& model) {
+                                              model_names const& model) {
     return io_detail::scenario_reader(model).read(read_json(file));
 }
 

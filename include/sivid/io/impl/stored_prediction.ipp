@@ -5,9 +5,9 @@
 #include <sivid/io/stored_prediction.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/enclosure/parametric_set.hpp>
 #include <sivid/io/identification_consistency.hpp>
 #include <sivid/io/input_error.hpp>
-#include <sivid/enclosure/parametric_set.hpp>
 #include <sivid/io/same_problem.hpp>
 #include <sivid/io/stored_products.hpp>
 #include <sivid/paving/certificate.hpp>
@@ -40,7 +40,8 @@ inline void require_consistent(identification_problem const& data,
     }
     if (stored.products) {
         std::map<std::string, std::size_t> counted;
-        for (auto const& row : stored.products->rows) ++counted[std::string{to_string(row.verdict)}];
+        for (auto const& row : stored.products->rows)
+            ++counted[std::string{to_string(row.verdict)}];
         for (auto const& [kind, n] : stored.products->stated_rows) {
             if (counted[kind] != n)
                 refuse("the result contradicts itself: the number of " + kind +
@@ -132,8 +133,7 @@ public:
             auto const at = point_within(data_.prior, parameters);
             for (auto const& starts : {starts_, std::vector<box>{}}) {
                 if (found) break;
-                if (starts.empty() && !starts_.empty() && !any_choice())
-                    continue;
+                if (starts.empty() && !starts_.empty() && !any_choice()) continue;
                 claim_checker<interval> check(data_, starts, options);
                 std::vector<box_claim> claim{{at, box_claim::kind::inside}};
                 check(claim);
@@ -264,7 +264,8 @@ predict_from(identification_problem const& data, stored_identification const& st
         }
     }
     if (problem.sets.empty())
-        throw input_error{{.file = file.string()}, "no parameter is left", "identify the data anew"};
+        throw input_error{
+            {.file = file.string()}, "no parameter is left", "identify the data anew"};
     result->feasible.direct = &result->direct;
     result->feasible.candidates = [search](std::vector<double> const& p) {
         return search->candidates(p);

@@ -130,9 +130,10 @@ SIVID_DECL std::string answer_sentence(stored_prediction const& about, verificat
         break;
     }
     auto const& b = found.open.front();
-    std::string text = "Neither proved nor refuted: " + count_text(found.open.size()) +
-                       (found.open.size() == 1 ? " box is open; " : " boxes are open; the largest ") +
-                       "is " + std::string{to_string(b.why)};
+    std::string text =
+        "Neither proved nor refuted: " + count_text(found.open.size()) +
+        (found.open.size() == 1 ? " box is open; " : " boxes are open; the largest ") + "is " +
+        std::string{to_string(b.why)};
     if (b.why == open_reason::not_enclosed)
         text += " (motions are enclosed up to t = " + exact_text(b.reached) + " s)";
     text += ", at ";
@@ -147,11 +148,13 @@ SIVID_DECL std::vector<std::string> decision_assumptions(stored_prediction const
                     "excluded. `check --all` proves that anew. A witness of a violation does not "
                     "rest on it.");
     for (auto const& a : s.assumptions) lines.push_back("Of the identification: " + a + ".");
-    lines.push_back("The scenario's inputs act exactly as stated, and the model's equations hold in "
-                    "it.");
+    lines.push_back(
+        "The scenario's inputs act exactly as stated, and the model's equations hold in "
+        "it.");
     if (!s.not_in_products.empty())
         lines.push_back("The products that the data fix do not tell this prediction (" +
-                        s.not_in_products + "): it is made in the parameters themselves, where "
+                        s.not_in_products +
+                        "): it is made in the parameters themselves, where "
                         "the result is drawn more coarsely.");
     return lines;
 }
@@ -200,13 +203,17 @@ SIVID_DECL page prediction_page(stored_prediction const& about, prediction const
 SIVID_DECL page verification_page(stored_prediction const& about, requirement const& asked,
                                   verification const& found, prediction const& tubes,
                                   decision_page_options const& o) {
-    page out{{.kind = "Verification", .title = asked.text, .lead = o.scenario + ", from " + o.dataset}};
+    page out{
+        {.kind = "Verification", .title = asked.text, .lead = o.scenario + ", from " + o.dataset}};
     bool const proved = found.answer == requirement_answer::proved;
     bool const refuted = found.answer == requirement_answer::refuted;
     out.banner(proved    ? outcome::proved
                : refuted ? outcome::refuted
                          : outcome::undecided,
-               proved ? "Proved" : refuted ? "Refuted" : "Open", answer_sentence(about, found));
+               proved    ? "Proved"
+               : refuted ? "Refuted"
+                         : "Open",
+               answer_sentence(about, found));
     std::vector<card> cards;
     range const r{found.found.low, found.found.high};
     cards.push_back({"robustness", is_finite(r) ? outward_text(r) : "not bounded",
