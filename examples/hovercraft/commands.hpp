@@ -80,7 +80,7 @@ struct simulate_command {
     hovercraft craft;
     std::string scenario;
     std::filesystem::path out;
-    std::map<std::string, sivid::exact_decimal> set;
+    std::map<std::string, sivid::interval> set; ///< values or ranges, read outward
     double rate = 100;
     std::optional<double> input_rate; ///< of sampled inputs; without it the shapes are exact
     bool validated = false;

@@ -3,6 +3,7 @@
 // describe: the reference example on the command line.
 #include "commands.hpp"
 #include "console/number_range.hpp"
+#include "console/parameter_ranges.hpp"
 #include "console/program.hpp"
 
 #include <CLI/CLI.hpp>
@@ -379,7 +380,9 @@ private:
             app_.add_subcommand("simulate", "trajectories by Boost.Odeint, as CSV and pictures");
         auto& c = simulate_;
         add_scenario(*s, c.scenario, c.out);
-        s->add_option("--set", shared_.set, "values of constants, such as Sg=0.05");
+        s->add_option("--set", shared_.set,
+                      "values of constants, such as Sg=0.05, or ranges, such as Ff=0.3:0.7: the "
+                      "line is that of the middle, the proven tube that of all");
         s->add_option("--rate", c.rate, "rows of the CSV a second")->capture_default_str();
         s->add_option("--input-rate", c.input_rate,
                       "sample the inputs so often, as `generate` does; else their exact shapes")
@@ -389,7 +392,7 @@ private:
         s->callback([this] {
             action_ = [this] {
                 simulate_.craft = shared_.craft();
-                simulate_.set = constants_from(shared_.set);
+                simulate_.set = console::ranges_from(shared_.set, "--set");
                 simulate_.command_line = line_;
                 return run(simulate_);
             };

@@ -86,6 +86,9 @@ public:
     }
     /// The variable of a side in what is known of a part; nothing for a side without width.
     [[nodiscard]] std::size_t variable_of(part const& p, std::size_t side) const;
+    /// The side that moves the states most at the last instant that was reached, against their own
+    /// ranges: what to halve where a part gets no further. Nothing when none is known to.
+    [[nodiscard]] std::size_t telling_side(part const& p, view const& v) const;
     static constexpr std::size_t none = ~std::size_t{0};
     /// The halves of a part along a side that has a variable; a half that meets no set is left out.
     /// Nothing when the side cannot be cut.

@@ -124,6 +124,11 @@ private:
 
     /// Which side to halve, and whether to integrate anew: by the margins that are open.
     void weigh(motion_cover::part const& p, motion_cover::view const& v, judgement& result) const {
+        if (v.reached < cover_.times().size()) {
+            result.worn = true;
+            result.side = cover_.telling_side(p, v);
+            return;
+        }
         auto const m = cover_.outputs();
         auto const count = v.low.size();
         std::vector<double> score(v.curvature.size(), 0.0);
@@ -146,8 +151,7 @@ private:
                 reach += 0.5;
             }
         }
-        result.worn = lost > 0.25 * reach || (lost > 0.5 * rest && lost > 0.05 * reach) ||
-                      p.known->reached < cover_.times().size();
+        result.worn = lost > 0.25 * reach || (lost > 0.5 * rest && lost > 0.05 * reach);
         double most = 0;
         for (std::size_t side = 0; side < cover_.sides(); ++side) {
             auto const q = cover_.variable_of(p, side);

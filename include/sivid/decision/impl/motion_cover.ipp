@@ -234,6 +234,26 @@ SIVID_DECL std::size_t motion_cover::variable_of(part const& p, std::size_t side
     return s.radius > 0 ? s.variable : none;
 }
 
+SIVID_DECL std::size_t motion_cover::telling_side(part const& p, view const& v) const {
+    if (v.reached == 0) return none;
+    auto const count = v.low.size();
+    auto const at = (v.reached - 1) * flow_.channels();
+    std::size_t best = none;
+    double most = 0;
+    for (std::size_t side = 0; side < sides(); ++side) {
+        auto const q = variable_of(p, side);
+        if (q == none) continue;
+        double moved = 0; // slopes are in widths of the part: what was halved moves less
+        for (std::size_t i = 0; i < flow_.states(); ++i)
+            moved += std::abs(v.slope[q * count + at + i]) / flow_.model().about.states[i].limit;
+        if (moved > most) {
+            most = moved;
+            best = side;
+        }
+    }
+    return best;
+}
+
 SIVID_DECL motion_cover::part
 motion_cover::with_sets(box initial, box parameters, std::vector<std::size_t> const& of,
                         std::shared_ptr<knowledge const> known) const {

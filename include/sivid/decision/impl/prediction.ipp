@@ -106,8 +106,11 @@ private:
             for (auto* i : short_of) {
                 // A hundred-thousandth of the whole that gets no further will not by halving.
                 bool const tiny = relative_width(i->what) < 1e-5;
+                auto const side = cover_->telling_side(i->what, i->seen);
                 auto const halves =
-                    replace(i, tiny ? std::vector<motion_cover::part>{} : cover_->split(i->what));
+                    replace(i, tiny                         ? std::vector<motion_cover::part>{}
+                               : side == motion_cover::none ? cover_->split(i->what)
+                                                            : cover_->split(i->what, side));
                 if (halves.empty()) i->settled = true;
                 next.insert(next.end(), halves.begin(), halves.end());
             }
