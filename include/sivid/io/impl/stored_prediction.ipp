@@ -200,7 +200,8 @@ predict_from(identification_problem const& data, stored_identification const& st
     direct.end = request.end;
     std::vector<std::string> added;
     std::vector<interval> ranges;
-    result->assumptions = stored.assumptions;
+    for (auto const& a : stored.assumptions)
+        result->assumptions.push_back("of the identification: " + a);
     for (auto const& [name, range] : request.set) {
         auto const& constants = model.about.constants;
         static_cast<void>(index_of(constants, name, "constant"));

@@ -147,7 +147,7 @@ SIVID_DECL std::vector<std::string> decision_assumptions(stored_prediction const
     lines.push_back("The identification's result is taken as it stands: what it excludes is "
                     "excluded. `check --all` proves that anew. A witness of a violation does not "
                     "rest on it.");
-    for (auto const& a : s.assumptions) lines.push_back("Of the identification: " + a + ".");
+    for (auto const& a : s.assumptions) lines.push_back(a + ".");
     lines.push_back(
         "The scenario's inputs act exactly as stated, and the model's equations hold in "
         "it.");
