@@ -258,10 +258,10 @@ inline int run_predict(sivid::recorded_model const& model,
                        scenario_finder const& find) {
     namespace report = sivid::report;
     detail::decision_task task(model, catalogue, c, find);
-    prepare_folder(c.out);
+    auto const about = task.prediction_for(task.model(), {});
+    prepare_folder(c.out); // nothing is written when the input is bad
     watch_interrupts();
     progress_line progress(c.quiet);
-    auto const about = task.prediction_for(task.model(), {});
     progress.note("predicting " + task.scenario() + " for all that " + task.dataset() + " leaves");
     auto const found = sivid::predict(about->problem, detail::options_for(c.budget));
     auto options = task.page_options();
@@ -302,12 +302,12 @@ inline int run_verify(sivid::recorded_model const& model,
                       scenario_finder const& find) {
     namespace report = sivid::report;
     detail::decision_task task(model, catalogue, c, find);
-    if (!c.out.empty()) prepare_folder(c.out);
-    watch_interrupts();
-    progress_line progress(c.quiet);
     auto asked_model = task.model();
     auto const asked = sivid::parse_requirement(c.requirement, asked_model, task.end());
     auto const about = task.prediction_for(asked_model, asked.margins);
+    if (!c.out.empty()) prepare_folder(c.out);
+    watch_interrupts();
+    progress_line progress(c.quiet);
     progress.note("verifying " + task.scenario() + " for all that " + task.dataset() + " leaves");
     auto const found =
         sivid::verify(about->problem, asked, about->feasible, detail::options_for(c.budget));

@@ -67,8 +67,7 @@ struct identified {
     verified(std::string const& scenario, std::string const& text,
              std::map<std::string, sivid::interval> const& set = {}) const {
         auto with = model;
-        double const end =
-            find_scenarios(scenario, sivid::names_of(model.about)).front().duration;
+        double const end = find_scenarios(scenario, sivid::names_of(model.about)).front().duration;
         auto const what = sivid::parse_requirement(text, with, end);
         auto const p = predicted(scenario, with, what.margins, set);
         return sivid::verify(p->problem, what, p->feasible);
@@ -95,8 +94,8 @@ void compare_with_simulations(std::size_t wanted) {
     std::vector<double> sample_times;
     for (auto const& m : samples)
         if (sample_times.empty() || m.time > sample_times.back()) sample_times.push_back(m.time);
-    auto const recorded = std::make_shared<sivid::approximate_model const>(
-        t.model, t.problem.choice, data.inputs);
+    auto const recorded =
+        std::make_shared<sivid::approximate_model const>(t.model, t.problem.choice, data.inputs);
     auto const scenario = std::make_shared<sivid::approximate_model const>(
         t.model, t.problem.choice, p->direct.inputs);
     auto const start = mid(data.initial), begin = mid(p->direct.initial);
