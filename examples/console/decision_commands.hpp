@@ -309,23 +309,24 @@ inline int run_verify(sivid::recorded_model const& model,
     watch_interrupts();
     progress_line progress(c.quiet);
     progress.note("verifying " + task.scenario() + " for all that " + task.dataset() + " leaves");
-    auto const found =
-        sivid::verify(about->problem, asked, about->feasible, detail::options_for(c.budget));
+    auto options = detail::options_for(c.budget);
+    options.cells = 60; // refined where a verdict hangs on it
+    auto const found = sivid::verify(about->problem, asked, about->feasible, options);
     progress.finish();
     if (!c.out.empty()) {
-        auto options = task.page_options();
+        auto page = task.page_options();
         double const left = std::max(0.2, c.budget - progress.elapsed());
         auto const tubes =
             sivid::predict(about->problem, detail::options_for(0.5 * left), asked.margins);
-        detail::add_lines(options, task, *about, asked.margins, 0.3 * left);
+        detail::add_lines(page, task, *about, asked.margins, 0.3 * left);
         if (found.witness) {
-            options.single = task.simulated(*about, asked.margins, found.witness->parameters,
-                                            found.witness->start);
-            options.single_is = "the witness that violates it, simulated";
+            page.single = task.simulated(*about, asked.margins, found.witness->parameters,
+                                         found.witness->start);
+            page.single_is = "the witness that violates it, simulated";
         }
         sivid::file_set files(c.out);
         files.add("verification.html",
-                  report::verification_page(*about, asked, found, tubes, options).str());
+                  report::verification_page(*about, asked, found, tubes, page).str());
         files.add("verification.json",
                   sivid::verification_json(*about, asked, found, task.json_options()));
         files.commit();
