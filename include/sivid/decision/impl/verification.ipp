@@ -92,9 +92,12 @@ private:
                 return a.says.found.low < b.says.found.low;
             });
             if (open_.empty() || open_.front().settled) break;
-            bool const violated = open_.front().says.found.refuted();
-            if ((violated || (rounds & (rounds - 1)) == 0) && open_.front().says.found.low < 0)
-                seek_witness(open_.front());
+            // Bounds of motions that were not carried to the end suggest little.
+            auto const& worst = open_.front();
+            bool const violated = worst.says.found.refuted();
+            bool const telling = worst.says.reached == problem_.end;
+            if (violated || rounds == 0 || (telling && (rounds & (rounds - 1)) == 0))
+                seek_witness(worst);
             ++rounds;
             if (result_.witness) return;
             halve();
