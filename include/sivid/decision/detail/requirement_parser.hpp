@@ -3,7 +3,7 @@
 #define SIVID_DECISION_DETAIL_REQUIREMENT_PARSER_HPP
 
 #include <sivid/decision/detail/requirement_numbers.hpp>
-#include <sivid/decision/requirement.hpp>
+#include <sivid/decision/detail/requirement_types.hpp>
 #include <sivid/number/decimal.hpp>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #ifndef SIVID_DECISION_DETAIL_REQUIREMENT_WORDS_HPP
 #define SIVID_DECISION_DETAIL_REQUIREMENT_WORDS_HPP
 
-#include <sivid/decision/requirement.hpp>
+#include <sivid/decision/detail/requirement_types.hpp>
 
 #include <algorithm>
 #include <array>

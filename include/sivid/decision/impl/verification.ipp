@@ -275,7 +275,7 @@ private:
     std::vector<open_box> left_;
     std::set<std::vector<double>> tried_;
     std::size_t parts_ = 0, integrations_ = 0;
-    truth low_ = always_true();
+    truth low_{HUGE_VAL, HUGE_VAL, true, true, {}, {}}; // of no motion
     double high_ = -std::numeric_limits<double>::infinity();
     verification result_;
 };
