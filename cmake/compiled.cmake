@@ -15,7 +15,7 @@ endfunction()
 
 # Each part of include/sivid/impl is one source: they are compiled side by side, and none takes more than 2 GB.
 set(parts library number measurement model approximate enclosure tube paving paving_lanes paving_further paving_check
-    diagnosis)
+    decision diagnosis)
 if(TARGET sivid::io)
     list(APPEND parts io io_check)
 endif()

@@ -7,7 +7,7 @@ endif()
 find_package(Boost 1.74 REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 
-set(sivid_core_folders number space measurement model approximate enclosure paving diagnosis)
+set(sivid_core_folders number space measurement model approximate enclosure paving decision diagnosis)
 set(sivid_include_dir "${PROJECT_SOURCE_DIR}/include")
 set(sivid_components "")
 

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The whole program around a model and its effects: PROGRAM FOLDER --out DIR.
+// The whole program around a model and its effects: PROGRAM FOLDER --out DIR, and then
+// PROGRAM predict | verify DIR/model --scenario FILE.
 #ifndef EXAMPLES_CONSOLE_ROBOT_PROGRAM_HPP
 #define EXAMPLES_CONSOLE_ROBOT_PROGRAM_HPP
 
+#include "decision_commands.hpp"
 #include "diagnosis_output.hpp"
 #include "number_range.hpp"
 #include "program.hpp"
+#include "result_files.hpp"
 #include "thorough_diagnosis.hpp"
 
 #include <sivid/io/dataset.hpp>
+#include <sivid/io/dataset_digest.hpp>
 #include <sivid/io/file_set.hpp>
 #include <sivid/io/identification_json.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
@@ -30,12 +34,12 @@
 namespace console {
 
 /// The ranges of all parameters of a model that explains the data, on the terminal, and as
-/// model.html and model.json.
+/// model.html and model.json; with its boxes in the folder model, for predict and verify.
 /// @throws sivid::output_error
 inline void write_identified_model(sivid::identification_problem const& problem,
-                                   std::string const& id, std::filesystem::path const& out,
-                                   double seconds, std::string const& command,
-                                   progress_line& progress) {
+                                   std::string const& id, std::filesystem::path const& folder,
+                                   std::filesystem::path const& out, double seconds,
+                                   std::string const& command, progress_line& progress) {
     namespace report = sivid::report;
     if (problem.model.has_delays()) {
         std::cout << "  ranges of its parameters: not proved, the model has a delay\n";
@@ -70,7 +74,16 @@ inline void write_identified_model(sivid::identification_problem const& problem,
     files.add("model.html", report::identification_page(view).str());
     files.add("model.json", sivid::identification_json(problem, found, {.dataset = id}));
     files.commit();
-    std::cout << "  written: " << (out / "model.html").string() << " and model.json\n";
+    sivid::file_set result(out / "model");
+    add_result_tables(result, problem, found);
+    result.add("result.json",
+               sivid::identification_json(problem, found,
+                                          {.dataset = id,
+                                           .source_folder = seen_from(out / "model", folder),
+                                           .source_digest = sivid::dataset_digest(folder)}));
+    result.commit();
+    std::cout << "  written: " << (out / "model.html").string() << " and model.json; "
+              << (out / "model").string() << " for predict and verify\n";
 }
 
 /// Reads a data set of `model`, says whether the model explains it and what is missing if not, and
@@ -97,8 +110,8 @@ inline int diagnose_folder(sivid::recorded_model const& model,
         write_diagnosis(run.result, data.id, plot_data(run, kept),
                         page_options(run, data.id, command), out, [](auto&) {});
     };
-    write();                                                // whatever happens to what follows
-    for (auto const* name : {"model.html", "model.json"}) { // of an earlier result
+    write(); // whatever happens to what follows
+    for (auto const* name : {"model.html", "model.json", "model/result.json"}) { // earlier ones
         std::error_code none;
         std::filesystem::remove(out / name, none);
     }
@@ -112,10 +125,46 @@ inline int diagnose_folder(sivid::recorded_model const& model,
     bool const explained = run.result.answer == sivid::answer_kind::none ||
                            run.result.answer == sivid::answer_kind::effects;
     if (explained && left() > 0 && !interrupted()) {
-        write_identified_model(run.candidates[run.answer].problem, data.id, out,
+        write_identified_model(run.candidates[run.answer].problem, data.id, folder, out,
                                std::min(left(), 0.25 * budget), command, progress);
     }
     return exit_code_of(run.result);
+}
+
+/// PROGRAM predict | verify RESULT ...
+/// @param verify  which of the two
+inline int decide_by_result(std::string const& name, sivid::recorded_model const& model,
+                            std::vector<sivid::effect> const& catalogue, bool verify, int argc,
+                            char** argv) {
+    decision_command c;
+    c.command_line = command_line(name, argc, argv);
+    CLI::App app{verify ? "Does a requirement hold for all parameters that a result leaves?"
+                        : "Tubes of a scenario over all parameters that a result leaves"};
+    app.add_option("result", c.result, "folder with result.json and boxes.csv, such as OUT/model")
+        ->required();
+    app.add_option("--dataset", c.dataset, "its data set, if it is not where the result says");
+    app.add_option("--scenario", c.scenario,
+                   "a JSON file (sivid-scenario-1), or data:NAME for one of the data set")
+        ->required();
+    app.add_option("--set", c.set, "constants of the scenario, such as a=9.8, or ranges, a=9:11");
+    app.add_option("--budget", c.budget, "seconds")
+        ->check(number_between(0.0, 1e9))
+        ->capture_default_str();
+    auto* const out = app.add_option("--out", c.out, "folder for the report and the JSON file");
+    app.add_flag("--quiet", c.quiet, "no progress");
+    if (verify) {
+        app.add_option("--require", c.requirement, "such as \"always(abs(w) < 20)\"")->required();
+    } else {
+        out->required();
+    }
+    try {
+        app.parse(argc - 1, argv + 1);
+    } catch (CLI::ParseError const& e) {
+        return app.exit(e) == 0 ? 0 : static_cast<int>(bad_input);
+    }
+    auto const names = sivid::names_of(model.about);
+    auto const find = [&](std::string const& file) { return sivid::read_scenario(file, names); };
+    return verify ? run_verify(model, catalogue, c, find) : run_predict(model, catalogue, c, find);
 }
 
 /// `main` of such a program.
@@ -126,10 +175,14 @@ template <class Model>
 int robot_program(std::string const& name, std::string const& about, Model const& model,
                   std::vector<sivid::effect> const& catalogue, int argc, char** argv) {
     return guarded(name, [&] {
+        std::string const first = argc > 1 ? argv[1] : "";
+        if (first == "predict" || first == "verify")
+            return decide_by_result(name, sivid::record_model(model), catalogue, first == "verify",
+                                    argc, argv);
         std::filesystem::path folder, out;
         double budget = 60;
         bool quiet = false;
-        CLI::App app{about};
+        CLI::App app{about + "\n\nThen: predict OUT/model ..., verify OUT/model ... (--help)"};
         app.add_option("folder", folder, "folder with dataset.json")->required();
         app.add_option("--out", out, "folder for report.html, model.html and JSON files")
             ->required();

@@ -2,6 +2,7 @@
 #ifndef HOVERCRAFT_COMMANDS_HPP
 #define HOVERCRAFT_COMMANDS_HPP
 
+#include "console/decision_command.hpp"
 #include "enclosing.hpp"
 #include "generate.hpp"
 #include "model.hpp"
@@ -82,7 +83,7 @@ struct simulate_command {
     hovercraft craft;
     std::string scenario;
     std::filesystem::path out;
-    std::map<std::string, sivid::exact_decimal> set;
+    std::map<std::string, sivid::interval> set; ///< values or ranges, read outward
     double rate = 100;
     std::optional<double> input_rate; ///< of sampled inputs; without it the shapes are exact
     bool validated = false;
@@ -90,6 +91,10 @@ struct simulate_command {
     std::string command_line;
 };
 [[nodiscard]] int run(simulate_command const& command);
+
+/// What a stored identification says of a scenario: tubes, or whether a requirement holds.
+[[nodiscard]] int run_predict(hovercraft const& craft, console::decision_command const& command);
+[[nodiscard]] int run_verify(hovercraft const& craft, console::decision_command const& command);
 
 struct rank_command {
     hovercraft craft;

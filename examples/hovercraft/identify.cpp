@@ -2,12 +2,12 @@
 #include "commands.hpp"
 #include "console/console.hpp"
 #include "console/program.hpp"
+#include "console/result_files.hpp"
 #include "console/threads.hpp"
 #include "identifiability.hpp"
 #include "online.hpp"
 #include "posed_problem.hpp"
 
-#include <sivid/io/certificates_csv.hpp>
 #include <sivid/io/checkpoint.hpp>
 #include <sivid/io/checkpoint_reader.hpp>
 #include <sivid/io/dataset.hpp>
@@ -169,13 +169,6 @@ private:
     bool warned_ = false;
     std::shared_ptr<sivid::identification_state const> state_;
 };
-
-/// The way from one folder to another, if there is one.
-std::string seen_from(std::filesystem::path const& here, std::filesystem::path const& there) {
-    std::error_code fault;
-    auto const way = std::filesystem::relative(there, here, fault);
-    return fault ? std::string{} : way.generic_string();
-}
 
 /// One channel of every scenario as a picture of its own: Figure 4.1 of the report.
 /// @returns the files
@@ -403,24 +396,14 @@ int run(identify_command const& c) {
     auto view = viewed(nullptr);
     {
         sivid::file_set files(c.out);
-        files.add("boxes.csv", sivid::boxes_csv(problem, found));
-        if (found.products) {
-            files.add("products.csv", sivid::products_csv(found));
-        } else {
-            files.drop("products.csv"); // of an earlier result
-        }
-        if (found.proof.empty()) {
-            files.drop("certificates.csv");
-        } else {
-            files.add("certificates.csv", sivid::certificates_csv(found.proof));
-        }
+        console::add_result_tables(files, problem, found);
         files.add("outputs.csv", sivid::outputs_csv(problem, found, nullptr));
         files.add("report.html", report::identification_page(view).str());
         files.add("result.json",
                   sivid::identification_json(problem, found,
                                              {.dataset = data.id,
                                               .effects = c.effects,
-                                              .source_folder = seen_from(c.out, c.dataset),
+                                              .source_folder = console::seen_from(c.out, c.dataset),
                                               .source_digest = digest,
                                               .identifiability = told ? &*told : nullptr}));
         files.commit();

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// hovercraft identify | check | diagnose | generate | simulate | rank | describe: the reference
-// example on the command line.
+// hovercraft identify | check | predict | verify | diagnose | generate | simulate | rank |
+// describe: the reference example on the command line.
 #include "commands.hpp"
 #include "console/number_range.hpp"
+#include "console/parameter_ranges.hpp"
 #include "console/program.hpp"
 
 #include <CLI/CLI.hpp>
@@ -145,6 +146,8 @@ public:
         app_.require_subcommand(1);
         add_identify();
         add_check();
+        add_predict();
+        add_verify();
         add_diagnose();
         add_generate();
         add_simulate();
@@ -275,6 +278,53 @@ private:
         });
     }
 
+    void add_decision(CLI::App& s, bool needs_out) {
+        auto& c = decision_;
+        s.add_option("result", c.result, "folder of an `identify` result")->required();
+        s.add_option("--dataset", c.dataset, "its data set, if it is not where the result says");
+        std::string names = "a JSON file, data:NAME for one of the data set, or one of:";
+        for (auto const& b : built_in_scenarios()) names += std::string{" "} + std::string{b.name};
+        s.add_option("--scenario", c.scenario, names)->required();
+        s.add_option("--set", c.set,
+                     "constants of the scenario, such as Ff=0.5, or ranges, such as Ff=0.3:0.7");
+        s.add_option("--budget", c.budget, "seconds")
+            ->check(console::number_between(0.0, 1e9))
+            ->capture_default_str();
+        auto* const out = s.add_option("--out", c.out, "folder for the report and the JSON file");
+        if (needs_out) out->required();
+        s.add_flag("--quiet", c.quiet, "no progress");
+        add_variants(s, shared_);
+    }
+
+    void add_predict() {
+        auto* const s = app_.add_subcommand(
+            "predict", "tubes of a scenario over all parameters that an identification leaves");
+        add_decision(*s, true);
+        s->callback([this] {
+            action_ = [this] {
+                decision_.command_line = line_;
+                return run_predict(shared_.craft(), decision_);
+            };
+        });
+    }
+
+    void add_verify() {
+        auto* const s = app_.add_subcommand(
+            "verify", "does a requirement hold for all parameters that an identification leaves?");
+        add_decision(*s, false);
+        s->add_option("--require", decision_.requirement,
+                      "such as \"eventually(abs(u) < 0.01) and x at end in [3, 7]\"")
+            ->required();
+        s->footer("Exit codes: 0 proved for all parameters, 2 bad input, 3 open, 5 refuted by a "
+                  "parameter that is proved to explain the data.");
+        s->callback([this] {
+            action_ = [this] {
+                decision_.command_line = line_;
+                return run_verify(shared_.craft(), decision_);
+            };
+        });
+    }
+
     void add_diagnose() {
         auto* const s = app_.add_subcommand(
             "diagnose",
@@ -364,8 +414,9 @@ private:
         auto& c = simulate_;
         add_scenario(*s, c.scenario, c.out);
         s->add_option("--set", shared_.set,
-                      "values of constants, such as Sg=0.05; or the sets that tubes carry: "
-                      "first-order (the default), taylor-model");
+                      "values of constants, such as Sg=0.05, or ranges, such as Ff=0.3:0.7: the "
+                      "line is that of the middle, the proven tube that of all; or the sets that "
+                      "tubes carry: first-order (the default), taylor-model");
         s->add_option("--rate", c.rate, "rows of the CSV a second")->capture_default_str();
         s->add_option("--input-rate", c.input_rate,
                       "sample the inputs so often, as `generate` does; else their exact shapes")
@@ -377,7 +428,7 @@ private:
             action_ = [this] {
                 simulate_.craft = shared_.craft();
                 take_set(shared_.set, simulate_.how);
-                simulate_.set = constants_from(shared_.set);
+                simulate_.set = console::ranges_from(shared_.set, "--set");
                 simulate_.command_line = line_;
                 return run(simulate_);
             };
@@ -429,6 +480,7 @@ private:
     shared_text shared_;
     identify_command identify_;
     check_command check_;
+    console::decision_command decision_;
     diagnose_command diagnose_;
     generate_command generate_;
     simulate_command simulate_;

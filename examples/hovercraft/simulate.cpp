@@ -4,7 +4,9 @@
 #include "console/program.hpp"
 
 #include <sivid/approximate/simulate/simulate.hpp>
+#include <sivid/decision/prediction.hpp>
 #include <sivid/enclosure/enclosed_motion.hpp>
+#include <sivid/enclosure/parametric_set.hpp>
 #include <sivid/io/file_set.hpp>
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/report/page.hpp>
@@ -12,8 +14,10 @@
 #include <sivid/report/time_plot.hpp>
 #include <sivid/version.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <optional>
 
 namespace hovercraft_example {
@@ -30,8 +34,7 @@ public:
     simulated_scenario(sivid::recorded_model const& model, scenario_description const& s,
                        simulate_command const& c)
         : about_{model.about}, scenario_{s} {
-        sivid::parameter_choice constants;
-        for (auto const& [name, value] : c.set) constants.fixed[name] = *sivid::enclose(value);
+        auto const constants = middle_of(c);
         auto const recorded = c.input_rate
                                   ? record_inputs(s, *c.input_rate, 6, sivid::interpolation::linear)
                                   : std::vector<sivid::dataset_input>{};
@@ -54,14 +57,29 @@ public:
             std::make_shared<sivid::approximate_model const>(model, constants, inputs), inputs,
             middle, {}, 0, times, {1e-10});
         if (!c.validated) return;
+        validated_ = true;
+        if (!ranges_of(c).empty()) {
+            enclose_ranges(model, c, inputs, start);
+            return;
+        }
         sivid::enclosure_options options;
         options.maximum_step = s.duration / 300;
         options.minimum_step = 1e-5 * s.duration; // a tube that needs shorter ones gets no further
         options.method = method_of(c.how);
-        tube_ = enclosed(c.how, flow_, start, s.duration, options);
-        if (!tube_->complete() && c.how.set == "first-order")
-            why_ =
+        auto const tube = enclosed(c.how, flow_, start, s.duration, options);
+        spans_ = tube.spans();
+        if (tube.complete()) {
+            at_end_ = tube.at(tube.end_time());
+            return;
+        }
+        if (c.how.set == "first-order") {
+            auto const why =
                 sivid::explain_enclosed_motion(*flow_, start, sivid::box{}, 0, s.duration, options);
+            failure_ = why->message(about_.states[why->failure.component].name);
+        } else {
+            auto const& why = *tube.failure();
+            failure_ = why.message(about_.states[why.component].name);
+        }
     }
 
     [[nodiscard]] std::string trajectory_csv() const {
@@ -79,20 +97,16 @@ public:
         return text;
     }
 
-    [[nodiscard]] bool validated() const { return tube_.has_value(); }
-    [[nodiscard]] bool complete() const { return !tube_ || tube_->complete(); }
-    [[nodiscard]] std::string failure() const {
-        auto const& why = why_ ? why_->failure : *tube_->failure();
-        auto const& state = about_.states[why.component].name;
-        return why_ ? why_->message(state) : why.message(state);
-    }
+    [[nodiscard]] bool validated() const { return validated_; }
+    [[nodiscard]] bool complete() const { return !validated_ || at_end_.has_value(); }
+    [[nodiscard]] std::string const& failure() const { return failure_; }
 
     [[nodiscard]] std::string tube_csv() const {
         std::string text = "from,to";
         for (auto const& s : about_.states)
             text += std::string{","} + s.name + "_lower," + s.name + "_upper";
         text += "\n";
-        for (auto const& step : tube_->spans()) {
+        for (auto const& step : spans_) {
             text += shortest(step.from) + "," + shortest(step.to);
             for (auto const& side : step.states)
                 text += std::string{","} + sivid::to_decimal_lower(side.lower()) + "," +
@@ -109,10 +123,9 @@ public:
             text += std::string{" "} + about_.channels[c].name + " = " +
                     report::rounded_text(y, report::rounding::nearest, {.significant = 4});
         }
-        if (tube_ && tube_->complete())
+        if (at_end_)
             text += std::string{"\n  proved, width of the widest state: "} +
-                    report::rounded_text(width(tube_->at(tube_->end_time())), report::rounding::up,
-                                         {.significant = 2});
+                    report::rounded_text(width(*at_end_), report::rounding::up, {.significant = 2});
         return text;
     }
 
@@ -125,18 +138,19 @@ public:
             report::channel_series c{.name = about_.states[i].name, .unit = about_.states[i].unit};
             for (std::size_t k = 0; k < line_.times.size(); ++k)
                 c.reference.push_back({line_.times[k], line_.states[k][i]});
-            if (tube_)
-                for (auto const& step : tube_->spans())
+            if (validated_)
+                for (auto const& step : spans_)
                     c.tube.push_back(
                         {step.from, step.to, {step.states[i].lower(), step.states[i].upper()}});
             all.push_back(std::move(c));
         }
         std::string const tube =
-            tube_ ? " The band is proved: every exact solution runs within it at every instant. "
-                    "Where "
-                    "a state stays zero the band shows rounding errors only; see the power of ten "
-                    "at its axis."
-                  : "";
+            validated_
+                ? " The band is proved: every exact solution runs within it at every instant. "
+                  "Where "
+                  "a state stays zero the band shows rounding errors only; see the power of ten "
+                  "at its axis."
+                : "";
         report::figure inputs{
             .panels = {}, .title = "Inputs.", .caption = "What the craft was given."};
         for (std::size_t i = 0; i < inputs_.size(); ++i) {
@@ -163,8 +177,8 @@ public:
             auto const every = std::max<std::size_t>(line_.states.size() / 10, 1);
             if (k % every == every / 2) plane.poses.push_back({x[3], x[4], x[5]});
         }
-        if (tube_)
-            for (auto const& step : tube_->spans())
+        if (validated_)
+            for (auto const& step : spans_)
                 plane.tube.push_back({{step.states[3].lower(), step.states[3].upper()},
                                       {step.states[4].lower(), step.states[4].upper()}});
         page.add(report::figure{
@@ -179,6 +193,59 @@ public:
     }
 
 private:
+    /// The constants that were given; those with a range in its middle.
+    static sivid::parameter_choice middle_of(simulate_command const& c) {
+        sivid::parameter_choice result;
+        auto const ranges = ranges_of(c);
+        for (auto const& [name, value] : c.set)
+            result.fixed[name] = ranges.count(name) > 0 ? sivid::interval(mid(value)) : value;
+        return result;
+    }
+    static std::map<std::string, sivid::interval> ranges_of(simulate_command const& c) {
+        std::map<std::string, sivid::interval> result;
+        for (auto const& [name, value] : c.set) {
+            if (width(value) > sivid::normalised_unknowns::negligible * mag(value))
+                result.emplace(name, value);
+        }
+        return result;
+    }
+    /// The tube for all values in the ranges.
+    void enclose_ranges(sivid::recorded_model const& model, simulate_command const& c,
+                        std::vector<sivid::signal> const& inputs, sivid::box const& start) {
+        sivid::prediction_problem p;
+        p.model = model;
+        for (auto const& [name, value] : c.set) p.choice.fixed[name] = value;
+        std::vector<sivid::interval> sides;
+        for (auto const& [name, range] : ranges_of(c)) {
+            p.choice.fixed.erase(name);
+            p.choice.unknown.push_back(name);
+            sides.push_back(range);
+        }
+        p.sets = {sivid::box(sides)};
+        p.inputs = inputs;
+        p.initial = start;
+        p.end = scenario_.duration;
+        auto const found = sivid::predict(p, {.cells = 300});
+        using traits = sivid::interval_traits<sivid::interval>;
+        auto const states_at = [&](std::size_t segment) {
+            sivid::box x(found.states.size());
+            for (std::size_t i = 0; i < x.size(); ++i)
+                x[i] = traits::bounds(found.states[i].low[segment], found.states[i].high[segment]);
+            return x;
+        };
+        for (std::size_t s = 1; s + 1 < 2 * found.times.size(); s += 2) {
+            auto const x = hull(hull(states_at(s - 1), states_at(s)), states_at(s + 1));
+            bool const known = std::all_of(
+                x.begin(), x.end(), [](auto const& side) { return std::isfinite(mag(side)); });
+            if (known) spans_.push_back({found.times[s / 2], found.times[s / 2 + 1], x});
+        }
+        if (found.complete)
+            at_end_ = states_at(2 * found.times.size() - 2);
+        else
+            failure_ = scenario_.name + ": the tube over these ranges is proved up to t = " +
+                       shortest(found.reached) + " s; narrower ranges get further";
+    }
+
     /// An input for tables and pictures.
     [[nodiscard]] double input(std::size_t i, double t) const {
         auto const* recorded = std::get_if<sivid::sampled_signal>(&inputs_[i]);
@@ -190,8 +257,10 @@ private:
     std::vector<sivid::signal> inputs_;
     std::shared_ptr<sivid::flow const> flow_;
     sivid::approximate_trajectory line_;
-    std::optional<sivid::enclosed_motion> tube_;
-    std::optional<sivid::advised_failure> why_; ///< where a tube of first order ends early
+    bool validated_ = false;
+    std::vector<sivid::swept_span> spans_;
+    std::optional<sivid::box> at_end_; ///< the states, when the tube gets there
+    std::string failure_;              ///< why it does not
 };
 
 } // namespace
@@ -208,7 +277,7 @@ int run(simulate_command const& c) {
                        .lead = c.validated ? "The hovercraft, simulated and enclosed."
                                            : "The hovercraft, simulated in floating point."}};
     sivid::parameter_choice set;
-    for (auto const& [name, value] : c.set) set.fixed[name] = *sivid::enclose(value);
+    for (auto const& [name, value] : c.set) set.fixed[name] = value;
     auto const derived = sivid::derivation_words(model, set);
     if (!derived.empty()) page.bullets(derived);
     for (auto const& words : derived) std::cout << words << "\n";

@@ -230,6 +230,14 @@
 #include <sivid/paving/weighted_outputs.hpp>
 #include <sivid/paving/witness.hpp>
 #include <sivid/paving/work_limit.hpp>
+#include <sivid/decision/cell_bounds.hpp>
+#include <sivid/decision/motion_cover.hpp>
+#include <sivid/decision/prediction.hpp>
+#include <sivid/decision/prediction_options.hpp>
+#include <sivid/decision/prediction_problem.hpp>
+#include <sivid/decision/requirement.hpp>
+#include <sivid/decision/robustness.hpp>
+#include <sivid/decision/verification.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/broken_relation.hpp>
 #include <sivid/diagnosis/candidate.hpp>

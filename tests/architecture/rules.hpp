@@ -20,10 +20,10 @@ namespace architecture {
 
 namespace fs = std::filesystem;
 
-inline constexpr std::array<std::string_view, 11> floors{
+inline constexpr std::array<std::string_view, 12> floors{
     "number", "space",     "measurement", "model",  "approximate", "enclosure",
-    "paving", "diagnosis", "io",          "report", "parallel"};
-inline constexpr std::size_t core_floors = 8;
+    "paving", "decision",  "diagnosis",   "io",     "report",      "parallel"};
+inline constexpr std::size_t core_floors = 9;
 /// Headers outside of floors that each floor may include.
 inline constexpr std::array<std::string_view, 3> common{"sivid/version.hpp", "sivid/compiled.hpp",
                                                         "sivid/executor.hpp"};

@@ -586,6 +586,70 @@ TEST_CASE("simulate and rank write their tables and pages") {
     CHECK(rows(folder.path() / "rank" / "ranking.csv") > 20);
 }
 
+TEST_CASE("simulate takes ranges of constants") {
+    temporary_folder const folder;
+    auto const out = folder.path() / "out";
+    auto const r = run({"simulate", "--scenario", "S1", "--validated", "--set", "Ff=0.3:0.7",
+                        "--out", out.string()});
+    CHECK(r.code == 0);
+    CHECK_THAT(r.out, ContainsSubstring("proved, width of the widest state"));
+    CHECK(rows(out / "S1.tube.csv") > 100);
+    CHECK(
+        run({"simulate", "--scenario", "S1", "--set", "Ff=0.7:0.3", "--out", out.string()}).code ==
+        2);
+}
+
+TEST_CASE("predict and verify answer from a stored result") {
+    temporary_folder const folder;
+    auto const result = (folder.path() / "h3").string();
+    REQUIRE(run({"identify", h3, "--out", result, "--quiet"}).code == 0);
+    std::string const stops = "eventually(abs(u) < 0.01) and x at end in [3, 7]";
+
+    auto const out = folder.path() / "out";
+    auto const p = run({"predict", result, "--scenario", "S3", "--out", out.string()});
+    CHECK(p.code == 0);
+    CHECK_THAT(p.out, ContainsSubstring("proved") && ContainsSubstring("psi at the end in"));
+    CHECK(json_of(out / "prediction.json")["format"] == "sivid-prediction-1");
+    CHECK(rows(out / "tubes.csv") > 200);
+    CHECK(fs::exists(out / "prediction.html"));
+
+    auto const proved = run({"verify", result, "--scenario", "S2", "--require", stops});
+    CHECK(proved.code == 0);
+    CHECK_THAT(proved.out, ContainsSubstring("S2, h3: proved") && ContainsSubstring("check --all"));
+    auto const refuted = run({"verify", result, "--scenario", "S2", "--require", stops, "--set",
+                              "Ff=0.25:0.8", "--out", out.string()});
+    CHECK(refuted.code == 5);
+    auto const json = json_of(out / "verification.json");
+    CHECK(json["answer"] == "refuted");
+    CHECK(json["witness"]["parameters"].contains("Ff"));
+    auto const open = run({"verify", result, "--scenario", "data:S3", "--require",
+                           "always(log(x - 100) < 1)", "--budget", "1"});
+    CHECK(open.code == 3);
+
+    auto const none = (folder.path() / "none").string();
+    auto const refused = [&](std::vector<std::string> const& more, char const* words) {
+        std::vector<std::string> all{"verify", result, "--out", none};
+        all.insert(all.end(), more.begin(), more.end());
+        auto const r = run(all);
+        CHECK(r.code == 2);
+        CHECK_THAT(r.err, ContainsSubstring(words));
+        CHECK_FALSE(fs::exists(none));
+    };
+    refused({"--scenario", "S2", "--require", "u > nan"}, "unknown name 'nan'");
+    refused({"--scenario", "S2", "--require", "always[0, 11] u > 0"}, "the motion ends at 10 s");
+    refused({"--scenario", "S9", "--require", "u > 0"}, "S9");
+    refused({"--scenario", "all", "--require", "u > 0"}, "one scenario");
+    refused({"--scenario", "data:S1", "--require", "u > 0"}, "no scenario");
+    refused({"--scenario", "S2", "--require", "u > 0", "--set", "Sv=0.2:0.3"}, "identify");
+    refused({"--scenario", "S2", "--require", "u > 0", "--set", "Zz=1"}, "unknown constant");
+    refused({"--scenario", "S2", "--require", "u > 0", "--set", "Ff=0.8:0.2"}, "lower is above");
+    refused({"--scenario", "S2", "--require", "u > 0", "--dataset", bundled + "/yard_test"},
+            "not the data set");
+    std::ofstream(fs::path(result) / "products.csv", std::ios::app)
+        << "inside,0.01,0.02,0.2,0.25\n";
+    refused({"--scenario", "S2", "--require", "u > 0"}, "contradicts itself");
+}
+
 TEST_CASE("describe prints the model as text and as a graph, bound or as written") {
     auto const text = run({"describe"});
     CHECK(text.code == 0);

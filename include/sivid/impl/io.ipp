@@ -8,6 +8,7 @@
 #include <sivid/io/impl/dataset.ipp>
 #include <sivid/io/impl/dataset_digest.ipp>
 #include <sivid/io/impl/dataset_writer.ipp>
+#include <sivid/io/impl/decision_json.ipp>
 #include <sivid/io/impl/diagnosis_json.ipp>
 #include <sivid/io/impl/exact_decimal.ipp>
 #include <sivid/io/impl/explaining_motion.ipp>
@@ -20,6 +21,7 @@
 #include <sivid/io/impl/problem_digest.ipp>
 #include <sivid/io/impl/problem_from_dataset.ipp>
 #include <sivid/io/impl/same_problem.ipp>
+#include <sivid/io/impl/scenario.ipp>
 #include <sivid/io/impl/text_file.ipp>
 
 #endif

@@ -3,6 +3,7 @@
 #define SIVID_IMPL_IO_CHECK_IPP
 
 #include <sivid/io/impl/identification_check.ipp>
+#include <sivid/io/impl/stored_prediction.ipp>
 
 namespace sivid {
 

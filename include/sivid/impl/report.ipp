@@ -6,6 +6,7 @@
 #include <sivid/report/impl/candidate_chart.ipp>
 #include <sivid/report/impl/channel_series.ipp>
 #include <sivid/report/impl/comparison_plot.ipp>
+#include <sivid/report/impl/decision_page.ipp>
 #include <sivid/report/impl/diagnosis_figures.ipp>
 #include <sivid/report/impl/diagnosis_page.ipp>
 #include <sivid/report/impl/diagnosis_plot_data.ipp>
@@ -23,6 +24,7 @@
 #include <sivid/report/impl/interval_chart.ipp>
 #include <sivid/report/impl/legend.ipp>
 #include <sivid/report/impl/missing_rate_plot.ipp>
+#include <sivid/report/impl/motion_plot.ipp>
 #include <sivid/report/impl/number_text.ipp>
 #include <sivid/report/impl/page.ipp>
 #include <sivid/report/impl/paving_plot.ipp>

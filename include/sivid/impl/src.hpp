@@ -17,6 +17,7 @@
 #include <sivid/impl/library.ipp>
 
 #include <sivid/impl/approximate.ipp>
+#include <sivid/impl/decision.ipp>
 #include <sivid/impl/diagnosis.ipp>
 #include <sivid/impl/enclosure.ipp>
 #include <sivid/impl/measurement.ipp>

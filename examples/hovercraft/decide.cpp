@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// predict and verify: what a stored identification says of a scenario.
+#include "commands.hpp"
+#include "console/decision_commands.hpp"
+#include "scenario.hpp"
+
+namespace hovercraft_example {
+
+namespace {
+
+sivid::scenario_description find_one(sivid::recorded_model const& model, std::string const& name) {
+    auto const names = sivid::names_of(model.about);
+    auto const found = find_scenarios(name, names);
+    if (found.size() != 1) throw std::invalid_argument("--scenario: name one scenario, such as S2");
+    return found.front();
+}
+
+} // namespace
+
+int run_predict(hovercraft const& craft, console::decision_command const& c) {
+    auto const model = sivid::record_model(craft);
+    return console::run_predict(model, {}, c,
+                                [&](std::string const& name) { return find_one(model, name); });
+}
+int run_verify(hovercraft const& craft, console::decision_command const& c) {
+    auto const model = sivid::record_model(craft);
+    return console::run_verify(model, {}, c,
+                               [&](std::string const& name) { return find_one(model, name); });
+}
+
+} // namespace hovercraft_example

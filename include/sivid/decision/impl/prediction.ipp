@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DECISION_IMPL_PREDICTION_IPP
+#define SIVID_DECISION_IMPL_PREDICTION_IPP
+
+#include <sivid/decision/prediction.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/decision/motion_cover.hpp>
+#include <sivid/paving/work_limit.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <list>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+namespace decision_detail {
+
+class prediction_search {
+public:
+    prediction_search(prediction_problem const& problem, prediction_options const& options,
+                      std::vector<node_id> const& further)
+        : problem_(problem),
+          options_(options),
+          limit_(options.seconds, options.keep_going),
+          outputs_(problem.model, further) {
+        options_.run.enclosure.keep_going = limit_;
+        cover_.emplace(
+            problem, outputs_,
+            time_cells(problem, {},
+                       problem.end / static_cast<double>(std::max<std::size_t>(options.cells, 1))),
+            options_.run);
+    }
+
+    [[nodiscard]] prediction operator()() {
+        auto const begun = std::chrono::steady_clock::now();
+        parts_.push_back({cover_->whole(), {}});
+        learn({&parts_.front()});
+        finish_parts();
+        auto left = excess();
+        while (left.largest > options_.excess && going()) {
+            if (!refine(left)) break;
+            left = excess();
+        }
+        prediction result;
+        result.times = cover_->times();
+        result.excess = left.largest;
+        collect(result);
+        result.parts = parts_.size();
+        result.integrations = cover_->integrations();
+        result.seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+        return result;
+    }
+
+private:
+    struct item {
+        motion_cover::part what;
+        motion_cover::view seen;
+        bool settled = false; ///< no half gets further
+    };
+    using items = std::list<item>;
+    /// How much wider the tube is than what is reached, and which parts hold its bounds.
+    struct excess_found {
+        double largest = 0;
+        std::vector<std::pair<double, item*>> holders; ///< heaviest first
+    };
+
+    [[nodiscard]] bool going() const { return limit_() && parts_.size() < options_.parts; }
+
+    void learn(std::vector<item*> const& which) {
+        std::vector<motion_cover::part*> parts;
+        for (auto* i : which) parts.push_back(&i->what);
+        cover_->learn(parts);
+        for (auto* i : which) i->seen = cover_->look(i->what);
+    }
+
+    /// Halves of an item in its place; empty when it cannot be cut.
+    std::vector<item*> replace(item* which, std::vector<motion_cover::part> halves) {
+        if (halves.empty()) return {};
+        auto const at = std::find_if(parts_.begin(), parts_.end(),
+                                     [which](item const& i) { return &i == which; });
+        std::vector<item*> result;
+        for (auto& h : halves) result.push_back(&*parts_.insert(at, {std::move(h), {}}));
+        parts_.erase(at);
+        return result;
+    }
+
+    /// Parts that were not carried to the end, or lost too much, are halved and integrated anew.
+    void finish_parts() {
+        while (going()) {
+            std::vector<item*> short_of;
+            for (auto& i : parts_) {
+                if (!i.settled && !i.what.known->complete) short_of.push_back(&i);
+                if (2 * short_of.size() >= cover_->at_once()) break;
+            }
+            if (short_of.empty()) return;
+            std::vector<item*> next;
+            for (auto* i : short_of) {
+                // A hundred-thousandth of the whole that gets no further will not by halving.
+                bool const tiny = relative_width(i->what) < 1e-5;
+                auto const side = cover_->telling_side(i->what, i->seen);
+                auto const halves =
+                    replace(i, tiny                         ? std::vector<motion_cover::part>{}
+                               : side == motion_cover::none ? cover_->split(i->what)
+                                                            : cover_->split(i->what, side));
+                if (halves.empty()) i->settled = true;
+                next.insert(next.end(), halves.begin(), halves.end());
+            }
+            if (!next.empty()) learn(next);
+        }
+    }
+    [[nodiscard]] double relative_width(motion_cover::part const& p) const {
+        double most = 0;
+        auto const whole = cover_->whole();
+        for (std::size_t i = 0; i < p.initial.size(); ++i) {
+            if (width(whole.initial[i]) > 0)
+                most = std::max(most, width(p.initial[i]) / width(whole.initial[i]));
+        }
+        for (std::size_t j = 0; j < p.parameters.size(); ++j) {
+            if (width(whole.parameters[j]) > 0)
+                most = std::max(most, width(p.parameters[j]) / width(whole.parameters[j]));
+        }
+        return most;
+    }
+
+    [[nodiscard]] excess_found excess() {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        auto const m = cover_->outputs();
+        std::size_t reached = cover_->times().size();
+        for (auto const& i : parts_) reached = std::min(reached, i.seen.reached);
+        auto const count = reached * m;
+        std::vector<double> low(count, infinity), high(count, -infinity), inner_low(low),
+            inner_high(high);
+        std::vector<item*> lowest(count), highest(count);
+        for (auto& i : parts_) {
+            for (std::size_t y = 0; y < count; ++y) {
+                double const rest = 2 * i.seen.rest[y];
+                if (i.seen.low[y] < low[y]) {
+                    low[y] = i.seen.low[y];
+                    lowest[y] = &i;
+                }
+                if (i.seen.high[y] > high[y]) {
+                    high[y] = i.seen.high[y];
+                    highest[y] = &i;
+                }
+                inner_low[y] = std::min(inner_low[y], i.seen.low[y] + rest);
+                inner_high[y] = std::max(inner_high[y], i.seen.high[y] - rest);
+            }
+        }
+        excess_found result;
+        std::map<item*, double> weight;
+        for (std::size_t y = 0; y < count; ++y) {
+            double const width = high[y] - low[y];
+            double const tiny = 1e-6 * (1 + std::abs(high[y]));
+            double const attained = std::max(inner_high[y] - inner_low[y], 0.0) + tiny;
+            double const share = std::isfinite(width) ? (width - tiny) / attained - 1 : infinity;
+            result.largest = std::max(result.largest, share);
+            if (!(share > options_.excess)) continue;
+            double const heavy = std::min(share, 10.0);
+            weight[lowest[y]] += heavy;
+            weight[highest[y]] += heavy;
+        }
+        if (reached < cover_->times().size()) result.largest = infinity;
+        for (auto const& [i, w] : weight) {
+            if (i != nullptr && !i->settled) result.holders.emplace_back(w, i);
+        }
+        std::sort(result.holders.begin(), result.holders.end(),
+                  [](auto const& a, auto const& b) { return a.first > b.first; });
+        return result;
+    }
+
+    /// Halves the parts that hold the bounds. @returns false when nothing can be done
+    bool refine(excess_found const& found) {
+        std::vector<item*> fresh;
+        bool any = false;
+        std::size_t taken = 0;
+        for (auto const& [heavy, i] : found.holders) {
+            if (taken == cover_->at_once() || heavy < 0.05 * found.holders.front().first) break;
+            ++taken;
+            bool const worn = lost_share(*i) > 0.4;
+            auto const side = most_curved(*i);
+            auto halves =
+                side == motion_cover::none ? cover_->split(i->what) : cover_->split(i->what, side);
+            if (halves.empty()) {
+                i->settled = true;
+                continue;
+            }
+            auto const next = replace(i, std::move(halves));
+            any = true;
+            for (auto* n : next) {
+                if (worn)
+                    fresh.push_back(n);
+                else
+                    n->seen = cover_->look(n->what);
+            }
+        }
+        if (!fresh.empty()) learn(fresh);
+        finish_parts();
+        return any;
+    }
+
+    /// How much of the rests was lost on the way, on the whole.
+    [[nodiscard]] static double lost_share(item const& i) {
+        double lost = 0, all = 0;
+        auto const& radius = i.what.known->answer->radius;
+        for (std::size_t y = 0; y < i.seen.rest.size(); ++y) {
+            double const reach = i.seen.high[y] - i.seen.low[y];
+            if (!(reach > 0) || !std::isfinite(reach)) continue;
+            lost += radius[y] / reach;
+            all += i.seen.rest[y] / reach;
+        }
+        return all > 0 ? lost / all : 1;
+    }
+    [[nodiscard]] std::size_t most_curved(item const& i) const {
+        std::size_t best = motion_cover::none;
+        double most = 0;
+        for (std::size_t side = 0; side < cover_->sides(); ++side) {
+            auto const v = cover_->variable_of(i.what, side);
+            if (v == motion_cover::none || v >= i.seen.curvature.size()) continue;
+            if (i.seen.curvature[v] > most) {
+                most = i.seen.curvature[v];
+                best = side;
+            }
+        }
+        return best;
+    }
+
+    void collect(prediction& result) {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        auto const m = cover_->outputs();
+        std::vector<predicted_tube> tubes(m);
+        for (std::size_t y = 0; y < m; ++y) {
+            tubes[y].name = outputs_.model.about.channels[y].name;
+            tubes[y].unit = outputs_.model.about.channels[y].unit;
+            std::vector<double> low, high;
+            for (auto const& i : parts_) {
+                cover_->segments(i.what, i.seen, y, low, high);
+                if (tubes[y].low.empty()) {
+                    tubes[y].low = low;
+                    tubes[y].high = high;
+                    continue;
+                }
+                for (std::size_t s = 0; s < low.size(); ++s) {
+                    tubes[y].low[s] = std::min(tubes[y].low[s], low[s]);
+                    tubes[y].high[s] = std::max(tubes[y].high[s], high[s]);
+                }
+            }
+        }
+        result.complete = true;
+        std::size_t reached = result.times.size();
+        for (auto const& i : parts_) {
+            result.complete = result.complete && i.what.known && i.what.known->complete;
+            reached = std::min(reached, i.seen.reached);
+        }
+        result.reached = reached == 0 ? 0 : result.times[reached - 1];
+        for (std::size_t i = 0; i < problem_.initial.size(); ++i) result.states.push_back(tubes[i]);
+        auto const& about = problem_.model.about.channels;
+        for (std::size_t c = 0; c < about.size(); ++c) {
+            result.channels.push_back(tubes[outputs_.channels[c]]);
+            result.channels.back().name = about[c].name;
+            result.channels.back().unit = about[c].unit;
+        }
+        for (auto const y : outputs_.margins) result.further.push_back(tubes[y]);
+        for (auto const& tube : result.channels) { // of functions that are not defined everywhere
+            result.complete =
+                result.complete && std::none_of(tube.low.begin(), tube.low.end(),
+                                                [infinity](double x) { return x == -infinity; });
+        }
+    }
+
+    prediction_problem const& problem_;
+    prediction_options options_;
+    work_limit limit_;
+    followed_outputs outputs_;
+    std::optional<motion_cover> cover_;
+    items parts_;
+};
+
+} // namespace decision_detail
+
+SIVID_DECL prediction predict(prediction_problem const& problem, prediction_options const& options,
+                              std::vector<node_id> const& further) {
+    problem.require_valid();
+    return decision_detail::prediction_search(problem, options, further)();
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DECISION_IMPL_VERIFICATION_IPP
+#define SIVID_DECISION_IMPL_VERIFICATION_IPP
+
+#include <sivid/decision/verification.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/decision/detail/judged_motions.hpp>
+#include <sivid/paving/work_limit.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+namespace decision_detail {
+
+class verification_search {
+public:
+    verification_search(prediction_problem const& problem, requirement const& what,
+                        feasible_points const& feasible, prediction_options const& options)
+        : problem_(problem),
+          what_(what),
+          feasible_(feasible),
+          options_(options),
+          limit_(options.seconds, options.keep_going) {
+        options_.run.enclosure.keep_going = limit_;
+        double const cells = static_cast<double>(std::max<std::size_t>(options.cells, 1));
+        times_ = time_cells(problem, what.times, problem.end / cells);
+    }
+
+    [[nodiscard]] verification operator()() {
+        auto const begun = std::chrono::steady_clock::now();
+        std::vector<motion_cover::part> todo;
+        for (int refinement = 0;; ++refinement) {
+            motions_.emplace(problem_, what_, times_, options_.run);
+            if (refinement == 0) todo.push_back(motions_->cover().whole());
+            open_.clear();
+            for (auto& p : todo) {
+                p.known = nullptr;
+                open_.push_back({std::move(p)});
+            }
+            search();
+            integrations_ += motions_->cover().integrations();
+            if (result_.witness || refinement == 6 || !limit_()) break;
+            todo = coarse();
+            if (todo.empty()) break;
+        }
+        finish();
+        result_.seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+        return std::move(result_);
+    }
+
+private:
+    struct item {
+        motion_cover::part what;
+        judged_motions::judgement says{};
+        bool judged = false, settled = false;
+        int violations = 0; ///< how often it, or what it is a half of, was found to violate
+    };
+
+    [[nodiscard]] bool going() const {
+        return limit_() && !result_.witness && parts_ < options_.parts;
+    }
+
+    /// Integrates, halves and judges until nothing is open but what needs other instants, or for
+    /// good.
+    void search() {
+        std::size_t rounds = 0;
+        while (going()) {
+            std::vector<item*> next;
+            for (auto& i : open_) {
+                if (!i.judged) next.push_back(&i);
+                if (next.size() == motions_->cover().at_once()) break;
+            }
+            if (!next.empty()) {
+                judge(next);
+                drop_proved();
+                continue;
+            }
+            std::sort(open_.begin(), open_.end(), [](item const& a, item const& b) {
+                if (a.settled != b.settled) return b.settled;
+                return a.says.found.low < b.says.found.low;
+            });
+            if (open_.empty() || open_.front().settled) break;
+            // Bounds of motions that were not carried to the end suggest little.
+            auto const& worst = open_.front();
+            bool const violated = worst.says.found.refuted();
+            bool const telling = worst.says.reached == problem_.end;
+            if (violated || rounds == 0 || (telling && (rounds & (rounds - 1)) == 0))
+                seek_witness(worst);
+            ++rounds;
+            if (result_.witness) return;
+            halve();
+        }
+    }
+
+    void judge(std::vector<item*> const& which) {
+        std::vector<motion_cover::part*> fresh;
+        for (auto* i : which) {
+            if (!i->what.known) fresh.push_back(&i->what);
+        }
+        if (!fresh.empty()) motions_->cover().learn(fresh);
+        for (auto* i : which) {
+            i->says = motions_->judge(i->what);
+            i->judged = true;
+            ++parts_;
+        }
+    }
+
+    void drop_proved() {
+        std::erase_if(open_, [this](item const& i) {
+            if (!i.judged || !i.says.found.proved()) return false;
+            note(i.says.found);
+            return true;
+        });
+    }
+    void note(truth const& t) {
+        if (t.low < low_.low) low_ = t;
+        high_ = std::max(high_, t.high);
+    }
+
+    /// The worst parts in two, as many as are integrated at once.
+    void halve() {
+        std::vector<item> halves;
+        std::size_t taken = 0;
+        for (auto& i : open_) {
+            if (2 * taken >= motions_->cover().at_once()) break;
+            if (i.settled) continue;
+            ++taken;
+            if (i.says.coarse) { // not by smaller boxes
+                i.settled = true;
+                continue;
+            }
+            auto parts = i.says.side == motion_cover::none
+                             ? motions_->cover().split(i.what)
+                             : motions_->cover().split(i.what, i.says.side);
+            if (parts.empty() || motions_->is_tiny(i.what)) {
+                i.settled = true;
+                continue;
+            }
+            if (i.says.found.refuted() && ++i.violations > 5) { // nothing of it is known feasible
+                i.settled = true;
+                continue;
+            }
+            for (auto& p : parts) {
+                if (i.says.worn) p.known = nullptr;
+                halves.push_back({std::move(p), i.says, false, false, i.violations});
+            }
+            i.judged = false; // its halves take its place
+        }
+        std::erase_if(open_, [](item const& i) { return !i.judged; });
+        for (auto& h : halves) open_.push_back(std::move(h));
+    }
+
+    /// What is open since the grid is too coarse, once the grid is finer; empty: nothing is.
+    std::vector<motion_cover::part> coarse() {
+        std::set<std::size_t> cells;
+        for (auto const& i : open_) {
+            if (i.says.coarse) cells.insert(i.says.hiding.begin(), i.says.hiding.end());
+        }
+        if (cells.empty()) return {};
+        std::vector<motion_cover::part> todo;
+        for (auto& i : open_) {
+            if (i.says.coarse)
+                todo.push_back(std::move(i.what));
+            else
+                remember(i);
+        }
+        std::vector<double> finer;
+        for (std::size_t k = 0; k + 1 < times_.size(); ++k) {
+            finer.push_back(times_[k]);
+            if (cells.count(k) == 0) continue;
+            double const length = times_[k + 1] - times_[k];
+            for (int part = 1; part < 4; ++part) {
+                double const t = times_[k] + length * part / 4;
+                if (t > finer.back() && t < times_[k + 1]) finer.push_back(t);
+            }
+        }
+        finer.push_back(times_.back());
+        times_ = std::move(finer);
+        tried_.clear();
+        return todo;
+    }
+
+    /// Single motions at the points where the bounds of a part suggest a violation.
+    void seek_witness(item const& worst) {
+        if (feasible_.direct == nullptr || !feasible_.candidates || !feasible_.proved) return;
+        auto const points = motions_->suspicious_points(worst.what, worst.says.found);
+        if (!direct_ || direct_times_ != times_) {
+            direct_times_ = times_;
+            direct_ =
+                std::make_unique<judged_motions>(*feasible_.direct, what_, times_, options_.run);
+        }
+        auto& cover = direct_->cover();
+        std::vector<motion_cover::part> singles;
+        for (auto const& [start, parameters] : points) {
+            for (auto const& candidate : feasible_.candidates(parameters)) {
+                auto p = cover.point(start, candidate);
+                auto const point = mid(p.parameters);
+                auto key = point;
+                key.insert(key.end(), start.begin(), start.end());
+                if (tried_.insert(key).second) singles.push_back(std::move(p));
+            }
+        }
+        for (std::size_t first = 0; first < singles.size() && limit_(); first += cover.at_once()) {
+            auto const last = std::min(first + cover.at_once(), singles.size());
+            std::vector<motion_cover::part*> some;
+            for (auto k = first; k < last; ++k) some.push_back(&singles[k]);
+            cover.learn(some);
+            for (auto* p : some) {
+                auto const says = direct_->judge(*p);
+                if (!says.found.refuted()) continue;
+                auto const parameters = mid(p->parameters);
+                if (!feasible_.proved(parameters)) continue;
+                auto const segment = says.found.high_from.segment;
+                result_.witness =
+                    violating_motion{parameters, mid(p->initial), says.found, times_[segment / 2]};
+                return;
+            }
+        }
+    }
+
+    void remember(item const& i) {
+        note(i.says.found);
+        open_box box{i.what.parameters, i.what.initial, i.says.found, open_reason::undecided,
+                     i.says.reached};
+        if (i.judged && i.says.reached < problem_.end)
+            box.why = open_reason::not_enclosed;
+        else if (i.says.found.refuted())
+            box.why = open_reason::infeasible;
+        left_.push_back(std::move(box));
+    }
+
+    void finish() {
+        for (auto const& i : open_) remember(i);
+        result_.found = low_;
+        result_.found.high = high_;
+        result_.found.certain = left_.empty() && !result_.witness;
+        result_.found.possible = !(result_.witness && left_.empty());
+        result_.answer = result_.witness ? requirement_answer::refuted
+                         : left_.empty() ? requirement_answer::proved
+                                         : requirement_answer::open;
+        result_.reached = problem_.end;
+        for (auto const& b : left_) result_.reached = std::min(result_.reached, b.reached);
+        auto const size = [&](open_box const& b) {
+            return relative_volume(b.parameters, problem_.around()).upper();
+        };
+        std::stable_sort(left_.begin(), left_.end(),
+                         [&](open_box const& a, open_box const& b) { return size(a) > size(b); });
+        result_.open = std::move(left_);
+        result_.times = times_;
+        result_.parts = parts_;
+        result_.integrations = integrations_ + (direct_ ? direct_->cover().integrations() : 0);
+    }
+
+    prediction_problem const& problem_;
+    requirement const& what_;
+    feasible_points const& feasible_;
+    prediction_options options_;
+    work_limit limit_;
+    std::vector<double> times_, direct_times_;
+    std::optional<judged_motions> motions_;
+    std::unique_ptr<judged_motions> direct_;
+    std::vector<item> open_;
+    std::vector<open_box> left_;
+    std::set<std::vector<double>> tried_;
+    std::size_t parts_ = 0, integrations_ = 0;
+    truth low_{HUGE_VAL, HUGE_VAL, true, true, {}, {}}; // of no motion
+    double high_ = -std::numeric_limits<double>::infinity();
+    verification result_;
+};
+
+} // namespace decision_detail
+
+SIVID_DECL verification verify(prediction_problem const& problem, requirement const& what,
+                               feasible_points const& feasible, prediction_options const& options) {
+    problem.require_valid();
+    if (feasible.direct != nullptr) feasible.direct->require_valid();
+    return decision_detail::verification_search(problem, what, feasible, options)();
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DECISION_VERIFICATION_HPP
+#define SIVID_DECISION_VERIFICATION_HPP
+
+#include <sivid/compiled.hpp>
+#include <sivid/decision/prediction_options.hpp>
+#include <sivid/decision/prediction_problem.hpp>
+#include <sivid/decision/requirement.hpp>
+#include <sivid/decision/robustness.hpp>
+#include <sivid/space/box.hpp>
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace sivid {
+
+enum class requirement_answer {
+    proved,  ///< the requirement holds for every parameter and start
+    refuted, ///< a parameter that is proved feasible violates it
+    open     ///< neither: the open boxes say where
+};
+[[nodiscard]] constexpr std::string_view to_string(requirement_answer a) {
+    return a == requirement_answer::proved    ? "proved"
+           : a == requirement_answer::refuted ? "refuted"
+                                              : "open";
+}
+
+/// Why a box is open.
+enum class open_reason {
+    undecided,    ///< its bounds hold both; more time, smaller boxes
+    not_enclosed, ///< its motions were not enclosed up to the end
+    infeasible    ///< all of it violates, but none of its parameters was proved feasible
+};
+[[nodiscard]] constexpr std::string_view to_string(open_reason r) {
+    return r == open_reason::undecided      ? "not decided within the budget"
+           : r == open_reason::not_enclosed ? "not enclosed up to the end"
+                                            : "violated, and no parameter in it is proved feasible";
+}
+
+/// A single motion that violates a requirement, with a parameter that is proved feasible.
+struct violating_motion {
+    std::vector<double> parameters; ///< sides of `feasible_points::direct`
+    std::vector<double> start;
+    truth found;     ///< of this motion, enclosed anew
+    double time = 0; ///< an instant at which the robustness is decided [s]
+};
+
+/// A box of parameters and starts that is neither proved nor refuted.
+struct open_box {
+    box parameters, initial;
+    truth found;
+    open_reason why = open_reason::undecided;
+    double reached = 0; ///< its motions are enclosed up to here [s]
+};
+
+/// Where parameters come from that are proved to be possible: what a refutation needs.
+struct feasible_points {
+    /// The same prediction, with the user's parameters as sides.
+    prediction_problem const* direct = nullptr;
+    /// Points of `direct` to be tried for a point of the problem, most promising first.
+    std::function<std::vector<std::vector<double>>(std::vector<double> const&)> candidates{};
+    /// Whether a point of `direct` is proved feasible; false says nothing.
+    std::function<bool(std::vector<double> const&)> proved{};
+};
+
+/// A requirement over a set of parameters and starts.
+struct verification {
+    requirement_answer answer = requirement_answer::open;
+    /// The robustness of every motion is at least `low` and at most `high`.
+    truth found;
+    std::optional<violating_motion> witness; ///< when refuted
+    std::vector<open_box> open;              ///< largest first; empty when proved
+    double reached = 0;                      ///< all motions are enclosed up to here [s]
+    std::vector<double> times;               ///< the last grid
+    std::size_t parts = 0, integrations = 0;
+    double seconds = 0;
+};
+
+/// Decides a requirement for all parameters in the sets of a problem and all its starts.
+///   The parts of least proved robustness come first: they are halved, integrated anew where
+/// remainders weigh, and the grid in time is refined where a verdict hangs on what lies between two
+/// instants. For a refutation single motions are enclosed, at points that the bounds suggest, and
+/// their parameters are proved feasible.
+/// @param what  read for `problem.model` (and for `direct->model`, which is the same)
+/// @throws std::invalid_argument
+/// @guarantee  `proved`: at every instant, for every parameter in the sets. `refuted`: the witness
+///             violates it and is feasible, both proved. Else the answer is open.
+[[nodiscard]] SIVID_DECL verification verify(prediction_problem const& problem,
+                                             requirement const& what,
+                                             feasible_points const& feasible,
+                                             prediction_options const& options = {});
+
+} // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/decision/impl/verification.ipp>
+#endif
+
+#endif

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IMPL_DECISION_IPP
+#define SIVID_IMPL_DECISION_IPP
+
+#include <sivid/decision/impl/motion_cover.ipp>
+#include <sivid/decision/impl/prediction.ipp>
+#include <sivid/decision/impl/requirement.ipp>
+#include <sivid/decision/impl/robustness.ipp>
+#include <sivid/decision/impl/verification.ipp>
+
+#endif

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IO_DECISION_JSON_HPP
+#define SIVID_IO_DECISION_JSON_HPP
+
+#include <sivid/compiled.hpp>
+#include <sivid/decision/prediction.hpp>
+#include <sivid/decision/verification.hpp>
+#include <sivid/io/stored_prediction.hpp>
+
+#include <map>
+#include <string>
+
+namespace sivid {
+
+/// What files of predictions and verifications say besides.
+struct decision_json_options {
+    std::string dataset{};       ///< id
+    std::string source_folder{}; ///< of the identification, seen from the file's folder
+    std::string source_digest{}; ///< SHA-256 of its result.json
+    std::string scenario{};
+    std::map<std::string, interval> set{}; ///< constants of the scenario
+};
+
+/// `prediction.json` in the format sivid-prediction-1: tubes, outward.
+[[nodiscard]] SIVID_DECL std::string prediction_json(stored_prediction const& about,
+                                                     prediction const& found,
+                                                     decision_json_options const& options);
+
+/// `tubes.csv`: from, to and the bounds of each channel and state; instants have from = to.
+[[nodiscard]] SIVID_DECL std::string tubes_csv(prediction const& found);
+
+/// `verification.json` in the format sivid-verification-1: answer, robustness, witness or open
+/// boxes.
+[[nodiscard]] SIVID_DECL std::string verification_json(stored_prediction const& about,
+                                                       requirement const& asked,
+                                                       verification const& found,
+                                                       decision_json_options const& options);
+
+} // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/io/impl/decision_json.ipp>
+#endif
+
+#endif

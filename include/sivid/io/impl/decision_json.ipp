@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IO_IMPL_DECISION_JSON_IPP
+#define SIVID_IO_IMPL_DECISION_JSON_IPP
+
+#include <sivid/io/decision_json.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/io/json_writer.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace sivid {
+
+namespace io_detail {
+
+inline void write_head(json_writer& json, char const* format, stored_prediction const& about,
+                       decision_json_options const& options) {
+    json.key("format").string(format);
+    json.key("dataset").string(options.dataset);
+    json.key("result").begin_object();
+    json.key("folder").string(options.source_folder);
+    json.key("sha256").string(options.source_digest).end_object();
+    json.key("scenario").string(options.scenario);
+    json.key("duration").nearest(about.problem.end);
+    json.key("set").begin_object();
+    for (auto const& [name, range] : options.set) json.key(name).bounds(range);
+    json.end_object();
+    json.key("coordinates").begin_array(json_writer::layout::one_line);
+    for (auto const& side : about.sides) json.string(side);
+    json.end_array();
+    if (!about.not_in_products.empty()) json.key("not_in_products").string(about.not_in_products);
+    json.key("boxes").integer(about.problem.sets.size());
+    json.key("assumptions").begin_array();
+    for (auto const& a : about.assumptions) json.string(a);
+    json.end_array();
+}
+
+inline void write_box(json_writer& json, std::vector<std::string> const& names, box const& x) {
+    json.begin_object(json_writer::layout::one_line);
+    for (std::size_t i = 0; i < x.size(); ++i) json.key(names[i]).bounds(x[i]);
+    json.end_object();
+}
+
+inline void write_bounds(json_writer& json, double low, double high) {
+    json.begin_array(json_writer::layout::one_line).lower_bound(low).upper_bound(high).end_array();
+}
+
+inline std::vector<std::string> names_of_states(model_description const& about) {
+    std::vector<std::string> names;
+    for (auto const& s : about.states) names.push_back(s.name);
+    return names;
+}
+
+} // namespace io_detail
+
+SIVID_DECL std::string prediction_json(stored_prediction const& about, prediction const& found,
+                                       decision_json_options const& options) {
+    json_writer json;
+    json.begin_object();
+    io_detail::write_head(json, "sivid-prediction-1", about, options);
+    json.key("complete").boolean(found.complete);
+    json.key("reached").nearest(found.reached);
+    json.key("excess").upper_bound(found.excess);
+    json.key("tubes").string("tubes.csv");
+    json.key("at_end").begin_object();
+    for (auto const& tube : found.channels) {
+        json.key(tube.name);
+        io_detail::write_bounds(json, tube.low.back(), tube.high.back());
+    }
+    json.end_object();
+    json.key("parts").integer(found.parts);
+    json.key("integrations").integer(found.integrations);
+    json.key("seconds").nearest(found.seconds).end_object();
+    return json.text();
+}
+
+SIVID_DECL std::string tubes_csv(prediction const& found) {
+    std::string text = "from,to";
+    std::vector<predicted_tube const*> all;
+    for (auto const& tube : found.channels) all.push_back(&tube);
+    for (auto const& tube : found.states) {
+        bool same = false; // a channel that is the state itself
+        for (auto const& c : found.channels)
+            same = same || (c.name == tube.name && c.low == tube.low && c.high == tube.high);
+        if (!same) all.push_back(&tube);
+    }
+    for (auto const* tube : all) text += "," + tube->name + "_lower," + tube->name + "_upper";
+    text += "\n";
+    auto const number = [](double x) { return exact_decimal::shortest(x).text(); };
+    for (std::size_t s = 0; s + 1 < 2 * found.times.size(); ++s) {
+        text += number(found.times[s / 2]) + "," + number(found.times[(s + 1) / 2]);
+        for (auto const* tube : all) {
+            text += ",";
+            if (std::isfinite(tube->low[s])) text += to_decimal_lower(tube->low[s]);
+            text += ",";
+            if (std::isfinite(tube->high[s])) text += to_decimal_upper(tube->high[s]);
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+SIVID_DECL std::string verification_json(stored_prediction const& about, requirement const& asked,
+                                         verification const& found,
+                                         decision_json_options const& options) {
+    json_writer json;
+    json.begin_object();
+    io_detail::write_head(json, "sivid-verification-1", about, options);
+    json.key("requirement").string(asked.text);
+    json.key("answer").string(to_string(found.answer));
+    json.key("robustness");
+    io_detail::write_bounds(json, found.found.low, found.found.high);
+    json.key("reached").nearest(found.reached);
+    auto const states = io_detail::names_of_states(about.direct.model.about);
+    json.key("witness");
+    if (found.witness) {
+        auto const& w = *found.witness;
+        json.begin_object();
+        json.key("parameters").begin_object(json_writer::layout::one_line);
+        for (std::size_t j = 0; j < w.parameters.size(); ++j)
+            json.key(about.direct.choice.unknown[j]).nearest(w.parameters[j]);
+        json.end_object();
+        json.key("initial").begin_object(json_writer::layout::one_line);
+        for (std::size_t i = 0; i < w.start.size(); ++i) json.key(states[i]).nearest(w.start[i]);
+        json.end_object();
+        json.key("robustness");
+        io_detail::write_bounds(json, w.found.low, w.found.high);
+        json.key("time").nearest(w.time);
+        json.key("feasible").string("proved by validated runs through the data").end_object();
+    } else {
+        json.null();
+    }
+    json.key("open_boxes").integer(found.open.size());
+    json.key("open").begin_array();
+    for (std::size_t k = 0; k < found.open.size() && k < 1000; ++k) {
+        auto const& b = found.open[k];
+        json.begin_object();
+        json.key("parameters");
+        io_detail::write_box(json, about.sides, b.parameters);
+        json.key("initial");
+        io_detail::write_box(json, states, b.initial);
+        json.key("robustness");
+        io_detail::write_bounds(json, b.found.low, b.found.high);
+        json.key("reached").nearest(b.reached);
+        json.key("why").string(to_string(b.why)).end_object();
+    }
+    json.end_array();
+    json.key("parts").integer(found.parts);
+    json.key("integrations").integer(found.integrations);
+    json.key("instants").integer(found.times.size());
+    json.key("seconds").nearest(found.seconds).end_object();
+    return json.text();
+}
+
+} // namespace sivid
+
+#endif

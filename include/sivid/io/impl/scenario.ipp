@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IO_IMPL_SCENARIO_IPP
+#define SIVID_IO_IMPL_SCENARIO_IPP
+
+#include <sivid/io/scenario.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/io/json_document.hpp>
+
+#include <algorithm>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+SIVID_DECL signal exact_signal(input_shape const& s, double duration) {
+    using kind = input_shape::kind;
+    switch (s.shape) {
+    case kind::constant:
+        return sampled_signal({0}, {s.offset}, interpolation::hold);
+    case kind::sine:
+        return analytic_signal::from([&s](auto const& t) {
+            return s.offset + s.amplitude * sin(2 * std::numbers::pi * s.frequency * t + s.phase);
+        });
+    case kind::ramp:
+        return sampled_signal({s.begin - 1, s.begin, s.end, std::max(s.end, duration) + 1},
+                              {s.from, s.from, s.to, s.to}, interpolation::linear);
+    case kind::samples:
+        break;
+    }
+    // Held before the first sample and after the last one.
+    auto times = s.times;
+    auto values = s.values;
+    times.insert(times.begin(), times.front() - 1);
+    values.insert(values.begin(), values.front());
+    times.push_back(std::max(times.back(), duration) + 1);
+    values.push_back(values.back());
+    return sampled_signal(std::move(times), std::move(values), interpolation::linear);
+}
+
+namespace io_detail {
+
+class scenario_reader {
+public:
+    explicit scenario_reader(model_names const& model) : model_{model} {}
+
+    /// @throws input_error that says what is wrong and where
+    [[nodiscard]] scenario_description read(json_value const& root) const {
+        root.allow_only({"format", "name", "about", "duration", "initial", "inputs"});
+        auto const& format = root.at("format").string();
+        if (format != "sivid-scenario-1" && format != "hovercraft-scenario-1")
+            root.at("format").fail("unknown format", "write sivid-scenario-1");
+        scenario_description result;
+        result.name = root.at("name").string();
+        if (result.name.find_first_of("/\\") != std::string::npos || result.name.front() == '.')
+            root.at("name").fail("the name cannot be a file name", "use letters, digits, - and _");
+        if (auto const* about = root.find("about")) result.about = about->any_string();
+        result.duration = number(root.at("duration"));
+        if (!(result.duration > 0))
+            root.at("duration").fail("the duration is not above 0", "state it in seconds");
+        auto const& initial = root.at("initial");
+        only(initial, model_.states);
+        for (auto const& s : model_.states) result.initial.push_back(range(initial.at(s.name)));
+        auto const& inputs = root.at("inputs");
+        only(inputs, model_.inputs);
+        for (auto const& i : model_.inputs) result.inputs.push_back(shape(inputs.at(i.name)));
+        return result;
+    }
+
+private:
+    static double number(json_value const& entry) { return *nearest(entry.number()); }
+
+    static void only(json_value const& list, std::vector<name_unit> const& names) {
+        for (std::size_t i = 0; i < list.members().size(); ++i)
+            if (!index_of(names, list.name_of(i)))
+                list.members()[i].fail(std::string{"unknown name "} + in_quotes(list.name_of(i)),
+                                       std::string{"the model has: "} + joined_names(names));
+    }
+
+    static stated_range range(json_value const& entry) {
+        exact_decimal low, high;
+        if (entry.type() == json_value::kind::array) {
+            if (entry.elements().size() != 2)
+                entry.fail("a range needs two numbers", "write [lower, upper]");
+            low = entry.elements()[0].number();
+            high = entry.elements()[1].number();
+            if (high < low) entry.fail("lower is above upper", "write [lower, upper]");
+        } else {
+            low = high = entry.number();
+        }
+        return {low, high, *enclose(low, high)};
+    }
+
+    static std::vector<double> numbers(json_value const& list) {
+        std::vector<double> result;
+        for (auto const& entry : list.elements()) result.push_back(number(entry));
+        return result;
+    }
+
+    static input_shape shape(json_value const& entry) {
+        using kind = input_shape::kind;
+        auto const& name = entry.at("shape").string();
+        input_shape s;
+        if (name == "constant") {
+            entry.allow_only({"shape", "value"});
+            s.offset = number(entry.at("value"));
+        } else if (name == "sine") {
+            entry.allow_only({"shape", "offset", "amplitude", "frequency", "phase"});
+            s.shape = kind::sine;
+            s.offset = number(entry.at("offset"));
+            s.amplitude = number(entry.at("amplitude"));
+            s.frequency = number(entry.at("frequency"));
+            s.phase = number(entry.at("phase"));
+        } else if (name == "ramp") {
+            entry.allow_only({"shape", "from", "to", "begin", "end"});
+            s.shape = kind::ramp;
+            s.from = number(entry.at("from"));
+            s.to = number(entry.at("to"));
+            s.begin = number(entry.at("begin"));
+            s.end = number(entry.at("end"));
+            if (!(s.begin < s.end))
+                entry.at("end").fail("the ramp ends before it begins", "give begin < end");
+        } else if (name == "samples") {
+            entry.allow_only({"shape", "t", "values"});
+            s.shape = kind::samples;
+            s.times = numbers(entry.at("t"));
+            s.values = numbers(entry.at("values"));
+            if (s.times.empty() || s.times.size() != s.values.size())
+                entry.fail("as many values as times are needed, at least one", "correct the lists");
+            if (std::adjacent_find(s.times.begin(), s.times.end(), std::greater_equal<>{}) !=
+                s.times.end())
+                entry.at("t").fail("the times do not increase", "sort them");
+        } else {
+            entry.at("shape").fail(std::string{"unknown shape "} + in_quotes(name),
+                                   "known here: constant, sine, ramp, samples");
+        }
+        return s;
+    }
+
+    model_names const& model_;
+};
+
+} // namespace io_detail
+
+SIVID_DECL scenario_description parse_scenario(std::string const& name, std::string const& text,
+                                               model_names const& model) {
+    return io_detail::scenario_reader(model).read(parse_json(name, text));
+}
+
+SIVID_DECL scenario_description read_scenario(std::filesystem::path const& file,
+                                              model_names const& model) {
+    return io_detail::scenario_reader(model).read(read_json(file));
+}
+
+} // namespace sivid
+
+#endif

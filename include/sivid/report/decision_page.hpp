@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_REPORT_DECISION_PAGE_HPP
+#define SIVID_REPORT_DECISION_PAGE_HPP
+
+#include <sivid/compiled.hpp>
+#include <sivid/decision/prediction.hpp>
+#include <sivid/decision/verification.hpp>
+#include <sivid/io/stored_prediction.hpp>
+#include <sivid/report/motion_plot.hpp>
+#include <sivid/report/page.hpp>
+
+#include <string>
+#include <vector>
+
+namespace sivid::report {
+
+/// One simulated motion, not validated: what it is, and its values over time.
+struct simulated_line {
+    std::vector<double> times{};
+    std::vector<std::vector<double>> states{};   ///< [time][state]
+    std::vector<std::vector<double>> channels{}; ///< [time][channel]
+    std::vector<std::vector<double>> further{};  ///< [time][expression]
+};
+
+/// What pages of predictions and verifications say besides.
+struct decision_page_options {
+    std::string dataset{}, scenario{}, about{};
+    std::vector<std::string> set{}; ///< "Ff in [0.286, 0.777] N"
+    simulated_line least_squares{}, single{};
+    std::string single_is = "witness, not validated";
+    std::vector<std::string> footer{};
+};
+
+/// The answer in a sentence.
+[[nodiscard]] SIVID_DECL std::string answer_sentence(stored_prediction const& about,
+                                                     verification const& found);
+/// What an answer rests on, in sentences.
+[[nodiscard]] SIVID_DECL std::vector<std::string> decision_assumptions(stored_prediction const& s);
+
+/// A page with the tubes of all channels.
+[[nodiscard]] SIVID_DECL page prediction_page(stored_prediction const& about,
+                                              prediction const& found,
+                                              decision_page_options const& options);
+
+/// A page with the answer, the margins of all comparisons against zero, and the tubes.
+/// @param tubes  of the same prediction, followed with `asked.margins`
+[[nodiscard]] SIVID_DECL page verification_page(stored_prediction const& about,
+                                                requirement const& asked, verification const& found,
+                                                prediction const& tubes,
+                                                decision_page_options const& options);
+
+} // namespace sivid::report
+
+#ifndef SIVID_COMPILED
+#include <sivid/report/impl/decision_page.ipp>
+#endif
+
+#endif

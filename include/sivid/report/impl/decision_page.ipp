@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_REPORT_IMPL_DECISION_PAGE_IPP
+#define SIVID_REPORT_IMPL_DECISION_PAGE_IPP
+
+#include <sivid/report/decision_page.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/report/number_text.hpp>
+#include <sivid/report/table.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid::report {
+
+namespace detail {
+
+inline range range_of(interval const& x) { return {x.lower(), x.upper()}; }
+
+/// The tube in pieces for a drawing: each cell with its instants.
+inline motion_series series_of(std::vector<double> const& times, predicted_tube const& tube) {
+    motion_series m;
+    m.tube.name = tube.name;
+    m.tube.unit = tube.unit;
+    for (std::size_t s = 1; s < tube.low.size(); s += 2) {
+        range const value{std::min({tube.low[s - 1], tube.low[s], tube.low[s + 1]}),
+                          std::max({tube.high[s - 1], tube.high[s], tube.high[s + 1]})};
+        if (is_finite(value)) m.tube.tube.push_back({times[s / 2], times[s / 2 + 1], value});
+    }
+    return m;
+}
+
+inline std::vector<point> line_of(simulated_line const& l,
+                                  std::vector<std::vector<double>> const& values, std::size_t k) {
+    std::vector<point> line;
+    for (std::size_t n = 0; n < values.size() && n < l.times.size(); ++n) {
+        if (k < values[n].size()) line.push_back({l.times[n], values[n][k]});
+    }
+    return line;
+}
+
+inline std::string text_of(interval const& x) { return outward_text(range_of(x)); }
+
+inline std::string named(std::vector<std::string> const& names, std::vector<double> const& x) {
+    std::string text;
+    for (std::size_t i = 0; i < x.size() && i < names.size(); ++i)
+        text += (text.empty() ? "" : ", ") + names[i] + " = " + exact_text(x[i]);
+    return text;
+}
+
+inline void add_motions(page& out, prediction const& found, decision_page_options const& o) {
+    std::vector<motion_series> all;
+    for (std::size_t c = 0; c < found.channels.size(); ++c) {
+        auto m = series_of(found.times, found.channels[c]);
+        m.tube.reference = line_of(o.least_squares, o.least_squares.channels, c);
+        m.single = line_of(o.single, o.single.channels, c);
+        all.push_back(std::move(m));
+    }
+    for (std::size_t i = 0; i < found.states.size(); ++i) {
+        bool const shown =
+            std::any_of(found.channels.begin(), found.channels.end(),
+                        [&](auto const& c) { return c.name == found.states[i].name; });
+        if (shown) continue;
+        auto m = series_of(found.times, found.states[i]);
+        m.tube.reference = line_of(o.least_squares, o.least_squares.states, i);
+        m.single = line_of(o.single, o.single.states, i);
+        all.push_back(std::move(m));
+    }
+    motion_plot_options options;
+    options.full = o.single_is;
+    figure f{.panels = {},
+             .legend = motion_plot_legend(all, options),
+             .title = "The motion, for all parameters and starts.",
+             .caption = "The band is proved: every motion of the model, for every parameter that "
+                        "the identification leaves and every start of the scenario, runs within it "
+                        "at every instant. The lines are simulated in floating point and prove "
+                        "nothing."};
+    for (auto const& m : all) {
+        options.title = m.tube.name;
+        f.panels.push_back(draw_motion_plot(m, options));
+    }
+    out.add(f);
+}
+
+inline void add_parameters(page& out, stored_prediction const& about,
+                           decision_page_options const& o) {
+    out.section("For which parameters");
+    auto const around = about.problem.around();
+    table t{.columns = {{"quantity", column_kind::symbol}, {"range", column_kind::number}},
+            .rows = {}};
+    for (std::size_t j = 0; j < around.size(); ++j)
+        t.rows.push_back({about.sides[j], text_of(around[j])});
+    t.caption = "The smallest ranges around the union of " + count_text(about.problem.sets.size()) +
+                (about.in_products ? " boxes, in the products that the data fix."
+                                   : " boxes of parameters.");
+    out.add(t);
+    if (!o.set.empty()) out.bullets(o.set);
+    table starts{.columns = {{"state", column_kind::symbol},
+                             {"start", column_kind::number},
+                             {"unit", column_kind::note}},
+                 .rows = {}};
+    auto const& states = about.problem.model.about.states;
+    for (std::size_t i = 0; i < states.size(); ++i)
+        starts.rows.push_back(
+            {states[i].name, given_text(range_of(about.problem.initial[i])), states[i].unit});
+    out.add(starts);
+}
+
+} // namespace detail
+
+SIVID_DECL std::string answer_sentence(stored_prediction const& about, verification const& found) {
+    range const r{found.found.low, found.found.high};
+    switch (found.answer) {
+    case requirement_answer::proved:
+        return "It holds for every parameter that the identification leaves and every start of the "
+               "scenario, at every instant" +
+               std::string{is_finite(r) ? "; the robustness is within " + outward_text(r) : ""} +
+               ".";
+    case requirement_answer::refuted: {
+        auto const& w = *found.witness;
+        return "Violated at " + detail::named(about.direct.choice.unknown, w.parameters) +
+               ", which the data allow (proved by validated runs): its robustness is at most " +
+               rounded_text(w.found.high, rounding::up) + ".";
+    }
+    case requirement_answer::open:
+        break;
+    }
+    auto const& b = found.open.front();
+    std::string text =
+        "Neither proved nor refuted: " + count_text(found.open.size()) +
+        (found.open.size() == 1 ? " box is open; " : " boxes are open; the largest ") + "is " +
+        std::string{to_string(b.why)};
+    if (b.why == open_reason::not_enclosed)
+        text += " (motions are enclosed up to t = " + exact_text(b.reached) + " s)";
+    text += ", at ";
+    for (std::size_t j = 0; j < b.parameters.size(); ++j)
+        text += (j > 0 ? ", " : "") + about.sides[j] + " in " + detail::text_of(b.parameters[j]);
+    return text + ".";
+}
+
+SIVID_DECL std::vector<std::string> decision_assumptions(stored_prediction const& s) {
+    std::vector<std::string> lines;
+    lines.push_back("The identification's result is taken as it stands: what it excludes is "
+                    "excluded. `check --all` proves that anew. A witness of a violation does not "
+                    "rest on it.");
+    for (auto const& a : s.assumptions) lines.push_back(a + ".");
+    lines.push_back(
+        "The scenario's inputs act exactly as stated, and the model's equations hold in "
+        "it.");
+    if (!s.not_in_products.empty())
+        lines.push_back("The products that the data fix do not tell this prediction (" +
+                        s.not_in_products +
+                        "): it is made in the parameters themselves, where "
+                        "the result is drawn more coarsely.");
+    return lines;
+}
+
+SIVID_DECL page prediction_page(stored_prediction const& about, prediction const& found,
+                                decision_page_options const& o) {
+    page out{{.kind = "Prediction",
+              .title = o.scenario + ", from " + o.dataset,
+              .lead = o.about.empty() ? "All motions that the identification leaves." : o.about}};
+    out.banner(found.complete ? outcome::proved : outcome::undecided,
+               found.complete ? "Proved for the whole scenario"
+                              : "Proved up to t = " + exact_text(found.reached) + " s",
+               found.complete
+                   ? "Every motion runs within the tubes at every instant."
+                   : "The enclosure ends before the scenario does, or has gaps: a smaller set of "
+                     "parameters, more time (--budget) or a shorter scenario may help.");
+    std::vector<card> cards;
+    if (std::isfinite(found.excess))
+        cards.push_back({"wider than what is reached",
+                         "\xE2\x89\xA4 " +
+                             rounded_text(std::max(0.0, found.excess), rounding::up,
+                                          {.significant = 2, .shift = 2}) +
+                             " %",
+                         "at the instants, by the parameters and starts themselves"});
+    cards.push_back({"time", duration_text(found.seconds), ""});
+    cards.push_back({"parts", count_text(found.parts), ""});
+    cards.push_back({"integrations", count_text(found.integrations), "validated"});
+    out.cards(cards);
+    detail::add_motions(out, found, o);
+    out.section("At the end");
+    table t{.columns = {{"quantity", column_kind::symbol},
+                        {"range", column_kind::number},
+                        {"unit", column_kind::note}},
+            .rows = {}};
+    for (auto const& c : found.channels) {
+        range const r{c.low.back(), c.high.back()};
+        t.rows.push_back({c.name, is_finite(r) ? outward_text(r) : "not known", c.unit});
+    }
+    out.add(t);
+    detail::add_parameters(out, about, o);
+    out.assumptions(decision_assumptions(about));
+    out.footer(o.footer);
+    return out;
+}
+
+SIVID_DECL page verification_page(stored_prediction const& about, requirement const& asked,
+                                  verification const& found, prediction const& tubes,
+                                  decision_page_options const& o) {
+    page out{
+        {.kind = "Verification", .title = asked.text, .lead = o.scenario + ", from " + o.dataset}};
+    bool const proved = found.answer == requirement_answer::proved;
+    bool const refuted = found.answer == requirement_answer::refuted;
+    out.banner(proved    ? outcome::proved
+               : refuted ? outcome::refuted
+                         : outcome::undecided,
+               proved    ? "Proved"
+               : refuted ? "Refuted"
+                         : "Open",
+               answer_sentence(about, found));
+    std::vector<card> cards;
+    range const r{found.found.low, found.found.high};
+    cards.push_back({"robustness", is_finite(r) ? outward_text(r) : "not bounded",
+                     "of all motions; above 0 the requirement holds"});
+    cards.push_back({"time", duration_text(found.seconds), ""});
+    cards.push_back({"parts", count_text(found.parts), ""});
+    cards.push_back({"integrations", count_text(found.integrations), "validated"});
+    out.cards(cards);
+    std::vector<motion_series> margins;
+    for (std::size_t c = 0; c < tubes.further.size(); ++c) {
+        auto m = detail::series_of(tubes.times, tubes.further[c]);
+        m.tube.name = "margin";
+        m.zero = true;
+        m.tube.reference = detail::line_of(o.least_squares, o.least_squares.further, c);
+        m.single = detail::line_of(o.single, o.single.further, c);
+        margins.push_back(std::move(m));
+    }
+    motion_plot_options options;
+    options.full = o.single_is;
+    figure f{.panels = {},
+             .legend = motion_plot_legend(margins, options),
+             .title = "The margins of the comparisons, for all parameters and starts.",
+             .caption = "A comparison holds where its margin is above 0. What the requirement asks "
+                        "of them, and when, says its text."};
+    for (std::size_t c = 0; c < margins.size(); ++c) {
+        options.title = c < asked.labels.size() ? asked.labels[c] : "comparison";
+        f.panels.push_back(draw_motion_plot(margins[c], options));
+    }
+    out.section("The requirement against the tube");
+    out.add(f);
+    if (!found.open.empty()) {
+        out.section("Where it is open");
+        table t{.columns = {}, .rows = {}};
+        for (auto const& side : about.sides) t.columns.push_back({side, column_kind::number});
+        t.columns.push_back({"robustness", column_kind::number});
+        t.columns.push_back({"why", column_kind::note});
+        for (std::size_t k = 0; k < std::min<std::size_t>(found.open.size(), 40); ++k) {
+            auto const& b = found.open[k];
+            std::vector<std::string> row;
+            for (auto const& side : b.parameters) row.push_back(detail::text_of(side));
+            range const own{b.found.low, b.found.high};
+            row.push_back(is_finite(own) ? outward_text(own) : "not bounded");
+            row.push_back(std::string{to_string(b.why)});
+            t.rows.push_back(std::move(row));
+        }
+        if (found.open.size() > 40)
+            t.caption = "The largest 40 of " + count_text(found.open.size()) + ".";
+        out.add(t);
+    }
+    out.section("The motion");
+    detail::add_motions(out, tubes, o);
+    detail::add_parameters(out, about, o);
+    out.assumptions(decision_assumptions(about));
+    out.footer(o.footer);
+    return out;
+}
+
+} // namespace sivid::report
+
+#endif

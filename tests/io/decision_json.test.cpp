@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/io/decision_json.hpp>
+
+#include "io/stored_result.hpp"
+#include "support/catch.hpp"
+
+#include <sivid/io/json_document.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+
+namespace {
+
+struct decided {
+    sivid::identification_problem problem = io_support::two_rates_problem();
+    sivid::recorded_model model = problem.model;
+    sivid::requirement what;
+    std::unique_ptr<sivid::stored_prediction> about;
+
+    explicit decided(std::string const& text) {
+        what = sivid::parse_requirement(text, model, 1);
+        sivid::prediction_request r;
+        r.initial = {sivid::interval(2.0)};
+        r.end = 1;
+        about = sivid::predict_from(problem, io_support::stored_result(problem).read(), model,
+                                    what.margins, r, "result.json");
+    }
+    [[nodiscard]] sivid::json_value answer() const {
+        auto const found = sivid::verify(about->problem, what, about->feasible, {.seconds = 2});
+        return sivid::parse_json("verification.json",
+                                 sivid::verification_json(*about, what, found, {.scenario = "S"}));
+    }
+};
+
+double number(sivid::json_value const& v) { return *sivid::nearest(v.number()); }
+
+} // namespace
+
+TEST_CASE("a verification is written as it was found") {
+    auto const proved = decided("always(x > 1.1)").answer();
+    CHECK(proved.at("format").string() == "sivid-verification-1");
+    CHECK(proved.at("answer").string() == "proved");
+    CHECK(proved.at("requirement").string() == "always(x > 1.1)");
+    CHECK(proved.at("coordinates").elements()[0].string() == "a*b");
+    CHECK(proved.at("witness").type() == sivid::json_value::kind::null);
+    CHECK(proved.at("open").elements().empty());
+    CHECK_FALSE(proved.at("assumptions").elements().empty());
+    CHECK(number(proved.at("robustness").elements()[0]) > 0);
+
+    auto const refuted = decided("x at 1 > 1.22").answer();
+    CHECK(refuted.at("answer").string() == "refuted");
+    auto const& w = refuted.at("witness");
+    CHECK(number(w.at("parameters").at("a")) * number(w.at("parameters").at("b")) > 0.49);
+    CHECK(number(w.at("initial").at("x")) == 2);
+    CHECK(number(w.at("robustness").elements()[1]) < 0);
+}
+
+TEST_CASE("a prediction is written with its bounds outward") {
+    decided const d("x > 0");
+    auto const found = sivid::predict(d.about->problem, {.cells = 4});
+    auto const json = sivid::parse_json(
+        "prediction.json",
+        sivid::prediction_json(*d.about, found,
+                               {.dataset = "small", .set = {{"c", sivid::interval(1.0)}}}));
+    CHECK(json.at("format").string() == "sivid-prediction-1");
+    auto const& end = json.at("at_end").at("x").elements();
+    CHECK(number(end[0]) <= found.channels[0].low.back());
+    CHECK(number(end[1]) >= found.channels[0].high.back());
+    auto const table = sivid::tubes_csv(found);
+    CHECK(table.starts_with("from,to,x_lower,x_upper\n0,0,"));
+    CHECK(std::count(table.begin(), table.end(), '\n') ==
+          static_cast<std::ptrdiff_t>(2 * found.times.size()));
+}
+
+TEST_CASE("what is not known is no number") {
+    decided const d("x > 0");
+    sivid::prediction empty;
+    empty.times = {0, 1};
+    empty.channels = {{"x", "m", {-HUGE_VAL, 0, -HUGE_VAL}, {HUGE_VAL, 1, HUGE_VAL}}};
+    auto const json = sivid::parse_json("p", sivid::prediction_json(*d.about, empty, {}));
+    CHECK(json.at("excess").type() == sivid::json_value::kind::null);
+    CHECK(json.at("at_end").at("x").elements()[0].type() == sivid::json_value::kind::null);
+    CHECK(sivid::tubes_csv(empty) == "from,to,x_lower,x_upper\n0,0,,\n0,1,0,1\n1,1,,\n");
+}
