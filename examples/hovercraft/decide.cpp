@@ -2,6 +2,7 @@
 // predict and verify: what a stored identification says of a scenario.
 #include "commands.hpp"
 #include "console/decision_commands.hpp"
+#include "effects.hpp"
 #include "scenario.hpp"
 
 namespace hovercraft_example {
@@ -19,12 +20,12 @@ sivid::scenario_description find_one(sivid::recorded_model const& model, std::st
 
 int run_predict(hovercraft const& craft, console::decision_command const& c) {
     auto const model = sivid::record_model(craft);
-    return console::run_predict(model, {}, c,
+    return console::run_predict(model, catalogue(), c,
                                 [&](std::string const& name) { return find_one(model, name); });
 }
 int run_verify(hovercraft const& craft, console::decision_command const& c) {
     auto const model = sivid::record_model(craft);
-    return console::run_verify(model, {}, c,
+    return console::run_verify(model, catalogue(), c,
                                [&](std::string const& name) { return find_one(model, name); });
 }
 
