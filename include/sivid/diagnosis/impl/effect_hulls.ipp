@@ -48,7 +48,7 @@ private:
         if (problem.prior.size() == 0) return problem.prior;
         identify_options how;
         how.only_hulls = true;
-        how.completing_seconds = 0;
+        if (share < 1) how.completing_seconds = 0; // one of many
         how.test = options_->test;
         how.search.proof_bytes = 0;
         how.search.keep_outside = false;
