@@ -46,7 +46,9 @@ public:
     }
 
 private:
-    static constexpr double of_a_slice = 1.0 / 32;
+    // Shares of the boxes and of the time that is left.
+    static constexpr double of_late_slice = 1.0 / 32;
+    static constexpr double of_quick_slice = 1.0 / 8;
 
     /// What a problem leaves of its prior; nothing when it explains nothing. Without a fit, which
     /// excludes nothing.
@@ -129,7 +131,7 @@ private:
                                    e.begin, end_of(e), now.range);
             }
             start_added_states(problem);
-            auto const left = hull_of(problem, of_a_slice);
+            auto const left = hull_of(problem, of_late_slice);
             if (!left) continue;
             double const half = mid(now.range);
             bool const splits = now.range.lower() < half && half < now.range.upper();
@@ -158,12 +160,12 @@ private:
             if (!e.lags || !acts_first(k)) continue;
             auto const j = index_of_parameter(whole, e.name + "." + e.parameters[0].name);
             auto const prior = whole.prior[j];
-            if (prior.lower() > 0) continue;
+            if (prior.lower() != 0) continue; // below 0 a lag is none
             for (double const share : {1.0 / 16, 1.0 / 64, 1.0 / 256}) {
                 double const longest = share * prior.upper();
                 auto const quick = without_lag(k, longest);
                 if (!quick || !limit_()) break;
-                auto const left = hull_of(*quick, 0.125);
+                auto const left = hull_of(*quick, of_quick_slice);
                 if (left && share > 1.0 / 256) continue; // shorter ones may be excluded
                 if (left) add(hulls, joined(*left, j, interval(prior.lower(), longest)));
                 whole.prior[j] = interval(longest, prior.upper());
