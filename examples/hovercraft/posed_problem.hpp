@@ -32,8 +32,8 @@ posed(sivid::dataset const& data, sivid::recorded_model const& model,
         throw bad_request(e.what());
     }
     if (problem.model.has_delays())
-        throw bad_request("an effect that delays cannot be identified with proof: no enclosure "
-                          "over a range of delays is there yet; `diagnose` tries it at points");
+        throw bad_request("an effect that delays cannot be joined here yet; `diagnose` bounds the "
+                          "delay of an input, and verifies delays at points");
     if (sivid::starts_follow_parameters(problem))
         throw bad_request("these effects together begin where their parameters say, which an "
                           "identification cannot follow yet; `diagnose` tries them at points");

@@ -401,7 +401,8 @@ TEST_CASE("identify joins effects of the catalogue to the model, and check joins
          {forgery{"[]", "other parameters"}, forgery{"[\"motor_lag\"]", "other parameters"},
           forgery{"[\"rudder_lag\", \"wind\"]", "other parameters"},
           forgery{"[\"rudder_lag\", \"rudder_lag\"]", "twice"},
-          forgery{"[\"\\u001b[2J\"]", "unknown effect"}, forgery{"\"rudder_lag\"", "effects"}}) {
+          forgery{"[\"gravity\"]", "unknown effect"},
+          forgery{"[\"\\u001b[2J\"]", "control character"}, forgery{"\"rudder_lag\"", "effects"}}) {
         auto forged = text;
         folder.write("out/result.json",
                      forged.replace(at, named.size(), "\"effects\": " + f.effects));

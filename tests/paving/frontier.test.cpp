@@ -84,7 +84,7 @@ TEST_CASE("a face of a hull is held by what touches it") {
     CHECK(open.touched_by({between(3, 4), between(0, 0.1)}));
     open.close({between(3, 4), between(0, 0.1)});
     CHECK_FALSE(open.none());
-    open.close({between(3, 4), between(0.97, 0.98)});
+    open.close({between(3, 4), between(0.97, 0.979)});
     CHECK_FALSE(open.none());
     open.close({between(3, 4), between(0.97, 0.981)});
     CHECK(open.none());

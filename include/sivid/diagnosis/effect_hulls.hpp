@@ -16,7 +16,7 @@ namespace sivid {
 
 struct effect_hull_options {
     double seconds = 10;
-    std::size_t boxes = 4000; ///< of each search
+    std::size_t boxes = 4000; ///< of the last search; a slice gets a share of them
     /// A delay is told no more finely than this share of its prior.
     double accuracy = 1.0 / 128;
     std::function<bool()> keep_going{}; ///< false ends it with what is proved until then
@@ -25,9 +25,8 @@ struct effect_hull_options {
 
 /// Encloses all parameters of a model with effects that explain the data: those of the model
 /// itself, then those of the effects.
-///   A delay has no enclosure over a range, and the equation of a lag is singular at a time
-///   constant
-/// of 0. Over a slice of their priors both are inputs with error bounds (`delayed_within`,
+///   A delay has no enclosure over a range, and the equation of a lag is singular where its time
+/// constant is 0. Over a slice of their priors both are inputs with error bounds (`delayed_within`,
 /// `lagged_within`): slices that cannot explain the data are excluded, the hulls of the others are
 /// joined. Short time constants are such a slice; the others are an ordinary state.
 /// @param base     without the effects
@@ -35,7 +34,7 @@ struct effect_hull_options {
 /// @guarantee  every parameter of `affected(base, effects)` that explains the data lies in the
 ///             result; empty when none does
 /// @throws std::invalid_argument  as `affected`
-/// @cost  a search in hulls (`identify_options::only_hulls`) for each slice, within the limits
+/// @cost  a search for each slice, until its hull rests, within the limits
 [[nodiscard]] SIVID_DECL box effect_hulls(identification_problem const& base,
                                           std::vector<effect> const& effects,
                                           effect_hull_options const& options = {});

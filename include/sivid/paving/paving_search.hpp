@@ -4,7 +4,6 @@
 
 #include <sivid/number/guard.hpp>
 #include <sivid/paving/detail/box_batches.hpp>
-#include <sivid/paving/detail/hull_rest.hpp>
 #include <sivid/paving/detail/lesson.hpp>
 #include <sivid/paving/frontier.hpp>
 #include <sivid/paving/inversion_options.hpp>
@@ -249,8 +248,7 @@ private:
         return rest_(
             tested_, options_.hull_gain, [this] { return waiting_.hull(paving_.outer_hull()); },
             [this](box const& around) {
-                return paving_detail::faces_are_held(*test_, paving_, waiting_.items(), around,
-                                                     options_.hull_gain);
+                return batches_.hold_faces(paving_, around, options_.hull_gain);
             });
     }
 

@@ -7,7 +7,10 @@
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/input_slices.hpp>
 #include <sivid/diagnosis/resolve_delays.hpp>
-#include <sivid/paving/identify.hpp>
+#include <sivid/paving/data_test.hpp>
+#include <sivid/paving/dependence.hpp>
+#include <sivid/paving/invert.hpp>
+#include <sivid/paving/reduction.hpp>
 #include <sivid/paving/work_limit.hpp>
 
 #include <algorithm>
@@ -43,21 +46,27 @@ public:
     }
 
 private:
-    /// What a slice leaves of the other parameters; nothing when it explains nothing.
+    // Shares of the boxes and of the time that is left.
+    static constexpr double of_late_slice = 1.0 / 32;
+    static constexpr double of_quick_slice = 1.0 / 8;
+
+    /// What a problem leaves of its prior; nothing when it explains nothing. Without a fit, which
+    /// excludes nothing.
+    /// @param share  of the boxes, and of the time that is left
     [[nodiscard]] std::optional<box> hull_of(identification_problem const& problem, double share) {
         if (problem.prior.size() == 0) return problem.prior;
-        identify_options how;
-        how.only_hulls = true;
-        how.completing_seconds = 0;
-        how.test = options_->test;
-        how.search.proof_bytes = 0;
-        how.search.keep_outside = false;
-        how.search.seconds = share * limit_.seconds();
-        how.search.boxes = options_->boxes;
-        how.search.keep_going = limit_;
-        auto const found = identify(problem, how);
-        if (found.verdict == verdict::inconsistent) return std::nullopt;
-        return found.hull;
+        auto const map = reduction::find(problem, dependence_of(problem));
+        auto const& posed = map ? map->problem() : problem;
+        data_test test(posed, limited(options_->test, limit_));
+        inversion_options search{
+            .accuracy_of_hull = true, .hull_gain = 0.02, .keep_outside = false};
+        search.seconds = share * limit_.seconds();
+        search.boxes = static_cast<std::size_t>(share * static_cast<double>(options_->boxes));
+        search.keep_going = limit_;
+        auto const paving = invert(test, posed.prior, search).paving;
+        if (!paving.has_outer()) return std::nullopt;
+        auto const left = paving.outer_hull();
+        return map ? map->backward(problem.prior, left) : left;
     }
 
     /// A box of all parameters from one without parameter `j`, and the range of that.
@@ -92,12 +101,17 @@ private:
             box others; ///< contains what the slice leaves
         };
         auto middle = mid(whole.prior);
-        box rest;
-        {
-            auto resolved = resolve_delays(whole, middle);
-            rest = resolved.problem.prior;
-        }
-        std::vector<slice> waiting{{whole.prior[j], rest}}; // the widest first: in order of coming
+        box const rest = resolve_delays(whole, middle).problem.prior;
+        std::vector<slice> waiting;   // the widest first: in order of coming
+        constexpr int begin_with = 8; // wider ones are rarely excluded
+        auto const at = [&](int k) {
+            double const way = static_cast<double>(k) / begin_with;
+            auto const& all = whole.prior[j];
+            return k == 0            ? all.lower()
+                   : k == begin_with ? all.upper()
+                                     : all.lower() + way * (all.upper() - all.lower());
+        };
+        for (int k = 0; k < begin_with; ++k) waiting.push_back({interval(at(k), at(k + 1)), rest});
         double const narrow = options_->accuracy * width(whole.prior[j]);
         box hulls;
         for (std::size_t next = 0; next < waiting.size(); ++next) {
@@ -117,7 +131,7 @@ private:
                                    e.begin, end_of(e), now.range);
             }
             start_added_states(problem);
-            auto const left = hull_of(problem, 0.25);
+            auto const left = hull_of(problem, of_late_slice);
             if (!left) continue;
             double const half = mid(now.range);
             bool const splits = now.range.lower() < half && half < now.range.upper();
@@ -146,12 +160,12 @@ private:
             if (!e.lags || !acts_first(k)) continue;
             auto const j = index_of_parameter(whole, e.name + "." + e.parameters[0].name);
             auto const prior = whole.prior[j];
-            if (prior.lower() > 0) continue;
+            if (prior.lower() != 0) continue; // below 0 a lag is none
             for (double const share : {1.0 / 16, 1.0 / 64, 1.0 / 256}) {
                 double const longest = share * prior.upper();
                 auto const quick = without_lag(k, longest);
                 if (!quick || !limit_()) break;
-                auto const left = hull_of(*quick, 0.25);
+                auto const left = hull_of(*quick, of_quick_slice);
                 if (left && share > 1.0 / 256) continue; // shorter ones may be excluded
                 if (left) add(hulls, joined(*left, j, interval(prior.lower(), longest)));
                 whole.prior[j] = interval(longest, prior.upper());

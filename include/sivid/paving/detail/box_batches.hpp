@@ -4,9 +4,11 @@
 
 #include <sivid/executor.hpp>
 #include <sivid/number/guard.hpp>
+#include <sivid/paving/detail/hull_rest.hpp>
 #include <sivid/paving/detail/lesson.hpp>
 #include <sivid/paving/frontier.hpp>
 #include <sivid/paving/set_test.hpp>
+#include <sivid/paving/subpaving.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -53,6 +55,7 @@ class box_batches {
 public:
     template <class Frontier>
     box_batches(Test&, Frontier&, executor const&) {}
+    [[nodiscard]] static bool hold_faces(subpaving const&, box const&, double) { return true; }
 };
 
 /// Takes boxes from a frontier and has them judged and learnt about, in parallel where the test
@@ -128,6 +131,23 @@ public:
         return result;
     }
 
+    /// Whether each face of a hull is touched by a box of the paving, or by a waiting one that what
+    /// is known of it shows sharply: such a face moves with the size of boxes alone, others when
+    /// enclosures become narrow enough.
+    /// @param share  of a side's width within which a box touches a face
+    [[nodiscard]] bool hold_faces(subpaving const& paving, box const& hull, double share) {
+        open_faces open(hull, share);
+        for (auto const& b : paving.boxes()) {
+            if (b.verdict != box_verdict::outside) open.close(b.set);
+        }
+        for (auto* const i : waiting_->best(waiting_->size())) {
+            if (!i->load.known || !open.touched_by(i->set)) continue;
+            if (!i->load.judged) judge({i});
+            if (!i->load.judged->blind) open.close(i->set);
+        }
+        return open.none();
+    }
+
 private:
     void in_parallel(std::size_t count, executor::task const& work) const {
         if constexpr (concurrent_set_test<Test>) {
@@ -145,11 +165,14 @@ private:
         bool const alone = !concurrent_set_test<Test> || !workers_.run || workers_.threads < 2;
         auto ahead = waiting_->best(alone ? 1 : 16 * workers_.threads);
         std::erase_if(ahead, [](item const* i) { return i->load.judged != nullptr; });
-        remember(ahead);
-        in_parallel(ahead.size(), [&](std::size_t k) {
-            auto& load = ahead[k]->load;
+        judge(ahead);
+    }
+    void judge(std::vector<item*> const& items) {
+        remember(items);
+        in_parallel(items.size(), [&](std::size_t k) {
+            auto& load = items[k]->load;
             auto const known = load.known ? load.known->found() : nullptr;
-            load.judged = std::make_shared<answer const>(test_->judge(ahead[k]->set, known));
+            load.judged = std::make_shared<answer const>(test_->judge(items[k]->set, known));
         });
     }
 

@@ -2,8 +2,6 @@
 #ifndef SIVID_PAVING_DETAIL_HULL_REST_HPP
 #define SIVID_PAVING_DETAIL_HULL_REST_HPP
 
-#include <sivid/paving/set_test.hpp>
-#include <sivid/paving/subpaving.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>
@@ -76,31 +74,6 @@ struct hull_rest {
         return false;
     }
 };
-
-/// Whether each face of the hull is touched by a box that the test sees sharply by what is known
-/// of it: such a face moves with the size of boxes alone, others when enclosures become narrow
-/// enough.
-/// @param waiting  items whose `load.known` is what is known, or null
-/// @param share    of a side's width within which a box touches a face
-template <class Test, class Items>
-[[nodiscard]] bool faces_are_held(Test const& test, subpaving const& paving, Items const& waiting,
-                                  box const& hull, double share) {
-    if constexpr (batch_set_test<Test>) {
-        open_faces open(hull, share);
-        for (auto const& b : paving.boxes()) {
-            if (b.verdict != box_verdict::outside) open.close(b.set);
-        }
-        for (auto const& i : waiting) {
-            auto const& known = i.load.known;
-            if (known && open.touched_by(i.set) && !test.judge(i.set, known->found()).blind) {
-                open.close(i.set);
-            }
-        }
-        return open.none();
-    } else {
-        return true;
-    }
-}
 
 } // namespace paving_detail
 
