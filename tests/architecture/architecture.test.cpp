@@ -162,7 +162,7 @@ TEST_CASE("planted breaches are found") {
         CHECK(tree.findings() == "");
     }
     SECTION("options that run nothing need no test") {
-        std::string const body = "struct o {\n    int a = 1; // (one)\n"
+        std::string const body = "#include <functional>\nstruct o {\n    int a = 1; // (one)\n"
                                  "    std::function<void(int)> f = nullptr;\n};\n";
         tree.header("space/high.hpp", "#include <sivid/space/high_options.hpp>\n");
         tree.write("include/sivid/sivid.hpp",
@@ -193,6 +193,11 @@ TEST_CASE("planted breaches are found") {
     SECTION("unknown floor") {
         tree.header("attic/old.hpp", "");
         CHECK_THAT(tree.findings(), ContainsSubstring("floor: include/sivid/attic/old.hpp"));
+    }
+    SECTION("a name of the standard library without its header") {
+        tree.header("number/low.hpp", "// std::map\ninline std::vector<int> f() { return {}; }\n");
+        CHECK(tree.findings() == "standard: include/sivid/number/low.hpp: uses names of <vector> "
+                                 "without including it\n");
     }
     SECTION("absent from the umbrella") {
         tree.header("paving/fresh.hpp", "");

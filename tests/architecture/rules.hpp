@@ -21,8 +21,8 @@ namespace architecture {
 namespace fs = std::filesystem;
 
 inline constexpr std::array<std::string_view, 12> floors{
-    "number", "space",     "measurement", "model",  "approximate", "enclosure",
-    "paving", "decision",  "diagnosis",   "io",     "report",      "parallel"};
+    "number", "space",    "measurement", "model", "approximate", "enclosure",
+    "paving", "decision", "diagnosis",   "io",    "report",      "parallel"};
 inline constexpr std::size_t core_floors = 9;
 /// Headers outside of floors that each floor may include.
 inline constexpr std::array<std::string_view, 3> common{"sivid/version.hpp", "sivid/compiled.hpp",
@@ -142,6 +142,87 @@ inline bool only_options(std::string const& stem, std::vector<std::string> const
         auto const call = code.find('('); // within a default it is no function of its own
         return call != code.npos && code.find('=') > call && code.find("std::function<") > call;
     });
+}
+
+/// The header of the standard library that a name std::... comes from; "" for names that several
+/// have or that no header of sivid needs.
+inline std::string_view standard_header(std::string_view name) {
+    static std::map<std::string_view, std::string_view> const home{
+        {"vector", "vector"},
+        {"string", "string"},
+        {"to_string", "string"},
+        {"optional", "optional"},
+        {"nullopt", "optional"},
+        {"map", "map"},
+        {"set", "set"},
+        {"function", "functional"},
+        {"array", "array"},
+        {"unique_ptr", "memory"},
+        {"shared_ptr", "memory"},
+        {"make_unique", "memory"},
+        {"make_shared", "memory"},
+        {"numeric_limits", "limits"},
+        {"uint64_t", "cstdint"},
+        {"int64_t", "cstdint"},
+        {"uint32_t", "cstdint"},
+        {"uint8_t", "cstdint"},
+        {"min", "algorithm"},
+        {"max", "algorithm"},
+        {"sort", "algorithm"},
+        {"any_of", "algorithm"},
+        {"all_of", "algorithm"},
+        {"none_of", "algorithm"},
+        {"clamp", "algorithm"},
+        {"copy", "algorithm"},
+        {"fill", "algorithm"},
+        {"transform", "algorithm"},
+        {"find_if", "algorithm"},
+        {"move", "utility"},
+        {"pair", "utility"},
+        {"variant", "variant"},
+        {"string_view", "string_view"},
+        {"chrono", "chrono"},
+        {"filesystem", "filesystem"},
+        {"isfinite", "cmath"},
+        {"isnan", "cmath"},
+        {"sqrt", "cmath"},
+        {"size_t", "cstddef"},
+        {"ptrdiff_t", "cstddef"},
+        {"mutex", "mutex"},
+        {"atomic", "atomic"},
+        {"invalid_argument", "stdexcept"},
+        {"runtime_error", "stdexcept"},
+        {"logic_error", "stdexcept"},
+        {"domain_error", "stdexcept"},
+        {"accumulate", "numeric"},
+        {"iota", "numeric"},
+        {"tuple", "tuple"},
+        {"deque", "deque"},
+        {"span", "span"}};
+    auto const found = home.find(name);
+    return found == home.end() ? std::string_view{} : found->second;
+}
+
+/// The headers of the standard library that these lines use without including them. (The test
+/// `each header alone` parses behind a precompiled standard library and would not see it.)
+inline std::set<std::string> missing_standard_headers(std::vector<std::string> const& lines) {
+    std::set<std::string> had, used;
+    for (auto const& line : lines) {
+        auto const target = included(line);
+        if (!target.empty()) had.insert(target.substr(1));
+        auto const code = line.substr(0, line.find("//"));
+        for (auto at = code.find("std::"); at != code.npos; at = code.find("std::", at + 1)) {
+            auto end = at + 5;
+            while (end < code.size() &&
+                   (std::isalnum(static_cast<unsigned char>(code[end])) != 0 || code[end] == '_'))
+                ++end;
+            used.insert(
+                std::string{standard_header(std::string_view{code}.substr(at + 5, end - at - 5))});
+        }
+    }
+    used.erase("");
+    for (auto const& header : had) used.erase(header);
+    return used;
 }
 
 /// The header that a file of definitions belongs to: a/b/impl/x.ipp to a/b/x.hpp.
@@ -285,6 +366,10 @@ inline std::vector<finding> check(fs::path const& tree) {
             if (!at_root && !may_include_approximate(other, name))
                 report("unproved", "includes <" + other + ">, which is no result of a fit");
         }
+
+        if (!definitions)
+            for (auto const& header : missing_standard_headers(lines))
+                report("standard", "uses names of <" + header + "> without including it");
 
         if (!internal) {
             auto const place = fs::relative(path, include / "sivid").parent_path();

@@ -12,6 +12,7 @@
 #include <sivid/paving/data_test.hpp>
 #include <sivid/paving/holdout_inflation.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>

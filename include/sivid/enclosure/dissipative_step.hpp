@@ -4,6 +4,12 @@
 
 #include <sivid/enclosure/detail/dissipative_step_class.hpp>
 
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
 namespace sivid {
 
 template <class I>

@@ -4,6 +4,14 @@
 
 #include <sivid/enclosure/detail/implicit_stages_class.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
 namespace sivid {
 
 template <class T>

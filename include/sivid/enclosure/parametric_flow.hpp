@@ -7,6 +7,15 @@
 #include <sivid/enclosure/detail/parametric_flow_class.hpp>
 #include <sivid/enclosure/detail/parametric_flow_tails.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
 namespace sivid {
 
 template <class Model>

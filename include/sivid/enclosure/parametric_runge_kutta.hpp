@@ -4,6 +4,13 @@
 
 #include <sivid/enclosure/detail/parametric_runge_kutta_class.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
 namespace sivid {
 
 template <class Model>

@@ -328,4 +328,12 @@ bool stepper<I>::perturb(tube_step<I>& step) {
 
 #include <sivid/enclosure/detail/stepper_image.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
 #endif

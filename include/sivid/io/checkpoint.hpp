@@ -11,6 +11,7 @@
 #include <sivid/version.hpp>
 
 #include <concepts>
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>

@@ -10,6 +10,7 @@
 #include <sivid/number/nearest_text.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>

@@ -5,6 +5,7 @@
 #include <sivid/compiled.hpp>
 
 #include <cctype>
+#include <cstddef>
 #include <map>
 #include <string>
 #include <string_view>

@@ -9,6 +9,11 @@
 #include <sivid/enclosure/detail/parametric_flow_sharp.hpp>
 #include <sivid/enclosure/detail/power_sum.hpp>
 
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
 namespace sivid {
 
 template <class Model>

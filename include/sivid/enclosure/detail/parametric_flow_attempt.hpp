@@ -8,6 +8,12 @@
 #include <sivid/enclosure/detail/parametric_flow_class.hpp>
 #include <sivid/enclosure/detail/power_sum.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
 namespace sivid {
 
 /// \f$ \sum_{from \le k < order} h^k \|V_k\| \f$, componentwise, rounded up.

@@ -8,6 +8,10 @@
 
 #include <sivid/enclosure/detail/parametric_flow_class.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
 namespace sivid {
 
 template <class Model>

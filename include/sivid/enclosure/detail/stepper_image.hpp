@@ -7,6 +7,7 @@
 
 #include <sivid/enclosure/detail/stepper_class.hpp>
 
+#include <cstddef>
 #include <optional>
 
 namespace sivid {
