@@ -16,7 +16,7 @@ namespace sivid {
 inline namespace SIVID_PACK_TARGET {
 
 /// One bit for each lane.
-using lane_mask = std::uint64_t;
+using cut_lanes = std::uint64_t;
 
 /// The derived error bounds of the pack's own kernels, in units of 2^-53 relative to the value,
 /// before the one directed rounding of each bound. A bound is therefore within ceil(2 error) + 2
@@ -42,7 +42,7 @@ template <std::size_t W>
 }
 template <std::size_t W>
 [[nodiscard]] pack<W> operator/(pack<W> const& a, pack<W> const& b) noexcept {
-    lane_mask cut = 0;
+    cut_lanes cut = 0;
     return pack_traits<W>::div(a, b, cut);
 }
 template <std::size_t W>
@@ -145,102 +145,102 @@ template <std::size_t W>
 
 // With a cut domain.
 template <std::size_t W>
-[[nodiscard]] pack<W> sqrt(pack<W> const& a, lane_mask& cut) noexcept {
+[[nodiscard]] pack<W> sqrt(pack<W> const& a, cut_lanes& cut) noexcept {
     return pack_traits<W>::sqrt(a, cut);
 }
 template <std::size_t W>
 [[nodiscard]] pack<W> sqrt(pack<W> const& a) noexcept {
-    lane_mask cut = 0;
+    cut_lanes cut = 0;
     return pack_traits<W>::sqrt(a, cut);
 }
 template <std::size_t W>
-[[nodiscard]] pack<W> log(pack<W> const& a, lane_mask& cut) noexcept {
+[[nodiscard]] pack<W> log(pack<W> const& a, cut_lanes& cut) noexcept {
     return pack_traits<W>::log(a, cut);
 }
 template <std::size_t W>
 [[nodiscard]] pack<W> log(pack<W> const& a) noexcept {
-    lane_mask cut = 0;
+    cut_lanes cut = 0;
     return pack_traits<W>::log(a, cut);
 }
 template <std::size_t W>
-[[nodiscard]] pack<W> log1p(pack<W> const& a, lane_mask& cut) noexcept {
+[[nodiscard]] pack<W> log1p(pack<W> const& a, cut_lanes& cut) noexcept {
     return pack_traits<W>::log1p(a, cut);
 }
 template <std::size_t W>
 [[nodiscard]] pack<W> log1p(pack<W> const& a) noexcept {
-    lane_mask cut = 0;
+    cut_lanes cut = 0;
     return pack_traits<W>::log1p(a, cut);
 }
 template <std::size_t W>
-[[nodiscard]] pack<W> tan(pack<W> const& a, lane_mask& cut) noexcept {
+[[nodiscard]] pack<W> tan(pack<W> const& a, cut_lanes& cut) noexcept {
     return pack_traits<W>::tan(a, cut);
 }
 template <std::size_t W>
 [[nodiscard]] pack<W> tan(pack<W> const& a) noexcept {
-    lane_mask cut = 0;
+    cut_lanes cut = 0;
     return pack_traits<W>::tan(a, cut);
 }
 template <std::size_t W>
-[[nodiscard]] pack<W> asin(pack<W> const& a, lane_mask& cut) noexcept {
+[[nodiscard]] pack<W> asin(pack<W> const& a, cut_lanes& cut) noexcept {
     return pack_traits<W>::asin(a, cut);
 }
 template <std::size_t W>
 [[nodiscard]] pack<W> asin(pack<W> const& a) noexcept {
-    lane_mask cut = 0;
+    cut_lanes cut = 0;
     return pack_traits<W>::asin(a, cut);
 }
 template <std::size_t W>
-[[nodiscard]] pack<W> acos(pack<W> const& a, lane_mask& cut) noexcept {
+[[nodiscard]] pack<W> acos(pack<W> const& a, cut_lanes& cut) noexcept {
     return pack_traits<W>::acos(a, cut);
 }
 template <std::size_t W>
 [[nodiscard]] pack<W> acos(pack<W> const& a) noexcept {
-    lane_mask cut = 0;
+    cut_lanes cut = 0;
     return pack_traits<W>::acos(a, cut);
 }
 template <std::size_t W>
-[[nodiscard]] pack<W> acosh(pack<W> const& a, lane_mask& cut) noexcept {
+[[nodiscard]] pack<W> acosh(pack<W> const& a, cut_lanes& cut) noexcept {
     return pack_traits<W>::acosh(a, cut);
 }
 template <std::size_t W>
 [[nodiscard]] pack<W> acosh(pack<W> const& a) noexcept {
-    lane_mask cut = 0;
+    cut_lanes cut = 0;
     return pack_traits<W>::acosh(a, cut);
 }
 template <std::size_t W>
-[[nodiscard]] pack<W> atanh(pack<W> const& a, lane_mask& cut) noexcept {
+[[nodiscard]] pack<W> atanh(pack<W> const& a, cut_lanes& cut) noexcept {
     return pack_traits<W>::atanh(a, cut);
 }
 template <std::size_t W>
 [[nodiscard]] pack<W> atanh(pack<W> const& a) noexcept {
-    lane_mask cut = 0;
+    cut_lanes cut = 0;
     return pack_traits<W>::atanh(a, cut);
 }
 template <std::size_t W>
-[[nodiscard]] pack<W> pow(pack<W> const& a, pack<W> const& b, lane_mask& cut) noexcept {
+[[nodiscard]] pack<W> pow(pack<W> const& a, pack<W> const& b, cut_lanes& cut) noexcept {
     return pack_traits<W>::pow(a, b, cut);
 }
 template <std::size_t W>
 [[nodiscard]] pack<W> pow(pack<W> const& a, pack<W> const& b) noexcept {
-    lane_mask cut = 0;
+    cut_lanes cut = 0;
     return pack_traits<W>::pow(a, b, cut);
 }
 template <std::size_t W>
-[[nodiscard]] pack<W> atan2(pack<W> const& a, pack<W> const& b, lane_mask& cut) noexcept {
+[[nodiscard]] pack<W> atan2(pack<W> const& a, pack<W> const& b, cut_lanes& cut) noexcept {
     return pack_traits<W>::atan2(a, b, cut);
 }
 template <std::size_t W>
 [[nodiscard]] pack<W> atan2(pack<W> const& a, pack<W> const& b) noexcept {
-    lane_mask cut = 0;
+    cut_lanes cut = 0;
     return pack_traits<W>::atan2(a, b, cut);
 }
 template <std::size_t W>
-[[nodiscard]] pack<W> pown(pack<W> const& a, int n, lane_mask& cut) noexcept {
+[[nodiscard]] pack<W> pown(pack<W> const& a, int n, cut_lanes& cut) noexcept {
     return pack_traits<W>::pown(a, n, cut);
 }
 template <std::size_t W>
 [[nodiscard]] pack<W> pown(pack<W> const& a, int n) noexcept {
-    lane_mask cut = 0;
+    cut_lanes cut = 0;
     return pack_traits<W>::pown(a, n, cut);
 }
 
