@@ -9,7 +9,8 @@
 #include <cstddef>
 #include <limits>
 
-/// The reals t with |t - middle| <= radius; a negative radius is the empty set.
+/// The reals between middle - radius and middle + radius, both rounded outward; a negative radius
+/// is the empty set.
 struct middle_radius {
     double middle = 0.0, radius = 0.0;
 };

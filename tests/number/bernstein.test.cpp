@@ -12,9 +12,9 @@
 
 using namespace sivid;
 using support::draws;
-using support::sized_model;
 using support::random_model;
 using support::rational;
+using support::sized_model;
 
 namespace {
 

@@ -27,7 +27,7 @@ taylor_model<eight> together(std::vector<support::sized_model<2, 3>> const& mode
     return m;
 }
 std::vector<support::sized_model<2, 3>> random_models(draws& d, double size, double decay,
-                                                   double radius) {
+                                                      double radius) {
     std::vector<support::sized_model<2, 3>> models;
     for (int l = 0; l < 8; ++l) {
         models.push_back(support::random_model<2, 3>(d, size, decay, radius));

@@ -101,4 +101,5 @@ TEST_CASE("monomial spaces that are too large are refused") {
     REQUIRE_THROWS_AS(monomial_space::of(200, 5), std::invalid_argument);
     REQUIRE_THROWS_AS(monomial_space::of(1, 256), std::invalid_argument);
     REQUIRE_THROWS_AS(monomial_space::of(100000, 100), std::invalid_argument);
+    REQUIRE_THROWS_AS(monomial_space::of(10, 12), std::invalid_argument); // 226 million products
 }

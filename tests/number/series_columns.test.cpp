@@ -19,9 +19,9 @@ using namespace sivid;
 using support::any_polynomial;
 using support::covers;
 using support::draws;
-using support::sized_model;
 using support::random_model;
 using support::rational;
+using support::sized_model;
 
 namespace {
 

@@ -5,21 +5,23 @@
 #include "support/rounding_modes.hpp"
 #include "support/taylor_models.hpp"
 
+#include <sivid/number/series_columns.hpp>
 #include <sivid/number/taylor_model.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 using namespace sivid;
 using support::any_polynomial;
 using support::covers;
 using support::draws;
-using support::sized_model;
 using support::random_model;
 using support::rational;
+using support::sized_model;
 
 namespace {
 
@@ -107,6 +109,8 @@ void check_members(std::uint64_t seed, int trials) {
         rows.add_convolution(s.rows, 0, 1, r.k, r.from, r.to);
         for (std::size_t j = r.from; j <= r.to; ++j) single.add(s.a[j], s.b[r.k - j]);
         auto const result = rows.result();
+        for (std::size_t i = result.terms(); i < result.shape().radius; ++i)
+            REQUIRE(result.c(i) == 0); // vectors of coefficients are read whole
         auto const reference = single.result();
         CAPTURE(N, D, trial, r.k, r.from, r.to);
         // Not wider than product by product.
@@ -161,6 +165,17 @@ TEST_CASE("Series rows: a convolution contains all products of members") {
 TEST_CASE("Series rows: every order's radius counts") {
     check_radii<1, 0>();
     check_radii<2, 1>();
+}
+
+TEST_CASE("Series of one size take no model of another") {
+    auto const& announced = model_shape<double>::of(4, 1);
+    taylor_model<double> const other(model_shape<double>::of(1, 4)); // as many coefficients
+    series_rows rows(1, 2, announced);
+    CHECK_THROWS_AS(rows.put(0, 1, other), std::logic_error);
+    series_columns columns(1, 1, 2, announced);
+    CHECK_THROWS_AS(columns.put(0, 0, 1, other), std::logic_error);
+    column_multiplier multiplier(2, announced);
+    CHECK_THROWS_AS(multiplier.put(1, other), std::logic_error);
 }
 
 TEST_CASE("Series rows: a radius that is not finite stays so") {

@@ -18,10 +18,10 @@ using support::covers;
 using support::draws;
 using support::exact;
 using support::holds;
-using support::sized_model;
 using support::monomials_of;
 using support::random_model;
 using support::rational;
+using support::sized_model;
 
 namespace {
 

@@ -107,7 +107,7 @@ TEST_CASE("a proof is followed and whatever is forged in it no feasible point is
         auto problem = planted.problem;
         auto const& prior = problem.prior;
         identify_options options;
-        options.search.seconds = 2;
+        options.search.seconds = 60; // the boxes end it
         options.search.boxes = 60;
         data_test test(problem, options.test);
         options.search.proof_bytes = 1U << 24;
@@ -120,7 +120,7 @@ TEST_CASE("a proof is followed and whatever is forged in it no feasible point is
             if (!contains(b.set, planted.truth)) without.push_back(b.set);
         }
         certificate_options effort;
-        effort.seconds = 5;
+        effort.seconds = 60;
         run_options fine;
         fine.enclosure.tolerance = 1e-9;
         fine.enclosure.relative_tolerance = 1e-6;

@@ -31,12 +31,15 @@ struct ensemble {
           parameter_centre(mid(parameters)),
           deviation(initial.size() + parameters.size()) {
         auto const n = initial.size();
+        using traits = interval_traits<I>;
+        for (std::size_t j = 0; j < parameters.size(); ++j) {
+            parameters[j] = traits::hull(parameters[j], traits::point(parameter_centre[j]));
+        }
         auto const x = subtract(initial, mid(initial));
         auto const q = subtract(parameters, parameter_centre);
         for (std::size_t i = 0; i < n; ++i) deviation[i] = x[i];
         for (std::size_t j = 0; j < q.size(); ++j) deviation[n + j] = q[j];
         auto const look = [this](I const& side) {
-            using traits = interval_traits<I>;
             wide = wide || traits::rad(side) > 1e-13 * traits::mag(side);
         };
         for (I const& side : initial) look(side);
@@ -72,6 +75,17 @@ struct doubleton {
         return set;
     }
 
+    /// The hull and m: over what slopes from m to members are taken. More than the hull where it
+    /// holds no double.
+    [[nodiscard]] basic_box<I> hull_and_centre() const {
+        using traits = interval_traits<I>;
+        auto x = hull;
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            if (!traits::contains(x[i], centre[i]))
+                x[i] = traits::hull(x[i], traits::point(centre[i]));
+        }
+        return x;
+    }
     /// \f$ m + C r_0 + B [r] \f$ over the whole ensemble.
     [[nodiscard]] basic_box<I> affine_hull(basic_box<I> const& deviation) const {
         return add(add(point_box<I>(centre), product(shape, deviation)), product(axes, remainder));

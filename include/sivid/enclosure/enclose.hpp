@@ -72,9 +72,7 @@ public:
 
 private:
     [[nodiscard]] std::unique_ptr<Run> begin() const {
-        // A point is a family in one idle unknown.
-        auto const unknowns =
-            std::max<std::size_t>(1, normalised_unknowns(initial_, parameters_).variables);
+        auto const unknowns = normalised_unknowns(initial_, parameters_).variables;
         auto run = std::make_unique<Run>(*flow_, options_, unknowns, suggested_degree(unknowns));
         run->begin(from_, initial_, parameters_);
         return run;

@@ -47,7 +47,7 @@ public:
         auto const n = flow_->states();
         auto const columns = n + flow_->parameters();
         I const t = traits::point(set.time);
-        evaluate(at_set_, t, set.hull, set.time);
+        evaluate(at_set_, t, set.hull_and_centre(), set.time);
         evaluate(direct_, t, set.hull, set.time);
         evaluate(at_centre_, t, point_box<I>(set.centre), set.time);
         std::vector<observation<I>> result(flow_->channels());

@@ -27,10 +27,11 @@ void parametric_runge_kutta<Model>::begin(double time, box const& initial, box c
             }
         }
     }
-    unknowns_.emplace(initial, parameters);
-    if (unknowns_->variables > shape_->variables) {
+    normalised_unknowns unknowns(initial, parameters);
+    if (unknowns.variables > shape_->variables) {
         throw std::invalid_argument("parametric_runge_kutta: too many unknowns");
     }
+    unknowns_ = std::move(unknowns);
     auto const p = parameter_models(*shape_);
     auto const wide = parameter_models(*tube_shape_);
     centre_.set_parameters(p);

@@ -54,7 +54,7 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
                                               enclosure_failure& why) {
     auto const n = flow_->states();
     double const from = set.time;
-    auto const& x = set.hull;
+    auto const x = set.hull_and_centre();
     I const begin = traits::point(from);
     why.time = from;
     if (long_) {
@@ -259,7 +259,7 @@ std::optional<tube_step<I>> stepper<I>::prove_long(doubleton<I> const& set, doub
         return std::nullopt;
     }
     auto const n = flow_->states();
-    auto const& x = set.hull;
+    auto const x = set.hull_and_centre();
     double const rest = limit - set.time;
     double const constant = 1 / long_->stiffness(set.time, x);
     std::vector<double> margin(n);

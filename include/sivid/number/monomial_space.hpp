@@ -35,9 +35,11 @@ public:
     };
     /// More monomials than that are refused: a product would take seconds.
     static constexpr std::size_t most_terms = 1'000'000;
+    /// So are spaces with more products of two of them, of which there is a table.
+    static constexpr std::size_t most_products = 50'000'000;
 
-    /// @throws std::invalid_argument where the space has more than `most_terms` monomials, or a
-    ///         degree above 255
+    /// @throws std::invalid_argument where the space has more than `most_terms` monomials or
+    ///         `most_products` products, or a degree above 255
     [[nodiscard]] static monomial_space const& of(std::size_t variables, std::size_t degree) {
         static std::mutex guard;
         static std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<monomial_space>> made;
@@ -89,11 +91,13 @@ private:
     monomial_space(std::size_t variables, std::size_t degree)
         : variables_(variables), degree_(degree) {
         if (degree > 255) throw std::invalid_argument("monomial_space: the degree exceeds 255");
-        double count = 1; // of monomials, up to rounding
+        double count = 1, products = 1; // up to rounding
         for (std::size_t k = 1; k <= degree; ++k) {
             count *= static_cast<double>(variables + k) / static_cast<double>(k);
+            products *= static_cast<double>(2 * variables + k) / static_cast<double>(k);
         }
-        if (!(count <= 1.001 * static_cast<double>(most_terms))) {
+        if (!(count <= 1.001 * static_cast<double>(most_terms)) ||
+            (degree > 2 && !(products <= 1.001 * static_cast<double>(most_products)))) {
             throw std::invalid_argument("monomial_space: too many monomials; take a lower degree");
         }
         for (std::size_t n = 0; n <= variables + 1; ++n) {

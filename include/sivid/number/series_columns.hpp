@@ -40,6 +40,8 @@ public:
 
     /// @given  a has the size that was announced, or is a number
     void put(std::size_t row, std::size_t column, std::size_t k, model const& a) {
+        if (&number_detail::common_shape(*shape_, a.shape()) != shape_)
+            throw std::logic_error("series_columns: a model of another size");
         double* const p = at(row, column / at_once, k) + column % at_once;
         auto const norm = [&](std::size_t d) { return d <= a.degree() ? a.norms()[d] : 0.0; };
         for (std::size_t i = 0; i < layout_.terms; ++i) {
@@ -95,9 +97,11 @@ public:
 
     column_multiplier() = default;
     column_multiplier(std::size_t orders, model_shape<double> const& s)
-        : layout_{s.terms, s.degree}, numbers_(orders * layout_.count()) {}
+        : shape_(&s), layout_{s.terms, s.degree}, numbers_(orders * layout_.count()) {}
     /// @given  a has the size that was announced, or is a number
     void put(std::size_t k, model const& a) {
+        if (&number_detail::common_shape(*shape_, a.shape()) != shape_)
+            throw std::logic_error("column_multiplier: a model of another size");
         double* const p = numbers_.data() + k * layout_.count();
         for (std::size_t i = 0; i < layout_.terms; ++i) p[i] = i < a.terms() ? a.c(i) : 0.0;
         for (std::size_t d = 1; d <= layout_.degree; ++d) {
@@ -110,6 +114,7 @@ public:
     [[nodiscard]] double const* data() const { return numbers_.data(); }
 
 private:
+    model_shape<double> const* shape_ = &model_shape<double>::number();
     multiplier_layout layout_{1, 0};
     std::vector<double> numbers_;
 };

@@ -27,6 +27,8 @@ public:
     /// Enters coefficient k of a series.
     /// @given  a has the size that was announced, or is a number
     void put(std::size_t series, std::size_t k, model const& a) {
+        if (&number_detail::common_shape(*shape_, a.shape()) != shape_)
+            throw std::logic_error("series_rows: a model of another size");
         double* p = numbers_.data() + series * rows() * pitch_ + at_once + k;
         std::size_t const terms = a.terms();
         for (std::size_t i = 0; i < terms; ++i, p += pitch_) *p = a.c(i);

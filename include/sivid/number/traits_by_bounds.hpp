@@ -17,7 +17,8 @@ namespace sivid {
 ///     static I bounds(double lo, double hi);   // contains [lo, hi]; empty for NaN or lo > hi
 ///     static I empty();
 ///     static double lower(I const&, std::size_t lane = 0), upper(I const&, std::size_t lane = 0);
-/// with lower and upper outward, and NaN for both when empty.
+/// with lower and upper outward, and NaN for both when empty. A value stands for all of
+/// [lower, upper]: what a test says of it, it says of every real between the two.
 template <class I>
 struct traits_by_bounds {
     using mask = bool;

@@ -17,7 +17,7 @@ namespace sivid {
 /// What a test in the interval type I proved about a box; with packs, about the box in each lane.
 template <interval_scalar I>
 struct finding {
-    lane_mask<I> inside{};  ///< every point of `rest` belongs to the set
+    lane_mask<I> inside{};  ///< every point of `rest`, as its bounds read, is in the set
     lane_mask<I> outside{}; ///< no point of the box does
     basic_box<I> rest;      ///< no point of the box outside `rest` does (a contraction)
 };

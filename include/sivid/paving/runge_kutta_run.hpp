@@ -85,14 +85,14 @@ private:
 } // namespace paving_detail
 
 /// A `run_maker`: `options.test.run.make = runge_kutta_run` with a `method` in the enclosure's
-/// options. Of the degree that `suggested_degree` says; points by degree 1 in an idle variable.
+/// options. Of the degree that `suggested_degree` says.
 /// Smooth models only: kinks are not crossed, the outputs end there.
 /// @throws std::invalid_argument  without a method
 [[nodiscard]] inline std::unique_ptr<experiment_run>
 runge_kutta_run(flow const& f, experiment const& e, record const& samples, box const& initial,
                 box const& prior, run_options const& options) {
     using namespace paving_detail;
-    auto const unknowns = std::max<std::size_t>(1, unknown_count(initial, prior));
+    auto const unknowns = unknown_count(initial, prior);
     return std::make_unique<taylor_run<double, runge_kutta_lane>>(f, e, samples, options, unknowns,
                                                                   suggested_degree(unknowns));
 }

@@ -139,7 +139,9 @@ private:
 
     /// Largest |f| over the box.
     [[nodiscard]] vector worst(vector const& at, matrix const& slope) const {
-        return (offset_ + b_ * at).cwiseAbs() + (a_ + b_ * slope).cwiseAbs().rowwise().sum();
+        vector most = (offset_ + b_ * at).cwiseAbs();
+        if (p_ > 0) most += (a_ + b_ * slope).cwiseAbs().rowwise().sum();
+        return most;
     }
     [[nodiscard]] bool explains(vector const& at, matrix const& slope) {
         if (!((worst(at, slope) - margin_).maxCoeff() <= 0)) return false;

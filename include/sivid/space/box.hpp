@@ -175,6 +175,22 @@ template <single_interval I>
     return {std::move(below), std::move(above)};
 }
 
+namespace detail {
+/// The least double of a side, and the largest: its bounds read inward.
+template <class I>
+[[nodiscard]] double first_double(I const& s) {
+    double const lo = interval_traits<I>::lower(s);
+    return std::isfinite(lo) && !interval_traits<I>::contains(s, lo) ? std::nextafter(lo, HUGE_VAL)
+                                                                     : lo;
+}
+template <class I>
+[[nodiscard]] double last_double(I const& s) {
+    double const hi = interval_traits<I>::upper(s);
+    return std::isfinite(hi) && !interval_traits<I>::contains(s, hi) ? std::nextafter(hi, -HUGE_VAL)
+                                                                     : hi;
+}
+} // namespace detail
+
 /// Boxes that cover the closure of `outer` without `inner`; neighbours share faces only.
 /// @returns at most 2n boxes; `{outer}` when `inner` is empty.
 template <single_interval I>
@@ -188,8 +204,8 @@ template <single_interval I>
     for (std::size_t i = 0; i < outer.size(); ++i) {
         double const lo = traits::lower(rest[i]);
         double const hi = traits::upper(rest[i]);
-        double const a = std::max(lo, traits::lower(inner[i]));
-        double const b = std::min(hi, traits::upper(inner[i]));
+        double const a = std::max(lo, detail::first_double(inner[i]));
+        double const b = std::min(hi, detail::last_double(inner[i]));
         if (a > b) return {outer};
         if (lo < a) {
             pieces.push_back(rest);
@@ -211,7 +227,10 @@ template <single_interval I>
     using traits = interval_traits<I>;
     if (is_empty(x)) return traits::point(0.0);
     auto const length = [](I const& s) {
-        return traits::sub(traits::point(traits::upper(s)), traits::point(traits::lower(s)));
+        I const w = traits::sub(
+            traits::hull(traits::point(detail::last_double(s)), traits::point(traits::upper(s))),
+            traits::hull(traits::point(traits::lower(s)), traits::point(detail::first_double(s))));
+        return traits::max(w, traits::point(0.0));
     };
     typename traits::mask undefined{};
     I result = traits::point(1.0);

@@ -20,7 +20,8 @@ void stepper<I>::load(tube_step<I> const& step) {
     long_map_.reset();
     if (step.dissipative) return;
     centre_.expand(step.from, begin, point_box<I>(step.start.centre), step.order);
-    start_.expand_with_variations(step.from, begin, step.start.hull, step.variational_order);
+    start_.expand_with_variations(step.from, begin, step.start.hull_and_centre(),
+                                  step.variational_order);
     tube_.expand(step.from, times, step.tube, step.order);
     lagrange_ = coefficients(tube_, step.order);
     tube_lagrange_ = coefficients(tube_, step.variational_order);

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <memory>
 #include <new>
+#include <utility>
 
 namespace sivid::number_detail {
 
@@ -22,19 +23,24 @@ public:
         if (lines < kept_sizes) {
             if (node* const first = lists_.first[lines]) {
                 lists_.first[lines] = first->next;
+                --lists_.kept[lines];
                 return first;
             }
         }
         return make(lines);
     }
     static void give_back(void* block, std::size_t lines) noexcept {
-        if (lines >= kept_sizes || !lists_.open) return free(block);
+        if (lines >= kept_sizes || !lists_.open || lists_.kept[lines] * lines >= most_kept)
+            return free(block);
+        ++lists_.kept[lines];
         lists_.first[lines] = ::new (block) node{lists_.first[lines]};
     }
 
 private:
     /// Larger ones are not kept: their allocation costs little beside what is done with them.
     static constexpr std::size_t kept_sizes = 512;
+    /// Cache lines that a list keeps: a thread that only gives back does not hoard.
+    static constexpr std::size_t most_kept = 1U << 16;
 
     struct node {
         node* next;
@@ -42,6 +48,7 @@ private:
     /// Without constructor and destructor, so that reading it needs no check whether it is there.
     struct lists {
         std::array<node*, kept_sizes> first;
+        std::array<std::size_t, kept_sizes> kept; ///< blocks in each list
         bool open;
     };
     /// Frees what the lists hold when the thread ends.
@@ -108,7 +115,7 @@ public:
     scratch& operator=(scratch const&) = delete;
     /// Makes room for so many, which have no value yet.
     void resize(std::size_t numbers) {
-        if (first_ != nullptr) aligned_blocks::give_back(first_, lines_);
+        if (first_ != nullptr) aligned_blocks::give_back(std::exchange(first_, nullptr), lines_);
         take(numbers);
     }
     [[nodiscard]] C& operator[](std::size_t i) { return first_[i]; }

@@ -136,8 +136,11 @@ public:
         if (borrowed()) {
             if (s.lines > room_) throw std::logic_error("taylor_model: too large for its place");
         } else if (lines_ == 0 || s.lines > lines_) {
-            if (lines_ > 0) number_detail::aligned_blocks::give_back(p_, lines_);
-            take(s);
+            if (lines_ > 0) {
+                number_detail::aligned_blocks::give_back(std::exchange(p_, nullptr),
+                                                         std::exchange(lines_, 0));
+            }
+            take(s); // where it throws, this holds nothing
         }
         shape_ = &s;
     }
@@ -230,8 +233,8 @@ private:
                 return;
             }
         }
+        p_ = static_cast<C*>(number_detail::aligned_blocks::take(s.lines));
         lines_ = s.lines;
-        p_ = static_cast<C*>(number_detail::aligned_blocks::take(lines_));
     }
     /// @given  the same shape
     [[gnu::always_inline]] void copy_numbers(taylor_model const& a) {

@@ -147,7 +147,8 @@ void product_sum<C>::finish() {
             double const size = total[s.terms + 1];
             radius_ += total[s.terms];
             mass_ += size;
-            total[s.terms] = total[s.terms + 1] = 0; // these are no coefficients
+            // These are no coefficients, and beyond them nothing was written.
+            std::fill(total + s.terms, total + row_layout::sums(s.terms), 0.0);
             product_detail::each_coefficient(
                 s, [](auto& c, auto const& x) { c += x; }, sum_.c(),
                 static_cast<double const*>(total));
