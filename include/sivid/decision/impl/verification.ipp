@@ -171,8 +171,9 @@ private:
                     if (cut.empty()) cut.push_back(std::move(p));
                     for (auto& c : cut) finer.push_back(std::move(c));
                 }
-                if (finer.size() == parts.size()) break;
+                bool const more = finer.size() > parts.size();
                 parts = std::move(finer);
+                if (!more) break;
             }
             for (auto& p : parts) {
                 if (i.says.worn) p.known = nullptr;
