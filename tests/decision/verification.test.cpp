@@ -155,6 +155,14 @@ TEST_CASE("an expression that is not defined everywhere leaves the answer open")
     CHECK(verified(p, "always(log(x0 + 1) < 5)", {.seconds = 2}).answer == answer::proved);
 }
 
+TEST_CASE("a requirement that was read for another model is refused") {
+    auto const p = decay({{between(0.5, 1)}}, {sivid::interval(2.0)}, 1);
+    auto other = p.model;
+    auto const what = sivid::parse_requirement("x0 * sin(3 * x0) at 1 > 0", other, 1);
+    CHECK_THROWS_AS(sivid::verify(p, what, {}), std::invalid_argument);
+    CHECK_THROWS_AS(sivid::verify(p, what, all_feasible(p)), std::invalid_argument);
+}
+
 TEST_CASE("without time nothing is said") {
     auto const p = decay({{between(0.5, 1)}}, {sivid::interval(2.0)}, 1);
     auto const says = verified(p, "x0 at 1 > 0", {.seconds = 0});

@@ -18,6 +18,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -329,8 +330,15 @@ private:
 
 SIVID_DECL verification verify(prediction_problem const& problem, requirement const& what,
                                feasible_points const& feasible, prediction_options const& options) {
-    problem.require_valid();
-    if (feasible.direct != nullptr) feasible.direct->require_valid();
+    auto const require = [&what](prediction_problem const& p) {
+        p.require_valid();
+        for (auto const m : what.margins) {
+            if (m >= p.model.g.size())
+                throw std::invalid_argument("verify: the requirement was read for another model");
+        }
+    };
+    require(problem);
+    if (feasible.direct != nullptr) require(*feasible.direct);
     return decision_detail::verification_search(problem, what, feasible, options)();
 }
 
