@@ -99,7 +99,7 @@ TEST_CASE("what cannot be enclosed is refused, or ends early with a reason") {
         {2, 2, 0, 1e3}, [](auto const&, auto const& x, auto const& p, auto const&) {
             return std::vector{p[0] * x[1], -(p[1] * x[0])};
         }));
-    CHECK(enclose(many, starts, box{speeds[0], speeds[0]}, 0, 1).end() == 1);
+    CHECK(enclose(many, starts, box{speeds[0], speeds[0]}, 0, 1).end_time() == 1);
     auto const blow_up = support::flow_of(
         support::model_of({1, 0, 0, 1e3}, [](auto const&, auto const& x, auto const&, auto const&) {
             return std::vector{x[0] * x[0]};

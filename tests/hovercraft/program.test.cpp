@@ -471,7 +471,7 @@ TEST_CASE("diagnose says where, which and how far, ends with 0 whatever it finds
           "when open") {
     temporary_folder const folder;
     auto const out = folder.path() / "out";
-    auto r = run({"diagnose", yard, "--out", out.string()});
+    auto r = run({"diagnose", yard, "--out", out.string(), "--budget", "240"});
     CHECK(r.code == 0);
     auto const found = json_of(out / "diagnosis.json");
     CHECK(found["format"] == "sivid-diagnosis-1");

@@ -272,7 +272,7 @@ private:
         for (auto const& tube : result.channels) { // of functions that are not defined everywhere
             result.complete =
                 result.complete && std::none_of(tube.low.begin(), tube.low.end(),
-                                                [infinity](double x) { return x == -infinity; });
+                                                [](double x) { return x == -infinity; });
         }
     }
 
