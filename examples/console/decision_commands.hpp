@@ -63,7 +63,7 @@ public:
         auto const folder = c.dataset.empty() ? c.result / stored_.source_folder : c.dataset;
         auto const data = sivid::read_dataset(folder, sivid::names_of(model.about));
         problem_ = sivid::problem_from_dataset(data, model);
-        auto const effects = effects_of_result(catalogue);
+        auto const effects = sivid::effects_named(catalogue, stored_.effects);
         if (!stored_.source_digest.empty() &&
             sivid::dataset_digest(folder) != stored_.source_digest)
             throw sivid::input_error{{.file = folder.string()},
@@ -71,6 +71,7 @@ public:
                                      "give the right one by --dataset, or identify it anew"};
         dataset_ = data.id;
         for (auto& e : problem_.experiments) {
+            request_.stated_outliers[e.name] = e.outliers;
             auto const own = stored_.budget.find(e.name);
             if (own != stored_.budget.end()) e.outliers = own->second;
         }
@@ -94,6 +95,8 @@ public:
         scenario.experiments.resize(1);
         scenario.experiments[0].inputs = request_.inputs;
         scenario.experiments[0].initial = request_.initial;
+        scenario.experiments[0].begin = 0;
+        for (auto const& [name, range] : request_.set) scenario.choice.fixed[name] = range;
         problem_ = sivid::affected(problem_, effects);
         request_.initial = sivid::affected(scenario, effects).experiments[0].initial;
     }
@@ -184,18 +187,6 @@ public:
     }
 
 private:
-    /// Those whose parameters the result identifies: a diagnosis added them to the model.
-    [[nodiscard]] std::vector<sivid::effect>
-    effects_of_result(std::vector<sivid::effect> const& catalogue) const {
-        std::vector<sivid::effect> result;
-        for (auto const& e : catalogue) {
-            bool const named =
-                std::any_of(stored_.parameters.begin(), stored_.parameters.end(),
-                            [&](auto const& p) { return p.name.starts_with(e.name + "."); });
-            if (named) result.push_back(e);
-        }
-        return result;
-    }
     [[nodiscard]] std::vector<double> with_set(std::vector<double> point) const {
         for (auto const& [name, range] : request_.set) {
             if (width(range) > sivid::normalised_unknowns::negligible * mag(range))
@@ -263,7 +254,8 @@ inline int run_predict(sivid::recorded_model const& model,
     watch_interrupts();
     progress_line progress(c.quiet);
     progress.note("predicting " + task.scenario() + " for all that " + task.dataset() + " leaves");
-    auto const found = sivid::predict(about->problem, detail::options_for(c.budget));
+    auto found = sivid::predict(about->problem, detail::options_for(c.budget));
+    if (about->starts_follow) found.excess = HUGE_VAL; // not all of these motions are possible
     auto options = task.page_options();
     detail::add_lines(options, task, *about, {}, std::max(0.2, c.budget - progress.elapsed()));
     progress.finish();

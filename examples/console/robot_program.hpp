@@ -11,6 +11,7 @@
 #include "result_files.hpp"
 #include "thorough_diagnosis.hpp"
 
+#include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset_digest.hpp>
 #include <sivid/io/file_set.hpp>
@@ -35,14 +36,21 @@ namespace console {
 
 /// The ranges of all parameters of a model that explains the data, on the terminal, and as
 /// model.html and model.json; with its boxes in the folder model, for predict and verify.
+/// @param effects  joined to the data set's model, by name
 /// @throws sivid::output_error
 inline void write_identified_model(sivid::identification_problem const& problem,
-                                   std::string const& id, std::filesystem::path const& folder,
+                                   std::vector<std::string> const& effects, std::string const& id,
+                                   std::filesystem::path const& folder,
                                    std::filesystem::path const& out, double seconds,
                                    std::string const& command, progress_line& progress) {
     namespace report = sivid::report;
     if (problem.model.has_delays()) {
         std::cout << "  ranges of its parameters: not proved, the model has a delay\n";
+        return;
+    }
+    if (sivid::starts_follow_parameters(problem)) {
+        std::cout << "  ranges of its parameters: not proved, the effects begin where their "
+                     "parameters say\n";
         return;
     }
     sivid::identify_options options;
@@ -72,13 +80,15 @@ inline void write_identified_model(sivid::identification_problem const& problem,
     }
     sivid::file_set files(out);
     files.add("model.html", report::identification_page(view).str());
-    files.add("model.json", sivid::identification_json(problem, found, {.dataset = id}));
+    files.add("model.json",
+              sivid::identification_json(problem, found, {.dataset = id, .effects = effects}));
     files.commit();
     sivid::file_set result(out / "model");
     add_result_tables(result, problem, found);
     result.add("result.json",
                sivid::identification_json(problem, found,
                                           {.dataset = id,
+                                           .effects = effects,
                                            .source_folder = seen_from(out / "model", folder),
                                            .source_digest = sivid::dataset_digest(folder)}));
     result.commit();
@@ -125,7 +135,10 @@ inline int diagnose_folder(sivid::recorded_model const& model,
     bool const explained = run.result.answer == sivid::answer_kind::none ||
                            run.result.answer == sivid::answer_kind::effects;
     if (explained && left() > 0 && !interrupted()) {
-        write_identified_model(run.candidates[run.answer].problem, data.id, folder, out,
+        auto const& answer = run.candidates[run.answer];
+        std::vector<std::string> effects;
+        for (auto const k : answer.figures.effects) effects.push_back(run.catalogue[k].name);
+        write_identified_model(answer.problem, effects, data.id, folder, out,
                                std::min(left(), 0.25 * budget), command, progress);
     }
     return exit_code_of(run.result);

@@ -37,6 +37,18 @@ TEST_CASE("outputs between two instants: contained, and close in the second orde
     CHECK(excess[1] < 0.35 * excess[0] + 1e-12);
 }
 
+TEST_CASE("outputs at one instant are those of the states, exactly where these are") {
+    auto const p = oscillator(between(1.5, 1.6), 2);
+    sivid::flow const f(p.model, p.choice, p.inputs);
+    sivid::cell_bounds cells(f);
+    cells.set_parameters(p.sets[0]);
+    auto const y = cells.at(0, {interval(1.0), between(0, 0.25)});
+    REQUIRE(y.size() == f.channels());
+    CHECK(y[0].lower() == 1);
+    CHECK(y[0].upper() == 1);
+    if (y.size() > 1) CHECK(y[1].upper() == 0.25);
+}
+
 TEST_CASE("a single motion that turns within the cell") {
     auto const p = oscillator(interval(2.0), 2);
     sivid::flow const f(p.model, p.choice, p.inputs);

@@ -76,6 +76,26 @@ TEST_CASE("sides without width have no variable and cannot be cut") {
     CHECK(cover.split(single).empty());
 }
 
+TEST_CASE("an integration that is cut short takes nothing away from what is known") {
+    auto const p = decay({{between(0.5, 1)}}, {between(1, 1.5)}, 1);
+    sivid::followed_outputs const outputs(p.model, {});
+    bool going = true;
+    sivid::run_options options;
+    options.enclosure.keep_going = [&going] { return going; };
+    sivid::motion_cover cover(p, outputs, {0, 0.25, 0.5, 0.75, 1}, options);
+    auto whole = cover.whole();
+    cover.learn({&whole});
+    REQUIRE(whole.known->complete);
+    auto halves = cover.split(whole, 1);
+    REQUIRE(halves.size() == 2);
+    going = false;
+    cover.learn({&halves[0], &halves[1]});
+    for (auto const& half : halves) {
+        CHECK(half.known->complete);
+        CHECK(cover.look(half).reached == 5);
+    }
+}
+
 TEST_CASE("a grid must go from the begin to the end") {
     cover_of_decay c;
     CHECK_THROWS_AS(sivid::motion_cover(c.problem, c.outputs, {0, 0.5}, {}), std::invalid_argument);

@@ -155,6 +155,14 @@ TEST_CASE("an expression that is not defined everywhere leaves the answer open")
     CHECK(verified(p, "always(log(x0 + 1) < 5)", {.seconds = 2}).answer == answer::proved);
 }
 
+TEST_CASE("a requirement that was read for another model is refused") {
+    auto const p = decay({{between(0.5, 1)}}, {sivid::interval(2.0)}, 1);
+    auto other = p.model;
+    auto const what = sivid::parse_requirement("x0 * sin(3 * x0) at 1 > 0", other, 1);
+    CHECK_THROWS_AS(sivid::verify(p, what, {}), std::invalid_argument);
+    CHECK_THROWS_AS(sivid::verify(p, what, all_feasible(p)), std::invalid_argument);
+}
+
 TEST_CASE("without time nothing is said") {
     auto const p = decay({{between(0.5, 1)}}, {sivid::interval(2.0)}, 1);
     auto const says = verified(p, "x0 at 1 > 0", {.seconds = 0});
@@ -183,4 +191,131 @@ TEST_CASE("inputs that jump are seen on both sides") {
     CHECK(verified(p, "always[0, 1](u0 > 0)").answer != answer::proved);
     CHECK(verified(p, "u0 > 0 until u0 < 0").answer == answer::proved);
     CHECK(verified(p, "always(x0 < 0.68) and eventually(x0 > 0.63)").answer == answer::proved);
+}
+
+namespace {
+
+/// Two states and two parameters that begin at `initial`; `rate` is called with (x, p, u).
+template <class Rate>
+sivid::prediction_problem planar(Rate const& rate, sivid::box sets, sivid::box initial, double end,
+                                 std::size_t inputs = 0) {
+    sivid::prediction_problem p;
+    p.model = support::model_of(
+        {.states = 2, .constants = 2, .inputs = inputs},
+        [&](auto const&, auto const& x, auto const& c, auto const& u) { return rate(x, c, u); },
+        [](auto const&, auto const& x, auto const&, auto const&) { return x; });
+    p.choice.unknown = {"p0", "p1"};
+    p.sets = {std::move(sets)};
+    p.initial = std::move(initial);
+    p.end = end;
+    return p;
+}
+sivid::interval const zero{0.0}, one{1.0};
+
+} // namespace
+
+TEST_CASE("what cannot move or matter is left out") {
+    // x0 stays at 0, so that p0 says nothing and x1(t) = exp(-p1 t).
+    auto const idle = planar(
+        [](auto const& x, auto const& c, auto const&) {
+            return std::vector{c[0] * x[0] * x[1], x[0] * x[0] - c[1] * x[1]};
+        },
+        {between(-5, 5), between(0.5, 1)}, {zero, one}, 1);
+    auto const holds = verified(idle, "x1 at 1 in [0.367, 0.607]");
+    CHECK(holds.answer == answer::proved);
+    CHECK(holds.parts < 10);
+    CHECK(verified(idle, "always(x0 >= 0 and x0 <= 0)").answer == answer::proved);
+    auto const fails = verified(idle, "x1 at 1 > 0.37");
+    REQUIRE(fails.answer == answer::refuted);
+    REQUIRE(fails.witness->parameters.size() == 2);
+    CHECK(fails.witness->parameters[1] > 0.99);
+    CHECK(contains(idle.sets[0], fails.witness->parameters));
+    // An open box says of an idle side all of it.
+    auto nothing_feasible = idle;
+    auto const what = sivid::parse_requirement("x1 at 1 > 0.4", nothing_feasible.model, 1);
+    auto const open = sivid::verify(nothing_feasible, what, {}, {.seconds = 3});
+    REQUIRE_FALSE(open.open.empty());
+    CHECK(open.open[0].parameters[0].lower() == -5);
+    CHECK(open.open[0].parameters[0].upper() == 5);
+    // A parameter of the requirement alone counts.
+    CHECK(verified(idle, "p0 at 0 < 4.5").answer == answer::refuted);
+    CHECK(verified(idle, "(x1 - p0) at 1 > -4.5").answer == answer::refuted);
+}
+
+TEST_CASE("a parameter that acts by a derived constant counts") {
+    auto p = planar(
+        [](auto const& x, auto const& c, auto const&) {
+            return std::vector{0 * x[0] - c[1] * x[0], x[1]};
+        },
+        {between(0.5, 1), between(0, 0)}, {one, zero}, 1);
+    p.choice.unknown = {"p0"}; // p1 = 2 p0
+    p.sets = {{between(0.5, 1)}};
+    auto& g = p.model.g;
+    p.model.derived.push_back(
+        {1, g.mul(g.constant(2.0), g.leaf(sivid::operation::constant, 0)), false});
+    CHECK(verified(p, "x0 at 1 in [0.135, 0.368]").answer == answer::proved);
+    auto const fails = verified(p, "x0 at 1 > 0.2");
+    REQUIRE(fails.answer == answer::refuted);
+    CHECK(fails.witness->parameters[0] > 0.8);
+    // One that is not defined everywhere says nothing of motions without it.
+    p.model.derived.back().value = g.div(g.constant(1.0), g.leaf(sivid::operation::constant, 0));
+    p.sets = {{between(-1, 1)}};
+    CHECK(verified(p, "x0 at 1 > 0.2", {.seconds = 0.3}).answer == answer::open);
+}
+
+TEST_CASE("a state that begins at 0 may leave it where its motion is not unique") {
+    auto const rests = [](auto const& rate) {
+        return planar(rate, {between(0.5, 1), between(0.5, 1)}, {zero, zero}, 3);
+    };
+    auto const root = rests([](auto const& x, auto const& c, auto const&) {
+        return std::vector{sqrt(abs(x[0])), x[0] - c[1] * x[1]};
+    }); // also x0 = t^2/4
+    auto const jump = rests([](auto const& x, auto const& c, auto const&) {
+        return std::vector{sign(x[0]), x[0] - c[1] * x[1]};
+    }); // also x0 = t
+    auto const product = rests([](auto const& x, auto const& c, auto const&) {
+        return std::vector{c[0] * x[1], sqrt(abs(x[1]))};
+    });
+    auto const hidden = rests([](auto const& x, auto const& c, auto const&) {
+        return std::vector{x[1] * c[0], x[1] / sqrt(sqr(x[1]))}; // x1' = 1 or -1, not defined at 0
+    });
+    auto const logarithm = rests([](auto const& x, auto const& c, auto const&) {
+        return std::vector{x[0] * log(sqr(x[0])), c[0] * x[0]};
+    });
+    for (auto const& p : {root, jump, product, hidden, logarithm}) {
+        for (std::string const text : {"always(abs(x0) < 0.01)", "always(abs(x1) < 0.01)"}) {
+            CAPTURE(text);
+            CHECK(verified(p, text, {.seconds = 0.3}).answer != answer::proved);
+        }
+    }
+}
+
+TEST_CASE("a state that begins near 0 moves") {
+    auto const rate = [](auto const& x, auto const& c, auto const&) {
+        return std::vector{c[0] * x[0], x[0]};
+    };
+    auto const p = planar(rate, {between(1, 3), one}, {between(0, 0.1), zero}, 1);
+    CHECK(verified(p, "x1 at 1 < 0.64").answer == answer::proved); // 0.1 (e^3 - 1)/3 = 0.6362
+    auto const fails = verified(p, "x1 at 1 < 0.6");
+    REQUIRE(fails.answer == answer::refuted);
+    CHECK(fails.witness->start[0] > 0.09);
+    CHECK(fails.witness->parameters[0] > 2.9);
+}
+
+TEST_CASE("an input counts unless it is the same all along") {
+    auto const rate = [](auto const& x, auto const& c, auto const& u) {
+        return std::vector{c[0] * u[0] - x[0], 0 * c[1] * x[0]};
+    };
+    auto p = planar(rate, {between(1, 2), one}, {zero, zero}, 2, 1);
+    std::string const rests = "always(abs(x0) < 0.01)";
+    p.inputs = {sivid::sampled_signal({0}, {0}, sivid::interpolation::hold)};
+    CHECK(verified(p, rests).answer == answer::proved);
+    p.inputs = {sivid::sampled_signal({0, 1}, {0, 1}, sivid::interpolation::hold)};
+    CHECK(verified(p, rests).answer == answer::refuted);
+    p.inputs = {sivid::sampled_signal({-1, 1, 3}, {0, 0, 1}, sivid::interpolation::linear)};
+    CHECK(verified(p, rests).answer == answer::refuted);
+    p.inputs = {sivid::sampled_signal({0}, {0}, sivid::interpolation::hold, {0.5})};
+    CHECK(verified(p, rests, {.seconds = 0.5}).answer == answer::open);
+    p.inputs = {sivid::analytic_signal::from([](auto const& t) { return t * 0.1; })};
+    CHECK(verified(p, rests).answer == answer::refuted);
 }

@@ -471,7 +471,7 @@ TEST_CASE("diagnose says where, which and how far, ends with 0 whatever it finds
           "when open") {
     temporary_folder const folder;
     auto const out = folder.path() / "out";
-    auto r = run({"diagnose", yard, "--out", out.string()});
+    auto r = run({"diagnose", yard, "--out", out.string(), "--budget", "240"});
     CHECK(r.code == 0);
     auto const found = json_of(out / "diagnosis.json");
     CHECK(found["format"] == "sivid-diagnosis-1");
@@ -646,9 +646,43 @@ TEST_CASE("predict and verify answer from a stored result") {
     refused({"--scenario", "S2", "--require", "u > 0", "--set", "Ff=0.8:0.2"}, "lower is above");
     refused({"--scenario", "S2", "--require", "u > 0", "--dataset", bundled + "/yard_test"},
             "not the data set");
+    refused({"--scenario", "S2", "--require", "u > 0", "--lift", "rudder"}, "not the problem");
+    refused({"--scenario", "S2", "--require", "u > 0", "--friction", "as-printed"},
+            "not the problem");
+    auto const whole = [&](char const* name) {
+        std::ifstream in(fs::path(result) / name);
+        return std::string(std::istreambuf_iterator<char>(in), {});
+    };
+    auto const json_text = whole("result.json");
+    auto const altered = [&](std::string const& from, std::string const& to, char const* words) {
+        auto text = json_text;
+        auto const at = text.find(from);
+        REQUIRE(at != std::string::npos);
+        std::ofstream(fs::path(result) / "result.json") << text.replace(at, from.size(), to);
+        refused({"--scenario", "S2", "--require", "u > 0"}, words);
+    };
+    altered("{\"S3\": 0}", "{\"S3\": 5}", "not the problem");
+    altered("{\"S3\": 0}", "{\"S3\": 100000}", "nothing is known");
+    altered("\"files\"", "\"tables\"", "SHA-256");
+    std::ofstream(fs::path(result) / "result.json") << json_text;
+    auto const moved =
+        run({"verify", result, "--scenario", "S2", "--require", "u at 0 > 1", "--set", "D=0.2"});
+    CHECK_THAT(moved.out, ContainsSubstring("A follows from the others"));
     std::ofstream(fs::path(result) / "products.csv", std::ios::app)
         << "inside,0.01,0.02,0.2,0.25\n";
     refused({"--scenario", "S2", "--require", "u > 0"}, "contradicts itself");
+}
+
+TEST_CASE("verify joins the effects that a result names, in whatever order") {
+    temporary_folder const folder;
+    auto const result = (folder.path() / "h3").string();
+    REQUIRE(run({"identify", h3, "--with", "heading_bias,rudder_trim", "--budget", "2", "--out",
+                 result, "--quiet"})
+                .code == 0);
+    auto const says = run({"verify", result, "--scenario", "S3", "--require",
+                           "v at end > 0 and rudder_trim.d0 at 0 < 0.3", "--budget", "5"});
+    CHECK(says.code == 0);
+    CHECK(says.err.find("hovercraft: ") == std::string::npos);
 }
 
 TEST_CASE("describe prints the model as text and as a graph, bound or as written") {

@@ -49,5 +49,14 @@ TEST_CASE("shapes are exact signals") {
     auto const ramp = std::get<sivid::sampled_signal>(sivid::exact_signal(s, 2));
     for (double const t : {0.0, 0.5, 1.0, 1.5, 2.0}) CHECK(ramp.approximate(t) == s(t));
     s.shape = sivid::input_shape::kind::sine;
-    CHECK(std::holds_alternative<sivid::analytic_signal>(sivid::exact_signal(s, 2)));
+    s.frequency = 1;
+    auto const sine = std::get<sivid::analytic_signal>(sivid::exact_signal(s, 2));
+    bool rounded = true; // 2 pi is no double: 6.28318530717958647692...
+    for (auto const& n : sine.g.nodes()) {
+        if (n.op != sivid::operation::literal) continue;
+        auto const& value = sine.g.value(n).enclosure;
+        rounded = rounded &&
+                  !(value.lower() <= 0x1.921fb54442d18p2 && value.upper() >= 0x1.921fb54442d19p2);
+    }
+    CHECK_FALSE(rounded);
 }

@@ -95,6 +95,18 @@ public:
         return result;
     }
 
+    /// The outputs at one instant by natural evaluation: exact where states and inputs are.
+    /// @param x  a box that holds all states at t
+    [[nodiscard]] std::vector<interval> at(double t, box const& x) {
+        look_.start(traits::point(t));
+        look_.advance(
+            0, [&x](std::size_t i, std::size_t) -> interval { return x[i]; }, inputs_over(t, t, t));
+        std::vector<interval> result(flow_->channels(), traits::entire());
+        for (std::size_t y = 0; y < result.size() && !look_.undefined(); ++y)
+            result[y] = look_.output(y, 0);
+        return result;
+    }
+
     /// The values of an output between the instants.
     /// @param start, end  that at both of them, for the motions in question
     [[nodiscard]] static interval between(output_course const& c, double from, double to,

@@ -31,7 +31,8 @@ public:
     struct knowledge {
         box initial, parameters;
         std::shared_ptr<response const> answer;
-        std::size_t reached = 0; ///< instants of the grid, from the first
+        std::size_t reached = 0;     ///< instants of the grid, from the first
+        std::vector<interval> start; ///< the outputs at the first instant
         /// [cell][output], over the whole box; empty where a cell is too long.
         std::vector<std::vector<output_course>> courses;
         /// Whether every instant and every cell is known.
@@ -108,6 +109,8 @@ private:
     record samples_;
     experiment experiment_;
     std::unique_ptr<experiment_run> run_;
+    std::unique_ptr<experiment_run> points_; ///< for parts without width, once there are such
+    run_options options_;
     cell_bounds cells_;
     std::size_t integrations_ = 0;
 };

@@ -6,6 +6,7 @@
 #include <sivid/io/identifiability_json.hpp>
 #include <sivid/io/identification_csv.hpp>
 #include <sivid/io/json_writer.hpp>
+#include <sivid/io/problem_digest.hpp>
 #include <sivid/io/sha256.hpp>
 #include <sivid/paving/identify.hpp>
 
@@ -18,7 +19,7 @@ namespace sivid {
 
 /// What a result file says beyond the identification itself.
 struct identification_json_options {
-    std::string dataset{}; ///< the id of the data set
+    std::string dataset{};              ///< the id of the data set
     std::vector<std::string> effects{}; ///< joined to the data set's model, by name
     std::vector<std::string> further_assumptions{};
     std::string source_folder{}; ///< the data set, seen from the result's folder
@@ -32,7 +33,7 @@ struct identification_json_options {
 }
 
 /// The text of `result.json` in the format sivid-identification-1, with the SHA-256 of the files
-/// beside it.
+/// beside it and the digest of the problem.
 /// @guarantee  bounds are printed outward; the witness's numbers read back as the very doubles
 /// that were verified
 [[nodiscard]] SIVID_DECL std::string

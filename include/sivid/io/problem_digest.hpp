@@ -104,6 +104,55 @@ inline void describe(canonical_text& t, identification_problem const& p) {
     }
 }
 
+/// A digest of each node: of its operation and those of its operands, whatever their numbers.
+inline std::vector<std::string> structure_of(graph const& g) {
+    std::vector<std::string> digests;
+    digests.reserve(g.size());
+    for (auto const& n : g.nodes()) {
+        canonical_text t;
+        t("node", n.op);
+        if (n.op == operation::literal) {
+            t("literal", g.value(n).enclosure, g.value(n).nearest);
+        } else if (is_leaf(n.op)) {
+            t("leaf", n.index);
+        } else if (is_binary(n.op)) {
+            auto const& a = digests[n.a];
+            auto const& b = digests[n.b];
+            bool const ordered = n.op == operation::sub || n.op == operation::div || a < b;
+            t("operands", ordered ? a : b, ordered ? b : a);
+        } else {
+            t("operand", digests[n.a], n.index);
+        }
+        digests.push_back(sha256(t.text()));
+    }
+    return digests;
+}
+
+/// The problem, but of its graphs only what they say: a compiler may record the operands of a sum
+/// in either order, and a graph may hold more than is needed.
+inline void describe_meaning(canonical_text& t, identification_problem p) {
+    auto& m = p.model;
+    auto const nodes = structure_of(m.g);
+    for (auto const k : m.rate) t("rate", nodes[k]);
+    for (auto const k : m.observe) t("observe", nodes[k]);
+    for (auto const& s : m.added_states) t("added state", s.state, nodes[s.at_begin]);
+    for (auto const& d : m.derived) t("derived constant", d.constant, nodes[d.value], d.always);
+    m.g = graph();
+    m.rate.clear();
+    m.observe.clear();
+    m.added_states.clear();
+    m.derived.clear();
+    for (auto& e : p.experiments) {
+        for (auto& input : e.inputs) {
+            auto const* formula = std::get_if<analytic_signal>(&input);
+            if (formula == nullptr) continue;
+            t("formula", structure_of(formula->g)[formula->value]);
+            input = sampled_signal{};
+        }
+    }
+    describe(t, p);
+}
+
 inline void describe(canonical_text& t, run_options const& o) {
     auto const& e = o.enclosure;
     t("run", o.set, o.hopeless, e.order, e.variational_order, e.method.has_value(), e.tolerance,
@@ -140,6 +189,12 @@ inline void describe(canonical_text& t, identify_options const& o) {
 [[nodiscard]] SIVID_DECL std::string problem_digest(identification_problem const& problem,
                                                     identify_options const& options,
                                                     std::string const& also = {});
+
+/// A digest of what is asked, for whoever reads the answer later: SHA-256 over model, constants,
+/// prior, inputs, measurements, starts and budgets of outliers. Of the recorded equations counts
+/// what they say, not in which order they were recorded.
+/// @cost  linear in the problem
+[[nodiscard]] SIVID_DECL std::string problem_digest(identification_problem const& problem);
 
 } // namespace sivid
 

@@ -26,6 +26,8 @@ struct prediction_request {
     /// Constants that have other values in the scenario than in the data, or are known less well.
     std::map<std::string, interval> set;
     double proof_seconds = 5; ///< to prove one parameter feasible
+    /// What the data set itself says of outliers, by scenario: named where the result's differ.
+    std::map<std::string, std::size_t> stated_outliers{};
 };
 
 /// The parameters that a stored identification leaves, for a scenario: in the products that the
@@ -41,6 +43,11 @@ struct stored_prediction {
     /// Points of `direct` that may be feasible, and proofs that they are: from the data alone, by
     /// validated runs, whatever the result says of them.
     feasible_points feasible;
+    std::string feasible_with; ///< the outliers that such a proof allows, in words; "" for none
+    /// States that effects add start at values that the parameters decide; here they start anywhere
+    /// in the hull of these. What is proved is proved; what is reached is not known to be, and no
+    /// point is feasible.
+    bool starts_follow = false;
 
     stored_prediction() = default;
     stored_prediction(stored_prediction const&) = delete;
@@ -52,8 +59,10 @@ struct stored_prediction {
 /// @param model   the model of `data`; its graph may hold further nodes, of requirements
 /// @param margins those nodes: products are used only where they tell them, too
 /// @param file    of the result, for messages
-/// @throws input_error when the result contradicts itself, speaks of another problem, or leaves no
-///         parameter; std::invalid_argument for constants that cannot be set
+/// @throws input_error when the result contradicts itself, speaks of another problem (another
+/// model,
+///         other data, effects, budgets of outliers), has no digests, or leaves no parameter;
+///         std::invalid_argument for constants that cannot be set
 [[nodiscard]] SIVID_DECL std::unique_ptr<stored_prediction>
 predict_from(identification_problem const& data, stored_identification const& stored,
              recorded_model const& model, std::vector<node_id> const& margins,

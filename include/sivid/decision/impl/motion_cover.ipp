@@ -40,6 +40,7 @@ SIVID_DECL motion_cover::motion_cover(prediction_problem const& problem,
       around_((problem.require_valid(), problem.around())),
       times_(std::move(times)),
       flow_(outputs.model, problem.choice, problem.inputs),
+      options_(options),
       cells_(flow_) {
     if (times_.size() < 2 || times_.front() != 0 || times_.back() != problem.end)
         throw std::invalid_argument("motion_cover: the grid goes from 0 to the end");
@@ -81,7 +82,13 @@ SIVID_DECL void motion_cover::learn(std::vector<part*> const& parts) {
             group.push_back(parts[k]);
             parameters.push_back(parts[k]->parameters);
         }
-        auto const answers = (*run_)(initial, parameters);
+        // A point among sets has no use for their polynomials, which cost most of the time.
+        bool const points = std::all_of(parameters.begin(), parameters.end(), [&](box const& p) {
+            return normalised_unknowns(initial, p).variables == 0;
+        });
+        if (points && !points_)
+            points_ = make_run(flow_, experiment_, samples_, initial, parameters.front(), options_);
+        auto const answers = (*(points ? points_ : run_))(initial, parameters);
         integrations_ += parameters.size();
         for (std::size_t k = 0; k < group.size(); ++k) {
             auto known = std::make_shared<knowledge>();
@@ -89,6 +96,8 @@ SIVID_DECL void motion_cover::learn(std::vector<part*> const& parts) {
             known->parameters = group[k]->parameters;
             known->answer = answers[k];
             known->reached = answers[k]->outputs() / flow_.channels();
+            // Cut short by the budget: what the whole tells of its part holds as well.
+            if (group[k]->known && known->reached < group[k]->known->reached) continue;
             follow(*known);
             group[k]->known = std::move(known);
         }
@@ -107,6 +116,7 @@ SIVID_DECL void motion_cover::follow(knowledge& k) {
         return x;
     };
     cells_.set_parameters(k.parameters);
+    k.start = cells_.at(times_.front(), k.initial);
     k.courses.resize(k.reached - 1);
     for (std::size_t c = 0; c + 1 < k.reached; ++c) {
         auto course = cells_(times_[c], times_[c + 1], states_at(c), states_at(c + 1));
@@ -206,6 +216,7 @@ SIVID_DECL void motion_cover::segments(part const& p, view const& v, std::size_t
         low[s] = std::max(low[s], direct.lower());
         high[s] = std::min(high[s], direct.upper());
     };
+    if (v.reached > 0) also(0, p.known->start[output]);
     for (std::size_t k = 0; k + 1 < v.reached; ++k) {
         auto const& course = p.known->courses[k];
         if (course.empty()) continue;

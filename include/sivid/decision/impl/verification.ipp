@@ -5,6 +5,7 @@
 #include <sivid/decision/verification.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/decision/detail/idle_parts.hpp>
 #include <sivid/decision/detail/judged_motions.hpp>
 #include <sivid/paving/work_limit.hpp>
 
@@ -13,9 +14,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -27,8 +30,9 @@ class verification_search {
 public:
     verification_search(prediction_problem const& problem, requirement const& what,
                         feasible_points const& feasible, prediction_options const& options)
-        : problem_(problem),
-          what_(what),
+        : asked_(what),
+          around_(problem.around()),
+          slim_(problem, what),
           feasible_(feasible),
           options_(options),
           limit_(options.seconds, options.keep_going) {
@@ -36,6 +40,9 @@ public:
         double const cells = static_cast<double>(std::max<std::size_t>(options.cells, 1));
         times_ = time_cells(problem, what.times, problem.end / cells);
     }
+
+    verification_search(verification_search const&) = delete;
+    verification_search& operator=(verification_search const&) = delete;
 
     [[nodiscard]] verification operator()() {
         auto const begun = std::chrono::steady_clock::now();
@@ -141,9 +148,11 @@ private:
                 i.settled = true;
                 continue;
             }
-            auto parts = i.says.side == motion_cover::none
-                             ? motions_->cover().split(i.what)
-                             : motions_->cover().split(i.what, i.says.side);
+            auto const halved = [&](motion_cover::part const& p) {
+                return i.says.side == motion_cover::none ? motions_->cover().split(p)
+                                                         : motions_->cover().split(p, i.says.side);
+            };
+            auto parts = halved(i.what);
             if (parts.empty() || motions_->is_tiny(i.what)) {
                 i.settled = true;
                 continue;
@@ -151,6 +160,21 @@ private:
             if (i.says.found.refuted() && ++i.violations > 5) { // nothing of it is known feasible
                 i.settled = true;
                 continue;
+            }
+            // Boxes side by side cost little more than one: what was carried far from the end is
+            // cut finer at once.
+            bool const early = i.says.worn && i.says.reached < problem_.end;
+            auto const most = motions_->cover().at_once() / taken;
+            while (early && 2 * parts.size() <= most) {
+                std::vector<motion_cover::part> finer;
+                for (auto& p : parts) {
+                    auto cut = halved(p);
+                    if (cut.empty()) cut.push_back(std::move(p));
+                    for (auto& c : cut) finer.push_back(std::move(c));
+                }
+                bool const more = finer.size() > parts.size();
+                parts = std::move(finer);
+                if (!more) break;
             }
             for (auto& p : parts) {
                 if (i.says.worn) p.known = nullptr;
@@ -196,36 +220,51 @@ private:
     void seek_witness(item const& worst) {
         if (feasible_.direct == nullptr || !feasible_.candidates || !feasible_.proved) return;
         auto const points = motions_->suspicious_points(worst.what, worst.says.found);
+        if (!slim_direct_) {
+            slim_direct_ = std::make_unique<without_idle_parts>(*feasible_.direct, asked_);
+            direct_around_ = feasible_.direct->around();
+        }
         if (!direct_ || direct_times_ != times_) {
             direct_times_ = times_;
-            direct_ =
-                std::make_unique<judged_motions>(*feasible_.direct, what_, times_, options_.run);
+            direct_ = std::make_unique<judged_motions>(slim_direct_->problem, slim_direct_->what,
+                                                       times_, options_.run);
         }
         auto& cover = direct_->cover();
-        std::vector<motion_cover::part> singles;
+        struct single {
+            motion_cover::part motion;
+            std::vector<std::vector<double>> parameters; ///< that have this motion
+        };
+        std::vector<single> singles;
+        std::map<std::vector<double>, std::size_t> place; // of motions that differ
         for (auto const& [start, parameters] : points) {
             for (auto const& candidate : feasible_.candidates(parameters)) {
-                auto p = cover.point(start, candidate);
-                auto const point = mid(p.parameters);
-                auto key = point;
+                auto const own = mid(point_within(direct_around_, candidate));
+                auto key = own;
                 key.insert(key.end(), start.begin(), start.end());
-                if (tried_.insert(key).second) singles.push_back(std::move(p));
+                if (!tried_.insert(key).second) continue;
+                for (std::size_t j = 0; j < own.size(); ++j) {
+                    if (slim_direct_->idle[j]) key[j] = 0;
+                }
+                auto const [at, fresh] = place.emplace(std::move(key), singles.size());
+                if (fresh) singles.push_back({cover.point(start, own), {}});
+                singles[at->second].parameters.push_back(own);
             }
         }
         for (std::size_t first = 0; first < singles.size() && limit_(); first += cover.at_once()) {
             auto const last = std::min(first + cover.at_once(), singles.size());
             std::vector<motion_cover::part*> some;
-            for (auto k = first; k < last; ++k) some.push_back(&singles[k]);
+            for (auto k = first; k < last; ++k) some.push_back(&singles[k].motion);
             cover.learn(some);
-            for (auto* p : some) {
-                auto const says = direct_->judge(*p);
+            for (auto k = first; k < last; ++k) {
+                auto const says = direct_->judge(singles[k].motion);
                 if (!says.found.refuted()) continue;
-                auto const parameters = mid(p->parameters);
-                if (!feasible_.proved(parameters)) continue;
-                auto const segment = says.found.high_from.segment;
-                result_.witness =
-                    violating_motion{parameters, mid(p->initial), says.found, times_[segment / 2]};
-                return;
+                for (auto const& parameters : singles[k].parameters) {
+                    if (!feasible_.proved(parameters)) continue;
+                    auto const segment = says.found.high_from.segment;
+                    result_.witness = violating_motion{parameters, mid(singles[k].motion.initial),
+                                                       says.found, times_[segment / 2]};
+                    return;
+                }
             }
         }
     }
@@ -234,6 +273,9 @@ private:
         note(i.says.found);
         open_box box{i.what.parameters, i.what.initial, i.says.found, open_reason::undecided,
                      i.says.reached};
+        for (std::size_t j = 0; j < around_.size(); ++j) {
+            if (slim_.idle[j]) box.parameters[j] = around_[j];
+        }
         if (i.judged && i.says.reached < problem_.end)
             box.why = open_reason::not_enclosed;
         else if (i.says.found.refuted())
@@ -252,25 +294,29 @@ private:
                                          : requirement_answer::open;
         result_.reached = problem_.end;
         for (auto const& b : left_) result_.reached = std::min(result_.reached, b.reached);
-        auto const size = [&](open_box const& b) {
-            return relative_volume(b.parameters, problem_.around()).upper();
-        };
-        std::stable_sort(left_.begin(), left_.end(),
-                         [&](open_box const& a, open_box const& b) { return size(a) > size(b); });
-        result_.open = std::move(left_);
+        std::vector<std::pair<double, std::size_t>> order; // the largest first, else as found
+        for (std::size_t k = 0; k < left_.size(); ++k)
+            order.emplace_back(-relative_volume(left_[k].parameters, around_).upper(), k);
+        std::sort(order.begin(), order.end());
+        for (auto const& [volume, k] : order) result_.open.push_back(std::move(left_[k]));
         result_.times = times_;
         result_.parts = parts_;
         result_.integrations = integrations_ + (direct_ ? direct_->cover().integrations() : 0);
     }
 
-    prediction_problem const& problem_;
-    requirement const& what_;
+    requirement const& asked_;
+    box around_; ///< all sets, idle sides as they are
+    without_idle_parts slim_;
+    prediction_problem const& problem_ = slim_.problem;
+    requirement const& what_ = slim_.what;
     feasible_points const& feasible_;
     prediction_options options_;
     work_limit limit_;
     std::vector<double> times_, direct_times_;
     std::optional<judged_motions> motions_;
+    std::unique_ptr<without_idle_parts> slim_direct_;
     std::unique_ptr<judged_motions> direct_;
+    box direct_around_;
     std::vector<item> open_;
     std::vector<open_box> left_;
     std::set<std::vector<double>> tried_;
@@ -284,8 +330,15 @@ private:
 
 SIVID_DECL verification verify(prediction_problem const& problem, requirement const& what,
                                feasible_points const& feasible, prediction_options const& options) {
-    problem.require_valid();
-    if (feasible.direct != nullptr) feasible.direct->require_valid();
+    auto const require = [&what](prediction_problem const& p) {
+        p.require_valid();
+        for (auto const m : what.margins) {
+            if (m >= p.model.g.size())
+                throw std::invalid_argument("verify: the requirement was read for another model");
+        }
+    };
+    require(problem);
+    if (feasible.direct != nullptr) require(*feasible.direct);
     return decision_detail::verification_search(problem, what, feasible, options)();
 }
 

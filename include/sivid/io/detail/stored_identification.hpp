@@ -45,6 +45,7 @@ struct stored_identification {
     std::string dataset;
     std::string source_folder; ///< the data set, as seen from the folder of the result; may be ""
     std::string source_digest; ///< of `dataset_digest`; "" when the file has none
+    std::string problem;       ///< of `problem_digest`; "" when the file has none
     std::vector<std::string> effects; ///< joined to the data set's model, by name
     sivid::verdict verdict = sivid::verdict::undecided;
     std::string grounds; ///< what the verdict is said to rest on; "" in older files

@@ -129,7 +129,10 @@ SIVID_DECL std::string verification_json(stored_prediction const& about, require
         json.key("robustness");
         io_detail::write_bounds(json, w.found.low, w.found.high);
         json.key("time").nearest(w.time);
-        json.key("feasible").string("proved by validated runs through the data").end_object();
+        json.key("feasible")
+            .string("proved by validated runs through the data" +
+                    (about.feasible_with.empty() ? "" : ", of which " + about.feasible_with));
+        json.end_object();
     } else {
         json.null();
     }

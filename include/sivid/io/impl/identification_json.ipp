@@ -22,6 +22,7 @@ SIVID_DECL std::string identification_json(identification_problem const& problem
         json.key("source").begin_object().key("folder").string(options.source_folder);
         json.key("sha256").string(options.source_digest).end_object();
     }
+    json.key("problem").string(problem_digest(problem));
     if (!options.effects.empty()) {
         json.key("effects").begin_array(layout::one_line);
         for (auto const& name : options.effects) json.string(name);

@@ -71,6 +71,7 @@ inline void read_result(json_value const& root, stored_identification& result) {
         result.source_folder = source->at("folder").any_string();
         result.source_digest = source->at("sha256").string();
     }
+    if (auto const* problem = root.find("problem")) result.problem = problem->string();
     if (auto const* effects = root.find("effects")) {
         for (auto const& name : effects->elements()) result.effects.push_back(name.string());
     }

@@ -14,6 +14,12 @@ SIVID_DECL std::string problem_digest(identification_problem const& problem,
     return sha256(text("also", also).text());
 }
 
+SIVID_DECL std::string problem_digest(identification_problem const& problem) {
+    io_detail::canonical_text text;
+    io_detail::describe_meaning(text, problem);
+    return sha256(text.text());
+}
+
 } // namespace sivid
 
 #endif

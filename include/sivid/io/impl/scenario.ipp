@@ -8,9 +8,10 @@
 #include <sivid/io/json_document.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
-#include <numbers>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -23,7 +24,10 @@ SIVID_DECL signal exact_signal(input_shape const& s, double duration) {
         return sampled_signal({0}, {s.offset}, interpolation::hold);
     case kind::sine:
         return analytic_signal::from([&s](auto const& t) {
-            return s.offset + s.amplitude * sin(2 * std::numbers::pi * s.frequency * t + s.phase);
+            using std::atan;
+            using T = std::remove_cvref_t<decltype(t)>;
+            T const turn = 8 * atan(T(1)); // 2 pi, enclosed
+            return s.offset + s.amplitude * sin(turn * s.frequency * t + s.phase);
         });
     case kind::ramp:
         return sampled_signal({s.begin - 1, s.begin, s.end, std::max(s.end, duration) + 1},

@@ -6,10 +6,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/enclosure/parametric_set.hpp>
-#include <sivid/io/identification_consistency.hpp>
-#include <sivid/io/input_error.hpp>
-#include <sivid/io/same_problem.hpp>
-#include <sivid/io/stored_products.hpp>
+#include <sivid/io/detail/stored_consistency.hpp>
 #include <sivid/paving/certificate.hpp>
 
 #include <algorithm>
@@ -25,34 +22,6 @@
 namespace sivid {
 
 namespace io_detail {
-
-/// Refuses a result that contradicts itself. That its claims are true is for a check to say.
-inline void require_consistent(identification_problem const& data,
-                               stored_identification const& stored,
-                               std::filesystem::path const& file) {
-    auto const refuse = [&](std::string const& what) {
-        throw input_error{{.file = file.string()}, what, "identify the data anew"};
-    };
-    for (auto const& finding :
-         {check_files(stored), check_rows(data, stored), check_verdict(stored)}) {
-        if (finding.found == check_finding::outcome::refuted)
-            refuse("the result contradicts itself: " + finding.detail);
-    }
-    if (stored.products) {
-        std::map<std::string, std::size_t> counted;
-        for (auto const& row : stored.products->rows)
-            ++counted[std::string{to_string(row.verdict)}];
-        for (auto const& [kind, n] : stored.products->stated_rows) {
-            if (counted[kind] != n)
-                refuse("the result contradicts itself: the number of " + kind +
-                       " boxes of products is not the one stated");
-        }
-    }
-    if (stored.verdict == verdict::inconsistent)
-        throw input_error{{.file = file.string()},
-                          "no parameter is left: the model contradicts the data",
-                          "ask `diagnose` what the model lacks"};
-}
 
 /// Parameters that may be feasible, near given coordinates; and proofs.
 class feasible_search {
@@ -181,6 +150,49 @@ private:
     std::map<std::vector<double>, bool> known_;
 };
 
+/// Whether states that effects added start where parameters say, or uncertain inputs do.
+inline bool starts_follow(identification_problem const& data, box const& initial) {
+    auto const wide = [](interval const& side) {
+        return std::nextafter(side.lower(), HUGE_VAL) < side.upper();
+    };
+    return std::any_of(
+        data.model.added_states.begin(), data.model.added_states.end(), [&](added_state const& a) {
+            return wide(initial[a.state]) ||
+                   std::any_of(data.experiments.begin(), data.experiments.end(),
+                               [&](experiment const& e) { return wide(e.initial[a.state]); });
+        });
+}
+
+/// What is taken for granted besides what the identification says.
+inline void state_assumptions(identification_problem const& data, prediction_request const& request,
+                              stored_prediction& result) {
+    for (auto const& e : data.experiments) {
+        auto const own = request.stated_outliers.find(e.name);
+        auto const stated = own == request.stated_outliers.end() ? e.outliers : own->second;
+        if (e.outliers == 0 && stated == 0) continue;
+        auto const count = [](std::size_t n) { return std::to_string(n); };
+        auto const of = count(e.outliers) + " of " + count(e.measurements.size()) +
+                        " measurements of " + e.name;
+        std::string words = "at most " + of + " may violate their bounds";
+        if (stated != e.outliers) {
+            words += " (the result's budget; the data set says " + count(stated) + ")";
+        }
+        result.assumptions.push_back(words);
+        if (e.outliers > 0)
+            result.feasible_with += (result.feasible_with.empty() ? "at most " : ", ") + of +
+                                    " may lie outside of their bounds";
+    }
+    for (auto words : derivation_words(result.direct.model, result.direct.choice)) {
+        words.pop_back(); // the full stop
+        result.assumptions.push_back(words);
+    }
+    result.starts_follow = starts_follow(data, request.initial);
+    if (result.starts_follow)
+        result.assumptions.push_back(
+            "states that effects add start anywhere in the ranges that the parameters give them, "
+            "each with every parameter: what is proved holds nevertheless, and nothing is refuted");
+}
+
 inline bool is_excluded(paved_box const& b) { return b.verdict == box_verdict::outside; }
 
 } // namespace io_detail
@@ -189,7 +201,6 @@ SIVID_DECL std::unique_ptr<stored_prediction>
 predict_from(identification_problem const& data, stored_identification const& stored,
              recorded_model const& model, std::vector<node_id> const& margins,
              prediction_request const& request, std::filesystem::path const& file) {
-    require_same_problem(data, stored, file);
     io_detail::require_consistent(data, stored, file);
     auto result = std::make_unique<stored_prediction>();
     auto& direct = result->direct;
@@ -222,6 +233,7 @@ predict_from(identification_problem const& data, stored_identification const& st
             ranges.push_back(range);
         }
     }
+    io_detail::state_assumptions(data, request, *result);
     auto const extended = [&](box const& own) {
         std::vector<interval> sides(own.begin(), own.end());
         sides.insert(sides.end(), ranges.begin(), ranges.end());
@@ -247,6 +259,9 @@ predict_from(identification_problem const& data, stored_identification const& st
         formulas.insert(formulas.end(), added.begin(), added.end());
         auto const rebuilt = rebuild_products<interval>(asked, formulas);
         result->not_in_products = !rebuilt.malformed.empty() ? rebuilt.malformed : rebuilt.unproved;
+        if (result->not_in_products.empty()) // do the equations of the data see them alone?
+            result->not_in_products =
+                rebuild_products<interval>(data, stored.products->sides).unproved;
         result->in_products = result->not_in_products.empty();
         if (result->in_products) {
             problem.choice = rebuilt.problem.choice;
@@ -271,6 +286,7 @@ predict_from(identification_problem const& data, stored_identification const& st
     result->feasible.candidates = [search](std::vector<double> const& p) {
         return search->candidates(p);
     };
+    if (result->starts_follow) return result;
     result->feasible.proved = [search](std::vector<double> const& p) { return search->proved(p); };
     return result;
 }

@@ -52,6 +52,19 @@ inline std::string named(std::vector<std::string> const& names, std::vector<doub
     return text;
 }
 
+/// The states of a start that the scenario leaves open.
+inline std::string start_of(prediction_problem const& p, std::vector<double> const& start) {
+    std::vector<std::string> names;
+    std::vector<double> values;
+    for (std::size_t i = 0; i < start.size(); ++i) {
+        auto const& side = p.initial[i];
+        if (!(std::nextafter(side.lower(), HUGE_VAL) < side.upper())) continue; // one decimal
+        names.push_back(p.model.about.states[i].name);
+        values.push_back(start[i]);
+    }
+    return named(names, values);
+}
+
 inline void add_motions(page& out, prediction const& found, decision_page_options const& o) {
     std::vector<motion_series> all;
     for (std::size_t c = 0; c < found.channels.size(); ++c) {
@@ -122,8 +135,11 @@ SIVID_DECL std::string answer_sentence(stored_prediction const& about, verificat
                ".";
     case requirement_answer::refuted: {
         auto const& w = *found.witness;
+        auto const start = detail::start_of(about.direct, w.start);
         return "Violated at " + detail::named(about.direct.choice.unknown, w.parameters) +
-               ", which the data allow (proved by validated runs): its robustness is at most " +
+               ", which the data allow (proved by validated runs" +
+               (about.feasible_with.empty() ? "" : "; " + about.feasible_with) + ")" +
+               (start.empty() ? "" : ", from the start " + start) + ": its robustness is at most " +
                rounded_text(w.found.high, rounding::up) + ".";
     }
     case requirement_answer::open:
@@ -148,9 +164,12 @@ SIVID_DECL std::vector<std::string> decision_assumptions(stored_prediction const
                     "excluded. `check --all` proves that anew. A witness of a violation does not "
                     "rest on it.");
     for (auto const& a : s.assumptions) lines.push_back(a + ".");
+    auto const& inputs = s.problem.inputs;
+    bool const exact = std::none_of(inputs.begin(), inputs.end(), is_uncertain);
     lines.push_back(
-        "The scenario's inputs act exactly as stated, and the model's equations hold in "
-        "it.");
+        "The scenario's inputs " +
+        std::string{exact ? "act exactly as stated" : "stay within their stated errors"} +
+        ", and the model's equations hold in it.");
     if (!s.not_in_products.empty())
         lines.push_back("The products that the data fix do not tell this prediction (" +
                         s.not_in_products +
