@@ -50,8 +50,8 @@ TEST_CASE("two parameters behind fourteen uncertain starts are identified") {
     identify_options options;
     options.search.seconds = 60;
     options.search.boxes = 300;
-    auto const found =
-        identify({support::model_of({cells, 2, 0, 10}, rate), {}, prior, {e}}, options);
+    auto const found = identify(
+        {support::model_of({cells, 2, 0, 10}, rate), {{"p0", "p1"}, {}}, prior, {e}}, options);
     CHECK(found.verdict == verdict::consistent);
     REQUIRE(found.hull.size() == 2);
     for (std::size_t j = 0; j < 2; ++j) {

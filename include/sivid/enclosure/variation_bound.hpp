@@ -70,7 +70,8 @@ template <class I>
     };
     Eigen::MatrixXd guess =
         Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(columns));
-    for (int round = 0; round < 12; ++round) {
+    // What acts through a chain of states takes a round for each of them to arrive.
+    for (std::size_t round = 0; round < 12 + n; ++round) {
         auto const next = image(guess);
         if (!next.allFinite()) return std::nullopt;
         if (round > 0 && (next.array() <= guess.array()).all()) return next;
