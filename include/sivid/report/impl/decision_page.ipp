@@ -235,8 +235,13 @@ SIVID_DECL page verification_page(stored_prediction const& about, requirement co
                answer_sentence(about, found));
     std::vector<card> cards;
     range const r{found.found.low, found.found.high};
-    cards.push_back({"robustness", is_finite(r) ? outward_text(r) : "not bounded",
-                     "of all motions; above 0 the requirement holds"});
+    if (refuted) {
+        cards.push_back({"robustness", "≤ " + rounded_text(found.witness->found.high, rounding::up),
+                         "of the motion that violates it; above 0 the requirement holds"});
+    } else {
+        cards.push_back({"robustness", is_finite(r) ? outward_text(r) : "not bounded",
+                         "of all motions; above 0 the requirement holds"});
+    }
     cards.push_back({"time", duration_text(found.seconds), ""});
     cards.push_back({"parts", count_text(found.parts), ""});
     cards.push_back({"integrations", count_text(found.integrations), "validated"});
@@ -255,8 +260,8 @@ SIVID_DECL page verification_page(stored_prediction const& about, requirement co
     figure f{.panels = {},
              .legend = motion_plot_legend(margins, options),
              .title = "The margins of the comparisons, for all parameters and starts.",
-             .caption = "A comparison holds where its margin is above 0. What the requirement asks "
-                        "of them, and when, says its text."};
+             .caption = "A comparison holds where its margin is above 0. The requirement's text "
+                        "says when it has to."};
     for (std::size_t c = 0; c < margins.size(); ++c) {
         options.title = c < asked.labels.size() ? asked.labels[c] : "comparison";
         f.panels.push_back(draw_motion_plot(margins[c], options));
