@@ -4,6 +4,7 @@
 
 #include <sivid/io/detail/check_finding.hpp>
 #include <sivid/io/detail/stored_identification.hpp>
+#include <sivid/io/problem_digest.hpp>
 #include <sivid/io/product_formula.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/space/box_cover.hpp>
@@ -176,6 +177,16 @@ inline check_finding agreement(std::string what, std::string const& fault,
     }
     if (fault.empty() && stored.assumptions != own) fault = "others than those of the problem";
     return io_detail::agreement("assumptions", fault, "those of the problem");
+}
+
+/// The problem is the one that was identified: the model and its effects, the prior, the data, the
+/// budgets of outliers. Results of earlier versions do not say.
+[[nodiscard]] inline check_finding check_problem(identification_problem const& problem,
+                                                 stored_identification const& stored) {
+    bool const other = !stored.problem.empty() && stored.problem != problem_digest(problem);
+    return io_detail::agreement("problem", other ? "another one was identified" : "",
+                                stored.problem.empty() ? "the result does not say which"
+                                                       : "the one that was identified, by SHA-256");
 }
 
 /// Whether the reason to stop follows from what was left and from the budgets.

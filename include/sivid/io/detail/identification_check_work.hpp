@@ -61,6 +61,7 @@ public:
             if (!rebuilt.malformed.empty()) return all;
         }
         add([&] { return check_files(*stored_); });
+        add([&] { return check_problem(*problem_, *stored_); });
         add([&] { return check_assumptions(*problem_, *stored_, options_.further_assumptions); });
         add([&] { return check_stop(*stored_); });
         add([&] { return check_verdict(*stored_); });
