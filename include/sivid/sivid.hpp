@@ -192,6 +192,7 @@
 #include <sivid/paving/interval_observer.hpp>
 #include <sivid/paving/inversion_options.hpp>
 #include <sivid/paving/invert.hpp>
+#include <sivid/paving/lifted_program.hpp>
 #include <sivid/paving/linear_contraction.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/mean_value_cut.hpp>
@@ -228,6 +229,7 @@
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/paving/weighted_outputs.hpp>
+#include <sivid/paving/window_contraction.hpp>
 #include <sivid/paving/witness.hpp>
 #include <sivid/paving/work_limit.hpp>
 #include <sivid/decision/cell_bounds.hpp>

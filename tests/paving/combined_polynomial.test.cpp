@@ -120,8 +120,15 @@ TEST_CASE("nowhere in the part does the weighted sum fall below the bound") {
         }
         double const shift = d.uniform(-1, 1);
         sum.add_constant(interval(shift));
-        double const bound = sum.lower_bound();
+        std::vector<combined_polynomial::plane> planes; // any will do
+        for (std::size_t v = 1; v < 4; ++v) {
+            for (std::size_t u = 0; u < v; ++u) {
+                if (d.coin()) planes.push_back({u, v, d.uniform(-2, 2) * curvature});
+            }
+        }
+        double const bound = sum.lower_bound(planes);
         REQUIRE(std::isfinite(bound));
+        CHECK(bound >= sum.lower_bound());
         double least = HUGE_VAL;
         for (int sample = 0; sample < 40; ++sample) {
             std::vector<double> unknown;
@@ -188,4 +195,15 @@ TEST_CASE("what is not finite proves nothing") {
                  {2, interval(0.0), interval(1.0)}});
         CHECK(sum.lower_bound() == -HUGE_VAL);
     }
+}
+
+TEST_CASE("a plane bounds a product together with what is linear in its factors") {
+    // u v + (u + v) / 2 is least at u = -v = 1, where it is -1; one by one the terms reach -2.
+    auto const rising = of_two({0, 0.5, 0.5, 0, 1, 0});
+    CHECK_THAT(rising.lower_bound(), WithinAbs(-2.0, 1e-6));
+    CHECK_THAT(rising.lower_bound({{0, 1, -0.5}}), WithinAbs(-1.0, 1e-6));
+    CHECK(rising.lower_bound({{0, 1, -7}}) >= -2); // no slope is steeper than the product's
+    // -u v + (u - v) / 2 with u and -v in its place
+    auto const falling = of_two({0, 0.5, -0.5, 0, -1, 0});
+    CHECK_THAT(falling.lower_bound({{0, 1, -0.5}}), WithinAbs(-1.0, 1e-6));
 }

@@ -162,8 +162,8 @@ inline void describe_meaning(canonical_text& t, identification_problem p) {
 
 inline void describe(canonical_text& t, run_options const& o) {
     auto const& e = o.enclosure;
-    t("run", o.set, o.hopeless, e.order, e.variational_order, e.method.has_value(), e.tolerance,
-      e.relative_tolerance, e.minimum_step, e.maximum_step, e.maximum_steps, e.widest,
+    t("run", o.set, o.degree, o.hopeless, e.order, e.variational_order, e.method.has_value(),
+      e.tolerance, e.relative_tolerance, e.minimum_step, e.maximum_step, e.maximum_steps, e.widest,
       e.remainder_share);
     if (!e.method) return;
     t("method", e.method->name, e.method->order);
@@ -178,7 +178,7 @@ inline void describe(canonical_text& t, run_options const& o) {
 /// Everything that decides what a search does; budgets and threads do not.
 inline void describe(canonical_text& t, identify_options const& o) {
     auto const& s = o.search;
-    t("options", o.algorithm, o.only_hulls, o.drawn_boxes);
+    t("options", o.algorithm, o.only_hulls, o.windows, o.drawn_boxes);
     t("search", s.accuracy, s.accuracy_of_hull, s.hull_gain, s.sufficient_ratio, s.order,
       s.keep_outside, s.batches);
     t("test", o.test.contract, o.test.cut, o.test.sharp_enough, o.test.witness_steps);

@@ -78,27 +78,39 @@ public:
         }
     }
 
+    /// How the product of two unknowns, u < v, is bounded by a plane: \f$ \pm d_u d_v \ge s d_u \pm
+    /// s d_v - 1 \f$ for any \f$ |s| \le 1 \f$ (G. P. McCormick, Mathematical Programming 10,
+    /// 1976), here times the size of the product's coefficient: slope = s |c|.
+    struct plane {
+        std::size_t u = 0, v = 0;
+        double slope = 0;
+    };
     /// A number that the polynomial nowhere falls below.
     ///   Squares that outweigh the mixed term of their unknowns absorb it, \f$ |c d_u d_v| \le
     ///   |c| (\theta d_u^2 + d_v^2/\theta)/2 \f$; what is left splits into the unknowns.
+    /// @param planes  for products that are better bounded so, a guess
+    /// @guarantee  for any planes
     /// @cost  O(terms)
-    [[nodiscard]] double lower_bound() const {
-        return std::max(lower_bound(true), lower_bound(false));
+    [[nodiscard]] double lower_bound(std::vector<plane> const& planes = {}) const {
+        double const least = std::max(lower_bound(true, {}), lower_bound(false, {}));
+        return planes.empty() ? least : std::max(least, lower_bound(true, planes));
     }
 
 private:
     using powers = std::vector<std::uint8_t>;
 
     /// Enclosed sum of what has no unknown, with one bound of each unknown's own part.
-    [[nodiscard]] double lower_bound(bool absorb) const {
+    [[nodiscard]] double lower_bound(bool absorb, std::vector<plane> const& planes) const {
         auto total = constant_;
-        std::vector<double> slope(n_, 0.0);  // at most so large
+        std::vector<interval> slope(n_, traits::point(0.0));
         std::vector<double> square(n_, 0.0); // at least so large
         struct mixed_term {
             std::size_t u, v;
             double size;
         };
         std::vector<mixed_term> mixed;
+        std::map<std::pair<std::size_t, std::size_t>, double> tilts;
+        for (auto const& p : planes) tilts[{p.u, p.v}] = p.slope;
         auto const lose = [&](double size) {
             total = traits::sub(total, traits::bounds(0.0, size));
         };
@@ -118,14 +130,25 @@ private:
             auto const u =
                 static_cast<std::size_t>(std::find_if(e.begin(), e.end(), is_used) - e.begin());
             if (degree == 1) {
-                slope[u] = mag(c);
+                slope[u] = traits::add(slope[u], c);
             } else if (degree == 2 && e[u] == 2) {
                 square[u] = lower(c);
             } else if (degree == 2) {
                 auto const v = static_cast<std::size_t>(
                     std::find(e.begin() + static_cast<std::ptrdiff_t>(u) + 1, e.end(), 1) -
                     e.begin());
-                mixed.push_back({u, v, mag(c)});
+                auto const tilt = tilts.find({u, v});
+                bool const rises = lower(c) > 0;
+                if (tilt == tilts.end() || !(rises || upper(c) < 0)) {
+                    mixed.push_back({u, v, mag(c)});
+                    continue;
+                }
+                // c = +-least and what is beyond it
+                double const least = rises ? lower(c) : -upper(c);
+                auto const s = traits::point(std::clamp(tilt->second, -least, least));
+                slope[u] = traits::add(slope[u], s);
+                slope[v] = traits::add(slope[v], rises ? s : traits::neg(s));
+                lose(mag(c)); // least + (mag(c) - least)
             } else {
                 if (!even || !(lower(c) >= 0)) lose(mag(c));
             }
@@ -147,7 +170,7 @@ private:
             square[v] = lower(traits::sub(traits::point(square[v]), from_v));
         }
         for (std::size_t v = 0; v < n_; ++v) {
-            total = traits::add(total, least_of_parabola(slope[v], square[v]));
+            total = traits::add(total, least_of_parabola(mag(slope[v]), square[v]));
         }
         return is_empty(total) ? -HUGE_VAL : lower(total);
     }

@@ -13,13 +13,14 @@ namespace sivid {
 
 /// What weighted measurements say of all unknowns that meet them.
 struct measured_sum {
-    combined_polynomial outputs; ///< \f$ \sum_i w_i y_i(d) \f$
+    combined_polynomial outputs; ///< \f$ start + \sum_i w_i y_i(d) \f$
     interval most{0.0};          ///< what it cannot exceed
 
+    /// @param start  what the outputs are added to
     /// @given  measurements that are bounded in the direction of their weights
     measured_sum(response_list const& known, shared_unknowns const& unknowns,
-                 std::vector<measurement_weight> const& weights)
-        : outputs(unknowns.count) {
+                 std::vector<measurement_weight> const& weights, combined_polynomial start)
+        : outputs(std::move(start)) {
         using traits = interval_traits<interval>;
         for (std::size_t s = 0; s < known.size(); ++s) {
             auto const& r = *known[s];
@@ -37,12 +38,14 @@ struct measured_sum {
 };
 
 /// Whether no unknown meets all weighted measurements.
+/// @param planes  see `combined_polynomial::lower_bound`
 /// @guarantee  for any weights
-[[nodiscard]] inline bool certified_empty(response_list const& known,
-                                          shared_unknowns const& unknowns,
-                                          std::vector<measurement_weight> const& weights) {
-    measured_sum const sum(known, unknowns, weights);
-    return sum.outputs.lower_bound() > upper(sum.most);
+[[nodiscard]] inline bool
+certified_empty(response_list const& known, shared_unknowns const& unknowns,
+                std::vector<measurement_weight> const& weights,
+                std::vector<combined_polynomial::plane> const& planes = {}) {
+    measured_sum const sum(known, unknowns, weights, combined_polynomial(unknowns.count));
+    return sum.outputs.lower_bound(planes) > upper(sum.most);
 }
 
 /// A number that \f$ d_j \f$ (or \f$ -d_j \f$) exceeds for no unknowns that meet all weighted
@@ -56,8 +59,9 @@ struct measured_sum {
                                             std::vector<measurement_weight> const& weights,
                                             std::size_t j, bool upwards) {
     using traits = interval_traits<interval>;
-    measured_sum sum(known, unknowns, weights);
-    sum.outputs.add_linear(j, traits::point(upwards ? -1.0 : 1.0));
+    combined_polynomial start(unknowns.count);
+    start.add_linear(j, traits::point(upwards ? -1.0 : 1.0));
+    measured_sum const sum(known, unknowns, weights, std::move(start));
     double const least = sum.outputs.lower_bound();
     if (!std::isfinite(least)) return 1;
     double const reach = upper(traits::sub(sum.most, traits::point(least)));

@@ -19,9 +19,9 @@ struct approximate_cut {
     std::size_t exchanges = 0;
 };
 
-/// Maximises \f$ \pm d_j \f$ over \f$ d \in [-1,1]^n \f$ with \f$ |f_y(d)| \le margin_y \f$ for all
-/// functions of some blocks, by `dual_simplex` from the corner of the box that is farthest. Every
-/// basis bounds \f$ d_j \f$ already, so stopping early is safe.
+/// Maximises \f$ \pm d_j \f$, or another goal, over \f$ d \in [-1,1]^n \f$ with \f$ |f_y(d)| \le
+/// margin_y \f$ for all functions of some blocks, by `dual_simplex` from the corner of the box that
+/// is farthest. Every basis bounds \f$ d_j \f$ already, so stopping early is safe.
 /// @guarantee  none: doubles. The multipliers are for \f$ certified_reach \f$, which proves.
 /// @cost  about n exchanges, each O(n^2 + functions * columns)
 class cut_program {
@@ -32,12 +32,16 @@ public:
 
     /// @param upwards  maximise \f$ d_j \f$, else \f$ -d_j \f$
     [[nodiscard]] approximate_cut operator()(std::size_t j, bool upwards) {
-        auto const n = constraints_.unknowns();
-        std::vector<double> goal(n, 0.0);
+        std::vector<double> goal(constraints_.unknowns(), 0.0);
         goal[j] = upwards ? 1 : -1;
+        return (*this)(std::move(goal));
+    }
+    /// Maximises \f$ \sum_v goal_v d_v \f$.
+    [[nodiscard]] approximate_cut operator()(std::vector<double> goal) {
+        auto const n = constraints_.unknowns();
         std::vector<half_space> corner(n);
         for (std::size_t v = 0; v < n; ++v) {
-            constraints_.write({true, 0, v, upwards || v != j}, corner[v], n);
+            constraints_.write({true, 0, v, goal[v] >= 0}, corner[v], n);
         }
         dual_simplex program;
         approximate_cut result;

@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -83,6 +84,28 @@ public:
     /// Initial states, one box per experiment within its own, from which existence is proved.
     void set_starts(std::vector<box> starts) { starts_ = std::move(starts); }
 
+    /// What is known from elsewhere to hold every feasible parameter (trusted): the rest of each
+    /// box is cut off before it is run.
+    void set_rest(box rest) {
+        left_ = std::move(rest);
+        first_.reset();
+    }
+    /// Which share of the measurements runs over a box reach; 1 when they decide it. What was found
+    /// is kept for the `learn` to come.
+    /// @given  nobody else works with this object meanwhile
+    [[nodiscard]] double reached(box const& parameters) {
+        auto found = learn({parameters});
+        std::size_t seen = 0, all = 0;
+        if (found[0].knowledge) {
+            for (auto const& r : found[0].knowledge->all_starts) {
+                seen += r->outputs();
+                all += r->measurements;
+            }
+        }
+        first_.emplace(parameters, std::move(found));
+        return all == 0 ? 1 : static_cast<double>(seen) / static_cast<double>(all);
+    }
+
     /// Whether it was told to stop (`enclosure_options::keep_going` of its runs).
     [[nodiscard]] bool cancelled() const { return options_.run.enclosure.cancelled(); }
 
@@ -118,16 +141,32 @@ public:
     /// The sets depend on all the boxes, in their order: they share step orders while they are
     /// integrated together.
     [[nodiscard]] std::vector<assessment<knowledge>> learn(std::vector<box> const& boxes) {
+        if (first_ && boxes.size() == 1 && same(boxes[0], first_->first)) {
+            auto found = std::move(first_->second);
+            first_.reset();
+            return found;
+        }
         auto runs = pool_->borrow();
         std::vector<assessment<knowledge>> results;
         std::vector<std::shared_ptr<knowledge>> found;
         std::vector<std::size_t> open; // boxes that no experiment has refuted
         for (auto const& x : boxes) {
-            open.push_back(results.size());
             results.push_back({.rest = x});
-            results.back().smear.assign(x.size(), 0.0);
+            auto& mine = results.back();
+            mine.smear.assign(x.size(), 0.0);
             found.push_back(std::make_shared<knowledge>());
-            found.back()->region = x;
+            if (left_) {
+                mine.rest = intersect(x, *left_);
+                if (is_empty(mine.rest)) {
+                    mine.rest = x;
+                    mine.verdict = box_verdict::outside;
+                    mine.proof.push_back({proof_step::kind::empty});
+                    continue;
+                }
+                add_cuts(mine.proof, x, mine.rest);
+            }
+            open.push_back(results.size() - 1);
+            found.back()->region = mine.rest;
         }
         for (std::size_t e = 0; e < flows_.size() && !open.empty(); ++e) {
             std::vector<box> regions;
@@ -300,6 +339,7 @@ private:
         }
         return answers;
     }
+    static bool same(box const& x, box const& y) { return subset(x, y) && subset(y, x); }
     static bool is_point(box const& x) {
         return std::all_of(x.begin(), x.end(), [](interval const& side) {
             return interval_traits<interval>::is_point(side);
@@ -328,6 +368,8 @@ private:
     std::vector<std::shared_ptr<flow const>> flows_;
     std::vector<record> records_;
     std::vector<box> starts_;
+    std::optional<box> left_;                                                 ///< of all parameters
+    std::optional<std::pair<box, std::vector<assessment<knowledge>>>> first_; ///< learnt ahead
     std::vector<std::shared_ptr<flow const>> recorded_; ///< `flows_`, without input errors
     std::vector<std::vector<double>> lasting_;          ///< see `response`
     std::unique_ptr<run_pool> pool_;

@@ -58,13 +58,22 @@ struct search_effort {
     std::optional<std::size_t> most_bytes; ///< nothing: as many as there are
 };
 
+/// How windows of the records contracted the prior before it was searched.
+struct window_effort {
+    std::size_t windows = 0; ///< that were carried, all together
+    double longest = 0;      ///< of them [s]
+    double seconds = 0;
+    double left = 1; ///< at most so much of the prior's volume
+};
+
 /// What was found about a problem; everything in it is proved, `guess` excepted.
 struct identification {
     explicit identification(box const& prior) : paving(prior), hull(prior) {}
 
     sivid::verdict verdict = sivid::verdict::undecided;
     stop_reason reason = stop_reason::decided;
-    std::optional<search_effort> effort; ///< nothing where measurements came one by one
+    std::optional<window_effort> windows; ///< nothing where none were needed
+    std::optional<search_effort> effort;  ///< nothing where measurements came one by one
     /// Of the prior: inside boxes are proved, what no other box covers is excluded by proof.
     subpaving paving;
     volume_source volumes = volume_source::boxes;

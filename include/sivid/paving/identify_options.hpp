@@ -26,6 +26,9 @@ struct identify_options {
     data_test_options test;
     /// Stop when the hulls no longer shrink; the paving stays coarse.
     bool only_hulls = false;
+    /// Contract the prior by windows of the records first (`contract_by_windows`), in at most half
+    /// of the time, where trajectories over it reach less than half of the measurements.
+    bool windows = true;
     /// Boxes tested to draw the paving of the prior, when the search ran in products of parameters.
     std::size_t drawn_boxes = 1500;
     /// What may be added to `search.seconds`, at most, to complete a result: the box about the

@@ -21,26 +21,38 @@ struct shared_unknowns {
     std::size_t count = 0;
     std::vector<std::vector<combined_polynomial::place>> places; ///< per response and variable
 
-    /// @param part  inside the boxes of parameters that the responses were computed for (trusted)
-    shared_unknowns(response_list const& known, box const& part) : count(part.size()) {
-        using traits = interval_traits<interval>;
-        bool undefined = false;
-        for (auto const& r : known) {
-            auto& mine = places.emplace_back(r->table->variables);
+    /// @param part    inside the boxes of parameters that the responses were computed for (trusted)
+    /// @param starts  inside those of their starts (trusted); none given: these
+    shared_unknowns(response_list const& known, box const& part,
+                    std::vector<box> const& starts = {})
+        : count(part.size()) {
+        for (std::size_t s = 0; s < known.size(); ++s) {
+            auto const& of = known[s]->unknowns;
+            auto& mine = places.emplace_back(known[s]->table->variables);
             for (std::size_t j = 0; j < part.size(); ++j) {
-                auto const& side = r->unknowns.parameters[j];
-                if (side.radius == 0) continue;
-                // p = mid + rad d = centre + radius q
-                auto const radius = traits::point(side.radius);
-                auto const off =
-                    traits::sub(traits::point(mid(part[j])), traits::point(side.centre));
-                mine[side.variable] = {j, traits::div(off, radius, undefined),
-                                       traits::div(traits::point(rad(part[j])), radius, undefined)};
+                auto const& side = of.parameters[j];
+                if (side.radius > 0) mine[side.variable] = within(side, part[j], j);
             }
-            for (auto const& side : r->unknowns.initial) {
-                if (side.radius > 0) mine[side.variable].unknown = count++;
+            for (std::size_t i = 0; i < of.initial.size(); ++i) {
+                auto const& side = of.initial[i];
+                if (!(side.radius > 0)) continue;
+                auto& place = mine[side.variable];
+                if (!starts.empty()) place = within(side, starts[s][i], 0);
+                place.unknown = count++;
             }
         }
+    }
+
+private:
+    /// mid + rad d = centre + radius q for a part of a side
+    [[nodiscard]] static combined_polynomial::place
+    within(normalised_unknowns::side const& side, interval const& part, std::size_t unknown) {
+        using traits = interval_traits<interval>;
+        bool undefined = false;
+        auto const radius = traits::point(side.radius);
+        auto const off = traits::sub(traits::point(mid(part)), traits::point(side.centre));
+        return {unknown, traits::div(off, radius, undefined),
+                traits::div(traits::point(rad(part)), radius, undefined)};
     }
 };
 

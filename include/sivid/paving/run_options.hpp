@@ -6,6 +6,7 @@
 #include <sivid/measurement/record.hpp>
 #include <sivid/space/box.hpp>
 
+#include <cstddef>
 #include <memory>
 
 namespace sivid {
@@ -25,6 +26,8 @@ struct run_options {
     enclosure_options enclosure{
         .order = 12, .tolerance = 1e-7, .relative_tolerance = 1e-4, .minimum_step = 1e-3};
     carried_set set = carried_set::taylor_model;
+    /// Of the Taylor models; 0: `suggested_degree`. (Points need none.)
+    std::size_t degree = 0;
     /// Makes Taylor-model runs in place of those that follow the Taylor series: `runge_kutta_run`,
     /// which a Runge-Kutta `method` needs with Taylor models, or one of your own.
     run_maker make = nullptr;

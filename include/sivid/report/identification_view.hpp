@@ -73,6 +73,7 @@ struct statistics_view {
     std::uint64_t boxes = 0;
     std::uint64_t integrations = 0;
     std::string stop_reason{};
+    std::string before{}; ///< what contracted the prior before the search, or nothing
 };
 
 /// One way to solve the same problem, for comparison.

@@ -135,7 +135,10 @@ public:
 
 private:
     static constexpr std::uint64_t no_name = ~std::uint64_t{0};
-    static constexpr std::size_t most_updates = 16; ///< of the factors, before they are made anew
+    /// Updates of the factors before they are made anew, which costs as much as n of them.
+    [[nodiscard]] std::size_t most_updates() const {
+        return std::max<std::size_t>(16, basis_.size() / 4);
+    }
 
     static bool finite(std::vector<double> const& v) {
         return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
@@ -168,7 +171,7 @@ private:
         stalled_ = multipliers_[leaves] > 1e-13 * largest ? 0 : stalled_ + 1;
         std::swap(basis_[leaves], enters_);
         ++exchanges_;
-        bool const updated = updates_ < most_updates && factors_.replace(leaves, direction_);
+        bool const updated = updates_ < most_updates() && factors_.replace(leaves, direction_);
         updates_ += updated ? 1 : 0;
         if ((!updated && !factorise()) || !solve()) {
             std::swap(basis_[leaves], enters_); // the last basis that was one

@@ -35,6 +35,12 @@ SIVID_DECL std::string identification_json(identification_problem const& problem
     json.string(
         to_string(grounds_for(found.witness.has_value(), inside, found.paving.has_outer())));
     json.key("stop_reason").string(to_string(found.reason));
+    if (found.windows) { // what contracted the prior before the search
+        auto const& w = *found.windows;
+        json.key("windows").begin_object(layout::one_line).key("carried").integer(w.windows);
+        json.key("longest").nearest(w.longest).key("seconds").nearest(w.seconds);
+        json.key("left").nearest(w.left).end_object();
+    }
     if (found.effort) { // what the reason follows from
         auto const& e = *found.effort;
         json.key("search").begin_object(layout::one_line);

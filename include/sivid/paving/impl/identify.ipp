@@ -14,6 +14,7 @@
 #include <sivid/paving/identify_options.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/reduction.hpp>
+#include <sivid/paving/window_contraction.hpp>
 #include <sivid/paving/witness.hpp>
 #include <sivid/paving/work_limit.hpp>
 
@@ -29,6 +30,10 @@
 namespace sivid {
 
 namespace paving_detail {
+
+inline box no_box(std::size_t sides) {
+    return box(std::vector<interval>(sides, interval_traits<interval>::empty()));
+}
 
 /// Measurements that fail for every parameter that is left.
 inline std::vector<forced_outlier>
@@ -85,8 +90,6 @@ SIVID_DECL identification identify(identification_problem const& problem,
     auto const since_begin = [begin] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     };
-    double const spent = since_begin() + (options.resume ? options.resume->seconds : 0);
-    options.search.seconds = std::max(0.0, options.search.seconds - spent);
     auto const structure = dependence_of(working);
     auto const map = options.algorithm == algorithm::contracting
                          ? reduction::find(working, structure)
@@ -96,6 +99,19 @@ SIVID_DECL identification identify(identification_problem const& problem,
     if (map) reduced.emplace(posed, options.test);
     auto& searching = reduced ? *reduced : test;
     if (result.guess) searching.set_starts(starts);
+    if (options.windows && !options.resume && options.algorithm == algorithm::contracting &&
+        limit() && searching.reached(posed.prior) < 0.5) {
+        auto const left = contract_by_windows(posed, {.run = options.test.run,
+                                                      .seconds = 0.5 * limit.seconds(),
+                                                      .keep_going = limit,
+                                                      .workers = options.search.workers});
+        result.windows =
+            window_effort{left.windows, left.longest, left.seconds,
+                          left.empty ? 0 : relative_volume(left.rest, posed.prior).upper()};
+        searching.set_rest(left.empty ? paving_detail::no_box(left.rest.size()) : left.rest);
+    }
+    double const spent = since_begin() + (options.resume ? options.resume->seconds : 0);
+    options.search.seconds = std::max(0.0, options.search.seconds - spent);
     auto search = options.search;
     if (map) search.keep_outside = true; // what is drawn is told from them
     search.checkpoint = nullptr;

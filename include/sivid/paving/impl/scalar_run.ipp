@@ -20,8 +20,9 @@ SIVID_DECL std::unique_ptr<experiment_run> make_scalar_run(flow const& f, experi
     options.enclosure.minimum_step = minimum_step_for(e, options.enclosure.minimum_step);
     if (f.uncertain()) options.hopeless = 1e300;
     auto const unknowns = unknown_count(initial, prior);
-    return std::make_unique<taylor_run<double>>(f, e, samples, options, unknowns,
-                                                suggested_degree(unknowns));
+    auto const degree =
+        unknowns > 0 && options.degree > 0 ? options.degree : suggested_degree(unknowns);
+    return std::make_unique<taylor_run<double>>(f, e, samples, options, unknowns, degree);
 }
 
 } // namespace sivid

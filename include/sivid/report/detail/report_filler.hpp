@@ -97,8 +97,18 @@ private:
             view_.proved.push_back(
                 fewest_outliers_sentence(found_.fewest->total.least, found_.fewest->total.most));
         }
-        view_.statistics = {found_.seconds, found_.boxes, found_.integrations,
-                            std::string{to_string(found_.reason)}};
+        view_.statistics = {found_.seconds,
+                            found_.boxes,
+                            found_.integrations,
+                            std::string{to_string(found_.reason)},
+                            {}};
+        if (found_.windows) {
+            auto const& w = *found_.windows;
+            view_.statistics.before =
+                count_text(w.windows) + " windows of the records, the longest " +
+                given_text(w.longest) + " s, contracted the prior before the search: they leave " +
+                at_most_percent(w.left) + " of its volume (" + duration_text(w.seconds) + ")";
+        }
         view_.version = std::string{"sivid "} + std::string{version};
         view_.date = options_.date;
         view_.machine = options_.machine;

@@ -145,6 +145,7 @@ inline void add_computation(page& out, identification_view const& v) {
     out.prose(std::string{"The run took "} + duration_text(v.statistics.seconds) + " for " +
               count_text(v.statistics.boxes) + " boxes and " +
               count_text(v.statistics.integrations) + " validated integrations. " +
+              (v.statistics.before.empty() ? "" : sentence(v.statistics.before) + " ") +
               (v.statistics.stop_reason.empty()
                    ? ""
                    : std::string{"Why it stopped: "} + sentence(v.statistics.stop_reason)));

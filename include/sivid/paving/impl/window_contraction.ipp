@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_IMPL_WINDOW_CONTRACTION_IPP
+#define SIVID_PAVING_IMPL_WINDOW_CONTRACTION_IPP
+
+#include <sivid/paving/window_contraction.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/enclosure/flow.hpp>
+#include <sivid/measurement/record.hpp>
+#include <sivid/paving/lifted_program.hpp>
+#include <sivid/paving/local_response.hpp>
+#include <sivid/paving/scalar_run.hpp>
+#include <sivid/paving/work_limit.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+namespace paving_detail {
+
+class window_contractor {
+    using traits = interval_traits<interval>;
+    using clock = std::chrono::steady_clock;
+
+public:
+    window_contractor(identification_problem const& problem, window_options const& options)
+        : problem_(&problem),
+          options_(options),
+          limit_(options.seconds, options.keep_going),
+          model_(with_states_seen(problem.model)) {
+        options_.run.enclosure.keep_going = limit_;
+        result_.rest = problem.prior;
+        for (auto const& e : problem.experiments) {
+            result_.starts.push_back(e.initial);
+            records_.push_back(sorted(e.measurements));
+        }
+    }
+
+    [[nodiscard]] window_contraction operator()() {
+        auto const begin = clock::now();
+        if (!problem_->model.has_delays() && problem_->model.added_states.empty()) {
+            std::vector<window> chain;
+            for (std::size_t e = 0; e < records_.size() && !result_.empty; ++e) {
+                flows_.push_back(std::make_unique<flow const>(model_, problem_->choice,
+                                                              problem_->experiments[e].inputs));
+                if (problem_->experiments[e].outliers == 0) follow(e, chain);
+            }
+            if (!result_.empty) contract_together(some_of(std::move(chain)));
+        }
+        result_.seconds = std::chrono::duration<double>(clock::now() - begin).count();
+        return std::move(result_);
+    }
+
+private:
+    struct window {
+        std::size_t experiment;
+        double from, to;
+        box start; ///< holds the state at `from`
+        std::shared_ptr<response const> answer = nullptr;
+    };
+
+    /// The same model in which every state is measured, too.
+    [[nodiscard]] static recorded_model with_states_seen(recorded_model model) {
+        for (std::size_t i = 0; i < model.about.states.size(); ++i) {
+            auto const& state = model.about.states[i];
+            model.about.channels.push_back({"state " + state.name, state.unit});
+            model.observe.push_back(model.g.leaf(operation::state, i));
+        }
+        return model;
+    }
+    [[nodiscard]] std::size_t states() const { return problem_->model.about.states.size(); }
+    [[nodiscard]] double last_sample(std::size_t e) const { return records_[e].back().time; }
+
+    /// Carries a window over the parameters that are left; with the states at its end as outputs.
+    void run(window& w) const {
+        auto const& whole = problem_->experiments[w.experiment];
+        bool const first = w.from == whole.begin;
+        experiment part{whole.name, {}, w.from, w.start, {}, 0};
+        auto const& record = records_[w.experiment];
+        for (auto const& m : record) {
+            // What is measured where a window begins has contracted its start already.
+            if (m.time <= w.to && (w.from < m.time || first)) part.measurements.push_back(m);
+        }
+        for (std::size_t i = 0; i < states(); ++i) {
+            part.measurements.push_back(
+                {w.to, problem_->model.about.channels.size() + i, traits::entire()});
+        }
+        auto const samples = sorted(part.measurements);
+        auto options = options_.run;
+        options.degree = degree_;
+        auto& shortest = options.enclosure.minimum_step;
+        shortest = minimum_step_for(whole, shortest);
+        auto const run =
+            make_scalar_run(*flows_[w.experiment], part, samples, w.start, result_.rest, options);
+        w.answer = (*run)(w.start, result_.rest);
+    }
+    /// The largest radius of an output against its bound; infinite where outputs are missing.
+    [[nodiscard]] static double blur(window const& w) {
+        auto const& r = *w.answer;
+        if (r.outputs() < r.measurements) return detail::infinity;
+        double most = 0;
+        for (std::size_t y = 0; y < r.outputs(); ++y) {
+            double const e = 0.5 * width(r.bounds[y]);
+            if (std::isfinite(e)) most = std::max(most, r.radius[y] / std::max(e, 1e-300));
+        }
+        return most;
+    }
+
+    /// Contracts a window's start by its own measurements. @returns false when nothing is left
+    [[nodiscard]] bool contract_start(window& w) const {
+        response_list const alone{w.answer};
+        lifted_program const program(alone, result_.rest, {w.start}, options_.share);
+        for (std::size_t i = 0; i < w.start.size(); ++i) {
+            auto const& side = w.answer->unknowns.initial[i];
+            if (!(side.radius > 0) || !limit_()) continue;
+            auto const unknown = program.unknowns().places[0][side.variable].unknown;
+            auto const left = contracted(program, unknown, w.start[i]);
+            if (is_empty(left)) return false;
+            w.start[i] = left;
+        }
+        return true;
+    }
+    /// Cuts off what an unknown cannot reach of its range. @returns what is left
+    [[nodiscard]] static interval contracted(lifted_program const& program, std::size_t unknown,
+                                             interval const& range) {
+        auto left = range;
+        for (bool const upwards : {true, false}) {
+            double const reach = program.reach(unknown, upwards);
+            if (!(reach < 1)) continue;
+            if (!std::isfinite(reach)) return traits::empty();
+            auto const end = traits::add(
+                traits::point(mid(range)),
+                traits::mul(traits::point(rad(range)), traits::point(upwards ? reach : -reach)));
+            left = traits::intersect(left, upwards ? traits::bounds(-detail::greatest, end.upper())
+                                                   : traits::bounds(end.lower(), detail::greatest));
+            if (is_empty(left)) break;
+        }
+        return left;
+    }
+    /// The states at the end of a window.
+    [[nodiscard]] box end_of(window const& w) {
+        response_list const alone{w.answer};
+        lifted_program const program(alone, result_.rest, {w.start}, options_.share);
+        auto const ranges = output_ranges(*w.answer, result_.rest);
+        std::vector<interval> end;
+        for (std::size_t y = ranges.size() - states(); y < ranges.size(); ++y) {
+            auto const above = program.end_of(0, y, true), below = program.end_of(0, y, false);
+            auto side = ranges[y];
+            if (below <= above) side = traits::intersect(side, traits::bounds(below, above));
+            result_.empty = result_.empty || !(below <= above) || is_empty(side);
+            end.push_back(side);
+        }
+        return box(std::move(end));
+    }
+
+    /// Windows one after the other, as long as the box carries.
+    void follow(std::size_t e, std::vector<window>& chain) {
+        auto const& whole = problem_->experiments[e];
+        auto const& record = records_[e];
+        double length = std::min(last_sample(e) - whole.begin, options_.longest);
+        double at = whole.begin;
+        auto start = whole.initial;
+        degree_ = highest_degree;
+        for (std::size_t k = 0; k < options_.chained && at < last_sample(e) && limit_();) {
+            window w{e, at, end_before(record, at, length), start};
+            run(w);
+            ++result_.windows;
+            double const quality = blur(w);
+            if (!(quality < too_blurred)) {
+                double const carried = carried_until(w);
+                double const next = std::min(0.7 * (w.to - at), carried - at);
+                bool const shortest = !(end_before(record, at, next) < w.to);
+                if (shortest) break;
+                length = next;
+                continue;
+            }
+            result_.empty = !contract_start(w);
+            if (result_.empty) return;
+            start = end_of(w);
+            if (result_.empty) return;
+            if (k == 0) result_.starts[e] = w.start;
+            at = w.to;
+            length = std::min((w.to - w.from) * (quality < 0.3 ? 1.3 : 1.0), options_.longest);
+            chain.push_back(std::move(w));
+            ++k;
+        }
+    }
+    /// The last time of a measurement in a window, or the first one.
+    [[nodiscard]] static double end_before(record const& samples, double from, double length) {
+        double end = samples.back().time;
+        bool any = false;
+        for (auto const& m : samples) {
+            if (!(m.time > from)) continue;
+            if (any && m.time > from + length) break;
+            end = m.time;
+            any = true;
+        }
+        return end;
+    }
+    /// Until when the outputs of a window are sharp.
+    [[nodiscard]] double carried_until(window const& w) const {
+        auto const& r = *w.answer;
+        double time = w.from;
+        auto const samples = slice(records_[w.experiment], w.from, w.to);
+        for (std::size_t y = 0; y < std::min(r.outputs(), samples.size()); ++y) {
+            if (r.radius[y] > 0.5 * too_blurred * 0.5 * width(r.bounds[y])) break;
+            time = samples[y].time;
+        }
+        return time;
+    }
+    [[nodiscard]] static record slice(record const& whole, double from, double to) {
+        record part;
+        for (auto const& m : whole) {
+            if (from < m.time && m.time <= to) part.push_back(m);
+        }
+        return part;
+    }
+
+    /// So many that one program takes them, evenly.
+    [[nodiscard]] std::vector<window> some_of(std::vector<window> chain) const {
+        auto const most = std::max<std::size_t>(options_.windows, 1);
+        if (chain.size() <= most) return chain;
+        std::vector<window> chosen;
+        for (std::size_t k = 0; k < most; ++k) {
+            chosen.push_back(std::move(chain[k * chain.size() / most]));
+        }
+        return chosen;
+    }
+
+    void contract_together(std::vector<window> windows) {
+        std::size_t idle = 0; // rounds in a row
+        std::vector<double> lengths;
+        for (auto const& w : windows) lengths.push_back(w.to - w.from);
+        while (!windows.empty() && limit_() && !result_.empty) {
+            auto const before = result_.rest;
+            auto const count = windows.size();
+            options_.workers(count, [&](std::size_t k) {
+                windows[k].to =
+                    end_before(records_[windows[k].experiment], windows[k].from, lengths[k]);
+                run(windows[k]);
+            });
+            result_.windows += count;
+            if (!limit_()) return; // what was carried may be cut short
+            response_list known;
+            std::vector<box> starts;
+            std::vector<double> blurs;
+            for (auto const& w : windows) {
+                blurs.push_back(blur(w));
+                known.push_back(w.answer);
+                starts.push_back(w.start);
+                result_.longest = std::max(result_.longest, w.to - w.from);
+            }
+            lifted_program const program(known, before, starts, options_.share);
+            options_.workers(before.size(), [&](std::size_t j) {
+                if (!(rad(before[j]) > 0) || !limit_()) return;
+                result_.rest[j] = contracted(program, j, before[j]);
+            });
+            ++result_.rounds;
+            result_.empty = is_empty(result_.rest);
+            if (result_.empty) return;
+            std::vector<char> left(count, 1); // by window: of its start
+            options_.workers(count, [&](std::size_t k) {
+                if (limit_()) left[k] = contract_start(windows[k]) ? 1 : 0;
+            });
+            bool grown = false;
+            for (std::size_t k = 0; k < count; ++k) {
+                auto const& w = windows[k];
+                result_.empty = result_.empty || left[k] == 0;
+                if (result_.empty) return;
+                if (w.from == problem_->experiments[w.experiment].begin) {
+                    result_.starts[w.experiment] = w.start;
+                }
+                bool const ends = !(w.to < last_sample(w.experiment));
+                if (blurs[k] < 1 && !ends && lengths[k] < options_.longest) {
+                    lengths[k] = std::min(1.35 * lengths[k], options_.longest);
+                    grown = true;
+                } else if (!(blurs[k] < 4)) {
+                    lengths[k] *= 0.8;
+                }
+            }
+            std::nth_element(blurs.begin(),
+                             blurs.begin() + static_cast<std::ptrdiff_t>(blurs.size() / 2),
+                             blurs.end());
+            double const median = blurs[blurs.size() / 2];
+            if (median < 0.02) degree_ = 2;
+            if (!(median < 0.5)) degree_ = highest_degree;
+            double const volume = relative_volume(result_.rest, before).upper();
+            idle = volume > 1 - options_.gain && !grown ? idle + 1 : 0;
+            if (idle == 3) break;
+        }
+    }
+
+    static constexpr std::size_t highest_degree = 3;
+    static constexpr double too_blurred = 8;
+
+    identification_problem const* problem_;
+    window_options options_;
+    work_limit limit_;
+    recorded_model model_;
+    std::vector<record> records_;
+    std::vector<std::unique_ptr<flow const>> flows_;
+    std::size_t degree_ = highest_degree;
+    window_contraction result_;
+};
+
+} // namespace paving_detail
+
+SIVID_DECL window_contraction contract_by_windows(identification_problem const& problem,
+                                                  window_options const& options) {
+    problem.require_valid();
+    return paving_detail::window_contractor(problem, options)();
+}
+
+} // namespace sivid
+
+#endif
