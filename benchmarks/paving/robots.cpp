@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Records of machines, as long and as dense as their loggers write them, each identified from a
 // cold start:
-//     sivid_benchmark_robots [--seconds S] [NAME...]
+//     sivid_benchmark_robots [--seconds S] [--no-windows] [NAME...]
 // Beside the hulls, in shares of the prior, stands a plain least-squares fit of the same record
 // (not proved). Noise is uniform and fills its bound.
 #include <sivid/approximate/fit/fit.hpp>
@@ -211,7 +211,8 @@ identification_problem driven_mass(recording const& how) {
     });
 }
 
-void show(recording const& how, identification_problem const& problem, double budget) {
+void show(recording const& how, identification_problem const& problem, double budget,
+          bool windows) {
     using clock = std::chrono::steady_clock;
     auto const begin = clock::now();
     auto const fitted = fit(problem, fit_norm::squares);
@@ -219,6 +220,7 @@ void show(recording const& how, identification_problem const& problem, double bu
     identify_options options;
     options.search.seconds = budget;
     options.only_hulls = true;
+    options.windows = windows;
     auto const found = identify(problem, options);
     std::printf("%s: %s, %s, %.1f s, %zu boxes", how.what.c_str(),
                 std::string{to_string(found.verdict)}.c_str(),
@@ -256,13 +258,20 @@ int main(int argc, char** argv) {
         {{"arm, 10 s, torque at 100 Hz, +-10 %"}, moving_arm},
         {{"arm, 10 s, torque at 1 kHz, +-10 %", 10, 100, 0.001}, moving_arm},
         {{"arm, 10 s, torque at 100 Hz, +-15 %", 10, 100, 0.01, 0.002, 0.15}, moving_arm},
+        {{"arm, 10 s, torque at 100 Hz, +-10 %, start +-0.1", 10, 100, 0.01, 0.002, 0.1, 0.1},
+         moving_arm},
+        {{"arm, 10 s, torque at 1 kHz, +-20 %", 10, 100, 0.001, 0.002, 0.2}, moving_arm},
         {{"chain of 6 masses, 20 s, +-25 %", 20, 5, 0.1, 0.01, 0.25}, pushed_chain},
+        {{"oscillator, 100 s, start +-1", 100, 10, 0.1, 0.02, 0.3, 1}, driven_mass},
         {{"oscillator, 10 s, start +-1", 10, 10, 0.1, 0.02, 0.3, 1}, driven_mass}};
     double budget = 10;
+    bool windows = true;
     std::vector<std::string> chosen;
     for (int k = 1; k < argc; ++k) {
         if (std::string{argv[k]} == "--seconds" && k + 1 < argc) {
             budget = std::atof(argv[++k]);
+        } else if (std::string{argv[k]} == "--no-windows") {
+            windows = false;
         } else {
             chosen.emplace_back(argv[k]);
         }
@@ -272,6 +281,6 @@ int main(int argc, char** argv) {
             chosen.empty() || std::any_of(chosen.begin(), chosen.end(), [&m](auto const& name) {
                 return m.how.what.starts_with(name);
             });
-        if (wanted) show(m.how, m.make(m.how), budget);
+        if (wanted) show(m.how, m.make(m.how), budget, windows);
     }
 }

@@ -90,8 +90,8 @@ public:
         left_ = std::move(rest);
         first_.reset();
     }
-    /// Which share of the measurements runs over a box reach; 1 when they decide it. What was found
-    /// is kept for the `learn` to come.
+    /// Which share of the measurements runs over a box reach from all starts; 1 when they decide
+    /// it. What was found is kept for the `learn` to come.
     /// @given  nobody else works with this object meanwhile
     [[nodiscard]] double reached(box const& parameters) {
         auto found = learn({parameters});

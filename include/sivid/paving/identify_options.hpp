@@ -27,7 +27,8 @@ struct identify_options {
     /// Stop when the hulls no longer shrink; the paving stays coarse.
     bool only_hulls = false;
     /// Contract the prior by windows of the records first (`contract_by_windows`), in at most half
-    /// of the time, where trajectories over it reach less than half of the measurements.
+    /// of the time, where starts are not known exactly and trajectories over the prior reach less
+    /// than a quarter of the measurements. Where starts are known halving the prior does as well.
     bool windows = true;
     /// Boxes tested to draw the paving of the prior, when the search ran in products of parameters.
     std::size_t drawn_boxes = 1500;

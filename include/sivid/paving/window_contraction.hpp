@@ -27,8 +27,8 @@ struct window_options {
     /// Products of two unknowns that move no measurement by more than this share of its bound are
     /// errors, no unknowns.
     double share = 0.02;
-    /// Ends when three rounds each took less than this share of the volume and no window could
-    /// grow.
+    /// Ends when in three rounds no window could grow and the sides shrank, on the average, by
+    /// less.
     double gain = 0.02;
 };
 

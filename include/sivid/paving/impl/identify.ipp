@@ -31,6 +31,15 @@ namespace sivid {
 
 namespace paving_detail {
 
+/// Whether trajectories over the prior end early, from starts that nobody knows.
+inline bool starts_hinder(data_test& test, identification_problem const& problem) {
+    bool known = true;
+    for (auto const& e : problem.experiments) {
+        for (auto const& side : e.initial) known = known && !(width(side) > 0);
+    }
+    return !known && test.reached(problem.prior) < 0.25;
+}
+
 inline box no_box(std::size_t sides) {
     return box(std::vector<interval>(sides, interval_traits<interval>::empty()));
 }
@@ -100,9 +109,9 @@ SIVID_DECL identification identify(identification_problem const& problem,
     auto& searching = reduced ? *reduced : test;
     if (result.guess) searching.set_starts(starts);
     if (options.windows && !options.resume && options.algorithm == algorithm::contracting &&
-        limit() && searching.reached(posed.prior) < 0.5) {
+        limit() && paving_detail::starts_hinder(searching, posed)) {
         auto const left = contract_by_windows(posed, {.run = options.test.run,
-                                                      .seconds = 0.5 * limit.seconds(),
+                                                      .seconds = 0.8 * limit.seconds(),
                                                       .keep_going = limit,
                                                       .workers = options.search.workers});
         result.windows =

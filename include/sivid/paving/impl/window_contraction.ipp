@@ -36,6 +36,8 @@ public:
           limit_(options.seconds, options.keep_going),
           model_(with_states_seen(problem.model)) {
         options_.run.enclosure.keep_going = limit_;
+        // Inputs held for a millisecond end as many steps, each with its own truncation.
+        options_.run.enclosure.relative_tolerance *= 0.01;
         result_.rest = problem.prior;
         for (auto const& e : problem.experiments) {
             result_.starts.push_back(e.initial);
@@ -64,6 +66,7 @@ private:
         double from, to;
         box start; ///< holds the state at `from`
         std::shared_ptr<response const> answer = nullptr;
+        double blur = 0; ///< the largest radius of an output against its bound
     };
 
     /// The same model in which every state is measured, too.
@@ -100,10 +103,10 @@ private:
         auto const run =
             make_scalar_run(*flows_[w.experiment], part, samples, w.start, result_.rest, options);
         w.answer = (*run)(w.start, result_.rest);
+        w.blur = blur_of(*w.answer);
     }
-    /// The largest radius of an output against its bound; infinite where outputs are missing.
-    [[nodiscard]] static double blur(window const& w) {
-        auto const& r = *w.answer;
+    /// Infinite where outputs are missing.
+    [[nodiscard]] static double blur_of(response const& r) {
         if (r.outputs() < r.measurements) return detail::infinity;
         double most = 0;
         for (std::size_t y = 0; y < r.outputs(); ++y) {
@@ -151,9 +154,15 @@ private:
         auto const ranges = output_ranges(*w.answer, result_.rest);
         std::vector<interval> end;
         for (std::size_t y = ranges.size() - states(); y < ranges.size(); ++y) {
+            auto const channel = model_.observe.size() - (ranges.size() - y);
             auto const above = program.end_of(0, y, true), below = program.end_of(0, y, false);
             auto side = ranges[y];
             if (below <= above) side = traits::intersect(side, traits::bounds(below, above));
+            for (auto const& m : records_[w.experiment]) { // seen without any remainder
+                bool const seen =
+                    m.time == w.to && model_.observe[m.channel] == model_.observe[channel];
+                if (seen) side = traits::intersect(side, m.bound);
+            }
             result_.empty = result_.empty || !(below <= above) || is_empty(side);
             end.push_back(side);
         }
@@ -167,13 +176,12 @@ private:
         double length = std::min(last_sample(e) - whole.begin, options_.longest);
         double at = whole.begin;
         auto start = whole.initial;
-        degree_ = highest_degree;
+        degree_ = highest_degree();
         for (std::size_t k = 0; k < options_.chained && at < last_sample(e) && limit_();) {
             window w{e, at, end_before(record, at, length), start};
             run(w);
             ++result_.windows;
-            double const quality = blur(w);
-            if (!(quality < too_blurred)) {
+            if (!(w.blur < too_blurred)) {
                 double const carried = carried_until(w);
                 double const next = std::min(0.7 * (w.to - at), carried - at);
                 bool const shortest = !(end_before(record, at, next) < w.to);
@@ -187,7 +195,7 @@ private:
             if (result_.empty) return;
             if (k == 0) result_.starts[e] = w.start;
             at = w.to;
-            length = std::min((w.to - w.from) * (quality < 0.3 ? 1.3 : 1.0), options_.longest);
+            length = std::min((w.to - w.from) * (w.blur < 0.3 ? 1.3 : 1.0), options_.longest);
             chain.push_back(std::move(w));
             ++k;
         }
@@ -223,13 +231,17 @@ private:
         return part;
     }
 
-    /// So many that one program takes them, evenly.
+    /// So many that one program takes them: of each part of the chain the sharpest.
     [[nodiscard]] std::vector<window> some_of(std::vector<window> chain) const {
         auto const most = std::max<std::size_t>(options_.windows, 1);
         if (chain.size() <= most) return chain;
         std::vector<window> chosen;
         for (std::size_t k = 0; k < most; ++k) {
-            chosen.push_back(std::move(chain[k * chain.size() / most]));
+            auto const at = [&](std::size_t part) {
+                return chain.begin() + static_cast<std::ptrdiff_t>(part * chain.size() / most);
+            };
+            chosen.push_back(*std::min_element(
+                at(k), at(k + 1), [](auto const& a, auto const& b) { return a.blur < b.blur; }));
         }
         return chosen;
     }
@@ -238,6 +250,7 @@ private:
         std::size_t idle = 0; // rounds in a row
         std::vector<double> lengths;
         for (auto const& w : windows) lengths.push_back(w.to - w.from);
+        auto longest = lengths; // that each has had
         while (!windows.empty() && limit_() && !result_.empty) {
             auto const before = result_.rest;
             auto const count = windows.size();
@@ -252,7 +265,7 @@ private:
             std::vector<box> starts;
             std::vector<double> blurs;
             for (auto const& w : windows) {
-                blurs.push_back(blur(w));
+                blurs.push_back(w.blur);
                 known.push_back(w.answer);
                 starts.push_back(w.start);
                 result_.longest = std::max(result_.longest, w.to - w.from);
@@ -278,10 +291,11 @@ private:
                     result_.starts[w.experiment] = w.start;
                 }
                 bool const ends = !(w.to < last_sample(w.experiment));
-                if (blurs[k] < 1 && !ends && lengths[k] < options_.longest) {
+                if (w.blur < 1 && !ends && lengths[k] < options_.longest) {
                     lengths[k] = std::min(1.35 * lengths[k], options_.longest);
-                    grown = true;
-                } else if (!(blurs[k] < 4)) {
+                    grown = grown || lengths[k] > longest[k];
+                    longest[k] = std::max(longest[k], lengths[k]);
+                } else if (!(w.blur < 4)) {
                     lengths[k] *= 0.8;
                 }
             }
@@ -290,14 +304,18 @@ private:
                              blurs.end());
             double const median = blurs[blurs.size() / 2];
             if (median < 0.02) degree_ = 2;
-            if (!(median < 0.5)) degree_ = highest_degree;
+            if (!(median < 0.5)) degree_ = highest_degree();
             double const volume = relative_volume(result_.rest, before).upper();
-            idle = volume > 1 - options_.gain && !grown ? idle + 1 : 0;
+            double const side = std::pow(volume, 1 / static_cast<double>(before.size()));
+            idle = side > 1 - options_.gain && !grown ? idle + 1 : 0;
             if (idle == 3) break;
         }
     }
 
-    static constexpr std::size_t highest_degree = 3;
+    /// Terms of degree 3 grow with the cube of the unknowns.
+    [[nodiscard]] std::size_t highest_degree() const {
+        return problem_->prior.size() + states() <= 14 ? 3 : 2;
+    }
     static constexpr double too_blurred = 8;
 
     identification_problem const* problem_;
@@ -306,7 +324,7 @@ private:
     recorded_model model_;
     std::vector<record> records_;
     std::vector<std::unique_ptr<flow const>> flows_;
-    std::size_t degree_ = highest_degree;
+    std::size_t degree_ = 3;
     window_contraction result_;
 };
 
