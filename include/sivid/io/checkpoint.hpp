@@ -21,7 +21,7 @@ namespace sivid {
 
 namespace io_detail {
 
-inline constexpr std::string_view checkpoint_format = "sivid-checkpoint-3";
+inline constexpr std::string_view checkpoint_format = "sivid-checkpoint-4";
 
 /// One letter a verdict, in the order of box_verdict.
 inline constexpr std::string_view verdict_letters = "ioup";
@@ -62,6 +62,13 @@ inline void put(checkpoint_lines& line, approximate_fit const& fit) {
     line("parameters", fit.parameters);
     for (auto const& x : fit.starts) line("start", x);
     for (auto const& r : fit.residuals) line("residuals", r);
+}
+
+inline void put(checkpoint_lines& line, window_contraction const& w) {
+    line("windows", w.starts.size(), w.empty ? 1 : 0, w.rounds, w.windows, w.longest, w.seconds);
+    if (w.empty) return;
+    line("rest", w.rest);
+    for (auto const& x : w.starts) line("from", x);
 }
 
 inline void put(checkpoint_lines& line, search_state const& s) {
@@ -108,6 +115,11 @@ inline void put(checkpoint_lines& line, search_state const& s) {
         put(line, *state.guess);
     } else {
         line("no_guess");
+    }
+    if (state.windows) {
+        put(line, *state.windows);
+    } else {
+        line("no_windows");
     }
     put(line, state.search);
     line("end");

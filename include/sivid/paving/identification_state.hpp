@@ -4,6 +4,7 @@
 
 #include <sivid/approximate/approximate_fit.hpp>
 #include <sivid/paving/search_state.hpp>
+#include <sivid/paving/window_contraction.hpp>
 
 #include <optional>
 
@@ -14,6 +15,7 @@ namespace sivid {
 struct identification_state {
     std::optional<approximate_fit> guess;
     double seconds = 0; ///< spent before the search
+    std::optional<window_contraction> windows;
     search_state search;
 };
 

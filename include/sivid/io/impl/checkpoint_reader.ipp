@@ -144,6 +144,21 @@ inline approximate_fit take_guess(checkpoint_parser& in) {
     return fit;
 }
 
+inline window_contraction take_windows(checkpoint_parser& in) {
+    window_contraction w;
+    auto const experiments = in.count();
+    w.empty = in.count() != 0;
+    w.rounds = in.count();
+    w.windows = in.count();
+    w.longest = in.number();
+    w.seconds = in.number();
+    in.close();
+    if (w.empty) return w;
+    w.rest = in.open("rest").sides();
+    for (std::size_t e = 0; e < experiments; ++e) w.starts.push_back(in.open("from").sides());
+    return w;
+}
+
 inline search_state take_search(checkpoint_parser& in) {
     search_state s;
     s.prior = in.open("prior").sides();
@@ -223,8 +238,17 @@ SIVID_DECL identification_state parse_checkpoint(std::string_view text, std::str
     } else if (guess != "no_guess") {
         in.damaged();
     }
+    auto const windows = in.open();
+    if (windows == "windows") {
+        state.windows = io_detail::take_windows(in);
+    } else if (windows != "no_windows") {
+        in.damaged();
+    }
     state.search = io_detail::take_search(in);
     in.end();
+    auto const& w = state.windows;
+    bool const other = w && !w->empty && w->rest.size() != state.search.prior.size();
+    if (other) in.damaged();
     try {
         state.search.require_valid();
     } catch (std::invalid_argument const&) {

@@ -23,6 +23,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,10 +39,6 @@ inline bool starts_hinder(data_test& test, identification_problem const& problem
         for (auto const& side : e.initial) known = known && !(width(side) > 0);
     }
     return !known && test.reached(problem.prior) < 0.25;
-}
-
-inline box no_box(std::size_t sides) {
-    return box(std::vector<interval>(sides, interval_traits<interval>::empty()));
 }
 
 /// Measurements that fail for every parameter that is left.
@@ -106,18 +103,41 @@ SIVID_DECL identification identify(identification_problem const& problem,
     auto const& posed = map ? map->problem() : working;
     std::optional<data_test> reduced;
     if (map) reduced.emplace(posed, options.test);
-    auto& searching = reduced ? *reduced : test;
-    if (result.guess) searching.set_starts(starts);
+    auto windows = options.resume ? options.resume->windows : std::nullopt;
     if (options.windows && !options.resume && options.algorithm == algorithm::contracting &&
-        limit() && paving_detail::starts_hinder(searching, posed)) {
-        auto const left = contract_by_windows(posed, {.run = options.test.run,
-                                                      .seconds = 0.8 * limit.seconds(),
-                                                      .keep_going = limit,
-                                                      .workers = options.search.workers});
+        limit() && paving_detail::starts_hinder(reduced ? *reduced : test, posed)) {
+        windows = contract_by_windows(posed, {.run = options.test.run,
+                                              .seconds = 0.8 * limit.seconds(),
+                                              .keep_going = limit,
+                                              .workers = options.search.workers});
+    }
+    std::optional<identification_problem> narrowed; // whose starts windows have contracted
+    std::optional<data_test> further;
+    if (windows) {
+        bool const fits = windows->empty || (windows->rest.size() == posed.prior.size() &&
+                                             windows->starts.size() == posed.experiments.size());
+        if (!fits)
+            throw std::invalid_argument("identification state: its windows are of another problem");
+        narrowed = posed;
+        for (std::size_t e = 0; e < posed.experiments.size() && !windows->empty; ++e) {
+            narrowed->experiments[e].initial = windows->starts[e];
+        }
+        narrowed->require_valid();
+        further.emplace(*narrowed, options.test);
+        auto const none =
+            box(std::vector<interval>(posed.prior.size(), interval_traits<interval>::empty()));
+        further->set_rest(windows->empty ? none : windows->rest);
         result.windows =
-            window_effort{left.windows, left.longest, left.seconds,
-                          left.empty ? 0 : relative_volume(left.rest, posed.prior).upper()};
-        searching.set_rest(left.empty ? paving_detail::no_box(left.rest.size()) : left.rest);
+            window_effort{windows->windows, windows->longest, windows->seconds,
+                          windows->empty ? 0 : relative_volume(windows->rest, posed.prior).upper()};
+    }
+    auto const& asked = narrowed ? *narrowed : posed;
+    auto& searching = further ? *further : reduced ? *reduced : test;
+    if (result.guess) {
+        for (std::size_t e = 0; e < starts.size(); ++e) {
+            starts[e] = point_within(asked.experiments[e].initial, result.guess->starts[e]);
+        }
+        searching.set_starts(starts);
     }
     double const spent = since_begin() + (options.resume ? options.resume->seconds : 0);
     options.search.seconds = std::max(0.0, options.search.seconds - spent);
@@ -128,7 +148,7 @@ SIVID_DECL identification identify(identification_problem const& problem,
     bool const prepared = options.resume || limit();
     if (options.checkpoint && prepared) {
         search.checkpoint = [&](search_state const& now) {
-            options.checkpoint({result.guess, spent, now});
+            options.checkpoint({result.guess, spent, windows, now});
         };
     }
     search.resume = nullptr;
@@ -180,9 +200,10 @@ SIVID_DECL identification identify(identification_problem const& problem,
             }
             result.combinations.push_back({what, range});
         }
-        result.forced = paving_detail::find_forced(searching, posed, left);
+        result.forced = paving_detail::find_forced(searching, asked, left);
     }
     if (reduced) result.integrations += reduced->integrations();
+    if (further) result.integrations += further->integrations();
     result.integrations += test.integrations();
     result.seconds = since_begin();
     if (options.resume) result.seconds += options.resume->seconds + options.resume->search.seconds;
