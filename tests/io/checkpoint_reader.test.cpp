@@ -8,6 +8,7 @@
 #include "io/small_identification.hpp"
 #include "io/support.hpp"
 #include "support/catch.hpp"
+#include "support/pendulum.hpp"
 #include "support/random.hpp"
 
 #include <memory>
@@ -121,6 +122,38 @@ TEST_CASE("an identification resumed from any checkpoint gives the result of the
     }
 }
 
+TEST_CASE("what windows left is resumed with the search") {
+    auto const problem = support::swinging(4, 0.3, 21, 0.3);
+    identify_options options;
+    options.search.seconds = 1e9;
+    options.search.boxes = 24;
+    auto const digest = problem_digest(problem, options);
+    auto const whole = identify(problem, options);
+    REQUIRE(whole.windows);
+    CHECK(whole.windows->left < 0.5);
+    std::shared_ptr<identification_state const> state;
+    auto saving = options;
+    saving.search.boxes = 4;
+    saving.checkpoint = [&](identification_state const& s) {
+        auto const text = checkpoint_text(s, digest);
+        state = std::make_shared<identification_state>(parse_checkpoint(text, "f", digest));
+        CHECK(checkpoint_text(*state, digest) == text);
+    };
+    (void)identify(problem, saving);
+    REQUIRE(state);
+    REQUIRE(state->windows);
+    auto going_on = options;
+    going_on.resume = state;
+    auto const resumed = identify(problem, going_on);
+    check_same(resumed, whole);
+    CHECK(contains(whole.hull, std::vector<double>{9, 0.3, 4}));
+    // of another problem
+    auto other = std::make_shared<identification_state>(*state);
+    other->windows->starts.clear();
+    going_on.resume = other;
+    CHECK_THROWS_AS(identify(problem, going_on), std::invalid_argument);
+}
+
 TEST_CASE("a checkpoint that was cut or altered anywhere is refused") {
     auto const problem = io_support::two_rates_problem(true);
     auto const options = options_of(true);
@@ -224,7 +257,7 @@ TEST_CASE("checkpoints of other problems, options and versions are refused, with
     CHECK_THROWS_WITH(
         parse_checkpoint("sivid-checkpoint-4\nsha256 " + sha256(body) + "\n" + body, "f", digest),
         ContainsSubstring("'0.0.9'") && ContainsSubstring("begin anew"));
-    CHECK_THROWS_WITH(parse_checkpoint("sivid-checkpoint-4\n", "f", digest),
+    CHECK_THROWS_WITH(parse_checkpoint("sivid-checkpoint-3\n", "f", digest),
                       ContainsSubstring("no checkpoint"));
     CHECK_THROWS_WITH(read_checkpoint(folder.path() / "none.txt", digest),
                       ContainsSubstring("none.txt") && ContainsSubstring("no such file"));

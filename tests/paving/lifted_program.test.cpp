@@ -28,7 +28,7 @@ TEST_CASE("nothing that meets all measurements lies beyond what a lifted program
     draws d(431);
     int cut = 0, empty = 0, kept = 0, ends = 0;
     for (int trial = 0; trial < 250; ++trial) {
-        polynomial_experiments const e(d, 1 + d.below(3), 3 + d.below(8), d.uniform(0, 0.5), 0.02,
+        polynomial_experiments const e(d, 1 + d.below(3), 1 + d.below(4), d.uniform(0, 0.5), 0.02,
                                        0);
         auto const part = e.part(d);
         std::vector<box> starts;
@@ -50,7 +50,7 @@ TEST_CASE("nothing that meets all measurements lies beyond what a lifted program
         auto const y = d.below(e.known[s]->outputs());
         double const most = program.end_of(s, y, true), least = program.end_of(s, y, false);
         ends += most < mid(e.known[s]->bounds[y]) + rad(e.known[s]->bounds[y]) ? 1 : 0;
-        for (int sample = 0; sample < 1000; ++sample) {
+        for (int sample = 0; sample < 300; ++sample) {
             auto const p = d.in(part);
             std::vector<double> x;
             for (auto const& start : starts) x.push_back(d.in(start[0]));

@@ -104,13 +104,16 @@ SIVID_DECL identification identify(identification_problem const& problem,
     std::optional<data_test> reduced;
     if (map) reduced.emplace(posed, options.test);
     auto windows = options.resume ? options.resume->windows : std::nullopt;
+    auto& unhindered = reduced ? *reduced : test;
+    auto const before = unhindered.integrations();
     if (options.windows && !options.resume && options.algorithm == algorithm::contracting &&
-        limit() && paving_detail::starts_hinder(reduced ? *reduced : test, posed)) {
+        limit() && paving_detail::starts_hinder(unhindered, posed)) {
         windows = contract_by_windows(posed, {.run = options.test.run,
                                               .seconds = 0.8 * limit.seconds(),
                                               .keep_going = limit,
                                               .workers = options.search.workers});
     }
+    auto const asking = windows ? unhindered.integrations() - before : 0; // not what it stands on
     std::optional<identification_problem> narrowed; // whose starts windows have contracted
     std::optional<data_test> further;
     if (windows) {
@@ -132,7 +135,7 @@ SIVID_DECL identification identify(identification_problem const& problem,
                           windows->empty ? 0 : relative_volume(windows->rest, posed.prior).upper()};
     }
     auto const& asked = narrowed ? *narrowed : posed;
-    auto& searching = further ? *further : reduced ? *reduced : test;
+    auto& searching = further ? *further : unhindered;
     if (result.guess) {
         for (std::size_t e = 0; e < starts.size(); ++e) {
             starts[e] = point_within(asked.experiments[e].initial, result.guess->starts[e]);
@@ -203,7 +206,7 @@ SIVID_DECL identification identify(identification_problem const& problem,
         result.forced = paving_detail::find_forced(searching, asked, left);
     }
     if (reduced) result.integrations += reduced->integrations();
-    if (further) result.integrations += further->integrations();
+    if (further) result.integrations += further->integrations() + windows->windows - asking;
     result.integrations += test.integrations();
     result.seconds = since_begin();
     if (options.resume) result.seconds += options.resume->seconds + options.resume->search.seconds;
