@@ -3,6 +3,7 @@
 
 #include "io/stored_result.hpp"
 #include "support/catch.hpp"
+#include "support/pendulum.hpp"
 
 #ifdef SIVID_HAS_MPFI
 #include <sivid/io/mp_identification_check.hpp>
@@ -80,6 +81,16 @@ TEST_CASE("inside boxes from starts that follow the parameters are verified, fal
     problem.experiments[0].initial[0] = interval(1.9, 2.1);
     row = hull(row, interval(1.5));
     CHECK(check(problem, other, true, 20)["inside boxes"] == outcome::refuted);
+}
+
+TEST_CASE("what windows excluded is proved anew or left open, never refuted") {
+    auto const problem = support::swinging(2, 0.2, 22, 0.2);
+    auto const stored = io_support::stored_result(problem).read();
+    for (auto const& [what, says] : check(problem, stored, true, 10)) {
+        CAPTURE(what);
+        CHECK(says != outcome::refuted);
+        if (what == "witness") CHECK(says == outcome::verified);
+    }
 }
 
 TEST_CASE("the paving of products is verified anew, and what is false in it refuted") {
