@@ -4,6 +4,8 @@
 
 #include <sivid/paving/subpaving.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -48,6 +50,14 @@ public:
     }
     [[nodiscard]] double upper(std::size_t i, std::size_t side) const {
         return chunks_[i / box_chunk::capacity].upper(side)[i % box_chunk::capacity];
+    }
+    void add(box const& x) {
+        box_chunk own(sides_);
+        for (std::size_t j = 0; j < sides_; ++j) {
+            own.lower(j)[0] = x[j].lower();
+            own.upper(j)[0] = x[j].upper();
+        }
+        add(own, 0);
     }
     /// Appends box i of a chunk.
     void add(box_chunk const& from, std::size_t i) {
@@ -102,8 +112,24 @@ struct flat_paving {
     flat_boxes open;   ///< undecided, or still waiting when the work ended
     stop_reason reason = stop_reason::decided;
     std::size_t tested = 0; ///< boxes tested
+    std::size_t asked = 0;  ///< measurements looked at, summed over them
     double seconds = 0;
 
+    /// What contains all feasible parameters of the prior; empty when there are none.
+    [[nodiscard]] box hull() const {
+        box x(prior.size());
+        for (std::size_t j = 0; j < x.size(); ++j) {
+            double lo = HUGE_VAL, hi = -HUGE_VAL;
+            for (auto const* boxes : {&inside, &open}) {
+                for (std::size_t i = 0; i < boxes->size(); ++i) {
+                    lo = std::min(lo, boxes->lower(i, j));
+                    hi = std::max(hi, boxes->upper(i, j));
+                }
+            }
+            x[j] = lo <= hi ? interval(lo, hi) : interval_traits<interval>::empty();
+        }
+        return x;
+    }
     /// Volume that is neither proved inside nor outside, relative to the prior.
     [[nodiscard]] interval uncertain_volume() const { return open.relative_volume(prior); }
     [[nodiscard]] interval inner_volume() const { return inside.relative_volume(prior); }
