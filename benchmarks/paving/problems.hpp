@@ -37,6 +37,58 @@ struct decay {
     }
 };
 
+/// y = p1 exp(-p2 t) + p3 exp(-p4 t).
+struct two_decays {
+    static constexpr auto name = "two exponentials";
+    static constexpr auto channels = sivid::channels({{"y", "1"}});
+    static constexpr auto constants = [] {
+        using namespace sivid::literals;
+        return sivid::constants(
+            {{"p1", "1", 2_dec}, {"p2", "1", 0.3_dec}, {"p3", "1", 1_dec}, {"p4", "1", 2_dec}});
+    }();
+    template <class T>
+    sivid::channels_of<two_decays, T> observe(T const& t,
+                                              sivid::constants_of<two_decays, T> const& p) const {
+        return {p[0] * exp(-p[1] * t) + p[2] * exp(-p[3] * t)};
+    }
+};
+
+/// A polynomial in time, linear in its n coefficients; n is 3, 6 or 8.
+template <std::size_t n>
+struct polynomial {
+    static constexpr auto name = "polynomial";
+    static constexpr auto channels = sivid::channels({{"y", "1"}});
+    static constexpr auto constants = [] {
+        using namespace sivid::literals;
+        if constexpr (n == 3) {
+            return sivid::constants({{"a", "1", 1_dec}, {"b", "1", 1_dec}, {"c", "1", 1_dec}});
+        } else if constexpr (n == 6) {
+            return sivid::constants({{"a", "1", 1_dec},
+                                     {"b", "1", 1_dec},
+                                     {"c", "1", 1_dec},
+                                     {"d", "1", 1_dec},
+                                     {"e", "1", 1_dec},
+                                     {"f", "1", 1_dec}});
+        } else {
+            return sivid::constants({{"a", "1", 1_dec},
+                                     {"b", "1", 1_dec},
+                                     {"c", "1", 1_dec},
+                                     {"d", "1", 1_dec},
+                                     {"e", "1", 1_dec},
+                                     {"f", "1", 1_dec},
+                                     {"g", "1", 1_dec},
+                                     {"h", "1", 1_dec}});
+        }
+    }();
+    template <class T>
+    sivid::channels_of<polynomial, T> observe(T const& t,
+                                              sivid::constants_of<polynomial, T> const& c) const {
+        T y = c[n - 1];
+        for (std::size_t j = n - 1; j-- > 0;) y = y * t + c[j];
+        return {y};
+    }
+};
+
 inline sivid::box plane() { return {sivid::interval(-5, 5), sivid::interval(-5, 5)}; }
 
 inline sivid::static_problem ring_problem() {

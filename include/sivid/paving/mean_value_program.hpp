@@ -5,6 +5,7 @@
 #include <sivid/paving/cut_program.hpp>
 #include <sivid/paving/linear_contraction.hpp>
 #include <sivid/space/box.hpp>
+#include <sivid/space/minimax_lp.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -63,12 +64,14 @@ public:
 
     /// @param x  a part of the box, contracted
     /// @param q  how many functions may miss their bounds
+    /// @param middle  `points` are to begin with one deep inside, if q = 0
     /// @returns false when nothing is left (`x` is meaningless then)
-    [[nodiscard]] bool operator()(box& x, std::size_t q) {
+    [[nodiscard]] bool operator()(box& x, std::size_t q, bool middle = false) {
         sharp_ = false;
         if (size() <= q) return true;
         if (q >= most_groups) return contract_each(x, q);
         linearise();
+        if (middle && q == 0) keep(minimax_solver(n_, blocks_)().point);
         for (std::size_t j = 0; j < n_; ++j) {
             for (bool const upwards : {true, false}) {
                 if (!(reach_[j] > 0)) continue;

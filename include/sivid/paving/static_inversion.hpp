@@ -54,7 +54,7 @@ public:
         : program_(problem),
           samples_(problem),
           judge_(program_, samples_, problem.outliers, options.forms),
-          survey_(program_, samples_, problem.outliers, options.forms),
+          survey_(program_, samples_, problem.outliers, options.forms, options.only_hulls),
           prior_(problem.prior),
           options_(std::move(options)),
           result_(problem.prior) {}
@@ -204,19 +204,13 @@ private:
     }
     void know(box const& x) { known_ = known_.size() == 0 ? x : hull(known_, x); }
 
-    /// Feasible points near the corners that the linear programs saw.
+    /// Feasible points: one deep inside, others between it and the corners that the programs saw.
     void look_for_points(static_box const& b) {
-        auto const& corners = survey_.points();
-        auto middle = mid(b.set);
-        for (std::size_t j = 0; j < middle.size() && !corners.empty(); ++j) {
-            double sum = 0;
-            for (auto const& c : corners) sum += c[j];
-            middle[j] = sum / static_cast<double>(corners.size());
-        }
+        auto const& points = survey_.points();
         auto const take = [&](std::vector<double> p) {
             for (std::size_t j = 0; j < p.size(); ++j) {
-                p[j] = std::max(b.set[j].lower(), std::min(p[j], b.set[j].upper()));
-                if (!(p[j] == p[j])) return false;
+                if (!std::isfinite(p[j])) return false;
+                p[j] = std::clamp(p[j], b.set[j].lower(), b.set[j].upper());
             }
             auto const x = point_box(p);
             if (known_.size() > 0 && subset(x, known_)) return true;
@@ -225,14 +219,22 @@ private:
             know(x);
             return true;
         };
+        auto const between = [](std::vector<double> p, std::vector<double> const& q, double share) {
+            for (std::size_t j = 0; j < p.size(); ++j) p[j] += share * (q[j] - p[j]);
+            return p;
+        };
+        auto middle = mid(b.set);
+        if (!points.empty()) {
+            middle = points[0];
+            if (!take(middle)) {
+                double weight = 1;
+                for (auto const& p : points) middle = between(middle, p, 1 / weight++);
+            }
+        }
         if (!take(middle)) return;
-        for (auto const& corner : corners) {
-            for (double const share : {1 - 0.25 * options_.accuracy, 0.9, 0.5}) {
-                auto p = corner;
-                for (std::size_t j = 0; j < p.size(); ++j) {
-                    p[j] = middle[j] + share * (corner[j] - middle[j]);
-                }
-                if (take(std::move(p))) break;
+        for (auto const& corner : points) {
+            for (double const share : {1 - 0.25 * options_.accuracy, 0.99, 0.9, 0.5}) {
+                if (take(between(middle, corner, share))) break;
             }
         }
     }

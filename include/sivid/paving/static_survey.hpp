@@ -45,9 +45,11 @@ public:
     static constexpr std::size_t first_asked = 512, most_rows = 4096;
 
     /// @param program, samples  of one problem; kept by reference
+    /// @param seek  `points` are to begin with one deep inside, where there are no outliers
     static_survey(static_program const& program, static_samples const& samples,
-                  std::size_t outliers, first_order use)
-        : program_(program),
+                  std::size_t outliers, first_order use, bool seek = false)
+        : seek_(seek),
+          program_(program),
           samples_(samples),
           outliers_(outliers),
           use_(use),
@@ -168,7 +170,7 @@ private:
             if (missed + open.size() <= outliers_ || !cut_.used()) break;
             if (x.size() > 1) {
                 auto const contracted = x;
-                if (!programs_(x, outliers_ - missed)) return false;
+                if (!programs_(x, outliers_ - missed, seek_)) return false;
                 double left = 1;
                 for (std::size_t j = 0; j < x.size(); ++j) {
                     if (width(contracted[j]) > 0) left *= width(x[j]) / width(contracted[j]);
@@ -265,6 +267,7 @@ private:
         }
     }
 
+    bool seek_;
     static_program const& program_;
     static_samples const& samples_;
     std::size_t outliers_;
