@@ -63,8 +63,7 @@ public:
         programs_helped_ = false;
         points_.clear();
         auto const& all = *b.open;
-        std::size_t stride = 1;
-        while (all.size() / stride > 2 * first_asked) stride *= 16;
+        std::size_t stride = all.size() > 2 * first_asked ? all.size() / first_asked : 1;
         std::vector<index> asked;
         for (; stride > 1; stride /= 16) {
             asked.clear();
