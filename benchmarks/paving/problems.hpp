@@ -5,7 +5,10 @@
 
 #include <sivid/paving/static_problem.hpp>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 namespace paving_benchmark {
 
@@ -53,33 +56,17 @@ struct two_decays {
     }
 };
 
-/// A polynomial in time, linear in its n coefficients; n is 3, 6 or 8.
+/// A polynomial in time, linear in its n coefficients.
 template <std::size_t n>
 struct polynomial {
     static constexpr auto name = "polynomial";
     static constexpr auto channels = sivid::channels({{"y", "1"}});
-    static constexpr auto constants = [] {
+    static constexpr auto constants = []<std::size_t... J>(std::index_sequence<J...>) {
         using namespace sivid::literals;
-        if constexpr (n == 3) {
-            return sivid::constants({{"a", "1", 1_dec}, {"b", "1", 1_dec}, {"c", "1", 1_dec}});
-        } else if constexpr (n == 6) {
-            return sivid::constants({{"a", "1", 1_dec},
-                                     {"b", "1", 1_dec},
-                                     {"c", "1", 1_dec},
-                                     {"d", "1", 1_dec},
-                                     {"e", "1", 1_dec},
-                                     {"f", "1", 1_dec}});
-        } else {
-            return sivid::constants({{"a", "1", 1_dec},
-                                     {"b", "1", 1_dec},
-                                     {"c", "1", 1_dec},
-                                     {"d", "1", 1_dec},
-                                     {"e", "1", 1_dec},
-                                     {"f", "1", 1_dec},
-                                     {"g", "1", 1_dec},
-                                     {"h", "1", 1_dec}});
-        }
-    }();
+        constexpr std::array names{"a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l"};
+        return std::array{sivid::constant_quantity{names[J], "1", 1_dec}...};
+    }
+    (std::make_index_sequence<n>{});
     template <class T>
     sivid::channels_of<polynomial, T> observe(T const& t,
                                               sivid::constants_of<polynomial, T> const& c) const {

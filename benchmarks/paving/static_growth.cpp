@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <sys/resource.h>
@@ -181,13 +182,11 @@ int main() {
     }
     measure({"50 outliers spare", decaying, plain_exponentials, {2, 0.3}, 10, 0.05, 0.2, 50}, 200,
             1e-2);
-    measure({"polynomial, 3", sivid::record_static_model<polynomial<3>>(), plain_polynomial,
-             std::vector<double>(3, 1.0), 1, 0.1, 1},
-            100, 1e-3);
-    measure({"polynomial, 6", sivid::record_static_model<polynomial<6>>(), plain_polynomial,
-             std::vector<double>(6, 1.0), 1, 0.1, 1},
-            100, 1e-3);
-    measure({"polynomial, 8", sivid::record_static_model<polynomial<8>>(), plain_polynomial,
-             std::vector<double>(8, 1.0), 1, 0.1, 1},
-            100, 1e-3);
+    []<std::size_t... N>(std::index_sequence<N...>) {
+        (measure({"polynomial, " + std::to_string(N), sivid::record_static_model<polynomial<N>>(),
+                  plain_polynomial, std::vector<double>(N, 1.0), 1, 0.1, 1},
+                 100, 1e-3),
+         ...);
+    }
+    (std::index_sequence<1, 2, 3, 4, 6, 8, 12>{});
 }

@@ -2,6 +2,7 @@
 // Static problems of many measurements and several parameters: truths, outliers, hulls, growth.
 #include <sivid/paving/static_inversion.hpp>
 
+#include "../../benchmarks/paving/problems.hpp"
 #include "paving/static_models.hpp"
 #include "support/catch.hpp"
 
@@ -11,41 +12,6 @@
 using namespace sivid;
 
 namespace {
-
-/// A polynomial in time, linear in its n coefficients.
-template <int n>
-struct polynomial {
-    static constexpr auto name = "polynomial";
-    static constexpr auto channels = sivid::channels({{"y", "1"}});
-    static constexpr auto constants = [] {
-        using namespace sivid::literals;
-        if constexpr (n == 3) {
-            return sivid::constants({{"a", "1", 1_dec}, {"b", "1", 1_dec}, {"c", "1", 1_dec}});
-        } else if constexpr (n == 6) {
-            return sivid::constants({{"a", "1", 1_dec},
-                                     {"b", "1", 1_dec},
-                                     {"c", "1", 1_dec},
-                                     {"d", "1", 1_dec},
-                                     {"e", "1", 1_dec},
-                                     {"f", "1", 1_dec}});
-        } else {
-            return sivid::constants({{"a", "1", 1_dec},
-                                     {"b", "1", 1_dec},
-                                     {"c", "1", 1_dec},
-                                     {"d", "1", 1_dec},
-                                     {"e", "1", 1_dec},
-                                     {"f", "1", 1_dec},
-                                     {"g", "1", 1_dec},
-                                     {"h", "1", 1_dec}});
-        }
-    }();
-    template <class T>
-    channels_of<polynomial, T> observe(T const& t, constants_of<polynomial, T> const& c) const {
-        T y = c[n - 1];
-        for (std::size_t j = n - 1; j-- > 0;) y = y * t + c[j];
-        return {y};
-    }
-};
 
 /// Exponentials, a second channel that is not defined everywhere (and has an infinite slope), a
 /// third that jumps.
@@ -116,9 +82,9 @@ bool within(flat_paving const& found, std::vector<double> const& p) {
     return false;
 }
 
-template <int n>
+template <std::size_t n>
 static_problem polynomial_problem(std::size_t samples, unsigned seed) {
-    static_problem p{record_static_model<polynomial<n>>(), {}, {}, {}};
+    static_problem p{record_static_model<paving_benchmark::polynomial<n>>(), {}, {}, {}};
     p.choice.unknown = names_of(p.model);
     p.prior = box(std::vector<interval>(n, interval(0, 2)));
     std::mt19937 random(seed);
@@ -126,7 +92,7 @@ static_problem polynomial_problem(std::size_t samples, unsigned seed) {
     for (std::size_t k = 0; k < samples; ++k) {
         double const t = static_cast<double>(k) / static_cast<double>(samples - 1);
         double y = 0;
-        for (int j = n; j-- > 0;) y = y * t + 1;
+        for (std::size_t j = n; j-- > 0;) y = y * t + 1;
         y += 0.0999 * u(random);
         p.measurements.push_back({t, 0, interval(y - 0.1, y + 0.1)});
     }
@@ -172,7 +138,7 @@ void check_planted(int problems, unsigned seed) {
 }
 
 /// Points that are proved feasible reach nearly as far as the hull: it is nearly exact.
-template <int n>
+template <std::size_t n>
 void check_polynomial() {
     for (unsigned seed = 0; seed < 5; ++seed) {
         auto const problem = polynomial_problem<n>(100, seed);
