@@ -138,18 +138,13 @@ void measure(row const& r, std::size_t n, double accuracy) {
     }
     auto const after = peak_megabytes();
     auto const fitted = least_squares(r, p);
-    auto const hull = found.hull();
+    auto const hull = found.hull(), inner = found.inside.hull();
     double least = HUGE_VAL, most = 0, beyond = 0, against = 0;
     for (std::size_t j = 0; j < hull.size(); ++j) {
-        double lo = HUGE_VAL, hi = -HUGE_VAL;
-        for (std::size_t i = 0; i < found.inside.size(); ++i) {
-            lo = std::min(lo, found.inside.lower(i, j));
-            hi = std::max(hi, found.inside.upper(i, j));
-        }
         double const share = width(hull[j]) / width(p.prior[j]);
         least = std::min(least, share);
         most = std::max(most, share);
-        beyond = std::max(beyond, lo <= hi ? width(hull[j]) / (hi - lo) : HUGE_VAL);
+        beyond = std::max(beyond, width(hull[j]) / width(inner[j]));
         against = std::max(against,
                            0.5 * width(hull[j]) / fitted.two_sigma[static_cast<Eigen::Index>(j)]);
         if (!contains(hull[j], r.truth[j])) std::printf("LOST ");

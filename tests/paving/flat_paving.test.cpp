@@ -37,6 +37,8 @@ TEST_CASE("the hull is that of all boxes, and empty of none") {
     paving.open.add(box{interval(1, 2), interval(3, 4)});
     paving.inside.add(box{interval(5), interval(3.5)});
     CHECK(paving.open.at(0)[1].upper() == 4);
+    CHECK(paving.open.hull()[0].upper() == 2);
+    CHECK(width(paving.inside.hull()) == 0);
     auto const hull = paving.hull();
     CHECK(hull[0].lower() == 1);
     CHECK(hull[0].upper() == 5);

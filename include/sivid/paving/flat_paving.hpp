@@ -5,7 +5,6 @@
 #include <sivid/paving/subpaving.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -71,6 +70,19 @@ public:
         for (std::size_t j = 0; j < sides_; ++j) x[j] = interval(lower(i, j), upper(i, j));
         return x;
     }
+    /// What contains them all; empty sides when there are none.
+    [[nodiscard]] box hull() const {
+        box x(std::vector<interval>(sides_, interval_traits<interval>::empty()));
+        for (std::size_t j = 0; j < sides_ && count_ > 0; ++j) {
+            double lo = lower(0, j), hi = upper(0, j);
+            for (std::size_t i = 1; i < count_; ++i) {
+                lo = std::min(lo, lower(i, j));
+                hi = std::max(hi, upper(i, j));
+            }
+            x[j] = interval(lo, hi);
+        }
+        return x;
+    }
     /// Their volumes relative to a whole, summed.
     /// @guarantee  encloses the exact sum
     [[nodiscard]] interval relative_volume(box const& whole) const {
@@ -117,18 +129,8 @@ struct flat_paving {
 
     /// What contains all feasible parameters of the prior; empty when there are none.
     [[nodiscard]] box hull() const {
-        box x(prior.size());
-        for (std::size_t j = 0; j < x.size(); ++j) {
-            double lo = HUGE_VAL, hi = -HUGE_VAL;
-            for (auto const* boxes : {&inside, &open}) {
-                for (std::size_t i = 0; i < boxes->size(); ++i) {
-                    lo = std::min(lo, boxes->lower(i, j));
-                    hi = std::max(hi, boxes->upper(i, j));
-                }
-            }
-            x[j] = lo <= hi ? interval(lo, hi) : interval_traits<interval>::empty();
-        }
-        return x;
+        if (inside.size() == 0) return open.hull();
+        return open.size() == 0 ? inside.hull() : sivid::hull(inside.hull(), open.hull());
     }
     /// Volume that is neither proved inside nor outside, relative to the prior.
     [[nodiscard]] interval uncertain_volume() const { return open.relative_volume(prior); }
