@@ -5,7 +5,10 @@
 
 #include <sivid/paving/static_problem.hpp>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 namespace paving_benchmark {
 
@@ -34,6 +37,42 @@ struct decay {
     template <class T>
     sivid::channels_of<decay, T> observe(T const& t, sivid::constants_of<decay, T> const& p) const {
         return {p[0] * exp(-p[1] * t)};
+    }
+};
+
+/// y = p1 exp(-p2 t) + p3 exp(-p4 t).
+struct two_decays {
+    static constexpr auto name = "two exponentials";
+    static constexpr auto channels = sivid::channels({{"y", "1"}});
+    static constexpr auto constants = [] {
+        using namespace sivid::literals;
+        return sivid::constants(
+            {{"p1", "1", 2_dec}, {"p2", "1", 0.3_dec}, {"p3", "1", 1_dec}, {"p4", "1", 2_dec}});
+    }();
+    template <class T>
+    sivid::channels_of<two_decays, T> observe(T const& t,
+                                              sivid::constants_of<two_decays, T> const& p) const {
+        return {p[0] * exp(-p[1] * t) + p[2] * exp(-p[3] * t)};
+    }
+};
+
+/// A polynomial in time, linear in its n coefficients.
+template <std::size_t n>
+struct polynomial {
+    static constexpr auto name = "polynomial";
+    static constexpr auto channels = sivid::channels({{"y", "1"}});
+    static constexpr auto constants = []<std::size_t... J>(std::index_sequence<J...>) {
+        using namespace sivid::literals;
+        constexpr std::array names{"a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l"};
+        return std::array{sivid::constant_quantity{names[J], "1", 1_dec}...};
+    }
+    (std::make_index_sequence<n>{});
+    template <class T>
+    sivid::channels_of<polynomial, T> observe(T const& t,
+                                              sivid::constants_of<polynomial, T> const& c) const {
+        T y = c[n - 1];
+        for (std::size_t j = n - 1; j-- > 0;) y = y * t + c[j];
+        return {y};
     }
 };
 

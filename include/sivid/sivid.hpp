@@ -196,6 +196,7 @@
 #include <sivid/paving/linear_contraction.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/mean_value_cut.hpp>
+#include <sivid/paving/mean_value_program.hpp>
 #include <sivid/paving/misfit.hpp>
 #include <sivid/paving/misfit_block.hpp>
 #include <sivid/paving/observer_refutation.hpp>
@@ -225,6 +226,8 @@
 #include <sivid/paving/static_judge.hpp>
 #include <sivid/paving/static_problem.hpp>
 #include <sivid/paving/static_program.hpp>
+#include <sivid/paving/static_samples.hpp>
+#include <sivid/paving/static_survey.hpp>
 #include <sivid/paving/static_test.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/verdict.hpp>

@@ -83,6 +83,7 @@ TEST_CASE("the multipliers of a cut prove how far an unknown can go, and no poin
         }
         double const bound = proved(blocks, cut, n, j, direction);
         CHECK(furthest <= bound + 1e-9);
+        CHECK(std::abs(direction * cut.point[j] - bound) < 1e-6);
         tight += furthest > bound - 0.1 ? 1 : 0;
     }
     CHECK(tight > 150);

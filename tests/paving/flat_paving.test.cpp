@@ -29,3 +29,19 @@ TEST_CASE("boxes beyond one chunk are kept, their volumes summed") {
     CHECK(boxes.count(box_verdict::inside) == (n + 1) / 2);
     CHECK(boxes.count(box_verdict::undecided) == n / 2);
 }
+
+TEST_CASE("the hull is that of all boxes, and empty of none") {
+    box const whole{interval(0, 8), interval(0, 8)};
+    flat_paving paving(whole);
+    CHECK(is_empty(paving.hull()));
+    paving.open.add(box{interval(1, 2), interval(3, 4)});
+    paving.inside.add(box{interval(5), interval(3.5)});
+    CHECK(paving.open.at(0)[1].upper() == 4);
+    CHECK(paving.open.hull()[0].upper() == 2);
+    CHECK(width(paving.inside.hull()) == 0);
+    auto const hull = paving.hull();
+    CHECK(hull[0].lower() == 1);
+    CHECK(hull[0].upper() == 5);
+    CHECK(hull[1].lower() == 3);
+    CHECK(hull[1].upper() == 4);
+}

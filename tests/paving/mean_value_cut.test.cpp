@@ -26,18 +26,21 @@ TEST_CASE("no point that satisfies leaves the rest, none that violates leaves th
                 sides[j].set(n, interval(m - r, m + r));
             }
         }
-        for (std::size_t k = 0; k < program.outputs(); ++k) {
+        for (auto const& own : problem.measurements) {
+            auto const k = own.channel;
             if (!program.differentiable(k)) continue;
-            auto undefined = program.start(memory, [&](std::size_t j) { return sides[j]; });
+            traits::mask undefined{};
+            program.start(memory, [&](std::size_t j) { return sides[j]; });
+            program.at(memory, k, traits::point(own.time));
             (void)program.value(memory, k, undefined);
             program.differentiate_at(memory, k, undefined);
-            auto const& own = problem.measurements[k];
             auto const bound = traits::bounds(own.bound.lower(), own.bound.upper());
             cut.begin(sides);
             CHECK_FALSE(cut.used());
             auto const lanes = traits::all_lanes & ~undefined;
             auto const says = cut.use(program, memory, k, bound, lanes, 0b0111, 0b1110);
             CHECK(cut.used());
+            CHECK((says.proved & ~lanes) == 0);
             for (std::size_t n = 0; n < 4; ++n) {
                 auto const in = [n](I const& x, double v) {
                     return x.lower(n) - 1e-12 <= v && v <= x.upper(n) + 1e-12;

@@ -10,17 +10,23 @@ namespace {
 
 template <std::size_t W>
 struct bench {
+    static_program program;
+    static_samples samples;
     static_judge<W> judge;
     static_block block;
 
     bench(static_problem const& problem, first_order use, std::vector<box> const& boxes)
-        : judge(problem, use), block(problem.prior.size(), judge.words()) {
+        : program(problem),
+          samples(problem),
+          judge(program, samples, problem.outliers, use),
+          block(problem.prior.size()) {
+        block.list = std::make_shared<std::vector<static_samples::index> const>(samples.all());
         for (std::size_t i = 0; i < boxes.size(); ++i) {
             for (std::size_t j = 0; j < boxes[i].size(); ++j) {
                 block.boxes.lower(j)[i] = boxes[i][j].lower();
                 block.boxes.upper(j)[i] = boxes[i][j].upper();
             }
-            judge.open_all(block, i);
+            block.open_all(i);
         }
         block.count = boxes.size();
         block.pad(W);
@@ -73,16 +79,29 @@ TEST_CASE("a box at the inner circle is contracted from outside, and its core fr
     CHECK(b.judge.slope(0, 0) > b.judge.slope(1, 0));
 }
 
-TEST_CASE("more measurements than a word has bits") {
+TEST_CASE("as many measurements as a word has bits") {
     auto problem = static_models::ring_problem();
-    problem.measurements.assign(130, problem.measurements[0]);
-    problem.measurements[129].bound = interval(1.4, 1.5);
+    problem.measurements.assign(64, problem.measurements[0]);
+    problem.measurements[63].bound = interval(1.4, 1.5);
     bench<8> b(problem, first_order::always, {square(1.2, 0, 0.005), square(1.3, 0, 0.001)});
-    CHECK(b.judge.words() == 3);
     auto const found = b.judge(b.block, 0);
     CHECK((found.inside & 3U) == 1);
     CHECK((found.outside & 3U) == 2);
+    CHECK(b.judge.asked() == 64 * 8);
     problem.outliers = 1;
     bench<8> spared(problem, first_order::always, {square(1.3, 0, 0.001)});
     CHECK((spared.judge(spared.block, 0).inside & 1U) == 1);
+}
+
+TEST_CASE("another list is another problem") {
+    auto problem = static_models::ring_problem();
+    problem.measurements.push_back({0, 0, interval(30, 40)});
+    bench<8> b(problem, first_order::always, {square(1.2, 0, 0.005)});
+    CHECK((b.judge(b.block, 0).outside & 1U) == 1);
+    auto const first = std::vector<static_samples::index>{0};
+    b.block.list = std::make_shared<std::vector<static_samples::index> const>(first);
+    b.block.open_all(0);
+    CHECK((b.judge(b.block, 0).inside & 1U) == 1);
+    b.block.open_all(0, 1); // one that is not listed is missed
+    CHECK((b.judge(b.block, 0).outside & 1U) == 1);
 }

@@ -6,6 +6,8 @@
 
 #include <sivid/number/pack_traits.hpp>
 
+#include <array>
+#include <cstdint>
 #include <random>
 
 using namespace sivid;
@@ -23,11 +25,12 @@ void check_program() {
     std::uniform_real_distribution<double> place(0.1, 2), size(0, 0.2);
     for (int round = 0; round < 200; ++round) {
         double const p = place(random) + 4, q = place(random), w = size(random);
-        auto const cut = program.start(
+        program.start(
             m, [&](std::size_t j) { return traits::bounds((j ? q : p) - w, (j ? q : p) + w); });
-        CHECK(cut == typename traits::mask{});
-        for (std::size_t k = 0; k < program.outputs(); ++k) {
-            auto const& own = problem.measurements[k];
+        CHECK(m.common == typename traits::mask{});
+        for (auto const& own : problem.measurements) {
+            auto const k = own.channel;
+            program.at(m, k, traits::point(own.time));
             typename traits::mask undefined{};
             auto const y = program.value(m, k, undefined);
             for (double const a : {-w, 0.0, w}) {
@@ -61,15 +64,11 @@ TEST_CASE("values and gradients enclose, in scalars and packs") {
 }
 
 TEST_CASE("repeated parameters and jumps are seen") {
-    auto const problem = static_models::mixed_problem(1.2, 0.7);
-    static_program const program(problem);
+    static_program const program(static_models::mixed_problem(1.2, 0.7));
     CHECK(program.parameters() == 2);
-    for (std::size_t k = 0; k < program.outputs(); ++k) {
-        auto const channel = problem.measurements[k].channel;
-        CHECK(program.differentiable(k) == (channel != 2));
-        if (channel == 0 && problem.measurements[k].time > 0) CHECK(program.repeats(k));
-        if (channel == 1) CHECK_FALSE(program.repeats(k));
-    }
+    CHECK(program.repeats(0));
+    CHECK_FALSE(program.repeats(1));
+    for (std::size_t c = 0; c < 3; ++c) CHECK(program.differentiable(c) == (c != 2));
     static_program const ring(static_models::ring_problem());
     CHECK_FALSE(ring.repeats(0));
 }
@@ -77,13 +76,46 @@ TEST_CASE("repeated parameters and jumps are seen") {
 TEST_CASE("fixed constants are bound, and an undefined output is flagged") {
     auto problem = static_models::mixed_problem(1.2, 0.7);
     problem.choice.fixed["s"] = interval(4.0);
-    problem.measurements = {{1.0, 0, interval(0, 1)}, {1.0, 1, interval(0, 1)}};
     static_program const program(problem);
     auto m = program.memory<interval>();
-    (void)program.start(m, [](std::size_t j) { return interval(j ? 2.0 : 1.0); });
+    program.start(m, [](std::size_t j) { return interval(j ? 2.0 : 1.0); });
+    program.at(m, 0, interval(1.0));
     bool undefined = false;
     CHECK(contains(program.value(m, 0, undefined), std::exp(-2.0) + 0.5));
     CHECK_FALSE(undefined);
+    program.at(m, 1, interval(1.0));
     (void)program.value(m, 1, undefined);
     CHECK(undefined);
+    // The next parameters are not the last ones.
+    program.start(m, [](std::size_t j) { return interval(j ? 1.0 : 5.0); });
+    undefined = false;
+    CHECK(contains(program.value(m, 1, undefined), 2));
+    CHECK_FALSE(undefined);
+}
+
+TEST_CASE("each lane has a time of its own") {
+    using I = pack<8>;
+    auto const problem = static_models::mixed_problem(1.2, 0.7);
+    static_program const program(problem);
+    auto m = program.memory<I>();
+    program.start(m, [](std::size_t j) { return I(interval(j ? 0.7 : 1.2)); });
+    std::array<double, 8> const times{0, 0.25, 0.5, 1, 1.5, 2, 3, 5};
+    program.at(m, 0, I::load(times.data(), times.data()));
+    std::uint64_t undefined = 0;
+    auto const y = program.value(m, 0, undefined);
+    program.differentiate_at(m, 0, undefined);
+    CHECK(undefined == 0);
+    for (std::size_t n = 0; n < 8; ++n) {
+        double const t = times[n];
+        CHECK(std::abs(mid(y[n]) - static_models::value(0, t, 1.2, 0.7)) < 1e-12);
+        CHECK(std::abs(mid(program.slope(m, 0, 0)[n]) - (std::exp(-0.7 * t) + 0.35 * t)) < 1e-12);
+    }
+}
+
+TEST_CASE("the program is as long for a thousand measurements as for one") {
+    auto problem = static_models::ring_problem();
+    auto const one = static_program(problem).memory<interval>().values.size();
+    problem.measurements.assign(1000, problem.measurements[0]);
+    for (std::size_t k = 0; k < 1000; ++k) problem.measurements[k].time = 0.1 * double(k);
+    CHECK(static_program(problem).memory<interval>().values.size() == one);
 }

@@ -15,6 +15,7 @@ struct approximate_cut {
     /// \f$ \pm d_j - \sum_i w_i f_i \f$ is about constant but for bounds of the unknowns; when
     /// `empty`, \f$ \sum_i w_i f_i \f$ itself is, and too large: nothing meets all constraints.
     std::vector<minimax_weight> weights;
+    std::vector<double> point; ///< where it is about reached
     bool empty = false;
     std::size_t exchanges = 0;
 };
@@ -55,6 +56,7 @@ public:
             return true;
         };
         result.empty = program.run(violated, 20 * (n + 2)) == dual_simplex::outcome::empty;
+        result.point = program.point();
         result.exchanges = program.exchanges();
         result.weights = constraints_.weights(program.combination());
         return result;

@@ -4,6 +4,7 @@
 
 #include <sivid/paving/subpaving.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -49,6 +50,14 @@ public:
     [[nodiscard]] double upper(std::size_t i, std::size_t side) const {
         return chunks_[i / box_chunk::capacity].upper(side)[i % box_chunk::capacity];
     }
+    void add(box const& x) {
+        box_chunk own(sides_);
+        for (std::size_t j = 0; j < sides_; ++j) {
+            own.lower(j)[0] = x[j].lower();
+            own.upper(j)[0] = x[j].upper();
+        }
+        add(own, 0);
+    }
     /// Appends box i of a chunk.
     void add(box_chunk const& from, std::size_t i) {
         auto const place = count_ % box_chunk::capacity;
@@ -59,6 +68,19 @@ public:
     [[nodiscard]] box at(std::size_t i) const {
         box x(sides_);
         for (std::size_t j = 0; j < sides_; ++j) x[j] = interval(lower(i, j), upper(i, j));
+        return x;
+    }
+    /// What contains them all; empty sides when there are none.
+    [[nodiscard]] box hull() const {
+        box x(std::vector<interval>(sides_, interval_traits<interval>::empty()));
+        for (std::size_t j = 0; j < sides_ && count_ > 0; ++j) {
+            double lo = lower(0, j), hi = upper(0, j);
+            for (std::size_t i = 1; i < count_; ++i) {
+                lo = std::min(lo, lower(i, j));
+                hi = std::max(hi, upper(i, j));
+            }
+            x[j] = interval(lo, hi);
+        }
         return x;
     }
     /// Their volumes relative to a whole, summed.
@@ -102,8 +124,14 @@ struct flat_paving {
     flat_boxes open;   ///< undecided, or still waiting when the work ended
     stop_reason reason = stop_reason::decided;
     std::size_t tested = 0; ///< boxes tested
+    std::size_t asked = 0;  ///< measurements looked at, summed over them
     double seconds = 0;
 
+    /// What contains all feasible parameters of the prior; empty when there are none.
+    [[nodiscard]] box hull() const {
+        if (inside.size() == 0) return open.hull();
+        return open.size() == 0 ? inside.hull() : sivid::hull(inside.hull(), open.hull());
+    }
     /// Volume that is neither proved inside nor outside, relative to the prior.
     [[nodiscard]] interval uncertain_volume() const { return open.relative_volume(prior); }
     [[nodiscard]] interval inner_volume() const { return inside.relative_volume(prior); }

@@ -27,9 +27,10 @@ class mean_value_cut {
 
 public:
     using mask = typename traits::mask;
-    /// Lanes in which the measurement certainly holds, or certainly fails.
+    /// Lanes in which the measurement certainly holds, in which it certainly fails, and in which
+    /// its first-order form is a proof.
     struct finding {
-        mask hit = 0, miss = 0;
+        mask hit = 0, miss = 0, proved = 0;
     };
 
     explicit mean_value_cut(static_program const& program) : centre_(program.memory<I>()) {
@@ -46,14 +47,23 @@ public:
     [[nodiscard]] I const& rest(std::size_t j) const { return rest_[j]; }
     [[nodiscard]] I const& core(std::size_t j) const { return core_[j]; }
 
-    /// Uses measurement k.
+    /// The midpoint of the boxes in side j, and what the channel of the measurement used last is
+    /// there.
+    [[nodiscard]] I const& middle(std::size_t j) const { return middle_[j]; }
+    [[nodiscard]] I const& centre_value(static_program const& program, std::size_t k) const {
+        return program.last_value(centre_, k);
+    }
+
+    /// Uses a measurement of channel k.
     /// @param memory  holds its value and gradient over the boxes
     /// @param lanes   where it is open, and defined with its gradient
-    finding use(static_program const& program, std::vector<I> const& memory, std::size_t k,
+    finding use(static_program const& program, static_memory<I> const& memory, std::size_t k,
                 I const& bound, mask lanes, mask outer, mask inner) {
         if (!used_) find_centres(program);
         used_ = true;
-        mask undefined = centre_cut_;
+        for (auto const i : program.timed(k)) centre_.values[i] = memory.values[i];
+        centre_.time = memory.time;
+        mask undefined{};
         auto const& value = program.value(centre_, k, undefined);
         lanes &= ~undefined;
         I y = value;
@@ -69,7 +79,7 @@ public:
         if ((inner & lanes) != 0) {
             shrink(core_, traits::sub(violation(y, bound), value), slope, inner & lanes);
         }
-        return {traits::subset(y, bound) & lanes, traits::disjoint(y, bound) & lanes};
+        return {traits::subset(y, bound) & lanes, traits::disjoint(y, bound) & lanes, lanes};
     }
 
 private:
@@ -81,7 +91,7 @@ private:
             middle_[j] = I::load(lo.data(), lo.data());
             deviation_[j] = traits::sub(rest_[j], middle_[j]);
         }
-        centre_cut_ = program.start(centre_, [this](std::size_t j) { return middle_[j]; });
+        program.start(centre_, [this](std::size_t j) { return middle_[j]; });
     }
 
     /// The outputs that violate the bound: above it where y is not below, and the other way round;
@@ -123,9 +133,8 @@ private:
         }
     }
 
-    std::vector<I> centre_; ///< memory at the midpoints
+    static_memory<I> centre_; ///< at the midpoints
     std::vector<I> rest_, core_, middle_, deviation_, terms_;
-    mask centre_cut_ = 0; ///< where the common part is not defined at the midpoint
     bool used_ = false;
 };
 

@@ -6,6 +6,7 @@
 #include <sivid/number/pack_traits.hpp>
 #include <sivid/paving/flat_paving.hpp>
 #include <sivid/paving/static_judge.hpp>
+#include <sivid/paving/static_survey.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -29,26 +30,36 @@ struct static_inversion_options {
     double seconds = 60;
     std::size_t boxes = 100'000'000;
     sivid::first_order forms = sivid::first_order::always;
+    /// Only the hull of what is feasible is sought: boxes are split while they reach further, by
+    /// `accuracy` of the prior's side, than the hull of points that are proved feasible. These
+    /// points are `inside`, as boxes without width; what is `open` is not told apart any more.
+    bool only_hulls = false;
     std::function<bool()> keep_going; ///< asked once a block; false ends the work
 };
 
-/// Set inversion for static problems: largest boxes first, eight at a time, with every measurement
-/// that a box's parent decided left alone.
-///   Waiting boxes lie in blocks of flat arrays. Each is tested by the enclosures of its open
-///   measurements
-///   (`static_judge`), then kept, dropped, or cut where its open outputs spread most.
+/// Set inversion for static problems: largest boxes first, with every measurement that a box's
+/// parent decided left alone.
+///   Boxes for which many measurements are open, or for which linear programs do much, are tested
+///   one at a time (`static_survey`). Where at most 64 are left, boxes wait in blocks of flat
+///   arrays and are tested eight at a time by the enclosures of their open measurements
+///   (`static_judge`), then kept, dropped, or cut where their open outputs spread most.
 /// @guarantee  boxes `inside` are feasible throughout; every feasible parameter of the prior lies
 /// in a box
-/// @cost  about 10 to 100 ns a box for small models
+/// @cost  about 10 to 100 ns a box for small models; time and memory O(measurements)
 /// @ref  Jaulin and Walter, Automatica 29 (1993): SIVIA
 template <std::size_t W = 8>
 class static_inversion {
 public:
     static_inversion(static_problem const& problem, static_inversion_options options)
-        : judge_(problem, options.forms),
+        : program_(problem),
+          samples_(problem),
+          judge_(program_, samples_, problem.outliers, options.forms),
+          survey_(program_, samples_, problem.outliers, options.forms, options.only_hulls),
           prior_(problem.prior),
           options_(std::move(options)),
           result_(problem.prior) {}
+    static_inversion(static_inversion const&) = delete;
+    static_inversion& operator=(static_inversion const&) = delete;
 
     [[nodiscard]] flat_paving operator()() {
         require_sound_environment();
@@ -58,17 +69,21 @@ public:
             return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         };
         prepare();
-        while (!waiting_.empty()) {
+        while (!blocks_.empty() || !boxes_.empty()) {
             if (options_.keep_going && !options_.keep_going()) {
                 stop(stop_reason::cancelled);
             } else if (seconds() > options_.seconds) {
                 stop(stop_reason::time_budget);
             } else if (result_.tested >= options_.boxes) {
                 stop(stop_reason::box_budget);
+            } else if (!boxes_.empty() &&
+                       (blocks_.empty() || boxes_.begin()->first >= blocks_.begin()->first.first)) {
+                survey_one();
             } else {
                 work_through();
             }
         }
+        result_.asked = judge_.asked() + survey_.asked();
         result_.seconds = seconds();
         return std::move(result_);
     }
@@ -77,43 +92,69 @@ private:
     using block = static_block;
 
     void prepare() {
-        auto& first = block_for(1);
-        for (std::size_t j = 0; j < prior_.size(); ++j) {
-            least_.push_back(options_.accuracy * width(prior_[j]));
-            thick_.push_back(prior_[j].lower() < prior_[j].upper());
-            scale_.push_back(thick_[j] != 0 ? 1 / width(prior_[j]) : 0);
-            first.boxes.lower(j)[0] = prior_[j].lower();
-            first.boxes.upper(j)[0] = prior_[j].upper();
+        for (auto const& side : prior_) {
+            least_.push_back(options_.accuracy * width(side));
+            thick_.push_back(side.lower() < side.upper());
+            scale_.push_back(thick_.back() != 0 ? 1 / width(side) : 0);
         }
-        judge_.open_all(first, 0);
-        first.count = 1;
-        uncertain_ = approximate_volume(first, 0);
+        auto all = std::make_shared<std::vector<static_samples::index> const>(samples_.all());
+        static_box first{prior_, std::move(all), 0};
+        uncertain_ = approximate_volume(prior_);
         allowed_ = options_.uncertain * uncertain_;
+        wait(std::move(first), prior_.size() > 2);
     }
 
-    /// A block with room for boxes of a volume.
-    block& block_for(double volume) {
-        auto& list = waiting_[volume > 0 ? std::ilogb(volume) / 2 : -2000];
+    [[nodiscard]] static int size_class(double volume) {
+        return volume > 0 ? std::ilogb(volume) / 2 : -2000;
+    }
+    /// A block with room for boxes of a volume and of a list of measurements.
+    block& block_for(double volume, static_list const& measurements, std::size_t family) {
+        auto& list = blocks_[{size_class(volume), family}];
         if (!list.empty() && !list.back()->full()) return *list.back();
         if (spare_.empty()) {
-            list.push_back(std::make_unique<block>(prior_.size(), judge_.words()));
+            list.push_back(std::make_unique<block>(prior_.size()));
         } else {
             list.push_back(std::move(spare_.back()));
             spare_.pop_back();
         }
+        list.back()->list = measurements;
+        list.back()->family = family;
         list.back()->count = 0;
         return *list.back();
+    }
+    /// @param alone  it is not for blocks, even if few measurements are open
+    void wait(static_box b, bool alone) {
+        auto const volume = approximate_volume(b.set);
+        if (alone || options_.only_hulls || b.open->size() > block::most_open) {
+            boxes_[size_class(volume)].push_back(std::move(b));
+            return;
+        }
+        auto& to = block_for(volume, b.open, families_++);
+        for (std::size_t j = 0; j < prior_.size(); ++j) {
+            to.boxes.lower(j)[0] = b.set[j].lower();
+            to.boxes.upper(j)[0] = b.set[j].upper();
+        }
+        to.open_all(0, b.missed);
+        to.count = 1;
     }
 
     /// All that waits stays open.
     void stop(stop_reason why) {
         result_.reason = why;
-        for (auto const& [size, list] : waiting_) {
+        for (auto const& [size, list] : boxes_) {
+            for (auto const& b : list) result_.open.add(b.set);
+        }
+        for (auto const& [size, list] : blocks_) {
             for (auto const& b : list) {
                 for (std::size_t i = 0; i < b->count; ++i) result_.open.add(b->boxes, i);
             }
         }
-        waiting_.clear();
+        boxes_.clear();
+        blocks_.clear();
+    }
+    void leave_open(box const& x) {
+        result_.reason = stop_reason::accuracy_reached;
+        result_.open.add(x);
     }
 
     [[nodiscard]] double approximate_volume(block const& b, std::size_t i) const {
@@ -124,13 +165,120 @@ private:
         }
         return v;
     }
+    [[nodiscard]] double approximate_volume(box const& x) const {
+        double v = 1;
+        for (std::size_t j = 0; j < prior_.size(); ++j) {
+            v *= thick_[j] != 0 ? x[j].upper() - x[j].lower() : 1;
+        }
+        return v;
+    }
+
+    /// The largest of the boxes that wait alone.
+    void survey_one() {
+        auto& list = boxes_.begin()->second;
+        auto b = std::move(list.front());
+        list.pop_front();
+        if (list.empty()) boxes_.erase(boxes_.begin());
+        if (options_.only_hulls && known_.size() > 0 && subset(b.set, known_)) {
+            leave_open(b.set);
+            return;
+        }
+        bool splittable = false;
+        for (std::size_t j = 0; j < prior_.size(); ++j) {
+            splittable = splittable || width(b.set[j]) > 2 * least_[j];
+        }
+        auto const before = approximate_volume(b.set);
+        auto const found = survey_(b, !splittable);
+        ++result_.tested;
+        bool const open = found == box_verdict::undecided;
+        uncertain_ -= before - (open ? approximate_volume(b.set) : 0);
+        if (found == box_verdict::inside) {
+            result_.inside.add(b.set);
+            know(b.set);
+        }
+        if (open) {
+            if (options_.only_hulls) look_for_points(b);
+            split(std::move(b));
+        }
+        if (allowed_ > 0 && uncertain_ <= allowed_) stop(stop_reason::accuracy_reached);
+    }
+    void know(box const& x) { known_ = known_.size() == 0 ? x : hull(known_, x); }
+
+    /// Feasible points: one deep inside, others between it and the corners that the programs saw.
+    void look_for_points(static_box const& b) {
+        auto const& points = survey_.points();
+        auto const take = [&](std::vector<double> p) {
+            for (std::size_t j = 0; j < p.size(); ++j) {
+                if (!std::isfinite(p[j])) return false;
+                p[j] = std::clamp(p[j], b.set[j].lower(), b.set[j].upper());
+            }
+            auto const x = point_box(p);
+            if (known_.size() > 0 && subset(x, known_)) return true;
+            if (!survey_.explains(b, p)) return false;
+            result_.inside.add(x);
+            know(x);
+            return true;
+        };
+        auto const between = [](std::vector<double> p, std::vector<double> const& q, double share) {
+            for (std::size_t j = 0; j < p.size(); ++j) p[j] += share * (q[j] - p[j]);
+            return p;
+        };
+        auto middle = mid(b.set);
+        if (!points.empty()) {
+            middle = points[0];
+            if (!take(middle)) {
+                double weight = 1;
+                for (auto const& p : points) middle = between(middle, p, 1 / weight++);
+            }
+        }
+        if (!take(middle)) return;
+        for (auto const& corner : points) {
+            for (double const share : {1 - 0.25 * options_.accuracy, 0.99, 0.9, 0.5}) {
+                if (take(between(middle, corner, share))) break;
+            }
+        }
+    }
+
+    /// Halves of a box that waited alone, or it stays open.
+    void split(static_box b) {
+        std::size_t side = prior_.size();
+        double most = -1, widest = 0, at = 0;
+        for (std::size_t j = 0; j < prior_.size(); ++j) {
+            double const lo = b.set[j].lower(), hi = b.set[j].upper(), w = hi - lo;
+            if (!(w > least_[j])) continue;
+            double rank = survey_.slope(j) * w, cut = lo + 0.5 * w;
+            if (options_.only_hulls && known_.size() > 0) {
+                double const below = known_[j].lower() - lo, above = hi - known_[j].upper();
+                double const beyond = std::max(below, above);
+                if (!(beyond > least_[j])) continue;
+                rank = beyond * scale_[j];
+                // Half of what reaches beyond what is known; all of it when the box lies there.
+                if (beyond < w) cut = above > below ? hi - 0.5 * above : lo + 0.5 * below;
+            }
+            double const share = w * scale_[j];
+            if (rank > most || (rank == most && share > widest)) {
+                most = rank;
+                widest = share;
+                at = cut;
+                side = j;
+            }
+        }
+        if (side == prior_.size() || !(b.set[side].lower() < at && at < b.set[side].upper())) {
+            leave_open(b.set);
+            return;
+        }
+        auto [low, high] = bisect(b.set, side, at);
+        bool const alone = survey_.programs_helped();
+        wait({std::move(low), b.open, b.missed}, alone);
+        wait({std::move(high), b.open, b.missed}, alone);
+    }
 
     /// Tests a block of the largest boxes.
     void work_through() {
-        auto& list = waiting_.begin()->second;
+        auto& list = blocks_.begin()->second;
         auto now = std::move(list.front());
         list.pop_front();
-        if (list.empty()) waiting_.erase(waiting_.begin());
+        if (list.empty()) blocks_.erase(blocks_.begin());
         now->pad(W);
         for (std::size_t i = 0; i < now->count; i += W) {
             auto const lanes = std::min(W, now->count - i);
@@ -201,7 +349,7 @@ private:
             double const middle = lo + 0.5 * (hi - lo);
             if (lo < middle && middle < hi) {
                 // Two places: blocks are even.
-                auto& to = block_for(0.5 * approximate_volume(from, i));
+                auto& to = block_for(0.5 * approximate_volume(from, i), from.list, from.family);
                 to.copy(from, i, to.count);
                 to.copy(from, i, to.count + 1);
                 to.boxes.upper(side)[to.count] = middle;
@@ -214,12 +362,20 @@ private:
         result_.open.add(from.boxes, i);
     }
 
+    static_program program_;
+    static_samples samples_;
     static_judge<W> judge_;
+    static_survey<W> survey_;
     box prior_;
     static_inversion_options options_;
     flat_paving result_;
-    /// Blocks of boxes of about one size, by the binary exponent of their volume, largest first.
-    std::map<int, std::deque<std::unique_ptr<block>>, std::greater<>> waiting_;
+    /// What waits, largest first by the binary exponent of the volume: blocks of boxes of about one
+    /// size and one list, and boxes that are tested alone.
+    std::map<std::pair<int, std::size_t>, std::deque<std::unique_ptr<block>>, std::greater<>>
+        blocks_;
+    std::map<int, std::deque<static_box>, std::greater<>> boxes_;
+    std::size_t families_ = 0;
+    box known_; ///< hull of what is proved inside, once there is something
     std::vector<std::unique_ptr<block>> spare_;
     std::vector<double> least_, scale_; ///< least width to split, 1 / width of the prior
     std::vector<char> thick_;

@@ -14,124 +14,184 @@
 
 namespace sivid {
 
-/// The measured outputs of a static problem and their gradients as straight-line programs: what
-/// several outputs share is a common part, the rest of each output stands apart, so that outputs
-/// which are decided already cost nothing.
+/// Values of a `static_program`, and what of them holds for the present parameters.
+template <class I>
+struct static_memory {
+    using mask = typename interval_traits<I>::mask;
+
+    std::vector<I> values; ///< by node
+    mask common{}, time{}; ///< where they are not defined
+    struct part {
+        bool known = false;
+        mask undefined{};
+    };
+    std::vector<part> value_part, slope_part; ///< by channel: what parameters alone decide
+};
+
+/// The measured channels of a static problem and their gradients as straight-line programs in which
+/// the time is an input, so that all measurements of a channel share one. What parameters alone
+/// decide is computed once for each of them, what time alone decides may be kept for each time.
+/// @guarantee  with interval arithmetic: enclosures of the model's real functions
+/// @cost  of the construction: that of the model, however many measurements there are
 class static_program {
 public:
     /// @given  a valid problem (checked)
     explicit static_program(static_problem const& problem) {
         problem.require_valid();
         auto const bound = bind(problem.model, problem.choice, {});
+        auto const& g = bound.g;
         parameters_ = bound.parameter_count();
-        std::vector<node_id> values;
-        std::vector<std::vector<node_id>> slopes;
-        for (auto const& m : problem.measurements) {
-            auto const leaf = [&m](node const& n, graph& to) {
-                if (n.op == operation::time) return to.constant(m.time);
-                return to.leaf(n.op, static_cast<std::size_t>(n.index));
-            };
-            std::vector<node_id> outputs{bound.observe[m.channel]};
-            for (auto const d : bound.observe_dp[m.channel]) outputs.push_back(d);
-            auto const images = copy_into(g_, bound.g, outputs, leaf);
-            values.push_back(images[0]);
-            slopes.emplace_back(images.begin() + 1, images.end());
+        channels_.resize(bound.channel_count());
+        std::vector<bool> measured(channels_.size(), false);
+        for (auto const& m : problem.measurements) measured[m.channel] = true;
+        std::vector<bool> leaves;
+        for (auto const& n : g.nodes()) leaves.push_back(is_leaf(n.op));
+        leaves_ = program::marked(g, leaves);
+        for (auto const& l : leaves_.leaves()) {
+            if (l.op == operation::time) clock_.push_back(l.target);
         }
-        leaves_ = program::marked(g_, leaves_of());
-        std::vector<std::size_t> users(g_.size(), 0);
-        std::vector<std::vector<bool>> below;
-        for (auto const v : values) {
-            below.push_back(reachable(g_, {v}));
-            for (std::size_t i = 0; i < g_.size(); ++i) users[i] += below.back()[i] ? 1 : 0;
+        std::vector<std::size_t> users(g.size(), 0);
+        for (std::size_t c = 0; c < channels_.size(); ++c) {
+            if (!measured[c]) continue;
+            auto const below = operands_of(g, {bound.observe[c]});
+            for (std::size_t i = 0; i < g.size(); ++i) users[i] += below[i] ? 1 : 0;
         }
-        common_ = block([&](std::size_t i) { return users[i] > 1; });
-        for (std::size_t k = 0; k < values.size(); ++k) {
-            auto& o = outputs_.emplace_back();
-            o.value = values[k];
-            o.slopes = slopes[k];
-            o.value_steps = block([&](std::size_t i) { return below[k][i] && users[i] == 1; });
-            auto const wanted = reachable(g_, slopes[k]);
-            o.slope_steps = block([&](std::size_t i) {
-                return wanted[i] && users[i] < 2 && !(below[k][i] && users[i] == 1);
-            });
-            count_uses(o, below[k]);
+        auto const timed = [&g](std::size_t i) {
+            return (g.depends(static_cast<node_id>(i)) & on_time) != 0;
+        };
+        auto const time_alone = [&g](std::size_t i) {
+            return g.depends(static_cast<node_id>(i)) == on_time;
+        };
+        auto const block = [&](auto const& wanted) {
+            std::vector<bool> operations(g.size());
+            for (std::size_t i = 0; i < g.size(); ++i) operations[i] = !leaves[i] && wanted(i);
+            return program::marked(g, operations);
+        };
+        common_ = block([&](std::size_t i) { return users[i] > 1 && !timed(i); });
+        for (std::size_t c = 0; c < channels_.size(); ++c) {
+            if (!measured[c]) continue;
+            auto& o = channels_[c];
+            o.value = bound.observe[c];
+            o.slopes = bound.observe_dp[c];
+            auto const below = operands_of(g, {o.value}), wanted = operands_of(g, o.slopes);
+            auto const more = [&](std::size_t i) { return wanted[i] && !below[i]; };
+            o.once = block([&](std::size_t i) { return below[i] && !timed(i) && users[i] == 1; });
+            o.slopes_once =
+                block([&](std::size_t i) { return more(i) && !timed(i) && users[i] < 2; });
+            o.time_steps =
+                block([&](std::size_t i) { return (below[i] || wanted[i]) && time_alone(i); });
+            o.steps = block([&](std::size_t i) { return below[i] && timed(i) && !time_alone(i); });
+            o.slope_steps =
+                block([&](std::size_t i) { return more(i) && timed(i) && !time_alone(i); });
+            std::vector<bool> read(g.size(), false);
+            read[o.value] = true;
+            for (auto const s : o.slopes) read[s] = true;
+            for (auto const* steps : {&o.steps, &o.slope_steps}) {
+                for (auto const& s : steps->steps()) read[s.a] = read[s.b] = true;
+            }
+            for (std::size_t i = 0; i < g.size(); ++i) {
+                if (read[i] && time_alone(i)) o.timed.push_back(static_cast<node_id>(i));
+            }
+            read.assign(g.size(), false);
+            read[o.value] = true;
+            for (auto const s : o.slopes) read[s] = true;
+            for (auto const& s : o.slope_steps.steps()) read[s.a] = read[s.b] = true;
+            for (auto const& s : o.steps.steps()) {
+                if (read[s.target]) o.kept.push_back(s.target);
+            }
+            count_uses(g, o, below);
         }
     }
 
     [[nodiscard]] std::size_t parameters() const { return parameters_; }
-    [[nodiscard]] std::size_t outputs() const { return outputs_.size(); }
-    /// Whether the mean value theorem holds for an output: no jump in it.
-    [[nodiscard]] bool differentiable(std::size_t k) const { return outputs_[k].differentiable; }
-    /// Whether a parameter stands in an output more than once, so that its plain evaluation
+    /// Whether the mean value theorem holds for a channel: no jump in it.
+    [[nodiscard]] bool differentiable(std::size_t c) const { return channels_[c].differentiable; }
+    /// Whether a parameter stands in a channel more than once, so that its plain evaluation
     /// overestimates.
-    [[nodiscard]] bool repeats(std::size_t k) const { return outputs_[k].repeats; }
+    [[nodiscard]] bool repeats(std::size_t c) const { return channels_[c].repeats; }
+    /// The values that time alone decides and that the rest of a channel reads.
+    [[nodiscard]] std::vector<node_id> const& timed(std::size_t c) const {
+        return channels_[c].timed;
+    }
+    /// Besides these, what the gradient reads of what `value` has computed, and the value.
+    [[nodiscard]] std::vector<node_id> const& kept(std::size_t c) const {
+        return channels_[c].kept;
+    }
 
-    /// Memory for one evaluation at a time.
     template <class I>
-    [[nodiscard]] std::vector<I> memory() const {
-        return leaves_.template memory<proven_arithmetic<I>>();
+    [[nodiscard]] static_memory<I> memory() const {
+        static_memory<I> m;
+        m.values = leaves_.template memory<proven_arithmetic<I>>();
+        m.value_part.resize(channels_.size());
+        m.slope_part.resize(channels_.size());
+        return m;
     }
-    /// Writes the parameters and runs the common part.
-    /// @returns where that is not defined
+    /// Writes the parameters and runs what channels share.
     template <class I, class Parameter>
-    typename interval_traits<I>::mask start(std::vector<I>& m, Parameter const& parameter) const {
-        leaves_.read(m, [&](operation, std::size_t j) { return parameter(j); });
-        return common_.run<proven_arithmetic<I>>(m);
+    void start(static_memory<I>& m, Parameter const& parameter) const {
+        for (auto const& l : leaves_.leaves()) {
+            if (l.op == operation::constant) m.values[l.target] = parameter(std::size_t{l.index});
+        }
+        m.common = common_.template run<proven_arithmetic<I>>(m.values);
+        for (auto& p : m.value_part) p.known = false;
+        for (auto& p : m.slope_part) p.known = false;
     }
-    /// Output k over the parameters; `undefined` is set where it is not defined.
+    /// Sets the time for a channel, in each lane its own.
     template <class I>
-    I const& value(std::vector<I>& m, std::size_t k,
+    void at(static_memory<I>& m, std::size_t c, I const& time) const {
+        for (auto const target : clock_) m.values[target] = time;
+        m.time = channels_[c].time_steps.template run<proven_arithmetic<I>>(m.values);
+    }
+    /// The channel over the parameters at the time; `undefined` is set where it is not defined.
+    template <class I>
+    I const& value(static_memory<I>& m, std::size_t c,
                    typename interval_traits<I>::mask& undefined) const {
+        auto const& o = channels_[c];
+        auto& part = m.value_part[c];
+        if (!part.known) part = {true, o.once.template run<proven_arithmetic<I>>(m.values)};
         undefined = static_cast<typename interval_traits<I>::mask>(
-            undefined | outputs_[k].value_steps.template run<proven_arithmetic<I>>(m));
-        return m[outputs_[k].value];
+            undefined | m.common | m.time | part.undefined |
+            o.steps.template run<proven_arithmetic<I>>(m.values));
+        return m.values[o.value];
     }
     /// What `value` gave last.
     template <class I>
-    I const& last_value(std::vector<I> const& m, std::size_t k) const {
-        return m[outputs_[k].value];
+    I const& last_value(static_memory<I> const& m, std::size_t c) const {
+        return m.values[channels_[c].value];
     }
-    /// Makes the gradient of output k, after its value.
+    /// Makes the gradient of a channel, after its value.
     template <class I>
-    void differentiate_at(std::vector<I>& m, std::size_t k,
+    void differentiate_at(static_memory<I>& m, std::size_t c,
                           typename interval_traits<I>::mask& undefined) const {
+        auto const& o = channels_[c];
+        auto& part = m.slope_part[c];
+        if (!part.known) part = {true, o.slopes_once.template run<proven_arithmetic<I>>(m.values)};
         undefined = static_cast<typename interval_traits<I>::mask>(
-            undefined | outputs_[k].slope_steps.template run<proven_arithmetic<I>>(m));
+            undefined | part.undefined |
+            o.slope_steps.template run<proven_arithmetic<I>>(m.values));
     }
     template <class I>
-    I const& slope(std::vector<I> const& m, std::size_t k, std::size_t j) const {
-        return m[outputs_[k].slopes[j]];
+    I const& slope(static_memory<I> const& m, std::size_t c, std::size_t j) const {
+        return m.values[channels_[c].slopes[j]];
     }
 
 private:
-    struct output {
+    struct channel {
         node_id value = 0;
-        std::vector<node_id> slopes;
-        program value_steps, slope_steps;
+        std::vector<node_id> slopes, timed, kept;
+        program once, slopes_once, time_steps, steps, slope_steps;
         bool differentiable = true, repeats = false;
     };
 
-    /// The wanted operations.
-    template <class Wanted>
-    [[nodiscard]] program block(Wanted const& wanted) const {
-        auto operations = leaves_of();
-        operations.flip();
-        for (std::size_t i = 0; i < g_.size(); ++i) operations[i] = operations[i] && wanted(i);
-        return program::marked(g_, operations);
-    }
-    [[nodiscard]] std::vector<bool> leaves_of() const {
-        std::vector<bool> leaves;
-        for (auto const& n : g_.nodes()) leaves.push_back(is_leaf(n.op));
-        return leaves;
-    }
     /// How often parameters are read on the way to an output.
-    void count_uses(output& o, std::vector<bool> const& below) const {
-        std::vector<std::size_t> paths(g_.size(), 0);
+    static void count_uses(graph const& g, channel& o, std::vector<bool> const& below) {
+        std::vector<std::size_t> paths(g.size(), 0);
         paths[o.value] = 1;
-        for (std::size_t i = g_.size(); i-- > 0;) {
-            auto const& n = g_.nodes()[i];
+        for (std::size_t i = g.size(); i-- > 0;) {
+            auto const& n = g.nodes()[i];
             if (!below[i]) continue;
-            if (n.op == operation::sign) o.differentiable = false;
+            bool const varies = (g.depends(static_cast<node_id>(i)) & on_constant) != 0;
+            if (n.op == operation::sign && varies) o.differentiable = false;
             if (n.op == operation::constant) o.repeats = o.repeats || paths[i] > 1;
             if (is_leaf(n.op)) continue;
             auto const more = [&](node_id child) { // two is as good as many
@@ -141,10 +201,11 @@ private:
             if (is_binary(n.op)) more(n.b);
         }
     }
-    graph g_;
+
     std::size_t parameters_ = 0;
     program leaves_, common_;
-    std::vector<output> outputs_;
+    std::vector<program::slot> clock_;
+    std::vector<channel> channels_;
 };
 
 } // namespace sivid

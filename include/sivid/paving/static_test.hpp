@@ -3,9 +3,11 @@
 #define SIVID_PAVING_STATIC_TEST_HPP
 
 #include <sivid/paving/set_test.hpp>
-#include <sivid/paving/static_judge.hpp>
+#include <sivid/paving/static_survey.hpp>
 
 #include <cstddef>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace sivid {
@@ -16,33 +18,29 @@ namespace sivid {
 class static_test {
 public:
     explicit static_test(static_problem const& problem, first_order use = first_order::always)
-        : judge_(problem, use), block_(problem.prior.size(), judge_.words()) {
-        block_.count = 1;
-    }
+        : program_(problem),
+          samples_(problem),
+          all_(std::make_shared<std::vector<static_samples::index> const>(samples_.all())),
+          survey_(program_, samples_, problem.outliers, use) {}
+    static_test(static_test const&) = delete;
+    static_test& operator=(static_test const&) = delete;
 
     [[nodiscard]] assessment<> operator()(box const& x) {
+        static_box b{x, all_, 0};
+        assessment<> result{.verdict = survey_(b), .rest = x};
+        if (result.verdict == box_verdict::outside) return result;
+        result.rest = std::move(b.set);
         for (std::size_t j = 0; j < x.size(); ++j) {
-            block_.boxes.lower(j)[0] = x[j].lower();
-            block_.boxes.upper(j)[0] = x[j].upper();
+            result.smear.push_back(survey_.slope(j) * width(result.rest[j]));
         }
-        judge_.open_all(block_, 0);
-        auto const found = judge_(block_, 0);
-        assessment<> result{.rest = x};
-        if ((found.outside & 1U) != 0) {
-            result.verdict = box_verdict::outside;
-            return result;
-        }
-        for (std::size_t j = 0; j < x.size(); ++j) {
-            result.rest[j] = interval(block_.boxes.lower(j)[0], block_.boxes.upper(j)[0]);
-            result.smear.push_back(judge_.slope(j, 0) * width(result.rest[j]));
-        }
-        if ((found.inside & 1U) != 0) result.verdict = box_verdict::inside;
         return result;
     }
 
 private:
-    static_judge<1> judge_;
-    static_block block_;
+    static_program program_;
+    static_samples samples_;
+    static_list all_;
+    static_survey<> survey_;
 };
 
 static_assert(plain_set_test<static_test>);
