@@ -86,6 +86,7 @@ struct dataset {
     std::vector<fixed_constant> fixed;
     exact_decimal max_outlier_fraction;
     std::vector<scenario> scenarios;
+    std::vector<std::string> assumptions; ///< what bounds, starts and times rest on, in words
 
     /// \f$ q_s = \lfloor f\, n_s \rfloor \f$, exact in decimals: so many measurements of s may
     /// violate their bounds.

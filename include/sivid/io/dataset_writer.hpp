@@ -93,7 +93,8 @@ namespace sivid {
     for (auto const& p : data.parameters) {
         json.key(p.name).begin_object(layout::one_line).key("prior");
         range(p.prior);
-        json.key("unit").string(p.unit).end_object();
+        if (!p.unit.empty()) json.key("unit").string(p.unit);
+        json.end_object();
     }
     json.end_object();
     if (!data.fixed.empty()) {
@@ -124,7 +125,13 @@ namespace sivid {
         }
         json.end_object().end_object();
     }
-    json.end_array().end_object();
+    json.end_array();
+    if (!data.assumptions.empty()) {
+        json.key("assumptions").begin_array();
+        for (auto const& a : data.assumptions) json.string(a);
+        json.end_array();
+    }
+    json.end_object();
     return json.text();
 }
 

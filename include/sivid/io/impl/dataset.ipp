@@ -29,8 +29,8 @@ public:
 
     [[nodiscard]] dataset read() const {
         auto const root = read_json(folder_ / "dataset.json");
-        root.allow_only(
-            {"format", "id", "model", "parameters", "fixed", "max_outlier_fraction", "scenarios"});
+        root.allow_only({"format", "id", "model", "parameters", "fixed", "max_outlier_fraction",
+                         "scenarios", "assumptions"});
         // The format first: another version may have other keys, another model other names.
         if (root.at("format").string() != "sivid-dataset-1")
             root.at("format").fail(
@@ -46,6 +46,8 @@ public:
         if (auto const* fixed = root.find("fixed")) read_fixed(*fixed, result);
         read_fraction(root.at("max_outlier_fraction"), result);
         read_scenarios(root.at("scenarios"), result);
+        if (auto const* list = root.find("assumptions"))
+            for (auto const& a : list->elements()) result.assumptions.push_back(a.string());
         return result;
     }
 
