@@ -14,6 +14,7 @@
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset_digest.hpp>
+#include <sivid/io/dataset_effects.hpp>
 #include <sivid/io/file_set.hpp>
 #include <sivid/io/identification_json.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
@@ -119,7 +120,7 @@ inline int diagnose_folder(sivid::recorded_model const& model,
     prepare_folder(out);
     auto options = thorough_diagnosis(0.65 * left());
     watch(options, progress);
-    auto run = sivid::diagnose(problem, catalogue, options);
+    auto run = sivid::diagnose(problem, sivid::chosen_effects(catalogue, data), options);
     auto const kept = sivid::holdout_from_dataset(data, model.about);
     auto const write = [&] {
         write_diagnosis(run.result, data.id, plot_data(run, kept),

@@ -49,6 +49,7 @@ public:
             data.fixed.push_back(
                 {*index_of(result_.names.constants, f.name), f.value, f.enclosure});
         data.max_outlier_fraction = mapping_.max_outlier_fraction;
+        data.effects = mapping_.effects;
         for (auto const& s : open_) data.scenarios.push_back(closed(s));
         check_starts();
         for (auto const& n : result_.protocol.notes())

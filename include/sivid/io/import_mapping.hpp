@@ -152,6 +152,7 @@ struct import_mapping {
     std::vector<parameter> parameters;
     std::vector<constant> fixed;
     exact_decimal max_outlier_fraction;
+    std::vector<dataset_effect> effects;
     std::vector<scenario_mapping> scenarios;
 
     /// The names that occur: as much of the model as the data set needs to know.

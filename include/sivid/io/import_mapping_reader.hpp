@@ -2,6 +2,7 @@
 #ifndef SIVID_IO_IMPORT_MAPPING_READER_HPP
 #define SIVID_IO_IMPORT_MAPPING_READER_HPP
 
+#include <sivid/io/dataset_effects.hpp>
 #include <sivid/io/import_mapping.hpp>
 #include <sivid/io/json_document.hpp>
 #include <sivid/io/mapping_entries.hpp>
@@ -30,7 +31,7 @@ public:
                 text_of("unknown format ", in_quotes(root.at("format").string())),
                 "this version reads sivid-mapping-1");
         root.allow_only({"format", "id", "model", "parameters", "fixed", "max_outlier_fraction",
-                         "defaults", "scenarios"});
+                         "effects", "defaults", "scenarios"});
         require_mapping_keys(root);
         import_mapping result;
         result.file = file_;
@@ -43,6 +44,7 @@ public:
             !(result.max_outlier_fraction < *exact_decimal::parse("1")))
             fraction.fail("the fraction is outside [0, 1)",
                           "state the share of outliers, such as 0.05");
+        if (auto const* list = root.find("effects")) result.effects = read_dataset_effects(*list);
         if (auto const* d = root.find("defaults")) {
             d->allow_only({"role", "file", "source", "time", "duration", "interpolation", "inputs",
                            "channels", "initial", "initial_after_break", "windows", "thin"});
