@@ -55,8 +55,8 @@ public:
         whole.duration = duration(whole);
         if (s_.thin > 1)
             protocol_.add(kind::changed, name_, "",
-                          text_of("thinned: of the readings of a channel every ",
-                                  std::to_string(s_.thin), "th is kept, from the first"));
+                          text_of("thinned: one of ", std::to_string(s_.thin),
+                                  " readings of a channel is kept, beginning with the first"));
         std::vector<open_scenario> result;
         if (s_.windows)
             result = window_cut{whole, table, protocol_}.windows();
