@@ -18,6 +18,7 @@
 #include <sivid/enclosure/parametric_set.hpp>
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset_digest.hpp>
+#include <sivid/io/dataset_effects.hpp>
 #include <sivid/io/decision_json.hpp>
 #include <sivid/io/file_set.hpp>
 #include <sivid/io/identification_reader.hpp>
@@ -63,7 +64,8 @@ public:
         auto const folder = c.dataset.empty() ? c.result / stored_.source_folder : c.dataset;
         auto const data = sivid::read_dataset(folder, sivid::names_of(model.about));
         problem_ = sivid::problem_from_dataset(data, model);
-        auto const effects = sivid::effects_named(catalogue, stored_.effects);
+        auto const effects =
+            sivid::effects_named(sivid::chosen_effects(catalogue, data), stored_.effects);
         if (!stored_.source_digest.empty() &&
             sivid::dataset_digest(folder) != stored_.source_digest)
             throw sivid::input_error{{.file = folder.string()},

@@ -14,6 +14,7 @@
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset_digest.hpp>
+#include <sivid/io/dataset_effects.hpp>
 #include <sivid/io/file_set.hpp>
 #include <sivid/io/identification_json.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
@@ -37,10 +38,11 @@ namespace console {
 /// The ranges of all parameters of a model that explains the data, on the terminal, and as
 /// model.html and model.json; with its boxes in the folder model, for predict and verify.
 /// @param effects  joined to the data set's model, by name
+/// @param data     what it was identified from
 /// @throws sivid::output_error
 inline void write_identified_model(sivid::identification_problem const& problem,
-                                   std::vector<std::string> const& effects, std::string const& id,
-                                   std::filesystem::path const& folder,
+                                   std::vector<std::string> const& effects,
+                                   sivid::dataset const& data, std::filesystem::path const& folder,
                                    std::filesystem::path const& out, double seconds,
                                    std::string const& command, progress_line& progress) {
     namespace report = sivid::report;
@@ -66,7 +68,8 @@ inline void write_identified_model(sivid::identification_problem const& problem,
     limit.allow(0.2);
     auto const motion = sivid::find_explaining_motion(problem, found, 240, limit);
     auto const view = report::view_of(problem, found, motion ? &*motion : nullptr,
-                                      {.dataset = id,
+                                      {.dataset = data.id,
+                                       .further_assumptions = data.assumptions,
                                        .date = today(),
                                        .machine = machine_text(),
                                        .command = command,
@@ -80,15 +83,18 @@ inline void write_identified_model(sivid::identification_problem const& problem,
     }
     sivid::file_set files(out);
     files.add("model.html", report::identification_page(view).str());
-    files.add("model.json",
-              sivid::identification_json(problem, found, {.dataset = id, .effects = effects}));
+    files.add("model.json", sivid::identification_json(problem, found,
+                                                       {.dataset = data.id,
+                                                        .effects = effects,
+                                                        .further_assumptions = data.assumptions}));
     files.commit();
     sivid::file_set result(out / "model");
     add_result_tables(result, problem, found);
     result.add("result.json",
                sivid::identification_json(problem, found,
-                                          {.dataset = id,
+                                          {.dataset = data.id,
                                            .effects = effects,
+                                           .further_assumptions = data.assumptions,
                                            .source_folder = seen_from(out / "model", folder),
                                            .source_digest = sivid::dataset_digest(folder)}));
     result.commit();
@@ -114,7 +120,7 @@ inline int diagnose_folder(sivid::recorded_model const& model,
     prepare_folder(out);
     auto options = thorough_diagnosis(0.65 * left());
     watch(options, progress);
-    auto run = sivid::diagnose(problem, catalogue, options);
+    auto run = sivid::diagnose(problem, sivid::chosen_effects(catalogue, data), options);
     auto const kept = sivid::holdout_from_dataset(data, model.about);
     auto const write = [&] {
         write_diagnosis(run.result, data.id, plot_data(run, kept),
@@ -138,7 +144,7 @@ inline int diagnose_folder(sivid::recorded_model const& model,
         auto const& answer = run.candidates[run.answer];
         std::vector<std::string> effects;
         for (auto const k : answer.figures.effects) effects.push_back(run.catalogue[k].name);
-        write_identified_model(answer.problem, effects, data.id, folder, out,
+        write_identified_model(answer.problem, effects, data, folder, out,
                                std::min(left(), 0.25 * budget), command, progress);
     }
     return exit_code_of(run.result);

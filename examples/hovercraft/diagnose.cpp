@@ -7,6 +7,7 @@
 #include "manoeuvres.hpp"
 
 #include <sivid/io/dataset.hpp>
+#include <sivid/io/dataset_effects.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
 
 #include <algorithm>
@@ -28,7 +29,7 @@ int run(diagnose_command const& c) {
     options.menu = recorded_manoeuvres(problem);
     for (auto& m : new_manoeuvres()) options.menu.push_back(std::move(m));
     console::watch(options, progress);
-    auto run = sivid::diagnose(problem, catalogue(), options);
+    auto run = sivid::diagnose(problem, sivid::chosen_effects(catalogue(), data), options);
     progress.finish();
     auto const kept = sivid::holdout_from_dataset(data, model.about);
     auto const write = [&] {

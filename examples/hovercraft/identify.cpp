@@ -371,6 +371,7 @@ int run(identify_command const& c) {
     if (c.identifiability) told = identifiability_at(problem, found, limit);
     report::identification_report_options about{.dataset = title,
                                                 .meanings = constant_meanings(),
+                                                .further_assumptions = data.assumptions,
                                                 .plane = report::plane_channels{"x", "y", "psi"},
                                                 .date = console::today(),
                                                 .machine = console::machine_text(),
@@ -404,6 +405,7 @@ int run(identify_command const& c) {
                   sivid::identification_json(problem, found,
                                              {.dataset = data.id,
                                               .effects = c.effects,
+                                              .further_assumptions = data.assumptions,
                                               .source_folder = console::seen_from(c.out, c.dataset),
                                               .source_digest = digest,
                                               .identifiability = told ? &*told : nullptr}));

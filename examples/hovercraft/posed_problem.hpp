@@ -7,6 +7,7 @@
 
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/io/dataset.hpp>
+#include <sivid/io/dataset_effects.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
 
 #include <cstddef>
@@ -27,7 +28,8 @@ posed(sivid::dataset const& data, sivid::recorded_model const& model,
     auto problem = sivid::problem_from_dataset(data, model, outliers);
     if (effects.empty()) return problem;
     try {
-        problem = sivid::affected(problem, sivid::effects_named(catalogue(), effects));
+        problem = sivid::affected(
+            problem, sivid::effects_named(sivid::chosen_effects(catalogue(), data), effects));
     } catch (std::invalid_argument const& e) {
         throw bad_request(e.what());
     }

@@ -161,6 +161,8 @@ TEST_CASE("bad input gives one error that names the place") {
         {"key twice", json, "\"id\": \"small\",", "\"id\": \"small\", \"id\": \"other\",", "",
          "'id' appears twice"},
         {"unknown key", json, "\"id\"", "\"comment\": 1, \"id\"", "/comment", "unknown key"},
+        {"assumptions that are no texts", json, "\"id\"", "\"assumptions\": [1], \"id\"",
+         "/assumptions/0", "a text in quotes"},
         {"unknown key of a scenario", json, "\"role\": \"fit\"", "\"role\": \"fit\", \"rate\": 20",
          "/scenarios/0/rate", "unknown key"},
         {"unknown key of a parameter", json, "\"unit\": \"m^2\"",

@@ -28,6 +28,7 @@ void check_equal(dataset const& a, dataset const& b) {
         CHECK(a.fixed[i].stated == b.fixed[i].stated);
     }
     REQUIRE(a.scenarios.size() == b.scenarios.size());
+    CHECK(a.assumptions == b.assumptions);
     for (std::size_t k = 0; k < a.scenarios.size(); ++k) {
         auto const &x = a.scenarios[k], &y = b.scenarios[k];
         CHECK(x.name == y.name);
@@ -63,7 +64,9 @@ TEST_CASE("what is written reads back as the same value") {
     auto const model = io_support::hovercraft_names();
     temporary_folder const source, copy;
     io_support::write_small(source);
-    auto const data = read_dataset(source.path(), model);
+    auto data = read_dataset(source.path(), model);
+    CHECK(data.assumptions.empty());
+    data.assumptions = {"the times are exact", "u shows what it is called"};
     write_dataset(data, model, copy.path() / "new");
     check_equal(data, read_dataset(copy.path() / "new", model));
     write_dataset(data, model, copy.path() / "new"); // again, over the old files

@@ -17,17 +17,30 @@ namespace {
 
 using generator = std::mt19937_64;
 
-std::string rich_mapping(std::string const& kind) {
-    if (kind == "csv")
-        return replaced(replaced(csv_mapping, "\"column\": \"pump\"",
-                                 "\"column\": \"pump\", \"error\": 0.1, \"factor\": [0.9, 1.1]"),
-                        "\"error\": 0.02", "\"error\": {\"column\": \"bound\"}");
+std::string rich_mapping(generator& random, bool serial) {
+    bool const windows = random() % 2 == 0;
+    if (!serial) {
+        auto text =
+            replaced(replaced(csv_mapping, "\"column\": \"pump\"",
+                              "\"column\": \"pump\", \"error\": 0.1, \"factor\": [0.9, 1.1]"),
+                     "\"error\": 0.02", "\"error\": {\"column\": \"bound\"}");
+        if (!windows) return text;
+        return replaced(
+            text, "\"initial\": { \"h\": [0, 1] }",
+            R"("initial": { "h": "propose", "v": { "rate_of": "h", "acceleration": 9e9 } },
+        "thin": 2, "windows": { "length": 0.04, "every": 0.05, "first": 0.01, "count": 3,
+                                "holdout": [2], "initial": { "w": [0, 1] } })");
+    }
     auto text =
         replaced(serial_mapping, "\"longest_gap\": 0.05",
                  R"("missing": ["nan"], "longest_gap": 0.05, "gap": "split", "restart": "split")");
-    return replaced(
+    text = replaced(
         text, "\"column\": \"enc\", \"error\": 1",
         R"("column": "enc", "counter_bits": 16, "factor": 2, "divisor": 3, "error": "propose")");
+    if (!windows) return text;
+    return replaced(text, "\"initial\": {}",
+                    R"("initial": { "x": { "channel": "x", "rate": 2e6 } },
+        "windows": { "length": 0.25, "holdout": 2 })");
 }
 
 std::string rich_log(generator& random) {
@@ -71,7 +84,7 @@ void run(unsigned seed, int count, bool serial) {
     temporary_folder const folder;
     int accepted = 0, refused = 0;
     for (int i = 0; i < count; ++i) {
-        auto mapping = rich_mapping(serial ? "serial" : "csv");
+        auto mapping = rich_mapping(random, serial);
         auto recorded = serial ? rich_log(random) : rich_table(random);
         if (random() % 4 == 0)
             mapping = damaged(mapping, random, 3);
@@ -129,7 +142,7 @@ TEST_CASE("random bytes are refused or dropped") {
 TEST_CASE("huge and tiny numbers never give an invalid data set") {
     generator random{4};
     temporary_folder const folder;
-    folder.write("mapping.json", rich_mapping("csv"));
+    folder.write("mapping.json", rich_mapping(random, false));
     std::array<std::string, 12> const numbers{"1e308",
                                               "-1.7e308",
                                               "4.9e-324",

@@ -76,7 +76,7 @@ TEST_CASE("defects are refused at their place") {
     has("{ \"k\": {\"prior\": [0.1, 0.2], \"unit\": \"1/s\"} }", "{}", "no parameter is unknown");
     has("\"g\": 9.81", "\"k\": 1", "fixed and a parameter");
     has("\"max_outlier_fraction\": 0", "\"max_outlier_fraction\": 1", "outside [0, 1)");
-    has("\"role\": \"fit\", ", "", "/scenarios/0: the key 'role' is missing");
+    CHECK(refused("\"role\": \"fit\", ", "") == "no error"); // fit unless stated
     has("\"fit\"", "\"holdout\"", "no scenario has the role fit");
     has("\"name\": \"A\"", "\"name\": \"A/B\"", "/scenarios/0/name");
     has("\"linear\"", "\"cubic\"", "/scenarios/0/interpolation");
@@ -86,10 +86,11 @@ TEST_CASE("defects are refused at their place") {
     has("\"h\": { \"column\"", "\"h_err\": { \"column\": 1, \"error\": 1 }, \"h\": { \"column\"",
         "cannot be told apart");
     has("\"interpolation\"", "\"duration\": 0, \"interpolation\"", "the duration is not above 0");
-    has(", \"offset\": 0", "", "/scenarios/0/time: the key 'offset' is missing: where t = 0 lies");
+    has(", \"offset\": 0", "", "a key is missing: /scenarios/0/time/offset (where t = 0 lies");
     has("\"ms\"", "\"d\"", "/scenarios/0/time/unit: unknown unit 'd'");
     has("\"initial\": { \"h\": [0, 1] }", "\"initial\": { \"h\": 3 }", "/scenarios/0/initial/h");
-    has("} ]\n}", "}, { \"name\": \"A\" } ]\n}", "the key 'role' is missing");
+    has("} ]\n}", "}, { \"name\": \"A\" } ]\n}",
+        "3 keys are missing: /scenarios/1/file (relative to the mapping); /scenarios/1/time");
     CHECK_THROWS_AS(read("{"), input_error);
     CHECK_THROWS_AS(read("[]"), input_error);
     CHECK_THROWS_AS(read_import_mapping("/nowhere/mapping.json"), input_error);
@@ -119,4 +120,62 @@ TEST_CASE("what must hold together") {
                                 "\"longest_gap\": 0.05, \"gap\": \"split\"");
     CHECK(read(split).scenarios.size() == 1);
     CHECK_THROWS_AS(read(replaced(split, "\"first\"", "0")), input_error);
+}
+
+TEST_CASE("only what matters is asked for") {
+    auto const m = read(R"({ "format": "sivid-mapping-1", "id": "i", "model": "m",
+      "parameters": { "k": { "prior": [0, 1] } }, "max_outlier_fraction": 0,
+      "scenarios": [ { "name": "A", "file": "a.csv", "time": { "sample_time": 0.01 },
+                       "channels": { "h": { "column": 1, "error": 0.1 } } } ] })");
+    auto const& s = m.scenarios.at(0);
+    CHECK(s.role == scenario_role::fit);
+    CHECK(s.form.from == source_form::kind::csv);
+    CHECK(s.inputs.empty());
+    CHECK(s.initial.empty());
+    CHECK(*s.time.sample_time == io_support::dec("0.01"));
+    CHECK(s.time.offset.is_zero());
+    CHECK_FALSE(s.windows);
+    CHECK(s.thin == 1);
+}
+
+TEST_CASE("a sample time stands instead of a column") {
+    auto const has = [](std::string const& time, std::string const& message) {
+        CAPTURE(time);
+        CHECK_THAT(refused(R"("time": { "column": "time", "unit": "ms", "offset": 0 })", time),
+                   ContainsSubstring(message));
+    };
+    has(R"("time": { "column": "time", "sample_time": 1 })", "a column and a sample time");
+    has(R"("time": { "sample_time": 0 })", "/time/sample_time: not above 0");
+    has(R"("time": {})", "time/column (or sample_time");
+    try {
+        (void)read(
+            replaced(io_support::serial_mapping, "\"column\": \"t_ms\"", "\"sample_time\": 0.01"));
+        FAIL("a log without times was accepted");
+    } catch (input_error const& e) {
+        CHECK_THAT(e.what(), ContainsSubstring("may lose lines"));
+    }
+}
+
+TEST_CASE("windows and thinning are read for each scenario or for all") {
+    auto const with = [](std::string const& text) {
+        return read(
+            replaced(io_support::csv_mapping, "\"interpolation\"", text + ", \"interpolation\""));
+    };
+    auto const s = with(R"("thin": 5, "windows": { "length": 2, "every": 10, "first": 1, "count": 4,
+                 "holdout": [2], "initial": "propose" })")
+                       .scenarios.at(0);
+    REQUIRE(s.windows);
+    CHECK(s.thin == 5);
+    CHECK(s.windows->every == io_support::dec("10"));
+    CHECK(s.windows->most == 4);
+    CHECK(s.windows->is_holdout(2));
+    CHECK(s.windows->initial.at(0).name == "h");
+    CHECK_THROWS_AS(with("\"thin\": 0"), input_error);
+    CHECK_THROWS_AS(read(replaced(replaced(io_support::csv_mapping, "\"fit\"", "\"holdout\""),
+                                  "\"interpolation\"",
+                                  R"("windows": {"length": 1, "holdout": 2}, "interpolation")")),
+                    input_error);
+    auto const all = read(replaced(io_support::csv_mapping, "\"scenarios\"",
+                                   R"("defaults": { "thin": 3 }, "scenarios")"));
+    CHECK(all.scenarios[0].thin == 3);
 }

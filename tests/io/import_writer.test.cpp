@@ -127,6 +127,8 @@ TEST_CASE("docs/importing.md quotes what the examples give") {
         }
     }
     CHECK(quoted > 10);
+    CHECK(page.find(read_text(root + "/examples/import/arduino/mapping.json")) !=
+          std::string::npos);
     // The table's mapping stands there in full.
     auto const from = page.find("```json\n") + 8;
     auto const in_page = parse_json("page", page.substr(from, page.find("```\n", from) - from));

@@ -23,7 +23,7 @@ result read(std::string_view from, std::string_view to, std::string_view text = 
     auto const& s = kept.back().scenarios.at(0);
     result r;
     auto const table = read_recorded_table(s, text, r.protocol);
-    r.scenario = scenario_import{s, "A", only, r.protocol}.read(table);
+    r.scenario = scenario_import{s, "A", only, r.protocol}.read(table).at(0);
     return r;
 }
 std::string refused(std::string_view from, std::string_view to,

@@ -224,3 +224,30 @@ TEST_CASE("a long log takes no longer than its length") {
         clean(with(R"("gap": "keep", "restart": "drop")"), log + std::string(100000, '7'));
     CHECK(c.stretches[0].rows.size() >= 1);
 }
+
+TEST_CASE("lines with check sums: those of other implementations, and every single damage") {
+    // CRC-16/CCITT-FALSE of "123456789" is 29B1, of nothing FFFF.
+    CHECK(without_check_sum("123456789*29B1") == "123456789");
+    CHECK(without_check_sum("123456789*29b1") == "123456789");
+    CHECK(without_check_sum("*FFFF") == "");
+    for (auto const* bad :
+         {"", "*", "123456789", "123456789*29B", "123456789*29B2", "123456789 29B1",
+          "123456789*-9B1", "123456789*29G1", "12345678*29B1", "*FFF"})
+        CHECK_FALSE(without_check_sum(bad));
+    std::string const line = "4294966296,80,-512,1023*";
+    unsigned sum = 0;
+    for (; sum < 0x10000; ++sum) { // found by trying, as a reader would
+        constexpr char const* digits = "0123456789ABCDEF";
+        std::string whole = line;
+        for (int shift = 12; shift >= 0; shift -= 4) whole += digits[sum >> shift & 0xF];
+        if (!without_check_sum(whole)) continue;
+        for (std::size_t i = 0; i + 5 < whole.size(); ++i)
+            for (int bit = 0; bit < 8; ++bit) {
+                auto damaged = whole;
+                damaged[i] = static_cast<char>(damaged[i] ^ (1 << bit));
+                CHECK_FALSE(without_check_sum(damaged));
+            }
+        break;
+    }
+    CHECK(sum < 0x10000);
+}

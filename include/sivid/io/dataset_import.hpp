@@ -3,8 +3,9 @@
 #define SIVID_IO_DATASET_IMPORT_HPP
 
 #include <sivid/io/import_mapping_reader.hpp>
+#include <sivid/io/recorded_files.hpp>
 #include <sivid/io/scenario_import.hpp>
-#include <sivid/io/serial_log.hpp>
+#include <sivid/io/start_proposal.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -26,7 +27,8 @@ struct imported_dataset {
 /// Turns recorded files into a data set; users call import_dataset.
 class dataset_import {
 public:
-    explicit dataset_import(import_mapping const& mapping) : mapping_{mapping} {}
+    explicit dataset_import(import_mapping const& mapping, import_tools tools = {})
+        : mapping_{mapping}, files_{mapping, std::move(tools)} {}
 
     [[nodiscard]] imported_dataset run() {
         result_.names = mapping_.names();
@@ -47,7 +49,14 @@ public:
             data.fixed.push_back(
                 {*index_of(result_.names.constants, f.name), f.value, f.enclosure});
         data.max_outlier_fraction = mapping_.max_outlier_fraction;
+        data.effects = mapping_.effects;
         for (auto const& s : open_) data.scenarios.push_back(closed(s));
+        check_starts();
+        for (auto const& n : result_.protocol.notes())
+            if (n.what == kind::assumed)
+                data.assumptions.push_back(printable_text(
+                    text_of(n.scenario, ": ", n.field, n.field.empty() ? "" : ": ", n.reason),
+                    1000));
         for (auto const& s : data.scenarios)
             if (s.role == scenario_role::fit) return std::move(result_);
         throw input_error{
@@ -60,17 +69,20 @@ private:
     using kind = import_protocol::kind;
 
     void read(scenario_mapping const& s) {
-        auto const text = read_text(s.file);
+        auto const& source = files_.read(s);
+        auto const& stretches = source.stretches;
         auto& protocol = result_.protocol;
-        auto const stretches = s.form.from == source_form::kind::csv
-                                   ? std::vector{read_recorded_table(s, text, protocol)}
-                                   : read_serial_log(s, text, protocol);
+        for (auto const& n : source.notes) {
+            if (n.lines.empty()) protocol.add(n.what, s.name, n.field, n.reason);
+            for (auto const line : n.lines) protocol.add(n.what, s.name, n.field, n.reason, line);
+        }
         bool const only = stretches.size() == 1;
         auto const before = open_.size();
         for (std::size_t i = 0; i < stretches.size(); ++i) {
             auto const name = only ? s.name : s.name + "-" + std::to_string(i + 1);
+            std::vector<open_scenario> next;
             try {
-                open_.push_back(scenario_import{s, name, only, protocol}.read(stretches[i]));
+                next = scenario_import{s, name, only, protocol}.read(stretches[i]);
             } catch (input_error const& e) {
                 if (only) throw;
                 for (auto const& row : stretches[i].rows)
@@ -78,27 +90,34 @@ private:
                                  text_of("no scenario can be made: ", e.problem()), row.line);
                 continue;
             }
-            auto& last = open_.back();
-            last.after_break = i > 0;
-            if (last.after_break)
+            if (i > 0)
                 protocol.add(kind::changed, name, "",
                              "begins after a break: initial_after_break holds, not initial");
-            import_protocol::scenario_summary summary;
-            summary.name = name;
-            summary.role = s.role == scenario_role::fit ? "fit" : "holdout";
-            summary.file = s.file.filename().string();
-            summary.lines = lines_of(text).size();
-            summary.first = last.first_line;
-            summary.last = last.last_line;
-            summary.rows = last.rows;
-            summary.measurements = last.measurement_count();
-            summary.duration = exact_decimal::shortest(*nearest(last.duration)).text();
-            protocol.scenarios.push_back(std::move(summary));
+            for (auto& scenario : next) {
+                scenario.after_break = i > 0;
+                add_summary(scenario, source.lines);
+                open_.push_back(std::move(scenario));
+            }
         }
         if (open_.size() == before)
             throw input_error{{.file = s.file.string()},
                               "no stretch of the log makes a scenario",
                               "check the columns, \"longest_gap\", \"gap\" and \"restart\""};
+    }
+    void add_summary(open_scenario const& s, std::size_t lines) {
+        import_protocol::scenario_summary summary;
+        summary.name = s.name;
+        if (s.stretch != s.name) summary.stretch = s.stretch;
+        summary.role = s.role == scenario_role::fit ? "fit" : "holdout";
+        summary.file = s.mapping->file.filename().string();
+        summary.lines = lines;
+        summary.first = s.first_line;
+        summary.last = s.last_line;
+        summary.rows = s.rows;
+        summary.measurements = s.measurement_count();
+        summary.begin = exact_decimal::shortest(*nearest(s.begin)).text();
+        summary.duration = exact_decimal::shortest(*nearest(s.duration)).text();
+        result_.protocol.scenarios.push_back(std::move(summary));
     }
 
     /// A split may give a name that another scenario has.
@@ -121,7 +140,7 @@ private:
             import_protocol::proposed_bound note{q.mapping->name, q.mapping->unit, "", {}};
             double bound = 0;
             for (auto const& other : open_) {
-                if (other.mapping->role != scenario_role::fit) continue;
+                if (other.role != scenario_role::fit) continue;
                 for (auto const& same : inputs ? other.inputs : other.channels) {
                     if (same.mapping->name != q.mapping->name ||
                         same.mapping->error.from != bound_source::kind::proposed)
@@ -149,9 +168,9 @@ private:
 
     /// Says where a proposed bound leaves more outliers than the data set allows.
     void warn(open_scenario const& s, std::string const& name, error_bound_proposal const& p) {
-        if (p.outliers > mapping_.max_outlier_fraction.times(s.measurement_count()).floor())
+        if (p.outliers > mapping_.max_outlier_fraction.times(s.reading_count()).floor())
             result_.protocol.add(
-                kind::assumed, s.name, name,
+                kind::assumed, s.stretch, name,
                 text_of(std::to_string(p.outliers),
                         " samples may violate the proposed bound, more than "
                         "max_outlier_fraction allows: raise it, or state a bound"));
@@ -171,10 +190,10 @@ private:
         return more.is_zero() ? result : rounded_up(result + more, 9);
     }
 
-    [[nodiscard]] scenario closed(open_scenario const& s) const {
+    [[nodiscard]] scenario closed(open_scenario const& s) {
         scenario result;
         result.name = s.name;
-        result.role = s.mapping->role;
+        result.role = s.role;
         result.duration = *nearest(s.duration);
         for (auto const& name : result_.names.inputs) {
             auto const q = std::find_if(s.inputs.begin(), s.inputs.end(), [&](auto const& i) {
@@ -198,14 +217,11 @@ private:
         };
         std::vector<entry> all;
         for (auto const& q : s.channels)
-            for (auto const& sample : q.samples) {
-                auto error = bound(q, sample, false);
-                auto const& value = sample.reading.value;
-                auto const ends = enclose(value - error, value + error);
-                if (!ends) (void)enclosed(s, sample, error + magnitude(value));
-                all.push_back({{*nearest(sample.time),
-                                *index_of(result_.names.channels, q.mapping->name), *ends},
-                               {value, error}});
+            for (std::size_t k = 0; k < q.samples.size(); k += s.mapping->thin) {
+                auto r = reading(s, q, k);
+                all.push_back(
+                    {{r.time, *index_of(result_.names.channels, q.mapping->name), r.bound},
+                     {std::move(r.value), std::move(r.error)}});
             }
         std::sort(all.begin(), all.end(), [](entry const& a, entry const& b) {
             return std::pair{a.m.time, a.m.channel} < std::pair{b.m.time, b.m.channel};
@@ -215,9 +231,114 @@ private:
             result.stated.push_back(std::move(e.stated));
         }
         result.initial.assign(result_.names.states.size(), {interval::whole(), std::nullopt});
-        for (auto const& r : s.after_break ? s.mapping->initial_after_break : s.mapping->initial)
-            result.initial[*index_of(result_.names.states, r.name)] = {r.range.enclosure, r.range};
+        for (auto const* m : starts_of(s))
+            if (auto const range = start(s, *m))
+                result.initial[*index_of(result_.names.states, m->name)] = {range->enclosure,
+                                                                            range};
+        check_budget(s);
         return result;
+    }
+
+    [[nodiscard]] start_reading reading(open_scenario const& s, imported_quantity const& q,
+                                        std::size_t k) const {
+        auto const& sample = q.samples[k];
+        auto const& value = sample.reading.value;
+        auto error = bound(q, sample, false);
+        auto const ends = enclose(value - error, value + error);
+        if (!ends) (void)enclosed(s, sample, error + magnitude(value));
+        return {*nearest(sample.time), value, std::move(error), *ends};
+    }
+
+    /// What the mapping says of each state where a scenario begins. What it states for t = 0 does
+    /// not hold for a later window; what it proposes holds everywhere.
+    [[nodiscard]] static std::vector<mapped_start const*> starts_of(open_scenario const& s) {
+        std::vector<mapped_start const*> result;
+        auto const add = [&](std::vector<mapped_start> const& list, bool stated) {
+            for (auto const& m : list)
+                if ((stated || m.from != mapped_start::kind::stated) &&
+                    std::none_of(result.begin(), result.end(),
+                                 [&](auto const* other) { return other->name == m.name; }))
+                    result.push_back(&m);
+        };
+        bool const first = s.begin.is_zero();
+        if (s.mapping->windows) add(s.mapping->windows->initial, true);
+        if (s.after_break) add(s.mapping->initial_after_break, first);
+        add(s.mapping->initial, first && !s.after_break);
+        return result;
+    }
+
+    /// Where a state starts; nothing: the readings do not say it, which is noted.
+    [[nodiscard]] std::optional<stated_range> start(open_scenario const& s, mapped_start const& m) {
+        if (m.from == mapped_start::kind::stated) return m.range;
+        auto const q = std::find_if(s.channels.begin(), s.channels.end(),
+                                    [&](auto const& c) { return c.mapping->name == m.channel; });
+        std::vector<start_reading> readings;
+        for (std::size_t k = 0; k < q->samples.size(); ++k) readings.push_back(reading(s, *q, k));
+        auto const& fraction = mapping_.max_outlier_fraction;
+        auto const found = propose_start(m, readings, fraction.times(s.reading_count()).floor());
+        bool const rate = m.from == mapped_start::kind::rate;
+        auto& unknown = unknown_starts_[&m];
+        if (!found.range) {
+            auto const why = text_of("the start of ", in_quotes(m.name), " in ", in_quotes(s.name),
+                                     ": ", found.refusal);
+            if (found.contradicted)
+                throw input_error{m.place,
+                                  text_of(why, " of ", in_quotes(m.channel),
+                                          " within their error bounds and ",
+                                          rate ? "the acceleration" : "the rate"),
+                                  "one of the bounds is too small: enlarge it"};
+            unknown.second = why;
+            result_.protocol.add(kind::decided, s.stretch, m.name,
+                                 text_of("start not known where there are ", found.refusal),
+                                 s.first_line);
+            return std::nullopt;
+        }
+        unknown.first = true;
+        auto const range = text_of("[", m.range.lower.text(), ", ", m.range.upper.text(), "]");
+        auto const whole = s.mapping->windows ? "each window" : "the scenario";
+        result_.protocol.add(
+            kind::assumed, s.stretch, m.name,
+            text_of("start from readings: ", rate ? "it is the rate of what " : "it is what ",
+                    in_quotes(m.channel), " shows",
+                    m.bounded ? text_of(rate ? ", and changes itself" : ", and changes", " by ",
+                                        range, " a second at any time of ", whole)
+                              : std::string{},
+                    fraction.is_zero()
+                        ? std::string{", and no reading is outside its bound"}
+                        : text_of(", and at most ", fraction.text(), " of the readings of ", whole,
+                                  ", thinned out or not, are outside their bounds")));
+        return found.range;
+    }
+
+    /// A start that is never known where one was to be proposed.
+    void check_starts() const {
+        for (auto const& [m, found] : unknown_starts_)
+            if (!found.first)
+                throw input_error{m->place, found.second,
+                                  text_of("state its box, ", in_quotes(m->name),
+                                          ": [lower, upper], or bound how fast it changes: "
+                                          "{\"channel\": ..., \"rate\": ...}")};
+    }
+
+    /// A share of outliers that holds for a record need not hold for each part of it.
+    void check_budget(open_scenario const& s) {
+        auto const& fraction = mapping_.max_outlier_fraction;
+        if (fraction.is_zero() || (!s.mapping->windows && s.mapping->thin == 1)) return;
+        auto const count = s.measurement_count();
+        if (fraction.times(count).floor() == 0)
+            throw input_error{{.file = mapping_.file.string(),
+                               .pointer = "/max_outlier_fraction",
+                               .is_json = true},
+                              text_of("of the ", std::to_string(count), " measurements of ",
+                                      in_quotes(s.name), " ", fraction.text(),
+                                      " allows no outlier, although the record may have some"),
+                              "state a larger fraction, longer windows or less thinning; or 0, if "
+                              "there is none"};
+        result_.protocol.add(kind::assumed, s.stretch, "",
+                             text_of("of the measurements kept in each ",
+                                     s.mapping->windows ? "window" : "scenario", " at most ",
+                                     fraction.text(),
+                                     " are outliers, wherever those of the record lie"));
     }
 
     static interval enclosed(open_scenario const& s, imported_sample const& sample,
@@ -231,7 +352,9 @@ private:
     }
 
     import_mapping const& mapping_;
+    recorded_files files_;
     std::vector<open_scenario> open_;
+    std::map<mapped_start const*, std::pair<bool, std::string>> unknown_starts_; ///< is one known?
     std::map<std::pair<bool, std::string>, exact_decimal> proposed_;
     imported_dataset result_;
 };
@@ -241,8 +364,9 @@ private:
 /// its
 ///             bound enlarged by what the conversion rounds; every line that is not has a note
 /// @throws input_error
-[[nodiscard]] inline imported_dataset import_dataset(import_mapping const& mapping) {
-    return dataset_import{mapping}.run();
+[[nodiscard]] inline imported_dataset import_dataset(import_mapping const& mapping,
+                                                     import_tools tools = {}) {
+    return dataset_import{mapping, std::move(tools)}.run();
 }
 
 } // namespace sivid

@@ -3,6 +3,7 @@
 #define SIVID_IO_DATASET_VALUE_HPP
 
 #include <sivid/io/exact_decimal.hpp>
+#include <sivid/io/input_error.hpp>
 #include <sivid/io/outlier_rule.hpp>
 #include <sivid/measurement/record.hpp>
 #include <sivid/measurement/signal.hpp>
@@ -78,6 +79,17 @@ struct scenario {
     }
 };
 
+/// What a data set says of an effect that a diagnosis may try (`chosen_effects`).
+struct dataset_effect {
+    struct prior {
+        std::string parameter, lower, upper; ///< decimals
+    };
+    std::string name;
+    bool off = false; ///< it is not tried
+    std::vector<prior> priors;
+    input_place place; ///< for messages
+};
+
 /// A campaign: what is known before, and what was recorded. A value; read_dataset makes it,
 /// write_dataset stores it.
 struct dataset {
@@ -86,6 +98,8 @@ struct dataset {
     std::vector<fixed_constant> fixed;
     exact_decimal max_outlier_fraction;
     std::vector<scenario> scenarios;
+    std::vector<dataset_effect> effects;  ///< those of which something is said
+    std::vector<std::string> assumptions; ///< what bounds, starts and times rest on, in words
 
     /// \f$ q_s = \lfloor f\, n_s \rfloor \f$, exact in decimals: so many measurements of s may
     /// violate their bounds.

@@ -93,7 +93,8 @@ namespace sivid {
     for (auto const& p : data.parameters) {
         json.key(p.name).begin_object(layout::one_line).key("prior");
         range(p.prior);
-        json.key("unit").string(p.unit).end_object();
+        if (!p.unit.empty()) json.key("unit").string(p.unit);
+        json.end_object();
     }
     json.end_object();
     if (!data.fixed.empty()) {
@@ -124,7 +125,32 @@ namespace sivid {
         }
         json.end_object().end_object();
     }
-    json.end_array().end_object();
+    json.end_array();
+    if (!data.effects.empty()) {
+        json.key("effects").begin_object();
+        for (auto const& e : data.effects) {
+            json.key(e.name);
+            if (e.off) {
+                json.string("off");
+                continue;
+            }
+            json.begin_object(layout::one_line);
+            for (auto const& p : e.priors) {
+                json.key(p.parameter).begin_array(layout::one_line);
+                for (auto const* end : {&p.lower, &p.upper})
+                    json.decimal(exact_decimal::parse(*end).value());
+                json.end_array();
+            }
+            json.end_object();
+        }
+        json.end_object();
+    }
+    if (!data.assumptions.empty()) {
+        json.key("assumptions").begin_array();
+        for (auto const& a : data.assumptions) json.string(a);
+        json.end_array();
+    }
+    json.end_object();
     return json.text();
 }
 

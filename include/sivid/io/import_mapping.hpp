@@ -7,6 +7,7 @@
 #include <sivid/io/model_names.hpp>
 #include <sivid/io/unit_conversion.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -21,6 +22,10 @@ struct column_reference {
     std::string heading;
     std::size_t number = 0; ///< 0: by heading
     input_place place;      ///< in the mapping, for messages
+
+    [[nodiscard]] friend bool operator==(column_reference const& a, column_reference const& b) {
+        return a.heading == b.heading && a.number == b.number;
+    }
 };
 
 /// Where the error bound of a quantity comes from.
@@ -57,7 +62,7 @@ enum class break_policy {
 
 /// The form of a recorded file.
 struct source_form {
-    enum class kind { csv, serial };
+    enum class kind { csv, serial, matlab };
     kind from = kind::csv;
     char separator = ','; ///< ' ' stands for any run of blanks
     char decimal = '.';
@@ -66,12 +71,16 @@ struct source_form {
     std::size_t skip_after_heading = 0;
     std::vector<std::string> fields; ///< serial: what a line holds; "_" is not looked at
     exact_decimal longest_gap;       ///< serial: the longest usual step of the time [s]
+    bool check_sums = false;         ///< serial: each line ends with *HHHH, its crc16
     break_policy gap = break_policy::refuse, restart = break_policy::refuse;
+
+    [[nodiscard]] friend bool operator==(source_form const&, source_form const&) = default;
 };
 
 /// How the time of the data set follows from a column: t = reading * 10^power + offset.
 struct time_mapping {
     column_reference column;
+    std::optional<exact_decimal> sample_time; ///< no column: row k, from 0, is at k times this
     std::string unit = "s";
     unit_conversion to_seconds;
     std::optional<unsigned> counter_bits; ///< serial: the counter wraps
@@ -79,10 +88,35 @@ struct time_mapping {
     exact_decimal offset;                 ///< otherwise [s]
 };
 
-/// A range that the mapping states for a state.
-struct mapped_range {
+/// What the mapping says of a state at a start.
+struct mapped_start {
+    enum class kind {
+        stated, ///< it is in `range`
+        value,  ///< it is what the channel shows; `range`, if bounded, has its rate of change
+        rate    ///< it is the rate of what the channel shows; `range` has its own rate of change
+    };
     std::string name;
+    kind from = kind::stated;
     stated_range range;
+    bool bounded = true;
+    std::string channel;
+    input_place place;
+};
+
+/// Stretches that a record is cut into, each with a start of its own: window k, from 1, begins at
+/// first + (k - 1) every, or at the first common reading after that if its start needs one.
+struct window_mapping {
+    exact_decimal length, every, first; ///< [s], every >= length
+    std::size_t most = 0;               ///< so many; 0: as many as there are
+    std::size_t holdout_every = 0;      ///< each k-th is held out; 0: none
+    std::vector<std::size_t> holdout;   ///< or these
+    std::vector<mapped_start> initial;  ///< at the start of each
+    input_place place;
+
+    [[nodiscard]] bool is_holdout(std::size_t number) const {
+        return (holdout_every > 0 && number % holdout_every == 0) ||
+               std::find(holdout.begin(), holdout.end(), number) != holdout.end();
+    }
 };
 
 /// How one recorded file becomes a scenario.
@@ -95,8 +129,10 @@ struct scenario_mapping {
     time_mapping time;
     std::optional<exact_decimal> duration; ///< nothing: as long as all inputs last
     std::vector<quantity_mapping> inputs, channels;
-    std::vector<mapped_range> initial;
-    std::vector<mapped_range> initial_after_break; ///< of the scenarios that a split begins
+    std::vector<mapped_start> initial;             ///< stated ones: at t = 0 alone
+    std::vector<mapped_start> initial_after_break; ///< of the scenarios that a split begins
+    std::optional<window_mapping> windows;
+    std::size_t thin = 1; ///< each so-many-th reading of a channel is kept
     input_place place;
 };
 
@@ -116,6 +152,7 @@ struct import_mapping {
     std::vector<parameter> parameters;
     std::vector<constant> fixed;
     exact_decimal max_outlier_fraction;
+    std::vector<dataset_effect> effects;
     std::vector<scenario_mapping> scenarios;
 
     /// The names that occur: as much of the model as the data set needs to know.
@@ -133,6 +170,8 @@ struct import_mapping {
             for (auto const& q : s.channels) add(result.channels, q.name, q.unit);
             for (auto const* list : {&s.initial, &s.initial_after_break})
                 for (auto const& r : *list) add(result.states, r.name, "");
+            if (!s.windows) continue;
+            for (auto const& r : s.windows->initial) add(result.states, r.name, "");
         }
         result.state_ranges.assign(result.states.size(), interval::whole());
         return result;

@@ -2,10 +2,13 @@
 #ifndef SIVID_IO_IMPORT_MAPPING_READER_HPP
 #define SIVID_IO_IMPORT_MAPPING_READER_HPP
 
+#include <sivid/io/dataset_effects.hpp>
 #include <sivid/io/import_mapping.hpp>
 #include <sivid/io/json_document.hpp>
 #include <sivid/io/mapping_entries.hpp>
+#include <sivid/io/required_keys.hpp>
 #include <sivid/io/source_form_reader.hpp>
+#include <sivid/io/window_mapping_reader.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -28,7 +31,8 @@ public:
                 text_of("unknown format ", in_quotes(root.at("format").string())),
                 "this version reads sivid-mapping-1");
         root.allow_only({"format", "id", "model", "parameters", "fixed", "max_outlier_fraction",
-                         "defaults", "scenarios"});
+                         "effects", "defaults", "scenarios"});
+        require_mapping_keys(root);
         import_mapping result;
         result.file = file_;
         result.id = root.at("id").string();
@@ -40,9 +44,10 @@ public:
             !(result.max_outlier_fraction < *exact_decimal::parse("1")))
             fraction.fail("the fraction is outside [0, 1)",
                           "state the share of outliers, such as 0.05");
+        if (auto const* list = root.find("effects")) result.effects = read_dataset_effects(*list);
         if (auto const* d = root.find("defaults")) {
             d->allow_only({"role", "file", "source", "time", "duration", "interpolation", "inputs",
-                           "channels", "initial", "initial_after_break"});
+                           "channels", "initial", "initial_after_break", "windows", "thin"});
             defaults_ = d;
         }
         for (auto const& entry : root.at("scenarios").elements()) {
@@ -62,7 +67,8 @@ private:
         for (std::size_t i = 0; i < list.members().size(); ++i) {
             auto const& entry = list.members()[i];
             entry.allow_only({"prior", "unit"});
-            result.parameters.push_back({list.name_of(i), entry.at("unit").any_string(),
+            auto const* unit = entry.find("unit");
+            result.parameters.push_back({list.name_of(i), unit ? unit->any_string() : "",
                                          mapping_entries::range(entry.at("prior"))});
         }
         if (result.parameters.empty())
@@ -92,16 +98,16 @@ private:
 
     [[nodiscard]] scenario_mapping read_scenario(json_value const& entry) const {
         entry.allow_only({"name", "role", "file", "source", "time", "duration", "interpolation",
-                          "inputs", "channels", "initial", "initial_after_break"});
+                          "inputs", "channels", "initial", "initial_after_break", "windows",
+                          "thin"});
         scenario_mapping result;
         result.place = entry.place();
         result.name = mapping_entries::name(entry.at("name"), entry.at("name").string());
-        result.role = need(entry, "role").is_second_of("fit", "holdout") ? scenario_role::holdout
-                                                                         : scenario_role::fit;
+        if (auto const* role = either(entry, "role"); role && role->is_second_of("fit", "holdout"))
+            result.role = scenario_role::holdout;
         std::filesystem::path const stated{need(entry, "file").string()};
         result.file = stated.is_absolute() ? stated : file_.parent_path() / stated;
-        auto const& form = need(entry, "source");
-        result.form = read_source_form(form);
+        if (auto const* form = either(entry, "source")) result.form = read_source_form(*form);
         bool const serial = result.form.from == source_form::kind::serial;
         result.time = read_time_mapping(need(entry, "time"), serial);
         bool const splits =
@@ -115,25 +121,26 @@ private:
             if (!(*nearest(*result.duration) > 0))
                 duration->fail("the duration is not above 0", "state it in seconds");
         }
-        result.between = need(entry, "interpolation").is_second_of("linear", "hold")
-                             ? interpolation::hold
-                             : interpolation::linear;
-        result.inputs = quantities(need(entry, "inputs"), true);
+        if (auto const* between = either(entry, "interpolation");
+            between && between->is_second_of("linear", "hold"))
+            result.between = interpolation::hold;
+        if (auto const* inputs = either(entry, "inputs")) result.inputs = quantities(*inputs, true);
         auto const& channels = need(entry, "channels");
         result.channels = quantities(channels, false);
         if (result.channels.empty())
             channels.fail("no channel is measured", "map at least one channel of the model");
-        result.initial = ranges(need(entry, "initial"));
+        if (auto const* initial = either(entry, "initial"))
+            result.initial = read_starts(*initial, result.channels);
         if (auto const* after = either(entry, "initial_after_break"))
-            result.initial_after_break = ranges(*after);
-        return result;
-    }
-
-    static std::vector<mapped_range> ranges(json_value const& list) {
-        std::vector<mapped_range> result;
-        for (std::size_t i = 0; i < list.members().size(); ++i)
-            result.push_back({mapping_entries::name(list.members()[i], list.name_of(i)),
-                              mapping_entries::range(list.members()[i])});
+            result.initial_after_break = read_starts(*after, result.channels);
+        if (auto const* thin = either(entry, "thin"))
+            result.thin = mapping_entries::whole(*thin, 1, 1'000'000);
+        if (auto const* windows = either(entry, "windows")) {
+            result.windows = read_window_mapping(*windows, result.channels);
+            if (result.role == scenario_role::holdout && windows->find("holdout") != nullptr)
+                windows->at("holdout").fail("the whole scenario is held out",
+                                            "remove this, or make the scenario's role fit");
+        }
         return result;
     }
 

@@ -40,7 +40,14 @@ public:
         std::size_t first = 0, last = 0; ///< lines that the scenario comes from
         std::size_t rows = 0;            ///< of them read
         std::size_t measurements = 0;    ///< in the data set
-        std::string duration;
+        std::string duration;            ///< [s]
+        std::string stretch = {};        ///< what it is a window of; "": none
+        std::string begin = "0";         ///< [s], on the time axis of the stretch
+
+        /// The scenario that its notes name.
+        [[nodiscard]] std::string const& noted_as() const {
+            return stretch.empty() ? name : stretch;
+        }
     };
 
     struct proposed_bound {
@@ -85,16 +92,28 @@ public:
     /// whatever the names are.
     [[nodiscard]] std::string text() const {
         std::string out = "data set " + dataset + ", imported by " + mapping + "\n";
-        for (auto const& s : scenarios) {
-            out += "\nscenario " + s.name + " (" + s.role + "): " + s.file + ", lines " +
-                   std::to_string(s.first) + " to " + std::to_string(s.last) + " of " +
-                   std::to_string(s.lines) + ", " + std::to_string(s.rows) + " rows, " +
-                   std::to_string(s.measurements) + " measurements, " + s.duration + " s\n";
-            append_notes(out, [&](std::string const& name) { return name == s.name; });
+        constexpr std::size_t most = 12; // windows of a stretch, and scenarios of a bound
+        for (std::size_t i = 0, shown = 0; i < scenarios.size(); ++i) {
+            auto const& s = scenarios[i];
+            bool const first = i == 0 || scenarios[i - 1].noted_as() != s.noted_as();
+            bool const last =
+                i + 1 == scenarios.size() || scenarios[i + 1].noted_as() != s.noted_as();
+            shown = first ? 0 : shown + 1;
+            if (shown < most)
+                out += (first ? "\nscenario " : "scenario ") + s.name + " (" + s.role +
+                       "): " + s.file + ", lines " + std::to_string(s.first) + " to " +
+                       std::to_string(s.last) + " of " + std::to_string(s.lines) + ", " +
+                       std::to_string(s.rows) + " rows, " + std::to_string(s.measurements) +
+                       " measurements, " + s.duration + " s" +
+                       (s.stretch.empty() ? "" : " from " + s.begin + " s") + "\n";
+            else if (last)
+                out += "... and " + std::to_string(shown + 1 - most) + " more\n";
+            if (last)
+                append_notes(out, [&](std::string const& name) { return name == s.noted_as(); });
         }
         auto const elsewhere = [&](std::string const& name) {
             return std::none_of(scenarios.begin(), scenarios.end(),
-                                [&](auto const& s) { return s.name == name; });
+                                [&](auto const& s) { return s.noted_as() == name; });
         };
         std::string rest;
         append_notes(rest, elsewhere);
@@ -102,7 +121,12 @@ public:
         for (auto const& b : bounds) {
             out += "\nerror bound of " + b.quantity + ", proposed: " + b.bound +
                    (b.unit.empty() ? "" : " " + b.unit) + "\n";
+            std::size_t shown = 0;
             for (auto const& [name, p] : b.scenarios) {
+                if (shown++ == most) {
+                    out += "  ... and " + std::to_string(b.scenarios.size() - most) + " more\n";
+                    break;
+                }
                 out += "  " + name + ": ";
                 out += p.refusal.empty()
                            ? "step " + number(p.quantum) + ", spread " + number(p.spread) +
@@ -135,7 +159,7 @@ public:
             j.key("file").string(printable_text(s.file)).key("lines").integer(s.lines);
             j.key("first").integer(s.first).key("last").integer(s.last);
             j.key("rows").integer(s.rows).key("measurements").integer(s.measurements);
-            j.key("duration").string(s.duration).end_object();
+            j.key("begin").string(s.begin).key("duration").string(s.duration).end_object();
         }
         j.end_array().key("notes").begin_array();
         for (auto const& n : notes_) {

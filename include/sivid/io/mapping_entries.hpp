@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
 
 /// The small entries of a mapping: names, words, ranges, columns, counters. Each either gives what
@@ -38,6 +39,16 @@ namespace sivid::mapping_entries {
     if (!enclosure || mag(*enclosure) > farthest_range)
         entry.fail("the range reaches beyond 1e100", "state what is physically possible");
     return {lower, upper, *enclosure};
+}
+
+/// [lower, upper], or for one number m >= 0 [-m, m].
+[[nodiscard]] inline stated_range symmetric_range(json_value const& entry) {
+    if (entry.type() != json_value::kind::number) return range(entry);
+    auto const most = entry.number();
+    auto const enclosure = most.is_negative() ? std::nullopt : enclose(-most, most);
+    if (!enclosure || mag(*enclosure) > farthest_range)
+        entry.fail("no number from 0 to 1e100", "write the largest magnitude, or [lower, upper]");
+    return {-most, most, *enclosure};
 }
 
 /// A whole number from `least` to `most`.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -71,9 +72,42 @@ struct recorded_table {
     return found;
 }
 
+/// Collects the rows of a table, whose times must increase: it has been through a program that
+/// could have written it properly.
+class recorded_rows {
+public:
+    /// @param fail  (line, is it the time, problem, remedy): throws input_error
+    using complaint =
+        std::function<void(std::size_t, bool, std::string const&, std::string const&)>;
+    recorded_rows(scenario_mapping const& s, complaint fail) : s_{s}, fail_{std::move(fail)} {}
+
+    /// @param stamp  as read; without a column of times the row's number says when it was
+    void add(std::size_t line, std::optional<exact_decimal> const& stamp,
+             std::vector<std::optional<exact_decimal>> cells) {
+        auto const& step = s_.time.sample_time;
+        if (!step && !stamp)
+            fail_(line, true, "the time is missing", "state it or remove the line");
+        auto const seconds = s_.time.to_seconds(step ? step->times(table_.rows.size()) : *stamp);
+        if (!seconds) fail_(line, true, "the time is beyond the range of double", "check its unit");
+        if (!table_.rows.empty() && !(table_.rows.back().time < seconds->value))
+            fail_(line, true,
+                  text_of("the time ", in_quotes(stamp ? stamp->text() : step->text()),
+                          " does not come after the one before it"),
+                  "sort the lines by time and keep each time once");
+        if (table_.first_line == 0) table_.first_line = line;
+        table_.last_line = line;
+        table_.rows.push_back({line, seconds->value, std::move(cells)});
+    }
+    [[nodiscard]] recorded_table take() { return std::move(table_); }
+
+private:
+    scenario_mapping const& s_;
+    complaint fail_;
+    recorded_table table_;
+};
+
 /// Reads a table with headings, in the form and with the columns that the mapping states. A table
-/// is refused where a log would be cleaned: it has been through a program that could have written
-/// it properly.
+/// is refused where a log would be cleaned.
 /// @throws input_error  for a ragged line, a cell that is no number, a time that does not increase
 [[nodiscard]] inline recorded_table
 read_recorded_table(scenario_mapping const& s, std::string_view text, import_protocol& protocol) {
@@ -91,9 +125,12 @@ read_recorded_table(scenario_mapping const& s, std::string_view text, import_pro
                           std::move(problem),
                           std::move(remedy)};
     };
-    recorded_table result;
     std::vector<std::size_t> columns;
-    std::size_t time_column = 0, skip = s.form.skip_lines;
+    std::optional<std::size_t> time_column;
+    recorded_rows rows{s, [&](std::size_t line, bool, auto const& problem, auto const& remedy) {
+                           fail(line, time_column ? *time_column + 1 : 0, problem, remedy);
+                       }};
+    std::size_t skip = s.form.skip_lines;
     for (auto const& line : lines_of(text)) {
         if (skip > 0) {
             --skip;
@@ -108,7 +145,7 @@ read_recorded_table(scenario_mapping const& s, std::string_view text, import_pro
                  "quote whole cells, and end each on its line");
         if (headings.empty()) {
             headings = *cells;
-            time_column = find_column(s.time.column, headings, file);
+            if (!s.time.sample_time) time_column = find_column(s.time.column, headings, file);
             for (auto const& c : columns_of(s)) columns.push_back(find_column(c, headings, file));
             skip = s.form.skip_after_heading;
             continue;
@@ -131,30 +168,14 @@ read_recorded_table(scenario_mapping const& s, std::string_view text, import_pro
                              "'), or list the text under \"missing\""));
             return value;
         };
-        auto const time = number(time_column);
-        if (!time)
-            fail(line.number, time_column + 1, "the time is missing",
-                 "state it or remove the line");
-        recorded_table::row row;
-        row.line = line.number;
-        auto const seconds = s.time.to_seconds(*time);
-        if (!seconds)
-            fail(line.number, time_column + 1, "the time is beyond the range of double",
-                 "check its unit");
-        row.time = seconds->value;
-        if (!result.rows.empty() && !(result.rows.back().time < row.time))
-            fail(line.number, time_column + 1,
-                 text_of("the time ", in_quotes((*cells)[time_column]),
-                         " does not come after the one before it"),
-                 "sort the lines by time and keep each time once");
-        for (auto const c : columns) row.cells.push_back(number(c));
-        if (result.first_line == 0) result.first_line = line.number;
-        result.last_line = line.number;
-        result.rows.push_back(std::move(row));
+        auto const stamp = time_column ? number(*time_column) : std::nullopt;
+        std::vector<std::optional<exact_decimal>> readings;
+        for (auto const c : columns) readings.push_back(number(c));
+        rows.add(line.number, stamp, std::move(readings));
     }
     if (headings.empty())
         throw input_error{{.file = file}, "no heading line", "the first line names the columns"};
-    return result;
+    return rows.take();
 }
 
 } // namespace sivid

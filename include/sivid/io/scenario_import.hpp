@@ -2,7 +2,7 @@
 #ifndef SIVID_IO_SCENARIO_IMPORT_HPP
 #define SIVID_IO_SCENARIO_IMPORT_HPP
 
-#include <sivid/io/quantity_import.hpp>
+#include <sivid/io/window_cut.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -13,24 +13,8 @@
 
 namespace sivid {
 
-/// A scenario whose proposed error bounds are still open.
-struct open_scenario {
-    std::string name;
-    scenario_mapping const* mapping = nullptr;
-    bool after_break = false; ///< not the first stretch of its log
-    exact_decimal duration;
-    std::vector<imported_quantity> inputs, channels; ///< in the order of the mapping
-    std::size_t first_line = 0, last_line = 0, rows = 0;
-
-    [[nodiscard]] std::size_t measurement_count() const {
-        std::size_t count = 0;
-        for (auto const& q : channels) count += q.samples.size();
-        return count;
-    }
-};
-
-/// Brings one recorded stretch onto the time axis of a scenario: units, offset, duration. Samples
-/// outside are dropped, none is invented.
+/// Brings one recorded stretch onto the time axis of a scenario: units, offset, duration; and cuts
+/// it into windows, no measurement in two of them. Samples outside are dropped, none is invented.
 class scenario_import {
 public:
     /// @param only  the stretch is the whole record: a defect is bad input, and a stated duration
@@ -41,34 +25,44 @@ public:
         : s_{s}, name_{std::move(name)}, only_{only}, protocol_{protocol} {}
 
     /// @throws input_error  when the stretch makes no scenario
-    [[nodiscard]] open_scenario read(recorded_table const& table) {
-        open_scenario result;
-        result.name = name_;
-        result.mapping = &s_;
-        result.first_line = table.first_line;
-        result.last_line = table.last_line;
-        result.rows = table.rows.size();
+    [[nodiscard]] std::vector<open_scenario> read(recorded_table const& table) {
+        open_scenario whole;
+        whole.name = whole.stretch = name_;
+        whole.mapping = &s_;
+        whole.role = s_.role;
+        whole.first_line = table.first_line;
+        whole.last_line = table.last_line;
+        whole.rows = table.rows.size();
         std::size_t cell = 0;
         for (auto const& q : s_.inputs)
-            result.inputs.push_back(quantity_import{s_, q, name_, protocol_}.read(table, cell));
+            whole.inputs.push_back(quantity_import{s_, q, name_, protocol_}.read(table, cell));
         for (auto const& q : s_.channels)
-            result.channels.push_back(quantity_import{s_, q, name_, protocol_}.read(table, cell));
+            whole.channels.push_back(quantity_import{s_, q, name_, protocol_}.read(table, cell));
         if (table.rows.empty()) fail(0, "the file has no data line", "check the file");
 
         protocol_.add(
             kind::assumed, name_, "",
             "the times are exact: no bound allows for jitter, delay or the step of a clock");
-        shift(table, result);
-        result.duration = duration(result);
-        for (auto& q : result.inputs) trim_input(q, result.duration);
-        for (auto& q : result.channels)
-            keep(q, [&](exact_decimal const& t) {
-                return *nearest(t) >= 0 && *nearest(t) <= *nearest(result.duration);
-            });
-        if (result.measurement_count() == 0)
-            fail(table.last_line, "no measurement lies within the duration",
-                 "check the channels' columns and the time's offset");
-        for (auto const& q : result.inputs) report_gaps(q);
+        if (s_.time.sample_time)
+            protocol_.add(kind::assumed, name_, "",
+                          text_of("rows follow each other by ", s_.time.sample_time->text(), " ",
+                                  s_.time.unit, " exactly, and none is missing"));
+        auto const offset = s_.time.from_first ? -start(table, whole) : s_.time.offset;
+        if (!offset.is_zero())
+            protocol_.add(kind::changed, name_, "",
+                          text_of("time shifted by ", offset.text(), " s"));
+        shift_times(whole, offset, protocol_);
+        whole.duration = duration(whole);
+        if (s_.thin > 1)
+            protocol_.add(kind::changed, name_, "",
+                          text_of("thinned: one of ", std::to_string(s_.thin),
+                                  " readings of a channel is kept, beginning with the first"));
+        std::vector<open_scenario> result;
+        if (s_.windows)
+            result = window_cut{whole, table, protocol_}.windows();
+        else
+            result.push_back(std::move(whole));
+        for (auto& s : result) close(s);
         return result;
     }
 
@@ -101,30 +95,16 @@ private:
         fail(table.last_line, "no row has a reading of every input", "check the inputs' columns");
     }
 
-    /// Puts t = 0 where the mapping says; times that coincide as doubles are thinned.
-    void shift(recorded_table const& table, open_scenario& result) {
-        auto const offset = s_.time.from_first ? -start(table, result) : s_.time.offset;
-        if (!offset.is_zero())
-            protocol_.add(kind::changed, name_, "",
-                          text_of("time shifted by ", offset.text(), " s"));
-        for (auto* list : {&result.inputs, &result.channels})
-            for (auto& q : *list) {
-                std::vector<imported_sample> kept;
-                for (auto& sample : q.samples) {
-                    sample.time = sample.time + offset;
-                    auto const t = nearest(sample.time);
-                    if (!t)
-                        fail(sample.line, "the time is beyond the range of double",
-                             "check the time's unit and offset");
-                    if (!kept.empty() && !(*nearest(kept.back().time) < *t))
-                        protocol_.add(kind::dropped, name_, q.mapping->name,
-                                      "its time is the same double as that of the one before",
-                                      sample.line);
-                    else
-                        kept.push_back(std::move(sample));
-                }
-                q.samples = std::move(kept);
-            }
+    /// Leaves what lies within the duration, and the inputs' knots next to it.
+    void close(open_scenario& s) {
+        for (auto& q : s.inputs) trim_input(q, s.duration);
+        double const end = *nearest(s.duration);
+        for (auto& q : s.channels)
+            keep(q, [&](exact_decimal const& t) { return *nearest(t) >= 0 && *nearest(t) <= end; });
+        if (s.measurement_count() == 0)
+            fail(s.last_line, "no measurement lies within the duration",
+                 "check the channels' columns and the time's offset");
+        for (auto const& q : s.inputs) report_gaps(q);
     }
 
     [[nodiscard]] exact_decimal duration(open_scenario const& result) const {
@@ -158,7 +138,7 @@ private:
                  "state a shorter duration, or none");
         if (!(*nearest(t) > 0))
             fail(result.last_line, "nothing is left after t = 0", "check the time's offset");
-        if (!stated)
+        if (!stated && !s_.windows)
             protocol_.add(kind::decided, name_, "",
                           result.inputs.empty() ? "duration: to the last measurement"
                                                 : "duration: as long as all inputs have readings");
@@ -172,7 +152,7 @@ private:
         for (auto& sample : q.samples) {
             if (wanted(sample.time))
                 kept.push_back(std::move(sample));
-            else
+            else if (!s_.windows) // of windows that is said of all lines outside
                 protocol_.add(kind::dropped, name_, q.mapping->name, "outside [0, duration]",
                               sample.line);
         }

@@ -15,11 +15,19 @@ namespace sivid {
 [[nodiscard]] inline source_form read_source_form(json_value const& entry) {
     using namespace mapping_entries;
     source_form form;
-    bool const serial = entry.at("kind").is_second_of("csv", "serial");
+    auto const* kind = entry.find("kind");
+    if (kind != nullptr && kind->string() == "matlab") {
+        entry.allow_only({"kind"});
+        form.from = source_form::kind::matlab;
+        return form;
+    }
+    if (kind != nullptr && kind->string() != "csv" && kind->string() != "serial")
+        kind->fail(text_of("found ", in_quotes(kind->string())), "write csv, serial or matlab");
+    bool const serial = kind != nullptr && kind->string() == "serial";
     form.from = serial ? source_form::kind::serial : source_form::kind::csv;
     if (serial)
-        entry.allow_only(
-            {"kind", "separator", "decimal", "missing", "fields", "longest_gap", "gap", "restart"});
+        entry.allow_only({"kind", "separator", "decimal", "missing", "fields", "longest_gap", "gap",
+                          "restart", "check_sum"});
     else
         entry.allow_only(
             {"kind", "separator", "decimal", "missing", "skip_lines", "skip_after_heading"});
@@ -49,6 +57,8 @@ namespace sivid {
     if (form.fields.empty()) entry.at("fields").fail("no field", "name what a line holds");
     form.longest_gap = positive(entry.at("longest_gap"),
                                 "state the longest usual time between two lines in seconds");
+    if (auto const* sum = entry.find("check_sum"))
+        form.check_sums = sum->is_second_of("none", "crc16");
     auto const policy = [&](char const* key, char const* other, break_policy meaning) {
         auto const* found = entry.find(key);
         if (found == nullptr || found->string() == "refuse") return break_policy::refuse;
@@ -62,40 +72,50 @@ namespace sivid {
     return form;
 }
 
-/// "time": column, unit, offset, and the counter's bits.
+/// "time": column or sample time, unit, offset, and the counter's bits.
 /// @throws input_error
 [[nodiscard]] inline time_mapping read_time_mapping(json_value const& entry, bool serial) {
-    entry.allow_only({"column", "unit", "offset", "counter_bits"});
+    entry.allow_only({"column", "sample_time", "unit", "offset", "counter_bits"});
     time_mapping time;
-    time.column = mapping_entries::column(entry.at("column"));
-    auto const& unit = entry.at("unit");
-    time.unit = unit.string();
-    for (auto const& [name, factor] : {std::pair{"s", "1"},
-                                       {"ms", "1e-3"},
-                                       {"us", "1e-6"},
-                                       {"ns", "1e-9"},
-                                       {"min", "60"},
-                                       {"h", "3600"}})
-        if (time.unit == name)
-            time.to_seconds.factor_lower = time.to_seconds.factor_upper =
-                *exact_decimal::parse(factor);
-    if (time.unit != "s" && time.to_seconds.text().empty())
-        unit.fail(text_of("unknown unit ", in_quotes(time.unit)), "write s, ms, us, ns, min or h");
+    auto const* step = entry.find("sample_time");
+    if (step == nullptr) {
+        time.column = mapping_entries::column(entry.at("column"));
+    } else {
+        if (serial)
+            step->fail("a log that may lose lines has no constant step",
+                       "name the \"column\" of the time stamps");
+        if (auto const* column = entry.find("column"))
+            column->fail("a column and a sample time", "keep one of the two");
+        time.sample_time = mapping_entries::positive(*step, "state the time from row to row");
+    }
+    if (auto const* unit = entry.find("unit")) {
+        time.unit = unit->string();
+        for (auto const& [name, factor] : {std::pair{"s", "1"},
+                                           {"ms", "1e-3"},
+                                           {"us", "1e-6"},
+                                           {"ns", "1e-9"},
+                                           {"min", "60"},
+                                           {"h", "3600"}})
+            if (time.unit == name)
+                time.to_seconds.factor_lower = time.to_seconds.factor_upper =
+                    *exact_decimal::parse(factor);
+        if (time.unit != "s" && time.to_seconds.text().empty())
+            unit->fail(text_of("unknown unit ", in_quotes(time.unit)),
+                       "write s, ms, us, ns, min or h");
+    }
     if (auto const* bits = entry.find("counter_bits")) {
         if (!serial) bits->fail("a counter in a table", "counters that wrap need a serial source");
         time.counter_bits = mapping_entries::counter_bits(*bits);
     }
-    if (entry.find("offset") == nullptr)
-        entry.fail("the key 'offset' is missing: where t = 0 lies",
-                   "write \"first\" for the first row, or what is added to the times, in seconds");
-    auto const& offset = entry.at("offset");
-    if (offset.type() == json_value::kind::string) {
-        if (offset.string() != "first")
-            offset.fail(text_of("found ", in_quotes(offset.string())),
-                        "write \"first\" or a number in seconds");
+    auto const* offset = entry.find("offset");
+    if (offset == nullptr) return time; // of a sample time: the first row is at 0
+    if (offset->type() == json_value::kind::string) {
+        if (offset->string() != "first")
+            offset->fail(text_of("found ", in_quotes(offset->string())),
+                         "write \"first\" or a number in seconds");
         time.from_first = true;
     } else {
-        time.offset = offset.number();
+        time.offset = offset->number();
     }
     return time;
 }

@@ -5,6 +5,7 @@
 #include <sivid/io/dataset.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/io/dataset_effects.hpp>
 #include <sivid/io/dataset_tables.hpp>
 #include <sivid/io/dataset_value.hpp>
 #include <sivid/io/json_document.hpp>
@@ -29,8 +30,8 @@ public:
 
     [[nodiscard]] dataset read() const {
         auto const root = read_json(folder_ / "dataset.json");
-        root.allow_only(
-            {"format", "id", "model", "parameters", "fixed", "max_outlier_fraction", "scenarios"});
+        root.allow_only({"format", "id", "model", "parameters", "fixed", "max_outlier_fraction",
+                         "scenarios", "effects", "assumptions"});
         // The format first: another version may have other keys, another model other names.
         if (root.at("format").string() != "sivid-dataset-1")
             root.at("format").fail(
@@ -46,6 +47,9 @@ public:
         if (auto const* fixed = root.find("fixed")) read_fixed(*fixed, result);
         read_fraction(root.at("max_outlier_fraction"), result);
         read_scenarios(root.at("scenarios"), result);
+        if (auto const* list = root.find("effects")) result.effects = read_dataset_effects(*list);
+        if (auto const* list = root.find("assumptions"))
+            for (auto const& a : list->elements()) result.assumptions.push_back(a.string());
         return result;
     }
 
