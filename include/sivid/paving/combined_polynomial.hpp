@@ -57,13 +57,9 @@ public:
         for (std::size_t v = 0; v < table.variables; ++v) {
             auto const& shift = places[v].middle;
             if (mag(shift) == 0) continue;
-            for (auto const& line : table.lines[v]) { // Horner's scheme, complete
-                for (std::size_t low = 0; low + 1 < line.size(); ++low) {
-                    for (std::size_t k = line.size() - 1; k-- > low;) {
-                        c[line[k]] = traits::add(c[line[k]], traits::mul(shift, c[line[k + 1]]));
-                    }
-                }
-            }
+            table.shift(v, [&](std::size_t m, std::size_t k) {
+                c[m] = traits::add(c[m], traits::mul(shift, c[k]));
+            });
         }
         for (std::size_t m = 0; m < table.size(); ++m) {
             powers e(n_, 0);

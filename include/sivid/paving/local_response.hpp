@@ -65,15 +65,11 @@ inline void normalise(normalised_unknowns::side const& s, interval const& part, 
     for (std::size_t v = 0; v < n; ++v) {
         double const shift = local.middle[v];
         if (shift == 0) continue;
-        for (auto const& line : table.lines[v]) { // Horner's scheme, complete
-            for (std::size_t low = 0; low + 1 < line.size(); ++low) {
-                for (std::size_t k = line.size() - 1; k-- > low;) {
-                    double* const to = c.data() + line[k] * outputs;
-                    double const* const above = c.data() + line[k + 1] * outputs;
-                    for (std::size_t y = 0; y < outputs; ++y) to[y] += shift * above[y];
-                }
-            }
-        }
+        table.shift(v, [&](std::size_t m, std::size_t k) {
+            double* const to = c.data() + m * outputs;
+            double const* const above = c.data() + k * outputs;
+            for (std::size_t y = 0; y < outputs; ++y) to[y] += shift * above[y];
+        });
     }
     local.value.assign(outputs, 0.0);
     local.rest.assign(outputs, 0.0);

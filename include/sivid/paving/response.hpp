@@ -46,6 +46,17 @@ struct monomial_table {
     }
     [[nodiscard]] std::size_t size() const { return exponents.size(); }
 
+    /// Moves the origin of a variable, by Horner's scheme: calls add(m, k) wherever the coefficient
+    /// of m has to grow by that of k, times the shift.
+    template <class Add>
+    void shift(std::size_t variable, Add const& add) const {
+        for (auto const& line : lines[variable]) {
+            for (std::size_t low = 0; low + 1 < line.size(); ++low) {
+                for (std::size_t k = line.size() - 1; k-- > low;) add(line[k], line[k + 1]);
+            }
+        }
+    }
+
     [[nodiscard]] std::vector<unsigned> powers(std::size_t m) const {
         return {exponents[m].begin(), exponents[m].end()};
     }

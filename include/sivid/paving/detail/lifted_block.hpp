@@ -35,15 +35,11 @@ struct scaled_polynomials {
         for (std::size_t v = 0; v < table.variables; ++v) {
             double const shift = mid(where[v].middle);
             if (shift == 0) continue;
-            for (auto const& line : table.lines[v]) { // Horner's scheme, complete
-                for (std::size_t low = 0; low + 1 < line.size(); ++low) {
-                    for (std::size_t k = line.size() - 1; k-- > low;) {
-                        double* const to = c.data() + line[k] * count;
-                        double const* const above = c.data() + line[k + 1] * count;
-                        for (std::size_t y = 0; y < count; ++y) to[y] += shift * above[y];
-                    }
-                }
-            }
+            table.shift(v, [&](std::size_t m, std::size_t k) {
+                double* const to = c.data() + m * count;
+                double const* const above = c.data() + k * count;
+                for (std::size_t y = 0; y < count; ++y) to[y] += shift * above[y];
+            });
         }
         for (std::size_t m = 0; m < table.size(); ++m) {
             double factor = 1;
