@@ -245,3 +245,52 @@ TEST_CASE("where an output is not defined it is violated, also times nothing") {
         }
     }
 }
+
+TEST_CASE("degenerate problems of many measurements") {
+    auto const entire = interval_traits<interval>::entire();
+    auto const problem = polynomial_problem<3>(100, 3);
+    std::vector<double> const truth(3, 1.0);
+    static_inversion_options o;
+    o.boxes = 200;
+    auto free = problem;
+    for (auto& m : free.measurements) m.bound = entire;
+    CHECK(contains(invert_static(free, o).inner_volume(), 1.0));
+    auto spared = problem;
+    for (std::size_t const q : {99U, 100U, 1000U}) {
+        spared.outliers = q;
+        auto const found = invert_static(spared, o);
+        CHECK(within(found, truth));
+        if (q >= 100) CHECK(contains(found.inner_volume(), 1.0));
+    }
+    // Bounds on one side, and one that nothing fulfils.
+    auto half = problem;
+    for (std::size_t k = 0; k < 100; k += 2) {
+        half.measurements[k].bound =
+            interval_traits<interval>::bounds(-HUGE_VAL, half.measurements[k].bound.upper());
+    }
+    auto const one_sided = invert_static(half, o).hull();
+    for (std::size_t j = 0; j < 3; ++j) {
+        CHECK(contains(one_sided[j], 1.0));
+        CHECK(width(one_sided[j]) < 0.5);
+    }
+    half.measurements[7].bound = interval(1e300, 1e301);
+    CHECK(is_empty(invert_static(half, o).hull()));
+    half.outliers = 1;
+    CHECK(within(invert_static(half, o), truth));
+    // Priors without width, and vast ones.
+    auto thin = problem;
+    thin.prior[1] = interval(1.0);
+    CHECK(within(invert_static(thin, o), truth));
+    thin.prior = point_box(truth);
+    CHECK(invert_static(thin, o).inside.size() == 1);
+    auto vast = problem;
+    vast.prior = box(std::vector<interval>(3, interval(-1e150, 1e150)));
+    o.only_hulls = true;
+    auto const found = invert_static(vast, o);
+    CHECK(within(found, truth));
+    CHECK(width(found.hull()[0]) < 1); // of 2e150
+    o.accuracy = 0;                    // until the numbers or the boxes end
+    CHECK(within(invert_static(problem, o), truth));
+    o.keep_going = [] { return false; };
+    CHECK(invert_static(problem, o).reason == stop_reason::cancelled);
+}

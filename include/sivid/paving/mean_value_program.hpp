@@ -80,8 +80,8 @@ public:
         }
         return true;
     }
-    /// Whether the functions were affine but for a millionth, so that the same programs over what
-    /// is left would say no more.
+    /// Whether the functions were affine but for a thousandth of their bounds, so that the same
+    /// programs over what is left would say no more.
     [[nodiscard]] bool sharp() const { return sharp_; }
     /// Where the programs ended: about the corners of what is left, for who looks for a point.
     [[nodiscard]] std::vector<std::vector<double>> const& points() const { return points_; }
@@ -124,7 +124,7 @@ private:
             }
             for (std::size_t j = 0; j < n_; ++j) f.slope[j * count + k] *= scale;
             scale_[k] = scale;
-            sharp_ = sharp_ && rest * scale < 1e-6;
+            sharp_ = sharp_ && rest <= 0.0005 * (most - least);
             f.offset[k] = (at - 0.5 * (least + most)) * scale;
             f.margin[k] = (0.5 * (most - least) + rest) * scale;
         }
