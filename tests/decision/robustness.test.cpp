@@ -149,7 +149,7 @@ TEST_CASE("bounds of a robustness hold the true one and close on it") {
         REQUIRE(what.margins.size() <= f.size());
         double const exact = brute_force(what, f, 5, 400)();
         double width = infinity;
-        for (std::size_t const cells : {20, 200}) {
+        for (std::size_t const cells : {20u, 200u}) {
             auto const b = bounds_of(grid(5, cells, what.times), f, 2.01);
             auto const says = sivid::evaluate(what, b);
             double const slack = 2.01 * 5.0 / 400; // of brute force itself

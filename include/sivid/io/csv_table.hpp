@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,8 +25,8 @@ namespace sivid {
 class csv_table {
 public:
     struct row {
-        std::size_t line; ///< in the file, from 1
-        std::vector<std::string> cells;
+        std::size_t line;                        ///< in the file, from 1
+        std::span<std::string_view const> cells; ///< as long as a table of this text lives
     };
 
     /// @throws input_error when missing, empty, quoted or ragged
@@ -32,22 +34,36 @@ public:
         return csv_table{file.string(), read_text(file)};
     }
 
-    csv_table(std::string file, std::string_view text) : file_{std::move(file)} {
+    csv_table(std::string file, std::string text)
+        : file_{std::move(file)}, content_{std::make_shared<content>(std::move(text))} {
+        std::string_view rest = content_->text;
+        std::vector<std::size_t> lines;
         std::size_t number = 0;
-        while (!text.empty()) {
-            auto const end = std::min(text.find('\n'), text.size());
-            auto line = text.substr(0, end);
-            text.remove_prefix(std::min(end + 1, text.size()));
+        while (!rest.empty()) {
+            auto const end = std::min(rest.find('\n'), rest.size());
+            auto line = rest.substr(0, end);
+            rest.remove_prefix(std::min(end + 1, rest.size()));
             ++number;
             if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
             if (line.empty() || line.front() == '#' ||
                 line.find_first_not_of(" \t") == std::string_view::npos)
                 continue;
-            add(number, line);
+            if (headings_.empty()) {
+                add_headings(number, line);
+            } else {
+                add_row(number, line);
+                lines.push_back(number);
+            }
         }
         if (headings_.empty())
             throw input_error{
                 {.file = file_}, "no heading line", "the first line names the columns: t,..."};
+        std::span<std::string_view const> cells = content_->cells;
+        rows_.reserve(lines.size());
+        for (auto const line : lines) {
+            rows_.push_back({line, cells.first(headings_.size())});
+            cells = cells.subspan(headings_.size());
+        }
     }
 
     [[nodiscard]] std::vector<std::string> const& headings() const { return headings_; }
@@ -68,7 +84,7 @@ public:
         std::string known;
         for (auto const& h : headings_) known += (known.empty() ? "" : ", ") + in_quotes(h);
         bool const one = headings_.size() == 1;
-        fail(heading_line_, "no column " + in_quotes(std::string{heading}) + "; it has: " + known,
+        fail(heading_line_, "no column " + in_quotes(heading) + "; it has: " + known,
              one ? "cells are separated by commas" : "rename a column");
     }
 
@@ -80,7 +96,7 @@ public:
         if (!value)
             fail(r.line, column, in_quotes(cell) + " is not a finite number",
                  "write a decimal such as 0.25 or 1e-3");
-        if (!enclose(*value))
+        if (!value->is_below_power_of_ten(308) && !enclose(*value))
             fail(r.line, column, in_quotes(cell) + " is beyond the range of double",
                  "give a smaller number");
         return *value;
@@ -101,48 +117,57 @@ public:
     }
 
 private:
-    void add(std::size_t number, std::string_view line) {
-        auto cells = split(line);
-        for (std::size_t i = 0; i < cells.size(); ++i)
-            if (cells[i].find('"') != std::string::npos)
-                fail(number, i, "a quotation mark", "cells are plain: remove the quotation marks");
-        if (headings_.empty()) {
-            heading_line_ = number;
-            for (std::size_t i = 0; i < cells.size(); ++i) {
-                if (cells[i].empty())
-                    fail(number, i, "a column without a heading", "name it or remove it");
-                for (std::size_t j = 0; j < i; ++j)
-                    if (cells[i] == cells[j])
-                        fail(number, i,
-                             text_of("the heading ", in_quotes(cells[i]), " appears twice"),
-                             "keep one of the columns");
-            }
-            headings_ = std::move(cells);
-            return;
+    /// What the cells are views of: shared by the copies of a table.
+    struct content {
+        explicit content(std::string t) : text{std::move(t)} {}
+        std::string const text;
+        std::vector<std::string_view> cells; ///< row by row
+    };
+
+    void add_headings(std::size_t number, std::string_view line) {
+        std::vector<std::string_view> cells;
+        split(number, line, cells);
+        heading_line_ = number;
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            if (cells[i].empty())
+                fail(number, i, "a column without a heading", "name it or remove it");
+            for (std::size_t j = 0; j < i; ++j)
+                if (cells[i] == cells[j])
+                    fail(number, i, text_of("the heading ", in_quotes(cells[i]), " appears twice"),
+                         "keep one of the columns");
         }
-        if (cells.size() != headings_.size())
-            fail(number, std::min(cells.size(), headings_.size()),
-                 std::to_string(cells.size()) + " cells in a table of " +
-                     std::to_string(headings_.size()) + " columns",
-                 "give every line as many cells as the heading, empty ones for missing samples");
-        rows_.push_back({number, std::move(cells)});
+        headings_.assign(cells.begin(), cells.end());
     }
 
-    static std::vector<std::string> split(std::string_view line) {
-        std::vector<std::string> cells;
-        while (true) {
+    void add_row(std::size_t number, std::string_view line) {
+        auto const before = content_->cells.size();
+        split(number, line, content_->cells);
+        auto const count = content_->cells.size() - before;
+        if (count != headings_.size())
+            fail(number, std::min(count, headings_.size()),
+                 std::to_string(count) + " cells in a table of " +
+                     std::to_string(headings_.size()) + " columns",
+                 "give every line as many cells as the heading, empty ones for missing samples");
+    }
+
+    void split(std::size_t number, std::string_view line,
+               std::vector<std::string_view>& cells) const {
+        for (std::size_t i = 0;; ++i) {
             auto const end = std::min(line.find(','), line.size());
             auto cell = line.substr(0, end);
             auto const first = std::min(cell.find_first_not_of(" \t"), cell.size());
             cell.remove_prefix(first);
             cell = cell.substr(0, cell.find_last_not_of(" \t") + 1);
-            cells.emplace_back(cell);
-            if (end == line.size()) return cells;
+            if (cell.find('"') != std::string_view::npos)
+                fail(number, i, "a quotation mark", "cells are plain: remove the quotation marks");
+            cells.push_back(cell);
+            if (end == line.size()) return;
             line.remove_prefix(end + 1);
         }
     }
 
     std::string file_;
+    std::shared_ptr<content> content_;
     std::size_t heading_line_ = 0;
     std::vector<std::string> headings_;
     std::vector<row> rows_;

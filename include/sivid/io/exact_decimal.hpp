@@ -43,6 +43,11 @@ public:
     [[nodiscard]] bool is_positive() const { return !is_zero() && !negative_; }
     [[nodiscard]] bool is_negative() const { return negative_; }
 
+    /// Whether the digits alone tell that |x| < 10^k: enough for a range to be obvious.
+    [[nodiscard]] bool is_below_power_of_ten(long k) const {
+        return static_cast<long>(digits_.size()) + exponent_ <= k;
+    }
+
     [[nodiscard]] exact_decimal operator-() const {
         exact_decimal result = *this;
         if (!is_zero()) result.negative_ = !negative_;

@@ -60,7 +60,7 @@ private:
 };
 
 /// "'text'" for messages: shortened, and with control characters made visible.
-[[nodiscard]] SIVID_DECL std::string in_quotes(std::string const& text);
+[[nodiscard]] SIVID_DECL std::string in_quotes(std::string_view text);
 
 } // namespace sivid
 

@@ -4,10 +4,13 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/io/sha256.hpp>
-#include <sivid/number/decimal_output.hpp>
 #include <sivid/paving/identify.hpp>
 
+#include <array>
+#include <bit>
 #include <concepts>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -18,7 +21,7 @@ namespace sivid {
 
 namespace io_detail {
 
-/// Text in which different values are written differently.
+/// Bytes in which different values are written differently, doubles by their bits.
 class canonical_text {
 public:
     template <class... Values>
@@ -37,8 +40,12 @@ private:
         text_ += s;
     }
     void put(double x) {
-        text_ += ' ';
-        text_ += to_hex(x);
+        auto bits = std::bit_cast<std::uint64_t>(x);
+        std::array<char, 9> bytes{' '};
+        for (std::size_t k = 1; k < bytes.size(); ++k, bits >>= 8) {
+            bytes[k] = static_cast<char>(bits & 0xff);
+        }
+        text_.append(bytes.data(), bytes.size());
     }
     template <class T>
         requires std::integral<T> || std::is_enum_v<T>

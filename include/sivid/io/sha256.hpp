@@ -37,15 +37,27 @@ inline void sha256_block(std::array<std::uint32_t, 8>& state, unsigned char cons
         auto const b = std::rotr(w[i - 2], 17) ^ std::rotr(w[i - 2], 19) ^ (w[i - 2] >> 10);
         w[i] = w[i - 16] + a + w[i - 7] + b;
     }
-    auto s = state;
-    for (std::size_t i = 0; i < 64; ++i) {
-        auto const turned = std::rotr(s[4], 6) ^ std::rotr(s[4], 11) ^ std::rotr(s[4], 25);
-        auto const chosen = (s[4] & s[5]) ^ (~s[4] & s[6]);
-        auto const first = s[7] + turned + chosen + sha256_constants[i] + w[i];
-        auto const other = std::rotr(s[0], 2) ^ std::rotr(s[0], 13) ^ std::rotr(s[0], 22);
-        auto const majority = (s[0] & s[1]) ^ (s[0] & s[2]) ^ (s[1] & s[2]);
-        s = {first + other + majority, s[0], s[1], s[2], s[3] + first, s[4], s[5], s[6]};
+    auto [a, b, c, d, e, f, g, h] = state;
+    // eight rounds turn the names of the eight words round once: nothing is moved
+    auto const round = [&w](auto& p, auto q, auto r, auto& s, auto t, auto u, auto v, auto& x,
+                            std::size_t i) {
+        auto const turned = std::rotr(t, 6) ^ std::rotr(t, 11) ^ std::rotr(t, 25);
+        auto const first = x + turned + (v ^ (t & (u ^ v))) + sha256_constants[i] + w[i];
+        auto const other = std::rotr(p, 2) ^ std::rotr(p, 13) ^ std::rotr(p, 22);
+        s += first;
+        x = first + other + ((p & q) | (r & (p | q)));
+    };
+    for (std::size_t i = 0; i < 64; i += 8) {
+        round(a, b, c, d, e, f, g, h, i);
+        round(h, a, b, c, d, e, f, g, i + 1);
+        round(g, h, a, b, c, d, e, f, i + 2);
+        round(f, g, h, a, b, c, d, e, i + 3);
+        round(e, f, g, h, a, b, c, d, i + 4);
+        round(d, e, f, g, h, a, b, c, i + 5);
+        round(c, d, e, f, g, h, a, b, i + 6);
+        round(b, c, d, e, f, g, h, a, i + 7);
     }
+    std::array const s{a, b, c, d, e, f, g, h};
     for (std::size_t k = 0; k < 8; ++k) state[k] += s[k];
 }
 
@@ -58,17 +70,19 @@ inline void sha256_block(std::array<std::uint32_t, 8>& state, unsigned char cons
 [[nodiscard]] inline std::string sha256(std::string_view text) {
     std::array<std::uint32_t, 8> state{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
                                        0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+    auto const bits = static_cast<std::uint64_t>(text.size()) * 8;
+    auto const bytes = [](std::string_view part) {
+        return reinterpret_cast<unsigned char const*>(part.data());
+    };
+    for (; text.size() >= 64; text.remove_prefix(64)) io_detail::sha256_block(state, bytes(text));
     std::string padded{text};
     padded += static_cast<char>(0x80);
     while (padded.size() % 64 != 56) padded += '\0';
-    auto const bits = static_cast<std::uint64_t>(text.size()) * 8;
     for (int shift = 56; shift >= 0; shift -= 8) {
         padded += static_cast<char>(static_cast<unsigned char>((bits >> shift) & 0xff));
     }
-    for (std::size_t i = 0; i < padded.size(); i += 64) {
-        std::array<unsigned char, 64> block{};
-        for (std::size_t k = 0; k < 64; ++k) block[k] = static_cast<unsigned char>(padded[i + k]);
-        io_detail::sha256_block(state, block.data());
+    for (std::string_view rest = padded; !rest.empty(); rest.remove_prefix(64)) {
+        io_detail::sha256_block(state, bytes(rest));
     }
     std::string hex;
     for (auto const word : state) {

@@ -21,7 +21,7 @@ SIVID_DECL std::string input_error::message(input_place const& place, std::strin
     return text;
 }
 
-SIVID_DECL std::string in_quotes(std::string const& text) {
+SIVID_DECL std::string in_quotes(std::string_view text) {
     return "'" + printable_text(text, 40) + "'";
 }
 
