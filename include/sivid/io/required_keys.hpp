@@ -16,7 +16,7 @@ namespace sivid {
 /// require_mapping_keys. What is of a wrong type is left to the reader.
 class required_keys {
 public:
-    explicit required_keys(json_value const& root) : root_{root} {
+    explicit required_keys(json_value const& root) {
         all(root, {{"id", ""},
                    {"model", "the name of the model"},
                    {"parameters", "the unknown constants, each with its prior"},
@@ -104,7 +104,6 @@ private:
         }
     }
 
-    json_value const& root_;
     json_value const* defaults_ = nullptr;
     std::vector<missing_key> missing_;
 };
