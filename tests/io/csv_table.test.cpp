@@ -4,7 +4,21 @@
 #include "io/support.hpp"
 #include "support/catch.hpp"
 
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
 using namespace sivid;
+
+namespace {
+
+std::vector<std::string> cells_of(csv_table const& table, std::size_t row) {
+    auto const& cells = table.rows()[row].cells;
+    return {cells.begin(), cells.end()};
+}
+
+} // namespace
 
 TEST_CASE("comments, blank lines, CRLF, spaces and a missing last line end are accepted") {
     csv_table const table{
@@ -15,8 +29,8 @@ TEST_CASE("comments, blank lines, CRLF, spaces and a missing last line end are a
     REQUIRE(table.rows().size() == 3);
     CHECK(table.rows()[0].line == 4);
     CHECK(table.rows()[1].line == 6);
-    CHECK(table.rows()[1].cells == std::vector<std::string>{"1", "", ""});
-    CHECK(table.rows()[2].cells == std::vector<std::string>{"2", "3", "0.1"});
+    CHECK(cells_of(table, 1) == std::vector<std::string>{"1", "", ""});
+    CHECK(cells_of(table, 2) == std::vector<std::string>{"2", "3", "0.1"});
     CHECK(table.number(table.rows()[2], 2) == *exact_decimal::parse("0.1"));
     CHECK(table.column("u_err") == 2u);
     CHECK_FALSE(table.column("v"));
@@ -80,4 +94,15 @@ TEST_CASE("a column that is missing is named beside those there are") {
                       ContainsSubstring("a.csv: line 2: no column 'y'; it has: 't', 'u'"));
     csv_table const semicolons{"a.csv", "t;y\n0;1\n"};
     CHECK_THROWS_WITH(semicolons.required_column("y"), ContainsSubstring("separated by commas"));
+}
+
+TEST_CASE("a copy keeps its cells when the table it was copied from is gone") {
+    auto table = std::make_unique<csv_table>("f", "t,x\n1,2\n");
+    auto const copy = *table;
+    auto const moved = std::move(*table);
+    table.reset();
+    for (auto const* of : {&copy, &moved}) {
+        CHECK(cells_of(*of, 0) == std::vector<std::string>{"1", "2"});
+        CHECK(of->number(of->rows()[0], 1) == *exact_decimal::parse("2"));
+    }
 }
