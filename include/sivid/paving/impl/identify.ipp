@@ -113,8 +113,8 @@ SIVID_DECL identification identify(identification_problem const& problem,
                                               .keep_going = limit,
                                               .workers = options.search.workers});
     }
-    auto const asking = windows ? unhindered.integrations() - before : 0; // not what it stands on
-    std::optional<identification_problem> narrowed; // whose starts windows have contracted
+    auto const asking = unhindered.integrations() - before; // the search finds what was answered
+    std::optional<identification_problem> narrowed;         // whose starts windows have contracted
     std::optional<data_test> further;
     if (windows) {
         bool const fits = windows->empty || (windows->rest.size() == posed.prior.size() &&
@@ -206,8 +206,8 @@ SIVID_DECL identification identify(identification_problem const& problem,
         result.forced = paving_detail::find_forced(searching, asked, left);
     }
     if (reduced) result.integrations += reduced->integrations();
-    if (further) result.integrations += further->integrations() + windows->windows - asking;
-    result.integrations += test.integrations();
+    if (further) result.integrations += further->integrations() + windows->windows;
+    result.integrations += test.integrations() - asking;
     result.seconds = since_begin();
     if (options.resume) result.seconds += options.resume->seconds + options.resume->search.seconds;
     return result;
