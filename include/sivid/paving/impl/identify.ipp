@@ -130,9 +130,10 @@ SIVID_DECL identification identify(identification_problem const& problem,
         auto const none =
             box(std::vector<interval>(posed.prior.size(), interval_traits<interval>::empty()));
         further->set_rest(windows->empty ? none : windows->rest);
-        result.windows =
-            window_effort{windows->windows, windows->longest, windows->seconds,
-                          windows->empty ? 0 : relative_volume(windows->rest, posed.prior).upper()};
+        result.windows = window_effort{
+            windows->windows, windows->longest, windows->seconds,
+            windows->empty ? 0
+                           : std::min(1.0, relative_volume(windows->rest, posed.prior).upper())};
     }
     auto const& asked = narrowed ? *narrowed : posed;
     auto& searching = further ? *further : unhindered;

@@ -105,9 +105,14 @@ private:
         if (found_.windows) {
             auto const& w = *found_.windows;
             view_.statistics.before =
-                count_text(w.windows) + " windows of the records, the longest " +
-                given_text(w.longest) + " s, contracted the prior before the search: they leave " +
-                at_most_percent(w.left) + " of its volume (" + duration_text(w.seconds) + ")";
+                w.longest > 0
+                    ? count_text(w.windows) + " windows of the records, the longest " +
+                          given_text(w.longest) +
+                          " s, contracted the prior before the search: they leave " +
+                          at_most_percent(w.left) + " of its volume (" + duration_text(w.seconds) +
+                          ")"
+                    : "no window of the records can be carried from starts so wide: state them "
+                      "more narrowly, or give samples nearer to them";
         }
         view_.version = std::string{"sivid "} + std::string{version};
         view_.date = options_.date;
