@@ -173,7 +173,7 @@ private:
             bool const is_fit = static_cast<std::ptrdiff_t>(s) < fitted_;
             b.stale[s] = is_fit ? !(fits.blur[s] <= 0.3 * fit_tolerance) ||
                                       (cut && fits.slack <= 0.5 * fit_tolerance)
-                                : cut || !(blur_of(r) <= 0.3 * tolerance);
+                                : !(r.blur() <= 0.3 * tolerance);
         }
         b.smear = spread(own_known, b.set);
         for (std::size_t j = 0; j < b.smear.size(); ++j) b.smear[j] += fits.smear[j];
@@ -188,14 +188,6 @@ private:
             for (auto const& side : r->unknowns.initial) x0.push_back(side.centre);
         }
         return starts;
-    }
-    /// What remainders may cost a misfit.
-    [[nodiscard]] static double blur_of(response const& r) {
-        double most = 0;
-        for (std::size_t y = 0; y < r.outputs(); ++y) {
-            most = std::max(most, 2 * r.shrinking_radius(y) / width(r.bounds[y]));
-        }
-        return most;
     }
     /// How far each parameter moves the misfit that it moves most.
     [[nodiscard]] static std::vector<double> spread(inflation_bounder::responses const& known,
