@@ -149,7 +149,7 @@ void compare_with_simulations(std::size_t wanted) {
         }
     }
     CAPTURE(wanted, where, own_there);
-    CHECK(widest < (wanted < 1000 ? 1.5 : 1.3)); // 1.1 is the goal
+    CHECK(widest < (wanted < 1000 ? 1.5 : 1.1));
     WARN("widest ratio " << widest << ", of " << where << ", where the tube is " << own_there);
 }
 
