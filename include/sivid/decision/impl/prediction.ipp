@@ -253,7 +253,7 @@ private:
         }
     };
 
-    /// Lowers the ends of the tube, at the instants, to what the measurements leave of the parts
+    /// Draws in the ends of the tube, at the instants, to what the measurements leave of the parts
     /// that hold them.
     void sharpen() {
         if (!problem_.measured) return;
@@ -281,10 +281,14 @@ private:
                     if (point || std::find(done.begin(), done.end(), &holder) != done.end()) break;
                     done.push_back(&holder);
                     double const bound = of(holder).end_of(y, upwards);
-                    auto& own = end(holder);
-                    // Beyond the other end nothing of the part is left; its next end says so, too.
-                    own = upwards ? std::max(std::min(own, bound), holder.seen.low[y])
-                                  : std::min(std::max(own, bound), holder.seen.high[y]);
+                    bool const empty =
+                        upwards ? bound < holder.seen.low[y] : bound > holder.seen.high[y];
+                    if (!empty) {
+                        end(holder) =
+                            upwards ? std::min(end(holder), bound) : std::max(end(holder), bound);
+                    } else if (parts_.size() > 1) { // no parameter in it meets all measurements
+                        parts_.remove_if([&](item const& i) { return &i == &holder; });
+                    }
                 }
             }
         }
