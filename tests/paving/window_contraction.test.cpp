@@ -116,3 +116,14 @@ TEST_CASE("windows end in time and when told to") {
     CHECK(contains(left.rest, std::vector<double>{9, 0.3, 4}));
     CHECK(left.seconds < 30);
 }
+
+TEST_CASE("starts that are decimals are known: no windows are carried") {
+    auto p = support::swinging(6, 0.95, 7);
+    p.experiments[0].initial[0] = interval(std::nextafter(0.5, 0.0), std::nextafter(0.5, 1.0));
+    identify_options options;
+    options.search.seconds = 2;
+    options.search.boxes = 16;
+    CHECK_FALSE(identify(p, options).windows.has_value());
+    p.experiments[0].initial[0] = interval(0.2, 0.8);
+    CHECK(identify(p, options).windows.has_value());
+}

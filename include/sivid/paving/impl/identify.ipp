@@ -34,10 +34,9 @@ namespace paving_detail {
 
 /// Whether trajectories over the prior end early, from starts that nobody knows.
 inline bool starts_hinder(data_test& test, identification_problem const& problem) {
-    bool known = true;
-    for (auto const& e : problem.experiments) {
-        for (auto const& side : e.initial) known = known && !(width(side) > 0);
-    }
+    bool const known = std::all_of(
+        problem.experiments.begin(), problem.experiments.end(),
+        [](experiment const& e) { return normalised_unknowns(e.initial, {}).variables == 0; });
     return !known && test.reached(problem.prior) < 0.25;
 }
 
