@@ -115,6 +115,7 @@ void print_summary(sivid::identification_problem const& problem, sivid::identifi
         std::cout << "\n";
     }
     if (!view.statistics.before.empty()) std::cout << "  " << view.statistics.before << "\n";
+    for (auto const& words : view.statistics.why) std::cout << "  " << words << "\n";
     std::cout << "  " << report::duration_text(found.seconds) << ", " << found.boxes << " boxes, "
               << found.integrations << " validated integrations\n"
               << "  written: " << (out / "report.html").string()

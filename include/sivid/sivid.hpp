@@ -85,6 +85,7 @@
 #include <sivid/model/series.hpp>
 #include <sivid/model/series_tail.hpp>
 #include <sivid/model/smoothed.hpp>
+#include <sivid/model/states_seen.hpp>
 #include <sivid/model/substitution.hpp>
 #include <sivid/model/symmetry.hpp>
 #include <sivid/model/tape.hpp>
@@ -217,6 +218,7 @@
 #include <sivid/paving/response_audit.hpp>
 #include <sivid/paving/response_search.hpp>
 #include <sivid/paving/run_options.hpp>
+#include <sivid/paving/run_reach.hpp>
 #include <sivid/paving/runge_kutta_run.hpp>
 #include <sivid/paving/scalar_run.hpp>
 #include <sivid/paving/search_state.hpp>

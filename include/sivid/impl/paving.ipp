@@ -7,6 +7,7 @@
 #include <sivid/paving/impl/inflation.ipp>
 #include <sivid/paving/impl/outlier_budget.ipp>
 #include <sivid/paving/impl/response_judgement.ipp>
+#include <sivid/paving/impl/run_reach.ipp>
 #include <sivid/paving/impl/window_contraction.ipp>
 
 #endif

@@ -21,6 +21,7 @@
 #include <sivid/report/impl/identification_parameters.ipp>
 #include <sivid/report/impl/identification_report.ipp>
 #include <sivid/report/impl/identification_words.ipp>
+#include <sivid/report/impl/reach_words.ipp>
 #include <sivid/report/impl/interval_chart.ipp>
 #include <sivid/report/impl/legend.ipp>
 #include <sivid/report/impl/missing_rate_plot.ipp>

@@ -8,6 +8,7 @@
 #include <sivid/paving/exclusion_proof.hpp>
 #include <sivid/paving/reduction.hpp>
 #include <sivid/paving/run_options.hpp>
+#include <sivid/paving/run_reach.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/space/box.hpp>
@@ -73,7 +74,9 @@ struct identification {
     sivid::verdict verdict = sivid::verdict::undecided;
     stop_reason reason = stop_reason::decided;
     std::optional<window_effort> windows; ///< nothing where none were needed
-    std::optional<search_effort> effort;  ///< nothing where measurements came one by one
+    /// Over what is left, where little was excluded and the search has not decided all.
+    std::vector<run_reach> reach;
+    std::optional<search_effort> effort; ///< nothing where measurements came one by one
     /// Of the prior: inside boxes are proved, what no other box covers is excluded by proof.
     subpaving paving;
     volume_source volumes = volume_source::boxes;

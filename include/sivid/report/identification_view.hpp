@@ -74,6 +74,7 @@ struct statistics_view {
     std::uint64_t integrations = 0;
     std::string stop_reason{};
     std::string before{}; ///< what contracted the prior before the search, or nothing
+    std::vector<std::string> why{}; ///< why little is excluded, and what to change
 };
 
 /// One way to solve the same problem, for comparison.

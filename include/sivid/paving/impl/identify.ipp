@@ -208,6 +208,22 @@ SIVID_DECL identification identify(identification_problem const& problem,
         }
         result.forced = paving_detail::find_forced(searching, asked, left);
     }
+    bool const little =
+        result.verdict == verdict::undecided || result.paving.outer_volume().upper() > 0.5;
+    if (little && result.reason != stop_reason::decided &&
+        result.reason != stop_reason::cancelled) {
+        auto run = options.test.run;
+        run.enclosure.keep_going = limit;
+        result.reach = reach_of_runs(asked, left, run);
+        for (auto& r : result.reach) {
+            for (auto& c : r.causes) {
+                if (!map || c.start) continue;
+                auto const& side = map->sides()[c.index];
+                c.name =
+                    side.product ? side.product->formula : problem.choice.unknown[side.parameter];
+            }
+        }
+    }
     if (reduced) result.integrations += reduced->integrations();
     if (further) result.integrations += further->integrations() + windows->windows;
     result.integrations += test.integrations() - asking;

@@ -7,6 +7,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/enclosure/flow.hpp>
 #include <sivid/measurement/record.hpp>
+#include <sivid/model/states_seen.hpp>
 #include <sivid/paving/lifted_program.hpp>
 #include <sivid/paving/local_response.hpp>
 #include <sivid/paving/scalar_run.hpp>
@@ -75,15 +76,6 @@ private:
 
     void nothing_is_left() {
         result_.rest = box(std::vector<interval>(result_.rest.size(), traits::empty()));
-    }
-    /// The same model in which every state is measured, too.
-    [[nodiscard]] static recorded_model with_states_seen(recorded_model model) {
-        for (std::size_t i = 0; i < model.about.states.size(); ++i) {
-            auto const& state = model.about.states[i];
-            model.about.channels.push_back({"state " + state.name, state.unit});
-            model.observe.push_back(model.g.leaf(operation::state, i));
-        }
-        return model;
     }
     [[nodiscard]] std::size_t states() const { return problem_->model.about.states.size(); }
     [[nodiscard]] double last_sample(std::size_t e) const { return records_[e].back().time; }

@@ -8,6 +8,7 @@
 #include <sivid/paving/identification.hpp>
 #include <sivid/report/identification_view.hpp>
 #include <sivid/report/identification_words.hpp>
+#include <sivid/report/reach_words.hpp>
 #include <sivid/report/paving_projections.hpp>
 #include <sivid/report/scenario_report.hpp>
 #include <sivid/version.hpp>
@@ -114,6 +115,7 @@ private:
                     : "no window of the records can be carried from starts so wide: state them "
                       "more narrowly, or give samples nearer to them";
         }
+        view_.statistics.why = reach_words(problem_, found_);
         view_.version = std::string{"sivid "} + std::string{version};
         view_.date = options_.date;
         view_.machine = options_.machine;

@@ -149,6 +149,7 @@ inline void add_computation(page& out, identification_view const& v) {
               (v.statistics.stop_reason.empty()
                    ? ""
                    : std::string{"Why it stopped: "} + sentence(v.statistics.stop_reason)));
+    for (auto const& words : v.statistics.why) out.prose(sentence(words));
     table t{.columns = {{"volume relative to the prior"}, {"proved within", column_kind::number}},
             .rows = {}};
     if (!is_empty(v.volume_inner)) {

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_REPORT_REACH_WORDS_HPP
+#define SIVID_REPORT_REACH_WORDS_HPP
+
+#include <sivid/compiled.hpp>
+#include <sivid/model/problem.hpp>
+#include <sivid/paving/identification.hpp>
+
+#include <string>
+#include <vector>
+
+namespace sivid::report {
+
+/// Why little was excluded, a sentence for each experiment that says something, and what to change:
+/// from what the runs of `identification::reach` measured.
+[[nodiscard]] SIVID_DECL std::vector<std::string> reach_words(identification_problem const& problem,
+                                                              identification const& found);
+
+} // namespace sivid::report
+
+#ifndef SIVID_COMPILED
+#include <sivid/report/impl/reach_words.ipp>
+#endif
+
+#endif
