@@ -72,7 +72,11 @@ TEST_CASE("identifications that leave much say how far runs are carried and othe
     identify_options options;
     options.search.boxes = 4;
     options.search.seconds = 5;
-    auto const p = support::swinging(6, 0.95, 7);
-    CHECK(identify(p, options).reach.size() == 1);
+    options.windows = false;
+    auto p = support::swinging(6, 0.95, 7);
+    p.experiments[0].initial = {interval(-1.5, 1.5), interval(-6.0, 6.0)};
+    auto const found = identify(p, options);
+    REQUIRE(found.reach.size() == 1);
+    CHECK(found.reach[0].until < 6);
     CHECK(identify(plain_problem::make()).reach.empty());
 }

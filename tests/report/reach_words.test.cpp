@@ -28,7 +28,7 @@ TEST_CASE("words on runs name the scenario and its state and what to change") {
     r.moved = 40;
     found.reach = {r};
     auto const early = report::reach_words(p, found).at(0);
-    for (auto const* part : {"run: ", "1.2 of 3 s", "x is 7.5",
+    for (auto const* part : {"run: ", "1.2 of 3.0 s", "x is 7.5",
                              "a (80 %) and the start of x (15 %)", "Windows of less than"}) {
         CAPTURE(early, part);
         CHECK(has(early, part));
@@ -38,7 +38,7 @@ TEST_CASE("words on runs name the scenario and its state and what to change") {
     found.reach[0].until = 3;
     CHECK(report::reach_words(p, found).empty()); // what is left is a matter of time
     found.reach[0].lost = 5;
-    CHECK(has(report::reach_words(p, found).at(0), "blur by 5 error bounds"));
+    CHECK(has(report::reach_words(p, found).at(0), "blur by 5.0 error bounds"));
     found.reach[0].moved = 0.3;
-    CHECK(has(report::reach_words(p, found).at(0), "by more than 0.3 of its error bound"));
+    CHECK(has(report::reach_words(p, found).at(0), "by more than 0.30 of its error bound"));
 }
