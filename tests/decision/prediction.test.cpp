@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 using namespace decision_support;
@@ -79,7 +80,7 @@ TEST_CASE("measurements leave of a tube what they leave of the parameters and no
         sivid::data_test test(data, {});
         auto p = decay({{between(0.3, 0.5)}, {between(0.5, 0.8)}}, {sivid::interval(1.0)}, 3);
         auto const whole = sivid::predict(p, {.cells = 30});
-        p.measured = [&](sivid::box const& parameters) {
+        p.measured = [&](sivid::box const& parameters, std::function<bool()> const&) {
             auto const& run = data.experiments[0];
             return sivid::measured_responses{{test.run(0, run.initial, parameters)}, {run.initial}};
         };

@@ -2,9 +2,14 @@
 #include <sivid/decision/verification.hpp>
 
 #include "decision/planar_models.hpp"
+#include "paving/plain_problem.hpp"
 #include "support/catch.hpp"
 
+#include <sivid/paving/data_test.hpp>
+
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -105,6 +110,30 @@ TEST_CASE("without a feasible violation the answer is open") {
     CHECK(infeasible);
     // Nothing is refuted where nobody proves anything feasible.
     CHECK(sivid::verify(p, what, {}, {.seconds = 3}).answer == answer::open);
+}
+
+TEST_CASE("parameters that the measurements refute leave a requirement") {
+    auto const data = plain_problem::make();
+    sivid::data_test test(data, {});
+    auto const feasible = plain_problem::feasible(); // about [0.46, 0.54]
+    auto p = decay({{between(0.3, 0.8)}}, {sivid::interval(1.0)}, 2);
+    std::size_t asked = 0;
+    auto const measured = [&](sivid::box const& parameters, std::function<bool()> const&) {
+        ++asked;
+        auto const& run = data.experiments[0];
+        return sivid::measured_responses{{test.run(0, run.initial, parameters)}, {run.initial}};
+    };
+    auto const judged = [&](double bound) {
+        auto const what =
+            sivid::parse_requirement("x0 at end > " + std::to_string(bound), p.model, p.end);
+        return sivid::verify(p, what, {}, {.seconds = 3}).answer;
+    };
+    auto const allowed = std::exp(-2 * feasible.upper()) - 0.01; // every feasible rate stays above
+    CHECK(judged(allowed) == answer::open);
+    p.measured = measured;
+    CHECK(judged(allowed) == answer::proved);
+    CHECK(asked > 0);
+    CHECK(judged(std::exp(-2 * feasible.upper()) + 0.01) == answer::open); // some violate
 }
 
 TEST_CASE("parameters outside of the sets do not count") {

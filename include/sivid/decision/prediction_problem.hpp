@@ -38,8 +38,9 @@ struct prediction_problem {
     box initial;    ///< the states at time 0
     double end = 0; ///< [s]
     /// What measurements say of a box around some of the sets: every parameter that counts meets
-    /// all of them for some starts. May be left out; tubes are narrower with it.
-    std::function<measured_responses(box const&)> measured = nullptr;
+    /// all of them for some starts. Its second argument ends runs when it says false; what was
+    /// reached holds. May be left out: tubes are narrower with it, and more is decided.
+    std::function<measured_responses(box const&, std::function<bool()> const&)> measured = nullptr;
 
     /// The smallest box around all sets.
     [[nodiscard]] box around() const {

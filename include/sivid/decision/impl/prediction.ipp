@@ -261,7 +261,7 @@ private:
         std::map<item const*, measured_part> measured;
         auto const of = [&](item const& i) -> measured_part const& {
             auto const [at, fresh] = data.try_emplace(i.what.known.get());
-            if (fresh) at->second = problem_.measured(i.what.known->parameters);
+            if (fresh) at->second = problem_.measured(i.what.known->parameters, limit_);
             return measured.try_emplace(&i, at->second, i.what).first->second;
         };
         std::size_t reached = cover_->times().size();

@@ -7,6 +7,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/decision/detail/idle_parts.hpp>
 #include <sivid/decision/detail/judged_motions.hpp>
+#include <sivid/paving/cut_contraction.hpp>
 #include <sivid/paving/work_limit.hpp>
 
 #include <algorithm>
@@ -157,9 +158,15 @@ private:
                 i.settled = true;
                 continue;
             }
-            if (i.says.found.refuted() && ++i.violations > 5) { // nothing of it is known feasible
-                i.settled = true;
-                continue;
+            if (i.says.found.refuted()) {
+                if (meets_no_data(i.what)) {
+                    i.judged = false; // it leaves
+                    continue;
+                }
+                if (++i.violations > 5) { // nothing of it is known feasible
+                    i.settled = true;
+                    continue;
+                }
             }
             // Boxes side by side cost little more than one: what was carried far from the end is
             // cut finer at once.
@@ -184,6 +191,17 @@ private:
         }
         std::erase_if(open_, [](item const& i) { return !i.judged; });
         for (auto& h : halves) open_.push_back(std::move(h));
+    }
+
+    /// Whether the measurements refute all parameters of a part.
+    [[nodiscard]] bool meets_no_data(motion_cover::part const& p) const {
+        if (!problem_.measured || !limit_()) return false;
+        auto all = p.parameters;
+        for (std::size_t j = 0; j < all.size(); ++j) {
+            if (slim_.idle[j]) all[j] = around_[j];
+        }
+        auto const data = problem_.measured(all, limit_);
+        return !data.known.empty() && !cut_contraction()(data.known, all);
     }
 
     /// What is open since the grid is too coarse, once the grid is finer; empty: nothing is.

@@ -197,14 +197,23 @@ inline void state_assumptions(identification_problem const& data, prediction_req
 
 /// What the experiments without outliers say of the parameters that were identified; further sides
 /// of a box are other constants.
-inline std::function<measured_responses(box const&)> measured_by(identification_problem problem) {
+inline std::function<measured_responses(box const&, std::function<bool()> const&)>
+measured_by(identification_problem problem) {
     struct kept {
         identification_problem problem;
+        std::function<bool()> keep_going;
         data_test test;
-        explicit kept(identification_problem p) : problem(std::move(p)), test(problem, {}) {}
+        explicit kept(identification_problem p)
+            : problem(std::move(p)), test(problem, options_asking(keep_going)) {}
+        static data_test_options options_asking(std::function<bool()> const& who) {
+            data_test_options result;
+            result.run.enclosure.keep_going = [&who] { return !who || who(); };
+            return result;
+        }
     };
     auto const data = std::make_shared<kept>(std::move(problem));
-    return [data](box const& parameters) {
+    return [data](box const& parameters, std::function<bool()> const& keep_going) {
+        data->keep_going = keep_going;
         measured_responses result;
         auto const own = static_cast<std::ptrdiff_t>(data->problem.prior.size());
         box const first(std::vector<interval>(parameters.begin(), parameters.begin() + own));
