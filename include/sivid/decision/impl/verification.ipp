@@ -74,6 +74,7 @@ private:
         judged_motions::judgement says{};
         bool judged = false, settled = false;
         int violations = 0; ///< how often it, or what it is a half of, was found to violate
+        int halvings = 0;   ///< that led to it
     };
 
     [[nodiscard]] bool going() const {
@@ -158,15 +159,14 @@ private:
                 i.settled = true;
                 continue;
             }
-            if (i.says.found.refuted()) {
-                if (meets_no_data(i.what)) {
-                    i.judged = false; // it leaves
-                    continue;
-                }
-                if (++i.violations > 5) { // nothing of it is known feasible
-                    i.settled = true;
-                    continue;
-                }
+            ++i.halvings;
+            if ((i.says.found.refuted() || i.halvings % 3 == 0) && meets_no_data(i.what)) {
+                i.judged = false; // it leaves
+                continue;
+            }
+            if (i.says.found.refuted() && ++i.violations > 5) { // nothing of it is known feasible
+                i.settled = true;
+                continue;
             }
             // Boxes side by side cost little more than one: what was carried far from the end is
             // cut finer at once.
@@ -185,7 +185,7 @@ private:
             }
             for (auto& p : parts) {
                 if (i.says.worn) p.known = nullptr;
-                halves.push_back({std::move(p), i.says, false, false, i.violations});
+                halves.push_back({std::move(p), i.says, false, false, i.violations, i.halvings});
             }
             i.judged = false; // its halves take its place
         }
