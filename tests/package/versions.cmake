@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Which requests a version answers, by Semantic Versioning, and that every file that states the version states that of
-# include/sivid/version.hpp (CITATION.cff: the last one released).
+# include/sivid/version.hpp.
 cmake_minimum_required(VERSION 3.22)
 include("${SOURCE}/cmake/version_file.cmake")
 
@@ -62,4 +62,8 @@ file(READ "${SOURCE}/packaging/vcpkg/sivid/vcpkg.json" manifest)
 string(JSON stated GET "${manifest}" version)
 if(NOT stated STREQUAL version)
     message(SEND_ERROR "packaging/vcpkg/sivid/vcpkg.json states ${stated}, version.hpp ${version}")
+endif()
+file(STRINGS "${SOURCE}/CITATION.cff" stated REGEX "^version: ")
+if(NOT stated STREQUAL "version: ${version}")
+    message(SEND_ERROR "CITATION.cff states ${stated}, version.hpp ${version}")
 endif()
