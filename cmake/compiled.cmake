@@ -4,7 +4,7 @@
 # only; they have to be compiled with the same flags. Without it everything comes from the headers.
 #
 # Included by sivid's own tree and, where it is installed, by find_package(sivid COMPONENTS compiled): either way it is
-# built in the tree of whoever links to it, with the flags of that tree. `sivid_include_dir` says where the headers are.
+# built in the tree of whoever links to it, with the flags of that tree.
 
 set(sivid_compiled_sources "")
 function(sivid_compiled_source name text)

@@ -1,36 +1,99 @@
 # SPDX-License-Identifier: MIT
-# Install rules: headers, one export set for each component, package files for find_package(sivid).
+# Install rules, in two components: sivid_headers (headers, package files for find_package(sivid) and pkg-config, guides)
+# and sivid_programs (sivid-hovercraft, sivid-import and their data). `cmake --install <build> --component ...` takes one.
 
-include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
+include("${CMAKE_CURRENT_LIST_DIR}/version_file.cmake")
+include(CMakePackageConfigHelpers)
 
 set(sivid_package_dir "${CMAKE_INSTALL_DATADIR}/cmake/sivid")   # nothing in it depends on the machine
+set(sivid_pkgconfig_dir "${CMAKE_INSTALL_DATADIR}/pkgconfig")
 
+# sivid_install_pkgconfig(<component> <description> <requires>): sivid.pc of the core, sivid-<component>.pc of the others.
+# They find themselves: an installation may be moved as a whole.
+function(sivid_install_pkgconfig component description requires)
+    set(name "sivid-${component}")
+    set(cflags "")
+    if(component STREQUAL "sivid")
+        set(name sivid)
+        set(cflags " -I\${includedir}")
+    elseif(component STREQUAL "parallel")
+        set(cflags " -DSIVID_HAS_TBB=1")
+    endif()
+    set(prefix "${CMAKE_INSTALL_PREFIX}")
+    if(NOT IS_ABSOLUTE "${sivid_pkgconfig_dir}")
+        file(RELATIVE_PATH back "/prefix/${sivid_pkgconfig_dir}" "/prefix")
+        set(prefix "\${pcfiledir}/${back}")
+    endif()
+    set(includedir "${CMAKE_INSTALL_INCLUDEDIR}")
+    if(NOT IS_ABSOLUTE "${includedir}")
+        set(includedir "\${prefix}/${includedir}")
+    endif()
+    file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/${name}.pc" @ONLY CONTENT
+"prefix=@prefix@
+includedir=@includedir@
+
+Name: @name@
+Description: @description@
+Version: @PROJECT_VERSION@
+Requires: @requires@
+Cflags:@cflags@
+")
+    install(FILES "${PROJECT_BINARY_DIR}/${name}.pc" DESTINATION "${sivid_pkgconfig_dir}" COMPONENT sivid_headers)
+endfunction()
+
+set(of_this "sivid = ${PROJECT_VERSION}")
+sivid_install_pkgconfig(sivid "${PROJECT_DESCRIPTION} (C++20; needs the headers of Boost, too)" "eigen3 >= 3.3")
 foreach(component IN LISTS sivid_components)
+    if(component STREQUAL "io")
+        sivid_install_pkgconfig(io "Data sets, results and checkpoints of sivid" "${of_this}, nlohmann_json >= 3.9")
+    elseif(component STREQUAL "report")
+        sivid_install_pkgconfig(report "Reports of sivid" "sivid-io = ${PROJECT_VERSION}")
+    elseif(component STREQUAL "parallel")
+        sivid_install_pkgconfig(parallel "Threads for sivid, with oneTBB" "${of_this}, tbb")
+    endif()
+
     set(file_set "")
     if(CMAKE_VERSION VERSION_GREATER_EQUAL 3.23)
-        set(file_set FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+        set(file_set FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT sivid_headers)
     else()
         get_target_property(headers sivid_${component} SIVID_HEADERS)
         foreach(header IN LISTS headers)
             file(RELATIVE_PATH relative "${sivid_include_dir}" "${header}")
             get_filename_component(folder "${relative}" DIRECTORY)
-            install(FILES "${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/${folder}")
+            install(FILES "${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/${folder}" COMPONENT sivid_headers)
         endforeach()
     endif()
     install(TARGETS sivid_${component} EXPORT sivid_${component}_targets ${file_set}
             INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
     install(EXPORT sivid_${component}_targets FILE sivid_${component}_targets.cmake
-            NAMESPACE sivid:: DESTINATION "${sivid_package_dir}")
+            NAMESPACE sivid:: DESTINATION "${sivid_package_dir}" COMPONENT sivid_headers)
 endforeach()
 
 configure_package_config_file(
     "${CMAKE_CURRENT_LIST_DIR}/sividConfig.cmake.in" "${PROJECT_BINARY_DIR}/sividConfig.cmake"
     INSTALL_DESTINATION "${sivid_package_dir}")
-write_basic_package_version_file(
-    "${PROJECT_BINARY_DIR}/sividConfigVersion.cmake"
-    COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
+sivid_write_version_file("${PROJECT_BINARY_DIR}/sividConfigVersion.cmake" "${PROJECT_VERSION}")
 install(FILES "${PROJECT_BINARY_DIR}/sividConfig.cmake" "${PROJECT_BINARY_DIR}/sividConfigVersion.cmake"
-        DESTINATION "${sivid_package_dir}")
-install(FILES "${CMAKE_CURRENT_LIST_DIR}/compiled.cmake" DESTINATION "${sivid_package_dir}" RENAME sivid_compiled.cmake)
-install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/sivid")
+        DESTINATION "${sivid_package_dir}" COMPONENT sivid_headers)
+install(FILES "${CMAKE_CURRENT_LIST_DIR}/compiled.cmake" DESTINATION "${sivid_package_dir}" RENAME sivid_compiled.cmake
+        COMPONENT sivid_headers)
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CHANGELOG.md"
+        DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/sivid" COMPONENT sivid_headers)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/sivid" COMPONENT sivid_headers
+        FILES_MATCHING PATTERN "*.md" PATTERN "*.svg" PATTERN "*.png")
+
+# sivid_install_program(<target> [<data folder>]): under a name that says whose it is (Debian has a `hovercraft` of
+# another kind). A tree in which nothing is built installs its headers all the same.
+function(sivid_install_program target)
+    string(REPLACE sivid- "" name "${target}")
+    install(PROGRAMS "$<TARGET_FILE:${target}>" DESTINATION "${CMAKE_INSTALL_BINDIR}"
+            RENAME "sivid-${name}${CMAKE_EXECUTABLE_SUFFIX}" COMPONENT sivid_programs OPTIONAL)
+    foreach(folder IN LISTS ARGN)
+        install(DIRECTORY "${folder}/" DESTINATION "${CMAKE_INSTALL_DATADIR}/sivid/${name}" COMPONENT sivid_programs)
+    endforeach()
+    install(FILES "${CMAKE_CURRENT_SOURCE_DIR}/sivid-${name}.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1"
+            COMPONENT sivid_programs)
+    install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/CHANGELOG.md"
+            DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/sivid" COMPONENT sivid_programs)
+endfunction()

@@ -30,8 +30,7 @@ function(sivid_add_library name)
     add_library(sivid::${name} ALIAS ${target})
     set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} SIVID_HEADERS "${headers}")
     target_compile_features(${target} INTERFACE cxx_std_20)
-    target_include_directories(${target} INTERFACE
-        "$<BUILD_INTERFACE:${sivid_include_dir}>" "$<INSTALL_INTERFACE:include>")
+    target_include_directories(${target} INTERFACE "$<BUILD_INTERFACE:${sivid_include_dir}>")
     target_link_libraries(${target} INTERFACE ${arg_LINK})
     if(CMAKE_VERSION VERSION_GREATER_EQUAL 3.23 AND headers)
         target_sources(${target} INTERFACE
