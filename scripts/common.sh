@@ -35,6 +35,9 @@ need_packages() {
         die "apt-get could not install: ${missing[*]}"
 }
 
+# need_program COMMAND PACKAGE: the package, unless the command is there by other means.
+need_program() { command -v "$1" >/dev/null 2>&1 || need_packages "$2"; }
+
 # job_count: one job for each core, fewer where memory is short (1.5 GB for each compiler).
 job_count() {
     local cores memory_kb by_memory

@@ -55,7 +55,8 @@ export function layout(sideways) {
             let ground = parsed(getComputedStyle(svg.querySelector("rect")).fill) ?? [255, 255, 255];
             for (const under of all.slice(0, order)) {
                 const u = boxes.get(under);
-                if (under.tagName === "text" || !inside(u, x, y)) continue;
+                const window = under.ownerSVGElement === svg ? area : under.ownerSVGElement.getBoundingClientRect();
+                if (under.tagName === "text" || !inside(u, x, y) || !inside(window, x, y)) continue;
                 const style = getComputedStyle(under), fill = style.fill.startsWith("url") ? parsed(getComputedStyle(svg.querySelector(style.fill.match(/#[^")]+/)[0] + " rect")).fill) : parsed(style.fill);
                 const p = new DOMPoint(x, y).matrixTransform(under.getScreenCTM().inverse());
                 if (!fill || !under.isPointInFill(p)) continue;

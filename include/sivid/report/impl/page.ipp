@@ -133,7 +133,7 @@ SIVID_DECL std::string page::list(std::vector<std::string> const& lines) {
 SIVID_DECL page& page::boxed(std::string const& style, std::string_view title,
                              std::vector<std::string> const& lines) {
     body_ += lines.empty() ? std::string{}
-                           : "<div class=\"" + style + "\"><h3>" + escape(title) + "</h3>" +
+                           : "<div class=\"" + style + "\"><h2>" + escape(title) + "</h2>" +
                                  list(lines) + "</div>\n";
     return *this;
 }
