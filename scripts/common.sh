@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Sourced by check and demo: packages and number of jobs.
+# Sourced by the other scripts: packages and number of jobs.
 
 say() { printf '%s\n' "$*"; }
 die() { printf 'error: %s\n' "$*" >&2; exit 1; }
@@ -35,6 +35,9 @@ need_packages() {
         die "apt-get could not install: ${missing[*]}"
 }
 
+# need_program COMMAND PACKAGE: the package, unless the command is there by other means.
+need_program() { command -v "$1" >/dev/null 2>&1 || need_packages "$2"; }
+
 # job_count: one job for each core, fewer where memory is short (1.5 GB for each compiler).
 job_count() {
     local cores memory_kb by_memory
@@ -44,6 +47,15 @@ job_count() {
     [ "$by_memory" -ge 1 ] || by_memory=1
     [ -n "${memory_kb:-}" ] || by_memory=$cores
     echo $(( cores < by_memory ? cores : by_memory ))
+}
+
+# configure_check: the build tree of scripts/check, whose name is then in $build.
+# -O1 with assertions: a third of the compile time of -O3, and Eigen checks its sizes. The numbers are tested at
+# every level by `ctest -C long -L long`. Tests of pages and words take no time to run: -O0.
+configure_check() {
+    build=${BUILD_DIR:-build/check}
+    cmake -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 -DSIVID_WERROR=ON \
+        -DSIVID_UNOPTIMISED_TESTS=report >/dev/null
 }
 
 # Without a home folder ccache has no place of its own.

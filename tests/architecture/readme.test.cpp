@@ -5,7 +5,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -26,24 +31,192 @@ TEST_CASE("the README's first program is the one that is compiled", "[readme]") 
     CHECK(std::count(program.begin(), program.end(), '\n') <= 40);
 }
 
-TEST_CASE("the blocks of the guides are parts of programs that are compiled", "[readme]") {
-    std::filesystem::path const root{SIVID_SOURCE_DIR};
-    std::string const fence = "```cpp\n";
-    for (std::string const page : {"docs/your_own_robot.md", "docs/guide.md"}) {
-        auto const guide = text_of_file(root / page);
-        std::size_t blocks = 0;
-        for (auto at = guide.find(fence); at != std::string::npos; at = guide.find(fence, at + 1)) {
-            auto const marker = guide.rfind("<!-- ", at);
-            REQUIRE(marker != std::string::npos);
-            auto const file = guide.substr(marker + 5, guide.find(" -->", marker) - marker - 5);
-            auto const begin = at + fence.size();
-            auto const block = guide.substr(begin, guide.find("```\n", begin) - begin);
-            INFO(page << ", " << file << "\n" << block);
-            CHECK(guide.substr(marker, at - marker) == "<!-- " + file + " -->\n");
-            CHECK(text_of_file(root / file).find(block) != std::string::npos);
-            ++blocks;
+namespace {
+
+/// A block of a page between fences, with the comment on the line before it, if any.
+struct block {
+    std::string page, kind, marker, text;
+    std::size_t line = 0;
+};
+
+std::vector<block> blocks_of(std::string const& page, std::string const& text) {
+    std::vector<block> all;
+    std::istringstream in{text};
+    bool open = false;
+    std::string before;
+    std::size_t number = 0;
+    for (std::string line; std::getline(in, line); before = line) {
+        ++number;
+        if (line.starts_with("```")) {
+            open = !open;
+            if (!open) continue;
+            bool const marked = before.starts_with("<!-- ") && before.ends_with(" -->");
+            all.push_back({page, line.substr(3), marked ? before.substr(5, before.size() - 9) : "", "",
+                           number});
+        } else if (open) {
+            all.back().text += line + "\n";
+        } else if (line.starts_with("    ") && before.empty() && !line.starts_with("    -")) {
+            all.push_back({page, "(indented)", "", line, number});
         }
-        CHECK(blocks >= 5);
+    }
+    if (open) all.push_back({page, "(not closed)", "", "", number});
+    return all;
+}
+
+std::vector<block> all_blocks() {
+    std::filesystem::path const root{SIVID_SOURCE_DIR};
+    std::vector<std::string> pages{"README.md", "CONTRIBUTING.md"};
+    for (auto const& entry : std::filesystem::directory_iterator{root / "docs"})
+        if (entry.path().extension() == ".md") pages.push_back("docs/" + entry.path().filename().string());
+    std::vector<block> all;
+    for (auto const& page : pages)
+        for (auto& b : blocks_of(page, text_of_file(root / page))) all.push_back(std::move(b));
+    return all;
+}
+
+/// Each line without the space around it, and without what other encodings write otherwise.
+std::string trimmed(std::string const& text) {
+    std::istringstream in{text};
+    std::string out;
+    for (std::string line; std::getline(in, line);) {
+        std::erase_if(line, [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
+        auto const from = line.find_first_not_of(" \r");
+        if (from == std::string::npos) continue;
+        out += line.substr(from, line.find_last_not_of(" \r") + 1 - from) + "\n";
+    }
+    return out;
+}
+
+std::string without_space(std::string text) {
+    std::erase_if(text, [](char c) { return c == ' ' || c == '\n'; });
+    return text;
+}
+
+/// All sources in which a program's name or option can stand.
+std::string const& sources() {
+    static std::string const all = [] {
+        std::string text;
+        std::filesystem::path const root{SIVID_SOURCE_DIR};
+        for (auto const* folder : {"examples", "benchmarks", "scripts", "cmake", "include/sivid/io"})
+            for (auto const& e : std::filesystem::recursive_directory_iterator{root / folder}) {
+                auto const extension = e.path().extension();
+                if (e.is_regular_file() && (extension == ".cpp" || extension == ".hpp" || extension == ".ipp" ||
+                                            extension == ".txt" || extension == ".cmake" || extension.empty()))
+                    text += text_of_file(e.path());
+            }
+        return text + text_of_file(root / "CMakeLists.txt");
+    }();
+    return all;
+}
+
+/// What is wrong with one command line: a program or script that does not exist, an option that nobody reads.
+std::string wrong_command(std::string const& line) {
+    std::istringstream words{line};
+    std::string program, word;
+    words >> program;
+    while (program.find('=') != std::string::npos) words >> program; // VARIABLE=value
+    if (program == "sudo") words >> program;
+    static std::set<std::string> const tools{"apt", "cd", "cp", "cmake", "ctest", "g++"};
+    std::filesystem::path const root{SIVID_SOURCE_DIR};
+    bool const script = program.find('/') != std::string::npos && std::filesystem::exists(root / program);
+    std::string const name = std::filesystem::path{program}.filename().string();
+    bool const target = sources().find("add_executable(" + name) != std::string::npos ||
+                        sources().find("sivid_add_robot_program(" + name) != std::string::npos;
+    if (!script && !target && tools.count(program) == 0) return "no such program: " + program;
+    bool const own = tools.count(program) == 0;
+    while (words >> word) {
+        while (!word.empty() && (word.front() == '[' || word.front() == '(')) word.erase(0, 1);
+        if (own && word.starts_with("--")) {
+            auto const option = word.substr(0, word.find_first_of("=])"));
+            if (sources().find(option) == std::string::npos) return "no such option: " + option;
+        }
+        if (word.starts_with("-DSIVID_") &&
+            sources().find(word.substr(2, word.find('=') - 2)) == std::string::npos)
+            return "no such setting: " + word;
+    }
+    return {};
+}
+
+/// What is wrong with the block; empty when something holds it to the tree.
+std::string wrong_block(block const& b) {
+    std::filesystem::path const root{SIVID_SOURCE_DIR};
+    auto const marked_file = b.marker.substr(0, b.marker.find(';'));
+    auto const from_file = [&] { return text_of_file(root / marked_file); };
+    if (b.kind == "math") return {};
+    if (b.kind == "sh") {
+        std::istringstream in{b.text};
+        std::string command;
+        for (std::string line; std::getline(in, line);) {
+            line = line.substr(0, line.find(" # "));
+            bool const goes_on = line.starts_with(" ");
+            if (!goes_on && !command.empty())
+                if (auto const wrong = wrong_command(command); !wrong.empty()) return wrong;
+            command = goes_on ? command + line : line;
+        }
+        return command.empty() ? "an empty block" : wrong_command(command);
+    }
+    if (b.marker.starts_with("printed by: ")) return wrong_command(b.marker.substr(12));
+    if (b.marker.starts_with("keys of: ")) {
+        auto const writer = text_of_file(root / b.marker.substr(9));
+        static std::regex const key{"\"([a-z_]{3,})\":"};
+        for (std::sregex_iterator k{b.text.begin(), b.text.end(), key}, end; k != end; ++k)
+            if (writer.find("\"" + (*k)[1].str() + "\"") == std::string::npos) return "no key " + (*k)[1].str();
+        return {};
+    }
+    if (marked_file.empty()) return "nothing says where it comes from";
+    if (!std::filesystem::is_regular_file(root / marked_file)) return "no file " + marked_file;
+    if (b.kind == "cpp") {
+        bool const compiled = marked_file.starts_with("examples/") || marked_file.starts_with("tests/");
+        if (!compiled) return "not a file that the tests compile: " + marked_file;
+        return trimmed(from_file()).find(trimmed(b.text)) == std::string::npos ? "not part of " + marked_file : "";
+    }
+    if (b.kind == "json") {
+        // Entries may be left out; what stands here stands there.
+        static std::regex const entry{R"("[A-Za-z_]+":("[^"]*"|\[[^\[\]{}]*\]|[-+.0-9a-z]+))"};
+        auto const here = without_space(b.text), there = without_space(from_file());
+        for (std::sregex_iterator e{here.begin(), here.end(), entry}, end; e != end; ++e)
+            if (there.find(e->str()) == std::string::npos) return "not part of " + marked_file + ": " + e->str();
+        return {};
+    }
+    if (b.kind == "cmake") {
+        std::istringstream in{b.text};
+        for (std::string line; std::getline(in, line);)
+            if (trimmed(from_file()).find(trimmed(line.substr(0, line.find("  #")))) == std::string::npos)
+                return "not part of " + marked_file + ": " + line;
+        return {};
+    }
+    if (b.kind.empty()) return trimmed(from_file()).find(trimmed(b.text)) == std::string::npos ? "not part of " + marked_file : "";
+    return "a block of kind " + b.kind;
+}
+
+} // namespace
+
+TEST_CASE("every block of the guides is held to what is compiled, imported or run", "[readme]") {
+    auto const all = all_blocks();
+    CHECK(all.size() > 40);
+    std::map<std::string, std::size_t> kinds;
+    for (auto const& b : all) {
+        INFO(b.page << ":" << b.line << ", " << b.kind << "\n" << b.text);
+        CHECK(wrong_block(b) == "");
+        ++kinds[b.kind];
+    }
+    CHECK(kinds["cpp"] > 14);
+}
+
+TEST_CASE("a block that has gone stale is found", "[readme]") {
+    block const stale[]{{"p", "cpp", "", "int x;\n"},
+                        {"p", "cpp", "examples/first_steps/main.cpp", "int nowhere = 3;\n"},
+                        {"p", "cpp", "README.md", "int main() {\n"},
+                        {"p", "sh", "", "hovercraft identify DATASET --no-such-option\n"},
+                        {"p", "sh", "", "hovercraft identify DATASET\nno_such_program DATASET\n"},
+                        {"p", "sh", "", "cmake -S . -B build -DSIVID_NO_SUCH=ON\n"},
+                        {"p", "json", "examples/import/german_logger/mapping.json", "{ \"duration\": 2.9 }\n"},
+                        {"p", "cmake", "examples/consumer/CMakeLists.txt", "find_package(other)\n"},
+                        {"p", "", "", "printed\n"},
+                        {"p", "(indented)", "", "    code\n"}};
+    for (auto const& b : stale) {
+        INFO(b.kind << "\n" << b.text);
+        CHECK(wrong_block(b) != "");
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The formula of a method as a series in the step: its coefficients agree with the solution's up to
 // the order, its remainder alone shrinks as it should.
+#include <sivid/enclosure/implicit_tableau.hpp>
 #include <sivid/enclosure/runge_kutta.hpp>
 
 #include "support/catch.hpp"
@@ -161,6 +162,18 @@ TEST_CASE("a user's tableau encloses all systems") {
             CHECK(tube.end_time() > 0);
             support::check_tube(system, again, d, 1);
         }
+    });
+}
+
+TEST_CASE("the method of docs/runge_kutta.md") {
+    support::for_each_system([](auto const& system) {
+        auto const flow = system.flow();
+        auto const initial = point_box(mid(system.initial));
+        auto const parameters = point_box(mid(system.parameters));
+        sivid::enclosure_options options;
+        options.method = sivid::radau_iia5();
+        auto const tube = sivid::integrate<sivid::interval>(flow, initial, parameters, 0, 5, options);
+        CHECK(tube.end_time() > 0);
     });
 }
 

@@ -62,6 +62,23 @@ identification found_in(changed_problem const& posed, std::size_t boxes) {
 
 } // namespace
 
+TEST_CASE("the coordinates of docs/identification.md") {
+    draws d(5);
+    auto const planted = support::plant(d, {1, 2, 0, 10}, decay_rate, decay_prior, {1}, {});
+    auto const& problem = planted.problem;
+    identify_options options;
+    options.search.boxes = 50;
+    // clang-format off
+    auto const gain = change({{"gain", "1/s"}, {"rate", "1/s"}}, 2,
+                             [](auto const& p) { return std::vector{p[0] * p[1], p[0] * 1}; },
+                             [](auto const& q) { return std::vector{q[1] * 1, q[0] / q[1]}; });
+    changed_problem const posed(problem, gain);
+    auto const found = identify(posed.problem(), options); // paving, hull, witness in (gain, rate)
+    box const p = posed.parameter_hull(found);             // contains every feasible parameter
+    // clang-format on
+    CHECK(contains(p, planted.truth));
+}
+
 TEST_CASE("a planted truth is never lost in other coordinates, and inside boxes are inside") {
     draws d(671);
     int inside = 0;

@@ -23,11 +23,7 @@ std::string written(diagnosis_view const& v, char const* file) {
 
 void check_contained(std::string const& page) {
     CHECK(markup_error(body_of(page)) == "");
-    CHECK(page.find("<script") == std::string::npos);
-    CHECK(page.find("http") == page.find("http://www.w3.org/2000/svg"));
-    CHECK(occurrences(page, "http") == occurrences(page, "http://www.w3.org/2000/svg"));
-    CHECK(page.find(" src=") == std::string::npos);
-    CHECK(page.find("href=") == std::string::npos);
+    CHECK(foreign_part(page) == "");
 }
 
 } // namespace
@@ -69,7 +65,7 @@ TEST_CASE("diagnosis page: an empty diagnosis renders") {
     std::string const page = written(view_of(sivid::diagnosis{}), "diagnosis_page_empty.html");
     check_contained(page);
     CHECK_THAT(page, ContainsSubstring("Gap not decided"));
-    CHECK(page.find("<figure>") == std::string::npos);
+    CHECK(page.find("<figure") == std::string::npos);
     check_contained(diagnosis_page(diagnosis_view{}).str());
 }
 

@@ -32,7 +32,7 @@ std::string visible_text(std::string_view page) {
             i = end;
             continue;
         }
-        for (std::string_view const skipped : {"<style", "<svg"})
+        for (std::string_view const skipped : {"<style", "<script", "<svg"})
             if (page.substr(i).starts_with(skipped)) {
                 std::string const close = "</" + std::string{skipped.substr(1)} + ">";
                 i = std::min(page.find(close, i), page.size());

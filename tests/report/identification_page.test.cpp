@@ -26,8 +26,7 @@ TEST_CASE("identification page: a full page is well-formed, small and complete")
     std::string const page = written(hovercraft_view(100'000, false), "identification_page.html");
     CHECK(markup_error(body_of(page)) == "");
     CHECK(page.size() < 2'000'000);
-    CHECK(page.find("<script") == std::string::npos);
-    CHECK(page.find("http") == page.find("http://www.w3.org/2000/svg"));
+    CHECK(foreign_part(page) == "");
     CHECK_THAT(page, ContainsSubstring("Proved: the model can explain the data"));
     CHECK_THAT(page, ContainsSubstring("at least one proven-inside box"));
     CHECK_THAT(page, ContainsSubstring("Algorithm 1 of the report"));
@@ -78,7 +77,7 @@ TEST_CASE("identification page: hostile texts stay texts") {
     v.identifiability_at = evil;
     std::string const page = identification_page(v).str();
     CHECK(markup_error(body_of(page)) == "");
-    CHECK(page.find("<script") == std::string::npos);
+    CHECK(foreign_part(page) == "");
     CHECK(occurrences(page, " onload=") == occurrences(page, "&quot; onload="));
     CHECK(occurrences(page, "&lt;script&gt;") > 10);
 }
@@ -89,7 +88,7 @@ TEST_CASE("identification page: nothing known, nothing drawn, nothing breaks") {
     CHECK(markup_error(body_of(page)) == "");
     CHECK_THAT(page, ContainsSubstring("Not decided"));
     CHECK(page.find("<h2>Parameters</h2>") == std::string::npos);
-    CHECK(page.find("<figure>") == std::string::npos);
+    CHECK(page.find("<figure") == std::string::npos);
 }
 
 TEST_CASE("identification page: a refuted campaign with empty hulls and wild numbers") {

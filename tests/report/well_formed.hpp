@@ -2,6 +2,8 @@
 #ifndef SIVID_TESTS_REPORT_WELL_FORMED_HPP
 #define SIVID_TESTS_REPORT_WELL_FORMED_HPP
 
+#include <sivid/report/page_script.hpp>
+
 #include <cctype>
 #include <cstddef>
 #include <set>
@@ -16,7 +18,8 @@ namespace sivid_tests {
 /// repeated, entities among the five known ones, no control characters, ids unique, references
 /// "url(#id)" defined, no "nan" or "inf" where a number stands.
 inline std::string markup_error(std::string_view text) {
-    static std::set<std::string> const words{"aria-label", "font-family", "class", "lang", "id"};
+    static std::set<std::string> const words{"aria-label", "font-family", "class", "lang", "id", "data-head", "data-sides", "data-rows",
+        "data-x-name", "data-x-unit", "data-y-name", "data-y-unit"};
     std::vector<std::string> open;
     std::set<std::string> ids;
     std::set<std::string> references;
@@ -114,6 +117,22 @@ inline std::string markup_error(std::string_view text) {
 }
 
 /// The body of a page, with its tags.
+/// What makes a page depend on elsewhere, or run what is not its own; empty where nothing does.
+inline std::string foreign_part(std::string_view page) {
+    auto const count = [&](std::string_view what) {
+        std::size_t n = 0;
+        for (auto at = page.find(what); at != std::string_view::npos; at = page.find(what, at + 1)) ++n;
+        return n;
+    };
+    for (auto const* word : {"https:", " src=", "href=", "@import", "url(http", "javascript:"})
+        if (count(word) > 0) return word;
+    if (count("http:") != count("http://www.w3.org/2000/svg")) return "http:";
+    auto const script = "<script>" + std::string{sivid::report::page_script} + "</script>";
+    if (count("<script") != 1 || count(script) != 1) return "a script that is not the page's own";
+    if (count("content=\"default-src 'none'; ") != 1) return "no policy against foreign content";
+    return {};
+}
+
 inline std::string_view body_of(std::string_view page) {
     std::size_t const from = page.find("<body>");
     std::size_t const to = page.find("</body>");

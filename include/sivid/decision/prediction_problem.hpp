@@ -80,7 +80,7 @@ struct followed_outputs {
     std::vector<std::size_t> channels; ///< where the model's own channels stand among the outputs
     std::vector<std::size_t> margins;  ///< where `margins` stand
 
-    /// @param margins  nodes of the model's graph
+    /// @param margins_wanted  nodes of the model's graph
     followed_outputs(recorded_model original, std::vector<node_id> const& margins_wanted)
         : model(std::move(original)) {
         auto const own = model.observe;

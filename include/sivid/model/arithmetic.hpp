@@ -30,7 +30,7 @@ class plain_accumulator {
 
 public:
     plain_accumulator() = default;
-    /// @param place  where the result will go
+    /// Where the result will go does not matter here.
     explicit plain_accumulator(value_type& /*place*/) {}
     /// Adds a times a small integer.
     void add(value_type const& a, double factor = 1) {

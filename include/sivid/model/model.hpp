@@ -97,13 +97,13 @@ using inputs_of = vec<T, input_count<Model>>;
 template <class Model, class T>
 using channels_of = vec<T, channel_count<Model>>;
 
-/// One constant as a function of others: what `derived` of a model lists.
+/// One constant as a function of others: what `derived` of a model lists. @code
 ///     template <class T>
 ///     std::array<sivid::relation_of_constants<T>, 1> derived(constants_of<disc, T> const& c) const
 ///     {
 ///         auto const& [A, D] = c;
 ///         return {{{"A", atan(T(1)) * sqr(D)}}}; // pi D^2/4
-///     }
+///     } @endcode
 /// The nominal value of such a constant is that of its formula, rounded. It stands while the data
 /// state none of the constants in the formula; `parameter_choice` says when the formula takes over.
 template <class T>

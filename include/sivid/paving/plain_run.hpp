@@ -61,7 +61,7 @@ public:
 
     /// Hands the output of one measurement after the other to `take`, in the order of time, up to
     /// where the enclosure ends or `take` says false.
-    /// @param take  (index of the measurement, observation<I>), says whether to go on
+    /// @param take  (index of the measurement, `observation<I>`), says whether to go on
     template <class Take>
     void each(basic_box<I> const& starts, basic_box<I> const& parameters, Take const& take) {
         run_->begin(begin_, starts, parameters);

@@ -43,7 +43,7 @@ public:
 
     /// @param boxes  of the reduced parameters, which overlap in faces only
     /// @param cells  parts of the prior of the factors, at most
-    /// @cost  O(cells * boxes)
+    /// @returns in a time O(cells * boxes)
     [[nodiscard]] interval operator()(std::vector<box> const& boxes, std::size_t cells = 200,
                                       double accuracy = 2e-3) const {
         std::vector<interval> plain;

@@ -80,7 +80,7 @@ template <class T>
 concept interruptible_set_test = requires(T const& test) {
     { test.cancelled() } -> std::convertible_to<bool>;
 };
-
+/// What `invert` takes: a test of one box after the other, or of many together.
 template <class T>
 concept set_test = plain_set_test<T> || learning_set_test<T>;
 

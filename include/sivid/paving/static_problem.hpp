@@ -17,7 +17,7 @@
 
 namespace sivid {
 
-/// A model without states: its outputs are functions of time and constants, \f$ y = g(t, c) \f$.
+/// A model without states: its outputs are functions of time and constants, \f$ y = g(t, c) \f$. @code
 ///     struct decay {
 ///         static constexpr auto name = "decay";
 ///         static constexpr auto channels = sivid::channels({{"y", "1"}});
@@ -25,7 +25,7 @@ namespace sivid {
 ///         template <class T>
 ///         sivid::channels_of<decay, T> observe(T const& t, sivid::constants_of<decay, T> const& c)
 ///             const;
-///     };
+///     }; @endcode
 template <class M>
 concept static_model = requires {
     M::channels;

@@ -84,8 +84,10 @@ public:
         }
     }
 
-    /// Frame, ticks and labels: draw after the data.
+    /// Frame, ticks and labels: draw after the data. Tells the page's script where values are.
     void draw_frame(svg& out) const {
+        place(out, "x", x_, left_, right_);
+        place(out, "y", y_, bottom_, top_);
         path_data marks;
         marks.rect(left_, top_, right_ - left_, bottom_ - top_);
         for (tick const& t : x_ticks_.ticks) {
@@ -114,6 +116,11 @@ public:
     }
 
 private:
+    static void place(svg& out, std::string const& name, axis const& a, double from, double to) {
+        out.data(name, coordinate(from) + ' ' + coordinate(to) + ' ' + machine_number(a.bounds.lo) +
+                           ' ' + machine_number(a.bounds.hi));
+        out.data(name + "-name", a.label).data(name + "-unit", unit_text(a.unit));
+    }
     static double share(double value, range const& r) {
         double const s = (value / 2 - r.lo / 2) / (r.hi / 2 - r.lo / 2);
         return std::isnan(s) ? 0.0 : std::clamp(s, -2.0, 3.0);

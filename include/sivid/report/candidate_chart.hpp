@@ -107,6 +107,7 @@ private:
 };
 
 SIVID_DECL std::string_view state_colour(candidate_state s);
+SIVID_DECL std::string_view state_ink(candidate_state s);
 
 } // namespace detail
 

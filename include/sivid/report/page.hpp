@@ -5,6 +5,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/report/escape.hpp>
 #include <sivid/report/legend.hpp>
+#include <sivid/report/page_script.hpp>
 #include <sivid/report/page_style.hpp>
 #include <sivid/report/svg.hpp>
 #include <sivid/report/table.hpp>
@@ -47,10 +48,12 @@ struct figure {
     std::string title{}; ///< first words of the caption, set off
     std::string caption{};
     panel_layout layout = panel_layout::grid;
+    std::vector<attribute_text> data{}; ///< for the page's script
 };
 
-/// Builds one self-contained page from top to bottom. Every text is escaped; no script, no font and
-/// no picture is loaded from elsewhere.
+/// Builds one self-contained page from top to bottom. Every text is escaped; nothing is loaded
+/// from elsewhere, and the page's own policy forbids it to the browser. It reads whole without its script,
+/// which shows values under the pointer and links the places of a box.
 class page {
 public:
     explicit page(page_head const& head);

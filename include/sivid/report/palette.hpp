@@ -31,6 +31,7 @@ inline constexpr std::string_view undecided = "#f2b93b"; // orange, lighter: hat
 inline constexpr std::string_view pending = "#d9a3c2";   // reddish purple, lighter: dotted
 inline constexpr std::string_view outside = "#eceef1";   // plain light grey
 inline constexpr std::string_view outlier = vermillion;  // cross in a ring
+inline constexpr std::string_view outlier_ink = "#b34e00"; // for letters
 inline constexpr std::string_view suspect = "#a0447a";   // open diamond
 inline constexpr std::string_view tube = "#56b4e9";      // filled band
 inline constexpr std::string_view tube_edge = "#2b86bd";

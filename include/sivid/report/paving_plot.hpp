@@ -8,9 +8,11 @@
 #include <sivid/report/paving_raster.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sivid::report {
@@ -40,6 +42,14 @@ struct plane_window {
     range x{};
     range y{};
 };
+
+/// The boxes behind the projections of one paving, for the page's script: attributes of the figure
+/// that shows them. Ends are rounded to the nearest of 10^4 steps over all boxes: enough to show where
+/// a box lies, no bound.
+/// @given  box i of each projection belongs to the same box of the paving; else nothing comes back
+/// @param most  of so many boxes, the largest; how many are left out is said
+[[nodiscard]] SIVID_DECL std::vector<attribute_text>
+paving_attributes(std::vector<paving_projection> const& all, std::size_t most = 3000);
 
 /// What is worth a closer look: the hull of inside and undecided boxes, or of the inside boxes
 /// when that is nearly all of the prior. Nothing when the whole view shows it well.

@@ -19,6 +19,15 @@ namespace sivid::report {
 /// A coordinate as text, rounded to 0.01 units: never NaN or infinite, at most 1e6 in size.
 [[nodiscard]] SIVID_DECL std::string coordinate(double value);
 
+/// The shortest decimal that reads back as the same double, for a program.
+[[nodiscard]] SIVID_DECL std::string machine_number(double value);
+
+/// A data-`name` attribute.
+struct attribute_text {
+    std::string name{};
+    std::string value{};
+};
+
 /// How a shape is filled and drawn. Colours are SVG paint values.
 struct paint {
     std::string_view fill = "none";
@@ -81,6 +90,8 @@ public:
     /// Opens a window: what is drawn outside of it until `close` is cut off.
     svg& clip(double x, double y, double w, double h);
     svg& close();
+    /// Attribute data-`name` of the whole drawing, for the page's script. The name is plain.
+    svg& data(std::string_view name, std::string_view value);
     /// A fill of parallel diagonal lines on a base colour. @returns a paint value for `paint::fill`
     std::string hatch(std::string_view base, std::string_view ink, double spacing = 5);
     /// A fill of dots on a base colour. @returns a paint value for `paint::fill`
@@ -107,6 +118,7 @@ private:
     double width_;
     double height_;
     std::string label_;
+    std::string data_;
     std::vector<std::string> patterns_;
     std::string definitions_;
     std::string body_;

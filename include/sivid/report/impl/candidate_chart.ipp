@@ -57,6 +57,13 @@ SIVID_DECL std::string_view state_colour(candidate_state s) {
                                             : palette::frame;
 }
 
+// Of a sign in the same meaning: dark enough for a letter.
+SIVID_DECL std::string_view state_ink(candidate_state s) {
+    return s == candidate_state::explains   ? palette::inside
+           : s == candidate_state::excluded ? palette::outlier_ink
+                                            : palette::muted_ink;
+}
+
 } // namespace detail
 
 SIVID_DECL std::vector<legend_entry> candidate_legend(std::vector<candidate_bar> const& bars) {
@@ -118,7 +125,7 @@ SIVID_DECL svg draw_candidate_chart(std::vector<candidate_bar> const& bars,
         auto const colour = detail::state_colour(b.state);
         std::string const tip = b.label + ": " + note(b);
         out.text(8, y + 18, state_sign(b.state),
-                 {.size = 13, .align = anchor::middle, .fill = colour, .bold = true});
+                 {.size = 13, .align = anchor::middle, .fill = detail::state_ink(b.state), .bold = true});
         out.text(left - 10, y + 18, shorten(b.label, 44),
                  {.size = 12.5, .align = anchor::end, .bold = b.answer});
         if (says_something(b.proved)) {

@@ -61,7 +61,7 @@ SIVID_DECL std::vector<card> diagnosis_cards(diagnosis_view const& v) {
 }
 
 SIVID_DECL table summary_table(diagnosis_view const& v) {
-    table t{.columns = {{"in short", column_kind::symbol}, {""}}, .rows = {}};
+    table t{.columns = {{"in short", column_kind::symbol}, {"answer"}}, .rows = {}};
     auto const add = [&](char const* question, std::string const& text) {
         if (!text.empty()) {
             t.rows.push_back({question, capitalised(text) + (text.back() == '.' ? "" : ".")});
@@ -128,7 +128,7 @@ SIVID_DECL table places_table(diagnosis_view const& v, std::size_t most) {
 }
 
 SIVID_DECL table gap_shares_table(diagnosis_view const& v) {
-    table t{.columns = {{"", column_kind::symbol},
+    table t{.columns = {{"scenario or channel", column_kind::symbol},
                         {"proved", column_kind::number},
                         {"best fit (estimate)", column_kind::number}},
             .rows = {},
@@ -189,7 +189,7 @@ SIVID_DECL table constants_table(diagnosis_view const& v) {
                         {"proved range", column_kind::number},
                         {"prior", column_kind::number},
                         {"unit"},
-                        {"", column_kind::note}},
+                        {"to be noted", column_kind::note}},
             .rows = {}};
     for (estimate_view const& e : v.constants) {
         auto const end = std::find_if(v.at_ends.begin(), v.at_ends.end(), [&](end_view const& a) {

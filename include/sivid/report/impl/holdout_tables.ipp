@@ -7,7 +7,7 @@
 namespace sivid::report {
 
 SIVID_DECL table holdout_table(holdout_view const& h, range const& shrink) {
-    table t{.columns = {{"", column_kind::symbol},
+    table t{.columns = {{"measure", column_kind::symbol},
                         {"model as it is", column_kind::number},
                         {"with the effect", column_kind::number},
                         {"known by"}},

@@ -77,7 +77,8 @@ SIVID_DECL figure paving_figure(std::vector<paving_projection> const& pavings, s
              .legend = paving_plot_legend(pavings),
              .title = std::move(title),
              .caption = std::move(caption),
-             .layout = panel_layout::pair};
+             .layout = panel_layout::pair,
+             .data = paving_attributes(pavings)};
     for (paving_projection const& p : pavings) {
         std::string const name = p.y.label + " against " + p.x.label;
         auto const zoom = zoom_window(p);

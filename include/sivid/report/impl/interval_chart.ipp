@@ -21,6 +21,7 @@ SIVID_DECL svg draw_interval_chart(std::vector<interval_row> const& rows,
     }
     double const left = std::min(name_width, o.width * 0.4);
     double const right = o.width - 14;
+    std::string places;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         interval_row const& r = rows[i];
         double const y = top + pitch * static_cast<double>(i);
@@ -29,6 +30,8 @@ SIVID_DECL svg draw_interval_chart(std::vector<interval_row> const& rows,
             double const s = (v - scale.lo) / (scale.hi - scale.lo);
             return left + (right - left) * (std::isnan(s) ? 0.0 : std::clamp(s, 0.0, 1.0));
         };
+        places += coordinate(left) + ' ' + coordinate(right) + ' ' + machine_number(scale.lo) + ' ' +
+                  machine_number(scale.hi) + ' ' + coordinate(y + 10) + " 20 " + r.name + '\n';
         out.text(0, y + 24, shorten(r.name, 24), {.size = 13, .bold = true});
         out.rect(left, y + 14, right - left, 12, {.fill = palette::prior}, 3,
                  std::string{"prior "} + given_text(r.prior));
@@ -57,7 +60,7 @@ SIVID_DECL svg draw_interval_chart(std::vector<interval_row> const& rows,
                      {.size = 10.5, .align = anchor::end, .fill = palette::muted_ink});
         }
     }
-    return out;
+    return out.data("rows", places);
 }
 
 } // namespace sivid::report

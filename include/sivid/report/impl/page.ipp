@@ -58,7 +58,11 @@ SIVID_DECL page& page::add(figure const& f) {
     if (f.panels.empty()) {
         return *this;
     }
-    body_ += "<figure>";
+    body_ += "<figure";
+    for (attribute_text const& a : f.data) {
+        body_ += " data-" + a.name + "=\"" + escape(a.value) + '"';
+    }
+    body_ += '>';
     if (!f.legend.empty()) {
         body_ += "<ul class=\"legend\">";
         for (legend_entry const& e : f.legend) {
@@ -105,8 +109,12 @@ SIVID_DECL page& page::footer(std::vector<std::string> const& parts) {
 SIVID_DECL std::string page::str() const {
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-           escape(title_) + "</title>\n<style>" + std::string{page_style} +
-           "</style>\n</head>\n<body>\n<main>\n" + body_ + footer_ + "</main>\n</body>\n</html>\n";
+           escape(title_) + "</title>\n" +
+           "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
+           "'unsafe-inline'; script-src 'unsafe-inline'\">\n<style>" +
+           std::string{page_style} + "</style>\n<script>" + std::string{page_script} +
+           "</script>\n</head>\n<body>\n<main>\n" + body_ + footer_ +
+           "</main>\n</body>\n</html>\n";
 }
 
 SIVID_DECL page& page::element(std::string const& name, std::string_view text) {
@@ -125,7 +133,7 @@ SIVID_DECL std::string page::list(std::vector<std::string> const& lines) {
 SIVID_DECL page& page::boxed(std::string const& style, std::string_view title,
                              std::vector<std::string> const& lines) {
     body_ += lines.empty() ? std::string{}
-                           : "<div class=\"" + style + "\"><h3>" + escape(title) + "</h3>" +
+                           : "<div class=\"" + style + "\"><h2>" + escape(title) + "</h2>" +
                                  list(lines) + "</div>\n";
     return *this;
 }

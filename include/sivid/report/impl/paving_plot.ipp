@@ -30,6 +30,63 @@ SIVID_DECL std::optional<plane_window> zoom_window(paving_projection const& p, d
     return std::nullopt;
 }
 
+SIVID_DECL std::vector<attribute_text> paving_attributes(std::vector<paving_projection> const& all,
+                                                         std::size_t most) {
+    constexpr double steps = 10'000;
+    struct side {
+        axis const* what;
+        std::vector<projected_box> const* boxes;
+        range projected_box::*of;
+        range hull;
+    };
+    std::vector<side> sides;
+    std::size_t const count = all.empty() ? 0 : all.front().boxes.size();
+    for (paving_projection const& p : all) {
+        if (p.boxes.size() != count) return {};
+        for (auto const& [what, of] : {std::pair{&p.x, &projected_box::x}, {&p.y, &projected_box::y}}) {
+            bool const known = std::any_of(sides.begin(), sides.end(), [&, w = what](side const& s) {
+                return s.what->label == w->label;
+            });
+            if (!known) sides.push_back({what, &p.boxes, of, {}});
+        }
+    }
+    std::vector<std::pair<double, std::size_t>> order; // by size, largest first
+    for (std::size_t i = 0; i < count; ++i) {
+        double size = 0;
+        for (side& s : sides) {
+            range const& r = (*s.boxes)[i].*s.of;
+            if (!is_finite(r)) return {};
+            s.hull = hull(s.hull, r);
+            size += std::log(std::max((r.hi - r.lo) / approximate_width(s.what->bounds), 1e-300));
+        }
+        if (all.front().boxes[i].verdict != region::outside) order.emplace_back(-size, i);
+    }
+    if (order.empty()) return {};
+    std::size_t const listed = std::min(order.size(), most);
+    std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(listed), order.end());
+    std::string names, scales, boxes;
+    for (side const& s : sides) {
+        names += s.what->label + '\n' + unit_text(s.what->unit) + '\n';
+        scales += machine_number(s.hull.lo) + ' ' + machine_number(s.hull.hi) + ' ';
+    }
+    for (std::size_t k = 0; k < listed; ++k) {
+        std::size_t const i = order[k].second;
+        boxes += std::to_string(static_cast<int>(all.front().boxes[i].verdict));
+        for (side const& s : sides) {
+            range const& r = (*s.boxes)[i].*s.of;
+            double const width = s.hull.hi - s.hull.lo;
+            for (double const end : {r.lo, r.hi})
+                boxes += ' ' + std::to_string(
+                                   width > 0 ? std::lround((end - s.hull.lo) / width * steps) : 0);
+        }
+        boxes += ';';
+    }
+    return {{"sides", names},
+            {"scales", scales},
+            {"boxes", boxes},
+            {"left-out", std::to_string(order.size() - listed)}};
+}
+
 SIVID_DECL std::vector<legend_entry> paving_plot_legend(std::vector<paving_projection> const& all) {
     bool used[4] = {true, false, false, false};
     bool witness = false, zoom = false;

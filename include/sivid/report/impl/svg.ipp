@@ -20,6 +20,11 @@ SIVID_DECL std::string coordinate(double value) {
     return out == "-0" ? "0" : std::string{out};
 }
 
+SIVID_DECL std::string machine_number(double value) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
 SIVID_DECL path_data& path_data::rect(double x, double y, double w, double h) {
     text_ += std::string(1, 'M') + coordinate(x) + ' ' + coordinate(y) + 'h' + coordinate(w) + 'v' +
              coordinate(h) + 'h' + coordinate(-w) + 'z';
@@ -94,6 +99,11 @@ SIVID_DECL svg& svg::close() {
     return *this;
 }
 
+SIVID_DECL svg& svg::data(std::string_view name, std::string_view value) {
+    data_ += std::string{" data-"} + std::string{name} + "=\"" + escape(value) + '"';
+    return *this;
+}
+
 SIVID_DECL std::string svg::hatch(std::string_view base, std::string_view ink, double spacing) {
     std::string const s = coordinate(spacing);
     return pattern(base, spacing,
@@ -113,8 +123,8 @@ SIVID_DECL std::string svg::str(std::string_view id_prefix) const {
     std::string out =
         std::string{"<svg xmlns=\"http://www.w3.org/2000/svg\""} + attribute("width", width_) +
         attribute("height", height_) + " viewBox=\"0 0 " + coordinate(width_) + ' ' +
-        coordinate(height_) + "\" role=\"img\" aria-label=\"" + escape(label_) +
-        "\" font-family=\"system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', "
+        coordinate(height_) + "\" role=\"img\" aria-label=\"" + escape(label_) + '"' + data_ +
+        " font-family=\"system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', "
         "'Liberation Sans', Arial, sans-serif\">\n";
     out += std::string{"<rect width=\"100%\" height=\"100%\" fill=\""} +
            std::string{palette::paper} + "\"/>\n";

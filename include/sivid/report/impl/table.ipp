@@ -25,6 +25,7 @@ SIVID_DECL std::string table_html(table const& t) {
     });
     std::string out = narrow && shown.size() < 5 ? "<div class=\"scroll\"><table class=\"narrow\">"
                                                  : "<div class=\"scroll\"><table>";
+    // On a narrow screen each cell stands on a line of its own, behind the head of its column.
     out += "<thead><tr>";
     for (std::size_t const c : shown) {
         out += std::string{"<th scope=\"col\""} +
@@ -35,7 +36,8 @@ SIVID_DECL std::string table_html(table const& t) {
     for (std::size_t r = 0; r < t.rows.size(); ++r) {
         out += t.chosen_row == r ? "<tr class=\"chosen\">" : "<tr>";
         for (std::size_t const c : shown) {
-            out += std::string{"<td class=\""} + name(t.columns[c].kind) + "\">" +
+            out += std::string{"<td class=\""} + name(t.columns[c].kind) +
+                   "\" data-head=\"" + escape(t.columns[c].head) + "\">" +
                    (c < t.rows[r].size() ? escape(t.rows[r][c]) : "") + "</td>";
         }
         out += "</tr>";
