@@ -102,7 +102,8 @@ inline bool package_allowed(std::string_view name, std::string_view floor, std::
         return one_of({"sys/"}) && (floor == "io" || floor == "parallel");
     if (name.find('.') == std::string_view::npos) return true; // the standard library
     if (one_of({"unistd.h", "fcntl.h"})) return floor == "io" || floor == "parallel";
-    static std::set<std::string_view> const processor{"immintrin.h", "emmintrin.h", "xmmintrin.h"};
+    static std::set<std::string_view> const processor{"immintrin.h", "emmintrin.h", "xmmintrin.h",
+                                                      "arm_neon.h"};
     return processor.count(name) > 0;
 }
 

@@ -2,7 +2,9 @@
 #include <sivid/number/decimal_output.hpp>
 
 #include "number/support.hpp"
+#include "support/flushing.hpp"
 
+#include <cfenv>
 #include <cmath>
 #include <string>
 
@@ -61,17 +63,22 @@ TEST_CASE("texts contain, are less than one float away, and no shorter text is")
 }
 
 TEST_CASE("texts do not depend on the caller's rounding mode, nor on flushing to zero") {
-    unsigned const before = detail::read_mxcsr();
-    for (unsigned const mode : {0x0000u, 0x2000u, 0x4000u, 0x6000u, 0x8040u}) {
-        detail::write_mxcsr(before | mode);
+    auto const check = [](auto const& enter, auto const& leave) {
+        enter();
         std::string const text = to_decimal_lower(0.1) + to_decimal_upper(0.1) +
                                  to_decimal_lower(tiny) + to_decimal_upper(1e22) +
                                  to_decimal_upper(-tiny);
         double const near = *parse_nearest("0.3"), large = *parse_nearest("123456789012345e9");
-        detail::write_mxcsr(before);
+        leave();
         CHECK(text == "0.10.100000000000000014e-3241e22-4e-324");
         CHECK(near == 0.3);
         CHECK(large == 123456789012345e9);
+    };
+    for (int const mode : {FE_TONEAREST, FE_DOWNWARD, FE_UPWARD, FE_TOWARDZERO})
+        check([=] { std::fesetround(mode); }, [] { std::fesetround(FE_TONEAREST); });
+    for (auto const flags : flushing::combinations()) {
+        auto const before = flushing::read();
+        check([=] { flushing::write(before | flags); }, [=] { flushing::write(before); });
     }
 }
 

@@ -76,12 +76,17 @@ TEST_CASE("pack: what is no interval is empty") {
 }
 
 TEST_CASE("pack: the back end is the widest that the target has") {
-    std::size_t const widest = SIVID_PACK_AVX512 ? 8 : SIVID_PACK_AVX2 ? 4 : 2;
+    bool const has_pairs = SIVID_MACHINE_X86_64 || SIVID_MACHINE_ARM64;
+    std::size_t const widest = SIVID_PACK_AVX512 ? 8 : SIVID_PACK_AVX2 ? 4 : has_pairs ? 2 : 1;
     CHECK(pack<16>::vector::lanes == widest);
     CHECK(pack<8>::vector::lanes == widest);
-    CHECK(pack<2>::vector::lanes == 2);
+    CHECK(pack<2>::vector::lanes == (has_pairs ? 2 : 1));
     CHECK(pack<3>::vector::lanes == 1);
-    CHECK(sivid::pack_target() == (widest == 8 ? "avx512" : widest == 4 ? "avx2" : "sse2"));
+    CHECK(sivid::pack_target() == (widest == 8            ? "avx512"
+                                   : widest == 4          ? "avx2"
+                                   : SIVID_MACHINE_X86_64 ? "sse2"
+                                   : SIVID_MACHINE_ARM64  ? "neon"
+                                                          : "portable"));
 }
 
 TEST_CASE("pack: a supported machine passes the check, and keeps its rounding mode") {

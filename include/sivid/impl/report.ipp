@@ -21,7 +21,6 @@
 #include <sivid/report/impl/identification_parameters.ipp>
 #include <sivid/report/impl/identification_report.ipp>
 #include <sivid/report/impl/identification_words.ipp>
-#include <sivid/report/impl/reach_words.ipp>
 #include <sivid/report/impl/interval_chart.ipp>
 #include <sivid/report/impl/legend.ipp>
 #include <sivid/report/impl/missing_rate_plot.ipp>
@@ -33,6 +32,7 @@
 #include <sivid/report/impl/paving_raster.ipp>
 #include <sivid/report/impl/place_words.ipp>
 #include <sivid/report/impl/plane_plot.ipp>
+#include <sivid/report/impl/reach_words.ipp>
 #include <sivid/report/impl/residual_plot.ipp>
 #include <sivid/report/impl/rounded_decimal.ipp>
 #include <sivid/report/impl/svg.ipp>

@@ -28,7 +28,8 @@ public:
 
     exact_decimal() = default;
 
-    /// Reads a sign or none, digits with a point or none, and `e` with an exponent or none; no more.
+    /// Reads a sign or none, digits with a point or none, and `e` with an exponent or none; no
+    /// more.
     /// @returns nothing when malformed, or when digits or exponent pass the limits above
     [[nodiscard]] static std::optional<exact_decimal> parse(std::string_view text);
 

@@ -29,7 +29,7 @@ inline interval neg(interval const& x) noexcept {
     return unchecked_interval(add_down(x.lower(), -y.upper()), add_up(x.upper(), -y.lower()));
 }
 
-#if defined(__AVX512F__)
+#if SIVID_EMBEDDED_ROUNDING
 
 /// All four products at once: lanes 0 to 3 hold x y, lanes 4 to 7 hold x (-y), both rounded upward;
 /// the greatest of each half are the upper bound and minus the lower bound. (The zero-masking forms
@@ -61,11 +61,18 @@ inline interval mul(interval const& x, interval const& y) noexcept {
 /// Two products a_i b_i as [a_0 b_0 rounded down, a_1 b_1 rounded up]; 0 * inf is 0.
 [[gnu::always_inline]] inline interval products(std::uint64_t a0, std::uint64_t b0,
                                                 std::uint64_t a1, std::uint64_t b1) noexcept {
+#if SIVID_MACHINE_X86_64
     std::uint64_t const minus_a0 = a0 ^ sign_bit;
     __m128d const up =
         mul_up_pair(_mm_set_pd(std::bit_cast<double>(a1), std::bit_cast<double>(minus_a0)),
                     _mm_set_pd(std::bit_cast<double>(b1), std::bit_cast<double>(b0)));
     return unchecked_interval(-_mm_cvtsd_f64(up), _mm_cvtsd_f64(_mm_unpackhi_pd(up, up)));
+#else
+    auto const x0 = std::bit_cast<double>(a0), y0 = std::bit_cast<double>(b0);
+    auto const x1 = std::bit_cast<double>(a1), y1 = std::bit_cast<double>(b1);
+    return unchecked_interval(is_zero(x0) || is_zero(y0) ? 0.0 : mul_down(x0, y0),
+                              is_zero(x1) || is_zero(y1) ? 0.0 : mul_up(x1, y1));
+#endif
 }
 
 /// Unless both factors have both signs, the end points that make the lower bound are given by two
@@ -102,7 +109,7 @@ inline interval sqr(interval const& x) noexcept {
     if (is_empty(x)) [[unlikely]]
         return empty_interval();
     double const least = mig(x), most = mag(x);
-#if defined(__AVX512F__)
+#if SIVID_EMBEDDED_ROUNDING
     return unchecked_interval(mul_down(least, least), mul_up(most, most));
 #else
     return products(bits(least), bits(least), bits(most), bits(most));

@@ -9,6 +9,7 @@
 /// A plain double stands for its exact value. The empty set has NaN bounds; an infinite bound means
 /// unbounded, infinity itself is never a member.
 
+#include <sivid/number/detail/opaque_rounding.hpp>
 #include <sivid/number/detail/refused_flags.hpp>
 #include <sivid/number/rounding.hpp>
 
@@ -23,77 +24,8 @@
 #include <concepts>
 #include <cstdint>
 #include <limits>
-#include <type_traits>
 
 namespace sivid {
-
-/// Rounding policy of Boost.Interval: upward mode of MXCSR set once for each operation, FTZ and DAZ
-/// cleared, lower bounds through negation. Operands and results pass through volatile empty
-/// assembly between the two changes of the mode, so no compiler can fold, share or move the
-/// operation. It has no transcendental functions: Boost's own are unsound with every policy.
-class opaque_rounding {
-public:
-    using rounding_mode = unsigned;
-
-    static void get_rounding_mode(rounding_mode& mode) noexcept { mode = detail::read_mxcsr(); }
-    static void set_rounding_mode(rounding_mode mode) noexcept { detail::write_mxcsr(mode); }
-    static void upward() noexcept { enter(detail::direction::up); }
-    static void downward() noexcept { enter(detail::direction::down); }
-    static void to_nearest() noexcept { enter(detail::direction::nearest); }
-    static void init() noexcept { upward(); }
-
-    static double add_up(double x, double y) noexcept { return pin(pin(x) + pin(y)); }
-    static double sub_up(double x, double y) noexcept { return pin(pin(x) - pin(y)); }
-    static double mul_up(double x, double y) noexcept { return pin(pin(x) * pin(y)); }
-    static double div_up(double x, double y) noexcept { return pin(pin(x) / pin(y)); }
-    static double add_down(double x, double y) noexcept { return -pin(pin(-x) - pin(y)); }
-    static double sub_down(double x, double y) noexcept { return -pin(pin(y) - pin(x)); }
-    static double mul_down(double x, double y) noexcept { return -pin(pin(x) * pin(-y)); }
-    static double div_down(double x, double y) noexcept { return -pin(pin(x) / pin(-y)); }
-    static double sqrt_up(double x) noexcept { return pin(detail::plain_sqrt(pin(x))); }
-    static double sqrt_down(double x) noexcept {
-        downward();
-        double const root = pin(detail::plain_sqrt(pin(x)));
-        upward();
-        return root;
-    }
-    static double median(double x, double y) noexcept {
-        to_nearest();
-        double const middle = pin(pin(x) + pin(y)) / 2.0;
-        double const result = pin(middle);
-        upward();
-        return result;
-    }
-    template <std::integral N>
-    static double conv_up(N n) noexcept {
-        return converted(n);
-    }
-    template <std::integral N>
-    static double conv_down(N n) noexcept {
-        downward();
-        double const result = converted(n);
-        upward();
-        return result;
-    }
-    // Every float is a double.
-    static double conv_up(float x) noexcept { return static_cast<double>(x); }
-    static double conv_down(float x) noexcept { return static_cast<double>(x); }
-    static double conv_up(double x) noexcept { return x; }
-    static double conv_down(double x) noexcept { return x; }
-
-private:
-    static double pin(double x) noexcept { return detail::pinned(x); }
-    template <std::integral N>
-    static double converted(N n) noexcept {
-        std::conditional_t<std::unsigned_integral<N>, std::uint64_t, std::int64_t> wide = n;
-        asm volatile("" : "+r"(wide) : : "memory");
-        return pin(static_cast<double>(wide));
-    }
-    /// All exceptions masked, FTZ and DAZ off. A constant: reading the register is what costs.
-    static void enter(detail::direction d) noexcept {
-        detail::write_mxcsr(0x1f80u | static_cast<unsigned>(d));
-    }
-};
 
 /// The interval type that users see. `+ - * /` of Boost are sound on it; `interval_traits` is
 /// tighter (division), faster, and the way by which the library computes.
@@ -127,7 +59,7 @@ inline interval bounded(double lo, double hi) noexcept {
     return unchecked_interval(lo, hi);
 }
 
-/// The same interval, computed where this stands between changes of MXCSR.
+/// The same interval, computed where this stands between changes of the control register.
 [[gnu::always_inline]] inline interval pinned(interval const& x) noexcept {
     return unchecked_interval(pinned(x.lower()), pinned(x.upper()));
 }
@@ -147,15 +79,10 @@ template <class F, class... X>
 [[gnu::always_inline]] inline interval in_nearest_mode_cut(bool& cut, F const& f,
                                                            X const&... x) noexcept {
     nearest_mode const mode;
-    unsigned flag = 0;
-    {
-        bool left = false;
-        interval const y = pinned(f(pinned(x)..., left));
-        flag = left ? 1 : 0;
-        asm volatile("" : "+r"(flag) : : "memory");
-        if (flag != 0) cut = true;
-        return y;
-    }
+    bool left = false;
+    interval const y = pinned(f(pinned(x)..., left));
+    if (pinned(std::uint64_t{left}) != 0) cut = true;
+    return y;
 }
 
 } // namespace detail

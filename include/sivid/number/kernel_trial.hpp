@@ -21,7 +21,7 @@ struct broken_kernel {
 
 /// The first kernel of `interval`, and of packs by each vector that they are made of, that misses a
 /// known value.
-/// @given  what `require_sound_environment` demands of MXCSR
+/// @given  what `require_sound_environment` demands of the machine
 /// @cost   less than a millisecond once in a process, then a load
 [[nodiscard]] SIVID_DECL broken_kernel first_broken_kernel() noexcept;
 

@@ -13,7 +13,7 @@
 
 #if SIVID_PACK_AVX2
 #include <immintrin.h>
-#else
+#elif SIVID_MACHINE_X86_64
 #include <emmintrin.h>
 #endif
 
@@ -38,8 +38,13 @@ inline std::uint64_t sign_bits(vector_mask m) {
     return _mm512_movepi64_mask(std::bit_cast<__m512i>(m));
 #elif SIVID_PACK_AVX2
     return static_cast<std::uint64_t>(_mm256_movemask_pd(std::bit_cast<__m256d>(m)));
-#else
+#elif SIVID_MACHINE_X86_64
     return static_cast<std::uint64_t>(_mm_movemask_pd(std::bit_cast<__m128d>(m)));
+#else
+    std::uint64_t bits = 0;
+    for (std::size_t l = 0; l < per_vector; ++l)
+        bits |= static_cast<std::uint64_t>(m[l]) >> 63 << l;
+    return bits;
 #endif
 }
 } // namespace lanes_detail

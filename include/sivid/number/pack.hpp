@@ -6,12 +6,12 @@
 /// The engine's number: W intervals side by side in vector registers, lower bounds and upper bounds
 /// apart, every operation on all of them at once and without branches on data.
 ///
-/// | compiled with             | W            | back end |
-/// |---------------------------|--------------|--------------------------------------------------------|
-/// | AVX-512 F and DQ          | 8, 16, ...   | embedded rounding | | AVX2 and FMA              |
-/// 4, 12, ... (8, 16 without AVX-512) | nearest and exact residuals      | | every x86-64 | 2, 6,
-/// ...    | nearest and exact residuals, 2 lanes at a time         | | every x86-64              |
-/// odd          | the same in plain C++                                  |
+/// | compiled for         | W                                  | back end                     |
+/// |----------------------|------------------------------------|------------------------------|
+/// | AVX-512 F and DQ     | 8, 16, ...                         | embedded rounding            |
+/// | AVX2 and FMA         | 4, 12, ... (8, 16 without AVX-512) | nearest and exact residuals  |
+/// | every x86-64, ARM64  | 2, 6, ...                          | the same, 2 lanes at a time  |
+/// | any machine          | odd; all that remain               | the same in plain C++        |
 ///
 /// No operation sets the rounding mode. Arithmetic proves its bounds in whichever mode the thread
 /// is. Elementary functions do so with embedded rounding; elsewhere they need round-to-nearest,
@@ -22,6 +22,7 @@
 #include <sivid/number/detail/pack_avx2.hpp>
 #include <sivid/number/detail/pack_avx512.hpp>
 #include <sivid/number/detail/pack_elementary.hpp>
+#include <sivid/number/detail/pack_neon.hpp>
 #include <sivid/number/detail/pack_portable.hpp>
 #include <sivid/number/detail/pack_sse2.hpp>
 #include <sivid/number/detail/refused_flags.hpp>
@@ -57,9 +58,15 @@ template <std::size_t W>
         return chosen<simd::vector_avx2>{};
     else
 #endif
+#if SIVID_MACHINE_X86_64
         if constexpr (W % 2 == 0)
         return chosen<simd::vector_sse2>{};
     else
+#elif SIVID_MACHINE_ARM64
+    if constexpr (W % 2 == 0)
+        return chosen<simd::vector_neon>{};
+    else
+#endif
         return chosen<simd::vector_portable>{};
     // NOLINTEND(readability-misleading-indentation)
 }

@@ -10,79 +10,47 @@
 ///   * otherwise: the result r of one operation in *any* mode is one of the two neighbours of the
 ///     exact value; the sign of the exact residual says on which side it lies, and r is moved by
 ///     one step if it lies on the wrong one. No control register is read or written.
-/// Rare operands (subnormal, overflow) take the slow way through MXCSR.
+/// Rare operands (subnormal, overflow) take the slow way: on x86-64 through MXCSR, elsewhere
+/// through integers (detail/exact_rounding.hpp). So outside x86-64 no directed mode is ever needed.
+
+#include <sivid/number/detail/exact_rounding.hpp>
+#include <sivid/number/detail/machine.hpp>
 
 #include <bit>
 #include <cstdint>
 #include <limits>
 
+#if SIVID_MACHINE_X86_64
 #if defined(__AVX512F__) || defined(__FMA__)
 #include <immintrin.h>
 #else
 #include <emmintrin.h> // a tenth of the former, and all that these kernels use
 #endif
+#endif
 
 // Kernels that differ with compiler flags live in a namespace that names the flags, so that
 // translation units with different flags can be linked.
-#if defined(__AVX512F__)
+#if !SIVID_MACHINE_X86_64
+#define SIVID_ROUNDING_KERNELS rounding_by_integers
+#elif defined(__AVX512F__)
 #define SIVID_ROUNDING_KERNELS rounding_avx512
 #elif defined(__FMA__)
 #define SIVID_ROUNDING_KERNELS rounding_residual_fma
 #else
 #define SIVID_ROUNDING_KERNELS rounding_residual
 #endif
+#if SIVID_MACHINE_X86_64 && defined(__AVX512F__)
+#define SIVID_EMBEDDED_ROUNDING 1
+#else
+#define SIVID_EMBEDDED_ROUNDING 0
+#endif
 
 namespace sivid::detail {
 
-inline constexpr unsigned mxcsr_rounding = 0x6000; ///< 00 nearest, 01 down, 10 up, 11 to zero
-inline constexpr unsigned mxcsr_flush = 0x8040;    ///< FTZ (bit 15) and DAZ (bit 6)
-
-enum class direction : unsigned { nearest = 0x0000, down = 0x2000, up = 0x4000 };
-
-[[gnu::always_inline]] inline unsigned read_mxcsr() noexcept {
-    unsigned value;
-    asm volatile("stmxcsr %0" : "=m"(value) : : "memory");
-    return value;
-}
-[[gnu::always_inline]] inline void write_mxcsr(unsigned value) noexcept {
-    asm volatile("ldmxcsr %0" : : "m"(value) : "memory");
-}
-
-/// The same value, about which the optimiser knows nothing: no folding, contraction, reassociation
-/// across it.
-[[gnu::always_inline]] inline double opaque(double x) noexcept {
-    asm("" : "+x"(x));
-    return x;
-}
-
-/// As `opaque`, and it stays where it stands between changes of the rounding mode.
-[[gnu::always_inline]] inline double pinned(double x) noexcept {
-    asm volatile("" : "+x"(x) : : "memory");
-    return x;
-}
-
-/// Sets a rounding direction, clears FTZ and DAZ, and puts the caller's state back at the end.
-template <direction D>
-class with_rounding {
-public:
-    with_rounding() noexcept : saved_{read_mxcsr()} {
-        unsigned const wanted =
-            (saved_ & ~(mxcsr_rounding | mxcsr_flush)) | static_cast<unsigned>(D);
-        changed_ = wanted != saved_;
-        if (changed_) write_mxcsr(wanted);
-    }
-    ~with_rounding() {
-        if (changed_) write_mxcsr(saved_);
-    }
-    with_rounding(with_rounding const&) = delete;
-    with_rounding& operator=(with_rounding const&) = delete;
-
-private:
-    unsigned saved_;
-    bool changed_;
-};
+inline namespace SIVID_MACHINE {
 
 // The slow way: any operands, any caller's mode.
+#if SIVID_MACHINE_X86_64
 template <direction D>
 double directed_add(double a, double b) noexcept {
     with_rounding<D> const mode;
@@ -98,16 +66,27 @@ double directed_div(double a, double b) noexcept {
     with_rounding<D> const mode;
     return pinned(pinned(a) / pinned(b));
 }
-[[gnu::always_inline]] inline double plain_sqrt(double a) noexcept {
-    double root;
-    asm volatile("sqrtsd %1, %0" : "=x"(root) : "x"(a) : "memory");
-    return root;
-}
 template <direction D>
 double directed_sqrt(double a) noexcept {
     with_rounding<D> const mode;
     return pinned(plain_sqrt(pinned(a)));
 }
+#else
+template <direction D>
+double directed_mul(double a, double b) noexcept {
+    return exactly_rounded_product<D>(pinned(a), pinned(b));
+}
+template <direction D>
+double directed_div(double a, double b) noexcept {
+    return exactly_rounded_quotient<D>(pinned(a), pinned(b));
+}
+template <direction D>
+double directed_sqrt(double a) noexcept {
+    return exactly_rounded_root<D>(pinned(a));
+}
+#endif
+
+} // namespace SIVID_MACHINE
 
 inline constexpr std::uint64_t sign_bit = 0x8000'0000'0000'0000u;
 
@@ -147,7 +126,7 @@ template <direction D>
 
 inline namespace SIVID_ROUNDING_KERNELS {
 
-#if defined(__AVX512F__)
+#if SIVID_EMBEDDED_ROUNDING
 
 template <direction D>
 inline constexpr int embedded =
@@ -242,6 +221,8 @@ template <direction D>
     return directed_mul<D>(a, b);
 }
 
+#if SIVID_MACHINE_X86_64
+
 /// Residual a b - p of rounded products p, of the right sign in every rounding mode; exact for
 /// 2^-960 <= |p| <= 2^1020 and |a|, |b| below 2^1023, else anything or NaN.
 [[gnu::always_inline]] inline __m128d product_residual(__m128d a, __m128d b, __m128d p) noexcept {
@@ -290,6 +271,8 @@ template <direction D>
     double const p1 = is_zero(a1) || is_zero(b1) ? 0.0 : mul<direction::up>(a1, b1);
     return _mm_set_pd(p1, p0);
 }
+
+#endif
 
 /// a / b. The residual of q is a - q b = m_a 2^k - m_q m_b, below m_b in magnitude.
 template <direction D>

@@ -35,9 +35,9 @@ struct sum_and_error {
     a = opaque(a);
     b = opaque(b);
     double const p = opaque(a * b);
-#if defined(__FMA__)
-    double const error = __builtin_fma(a, b, -p);
-#elif defined(__AVX512F__)
+#if SIVID_FUSED || !SIVID_MACHINE_X86_64
+    double const error = std::fma(a, b, -p);
+#elif SIVID_EMBEDDED_ROUNDING
     double const error = _mm_cvtsd_f64(
         _mm_fmsub_round_sd(_mm_set_sd(a), _mm_set_sd(b), _mm_set_sd(p), _MM_FROUND_CUR_DIRECTION));
 #else

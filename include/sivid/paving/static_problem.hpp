@@ -17,7 +17,8 @@
 
 namespace sivid {
 
-/// A model without states: its outputs are functions of time and constants, \f$ y = g(t, c) \f$. @code
+/// A model without states: its outputs are functions of time and constants, \f$ y = g(t, c) \f$.
+/// @code
 ///     struct decay {
 ///         static constexpr auto name = "decay";
 ///         static constexpr auto channels = sivid::channels({{"y", "1"}});

@@ -73,7 +73,7 @@ struct statistics_view {
     std::uint64_t boxes = 0;
     std::uint64_t integrations = 0;
     std::string stop_reason{};
-    std::string before{}; ///< what contracted the prior before the search, or nothing
+    std::string before{};           ///< what contracted the prior before the search, or nothing
     std::vector<std::string> why{}; ///< why little is excluded, and what to change
 };
 

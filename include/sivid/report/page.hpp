@@ -52,8 +52,8 @@ struct figure {
 };
 
 /// Builds one self-contained page from top to bottom. Every text is escaped; nothing is loaded
-/// from elsewhere, and the page's own policy forbids it to the browser. It reads whole without its script,
-/// which shows values under the pointer and links the places of a box.
+/// from elsewhere, and the page's own policy forbids it to the browser. It reads whole without its
+/// script, which shows values under the pointer and links the places of a box.
 class page {
 public:
     explicit page(page_head const& head);

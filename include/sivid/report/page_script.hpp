@@ -6,9 +6,10 @@
 
 namespace sivid::report {
 
-/// The script of a page. Under the pointer - or the arrow keys, when a picture has the focus - it shows the values of the
-/// axes, what is drawn there, and the box of a paving, which it outlines in all other pictures that have a side of it. A
-/// click or Enter keeps it, Escape lets it go. Texts enter as texts only; nothing is asked of a network.
+/// The script of a page. Under the pointer - or the arrow keys, when a picture has the focus - it
+/// shows the values of the axes, what is drawn there, and the box of a paving, which it outlines in
+/// all other pictures that have a side of it. A click or Enter keeps it, Escape lets it go. Texts
+/// enter as texts only; nothing is asked of a network.
 inline constexpr std::string_view page_script = R"js(
 "use strict";
 addEventListener("DOMContentLoaded", () => {

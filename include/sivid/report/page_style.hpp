@@ -6,10 +6,11 @@
 
 namespace sivid::report {
 
-/// The style sheet of a page: one column of at most 1120 px, system fonts, no resource from elsewhere. Figures are drawn for a width
-/// of 360 units a panel, so that they keep their type size on a phone; wide figures scroll within their own frame there, and say so,
-/// and tables become lists. Dark where the reader's system is, for the drawings too, whose neutral colours (report/palette.hpp) are
-/// exchanged; printed always light.
+/// The style sheet of a page: one column of at most 1120 px, system fonts, no resource from
+/// elsewhere. Figures are drawn for a width of 360 units a panel, so that they keep their type size
+/// on a phone; wide figures scroll within their own frame there, and say so, and tables become
+/// lists. Dark where the reader's system is, for the drawings too, whose neutral colours
+/// (report/palette.hpp) are exchanged; printed always light.
 inline constexpr std::string_view page_style = R"css(
 :root{color-scheme:light;--paper:#fff;--ink:#1a1d21;--muted:#5b6470;--rule:#dfe3e8;--soft:#f5f6f8;--accent:#0b5f94;--tint:#eef6fb;
 --proved:#00805d;--undecided:#946200;--refuted:#b84a00;--proved-soft:#e8f5f0;--undecided-soft:#fdf5e3;--refuted-soft:#fdeee5;

@@ -14,7 +14,6 @@
 
 #include <array>
 #include <cstddef>
-#include <emmintrin.h>
 
 namespace sivid::simd {
 inline namespace SIVID_PACK_TARGET {
@@ -62,12 +61,16 @@ template <class V, class F, class... X>
 /// memory accesses skips those calls; tests/regression/link_time_optimisation.cpp).
 template <class V>
 [[nodiscard, gnu::always_inline]] inline bounds<V> in_registers(bounds<V> const& x) noexcept {
+#if defined(SIVID_REGISTER)
     auto lo = x.lo.raw(), hi = x.hi.raw();
     if constexpr (!V::keeps_own_mode)
-        __asm__ volatile("" : "+x"(lo), "+x"(hi));
+        __asm__ volatile("" : SIVID_REGISTER(lo), SIVID_REGISTER(hi));
     else
-        __asm__("" : "+x"(lo), "+x"(hi));
+        __asm__("" : SIVID_REGISTER(lo), SIVID_REGISTER(hi));
     return {V(lo), V(hi)};
+#else
+    return {V(detail::pinned(x.lo.raw())), V(detail::pinned(x.hi.raw()))};
+#endif
 }
 
 /// Whether the kernels prove their bounds in the state that the thread is in: rounding is to
@@ -76,8 +79,7 @@ template <class V>
 /// there.
 template <class V>
 [[nodiscard]] bool kernels_hold() noexcept {
-    constexpr unsigned rounding_and_flush = 0xE040;
-    return V::keeps_own_mode || (_mm_getcsr() & rounding_and_flush) == 0;
+    return V::keeps_own_mode || detail::control_is_plain();
 }
 
 /// kernel(x.lo, x.hi, undefined) where the kernels hold; else lane by lane through the vocabulary

@@ -3,8 +3,8 @@
 #define SIVID_NUMBER_DETAIL_PACK_PORTABLE_HPP
 
 /// @file
-/// One double as a vector of one lane, in plain C++: packs of odd width, and the text from which a
-/// back end for another machine starts.
+/// One double as a vector of one lane, in plain C++: packs of odd width, every pack of a machine
+/// without a back end of its own, and the text from which one starts.
 
 #include <sivid/number/detail/pack_target.hpp>
 
@@ -37,11 +37,7 @@ class vector_portable {
 public:
     using mask = mask_portable;
     static constexpr std::size_t lanes = 1;
-#if defined(__FMA__)
-    static constexpr bool fused = true;
-#else
-    static constexpr bool fused = false; // fma() rounds twice
-#endif
+    static constexpr bool fused = SIVID_FUSED != 0; // else fma() rounds twice
     static constexpr bool keeps_own_mode = false;
     static constexpr bool reads_subnormals = false;
 
@@ -59,16 +55,20 @@ public:
     }
     /// Opaque, so that a compiler cannot fuse the product with a later sum.
     friend vector_portable operator*(vector_portable a, vector_portable b) noexcept {
+#if defined(SIVID_REGISTER)
         double product = a.v_ * b.v_;
-        __asm__("" : "+x"(product));
+        __asm__("" : SIVID_REGISTER(product));
         return vector_portable{product};
+#else
+        return vector_portable{detail::opaque(a.v_ * b.v_)};
+#endif
     }
     friend vector_portable operator/(vector_portable a, vector_portable b) noexcept {
         return vector_portable{a.v_ / b.v_};
     }
     friend vector_portable operator-(vector_portable a) noexcept { return vector_portable{-a.v_}; }
     friend vector_portable fma(vector_portable a, vector_portable b, vector_portable c) noexcept {
-#if defined(__FMA__)
+#if SIVID_FUSED
         return vector_portable{std::fma(a.v_, b.v_, c.v_)};
 #else
         return a * b + c;

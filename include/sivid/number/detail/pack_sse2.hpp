@@ -8,6 +8,8 @@
 
 #include <sivid/number/detail/pack_target.hpp>
 
+#if SIVID_MACHINE_X86_64
+
 #if defined(__FMA__)
 #include <immintrin.h>
 #else
@@ -184,4 +186,5 @@ private:
 } // namespace SIVID_PACK_TARGET
 } // namespace sivid::simd
 
+#endif
 #endif

@@ -5,9 +5,6 @@
 /// @file
 /// Refuses builds in which interval arithmetic would not prove anything.
 
-#if !defined(__x86_64__)
-#error "sivid: the rounding kernels are written for x86-64"
-#endif
 #if defined(__FAST_MATH__)
 #error "sivid: -ffast-math breaks every inclusion; compile without it"
 #endif
@@ -23,7 +20,7 @@
 #if defined(__NO_SIGNED_ZEROS__)
 #error "sivid: -fno-signed-zeros is part of fast-math; compile without it"
 #endif
-#if !defined(__SSE2_MATH__)
+#if (defined(__x86_64__) || defined(__i386__)) && !defined(__SSE2_MATH__)
 #error "sivid: x87 arithmetic rounds twice; compile with -mfpmath=sse"
 #endif
 #if !defined(__FLT_EVAL_METHOD__) || __FLT_EVAL_METHOD__ != 0
@@ -36,6 +33,7 @@
 namespace sivid {
 
 static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<double>::digits == 53);
+static_assert(sizeof(double) == 8 && sizeof(void*) == 8, "sivid: a 64-bit machine is needed");
 
 /// The machine's floating-point state, or the way this file was compiled, makes proofs impossible.
 class unsound_environment : public std::runtime_error {

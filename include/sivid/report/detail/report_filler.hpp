@@ -8,8 +8,8 @@
 #include <sivid/paving/identification.hpp>
 #include <sivid/report/identification_view.hpp>
 #include <sivid/report/identification_words.hpp>
-#include <sivid/report/reach_words.hpp>
 #include <sivid/report/paving_projections.hpp>
+#include <sivid/report/reach_words.hpp>
 #include <sivid/report/scenario_report.hpp>
 #include <sivid/version.hpp>
 
