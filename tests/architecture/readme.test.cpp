@@ -51,8 +51,8 @@ std::vector<block> blocks_of(std::string const& page, std::string const& text) {
             open = !open;
             if (!open) continue;
             bool const marked = before.starts_with("<!-- ") && before.ends_with(" -->");
-            all.push_back({page, line.substr(3), marked ? before.substr(5, before.size() - 9) : "", "",
-                           number});
+            all.push_back({page, line.substr(3), marked ? before.substr(5, before.size() - 9) : "",
+                           "", number});
         } else if (open) {
             all.back().text += line + "\n";
         } else if (line.starts_with("    ") && before.empty() && !line.starts_with("    -")) {
@@ -67,7 +67,8 @@ std::vector<block> all_blocks() {
     std::filesystem::path const root{SIVID_SOURCE_DIR};
     std::vector<std::string> pages{"README.md", "CONTRIBUTING.md"};
     for (auto const& entry : std::filesystem::directory_iterator{root / "docs"})
-        if (entry.path().extension() == ".md") pages.push_back("docs/" + entry.path().filename().string());
+        if (entry.path().extension() == ".md")
+            pages.push_back("docs/" + entry.path().filename().string());
     std::vector<block> all;
     for (auto const& page : pages)
         for (auto& b : blocks_of(page, text_of_file(root / page))) all.push_back(std::move(b));
@@ -97,11 +98,13 @@ std::string const& sources() {
     static std::string const all = [] {
         std::string text;
         std::filesystem::path const root{SIVID_SOURCE_DIR};
-        for (auto const* folder : {"examples", "benchmarks", "scripts", "cmake", "include/sivid/io"})
+        for (auto const* folder :
+             {"examples", "benchmarks", "scripts", "cmake", "include/sivid/io"})
             for (auto const& e : std::filesystem::recursive_directory_iterator{root / folder}) {
                 auto const extension = e.path().extension();
-                if (e.is_regular_file() && (extension == ".cpp" || extension == ".hpp" || extension == ".ipp" ||
-                                            extension == ".txt" || extension == ".cmake" || extension.empty()))
+                if (e.is_regular_file() &&
+                    (extension == ".cpp" || extension == ".hpp" || extension == ".ipp" ||
+                     extension == ".txt" || extension == ".cmake" || extension.empty()))
                     text += text_of_file(e.path());
             }
         return text + text_of_file(root / "CMakeLists.txt");
@@ -109,7 +112,8 @@ std::string const& sources() {
     return all;
 }
 
-/// What is wrong with one command line: a program or script that does not exist, an option that nobody reads.
+/// What is wrong with one command line: a program or script that does not exist, an option that
+/// nobody reads.
 std::string wrong_command(std::string const& line) {
     std::istringstream words{line};
     std::string program, word;
@@ -118,7 +122,8 @@ std::string wrong_command(std::string const& line) {
     if (program == "sudo") words >> program;
     static std::set<std::string> const tools{"apt", "cd", "cp", "cmake", "ctest", "g++"};
     std::filesystem::path const root{SIVID_SOURCE_DIR};
-    bool const script = program.find('/') != std::string::npos && std::filesystem::exists(root / program);
+    bool const script =
+        program.find('/') != std::string::npos && std::filesystem::exists(root / program);
     std::string const name = std::filesystem::path{program}.filename().string();
     bool const target = sources().find("add_executable(" + name) != std::string::npos ||
                         sources().find("sivid_add_robot_program(" + name) != std::string::npos;
@@ -160,32 +165,41 @@ std::string wrong_block(block const& b) {
         auto const writer = text_of_file(root / b.marker.substr(9));
         static std::regex const key{"\"([a-z_]{3,})\":"};
         for (std::sregex_iterator k{b.text.begin(), b.text.end(), key}, end; k != end; ++k)
-            if (writer.find("\"" + (*k)[1].str() + "\"") == std::string::npos) return "no key " + (*k)[1].str();
+            if (writer.find("\"" + (*k)[1].str() + "\"") == std::string::npos)
+                return "no key " + (*k)[1].str();
         return {};
     }
     if (marked_file.empty()) return "nothing says where it comes from";
     if (!std::filesystem::is_regular_file(root / marked_file)) return "no file " + marked_file;
     if (b.kind == "cpp") {
-        bool const compiled = marked_file.starts_with("examples/") || marked_file.starts_with("tests/");
+        bool const compiled =
+            marked_file.starts_with("examples/") || marked_file.starts_with("tests/");
         if (!compiled) return "not a file that the tests compile: " + marked_file;
-        return trimmed(from_file()).find(trimmed(b.text)) == std::string::npos ? "not part of " + marked_file : "";
+        return trimmed(from_file()).find(trimmed(b.text)) == std::string::npos
+                   ? "not part of " + marked_file
+                   : "";
     }
     if (b.kind == "json") {
         // Entries may be left out; what stands here stands there.
         static std::regex const entry{R"("[A-Za-z_]+":("[^"]*"|\[[^\[\]{}]*\]|[-+.0-9a-z]+))"};
         auto const here = without_space(b.text), there = without_space(from_file());
         for (std::sregex_iterator e{here.begin(), here.end(), entry}, end; e != end; ++e)
-            if (there.find(e->str()) == std::string::npos) return "not part of " + marked_file + ": " + e->str();
+            if (there.find(e->str()) == std::string::npos)
+                return "not part of " + marked_file + ": " + e->str();
         return {};
     }
     if (b.kind == "cmake") {
         std::istringstream in{b.text};
         for (std::string line; std::getline(in, line);)
-            if (trimmed(from_file()).find(trimmed(line.substr(0, line.find("  #")))) == std::string::npos)
+            if (trimmed(from_file()).find(trimmed(line.substr(0, line.find("  #")))) ==
+                std::string::npos)
                 return "not part of " + marked_file + ": " + line;
         return {};
     }
-    if (b.kind.empty()) return trimmed(from_file()).find(trimmed(b.text)) == std::string::npos ? "not part of " + marked_file : "";
+    if (b.kind.empty())
+        return trimmed(from_file()).find(trimmed(b.text)) == std::string::npos
+                   ? "not part of " + marked_file
+                   : "";
     return "a block of kind " + b.kind;
 }
 
@@ -204,16 +218,17 @@ TEST_CASE("every block of the guides is held to what is compiled, imported or ru
 }
 
 TEST_CASE("a block that has gone stale is found", "[readme]") {
-    block const stale[]{{"p", "cpp", "", "int x;\n"},
-                        {"p", "cpp", "examples/first_steps/main.cpp", "int nowhere = 3;\n"},
-                        {"p", "cpp", "README.md", "int main() {\n"},
-                        {"p", "sh", "", "hovercraft identify DATASET --no-such-option\n"},
-                        {"p", "sh", "", "hovercraft identify DATASET\nno_such_program DATASET\n"},
-                        {"p", "sh", "", "cmake -S . -B build -DSIVID_NO_SUCH=ON\n"},
-                        {"p", "json", "examples/import/german_logger/mapping.json", "{ \"duration\": 2.9 }\n"},
-                        {"p", "cmake", "examples/consumer/CMakeLists.txt", "find_package(other)\n"},
-                        {"p", "", "", "printed\n"},
-                        {"p", "(indented)", "", "    code\n"}};
+    block const stale[]{
+        {"p", "cpp", "", "int x;\n"},
+        {"p", "cpp", "examples/first_steps/main.cpp", "int nowhere = 3;\n"},
+        {"p", "cpp", "README.md", "int main() {\n"},
+        {"p", "sh", "", "hovercraft identify DATASET --no-such-option\n"},
+        {"p", "sh", "", "hovercraft identify DATASET\nno_such_program DATASET\n"},
+        {"p", "sh", "", "cmake -S . -B build -DSIVID_NO_SUCH=ON\n"},
+        {"p", "json", "examples/import/german_logger/mapping.json", "{ \"duration\": 2.9 }\n"},
+        {"p", "cmake", "examples/consumer/CMakeLists.txt", "find_package(other)\n"},
+        {"p", "", "", "printed\n"},
+        {"p", "(indented)", "", "    code\n"}};
     for (auto const& b : stale) {
         INFO(b.kind << "\n" << b.text);
         CHECK(wrong_block(b) != "");

@@ -172,7 +172,8 @@ TEST_CASE("the method of docs/runge_kutta.md") {
         auto const parameters = point_box(mid(system.parameters));
         sivid::enclosure_options options;
         options.method = sivid::radau_iia5();
-        auto const tube = sivid::integrate<sivid::interval>(flow, initial, parameters, 0, 5, options);
+        auto const tube =
+            sivid::integrate<sivid::interval>(flow, initial, parameters, 0, 5, options);
         CHECK(tube.end_time() > 0);
     });
 }

@@ -18,8 +18,9 @@ namespace sivid_tests {
 /// repeated, entities among the five known ones, no control characters, ids unique, references
 /// "url(#id)" defined, no "nan" or "inf" where a number stands.
 inline std::string markup_error(std::string_view text) {
-    static std::set<std::string> const words{"aria-label", "font-family", "class", "lang", "id", "data-head", "data-sides", "data-rows",
-        "data-x-name", "data-x-unit", "data-y-name", "data-y-unit"};
+    static std::set<std::string> const words{
+        "aria-label", "font-family", "class",       "lang",        "id",          "data-head",
+        "data-sides", "data-rows",   "data-x-name", "data-x-unit", "data-y-name", "data-y-unit"};
     std::vector<std::string> open;
     std::set<std::string> ids;
     std::set<std::string> references;
@@ -121,7 +122,8 @@ inline std::string markup_error(std::string_view text) {
 inline std::string foreign_part(std::string_view page) {
     auto const count = [&](std::string_view what) {
         std::size_t n = 0;
-        for (auto at = page.find(what); at != std::string_view::npos; at = page.find(what, at + 1)) ++n;
+        for (auto at = page.find(what); at != std::string_view::npos; at = page.find(what, at + 1))
+            ++n;
         return n;
     };
     for (auto const* word : {"https:", " src=", "href=", "@import", "url(http", "javascript:"})

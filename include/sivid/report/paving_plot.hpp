@@ -44,8 +44,8 @@ struct plane_window {
 };
 
 /// The boxes behind the projections of one paving, for the page's script: attributes of the figure
-/// that shows them. Ends are rounded to the nearest of 10^4 steps over all boxes: enough to show where
-/// a box lies, no bound.
+/// that shows them. Ends are rounded to the nearest of 10^4 steps over all boxes: enough to show
+/// where a box lies, no bound.
 /// @given  box i of each projection belongs to the same box of the paving; else nothing comes back
 /// @param most  of so many boxes, the largest; how many are left out is said
 [[nodiscard]] SIVID_DECL std::vector<attribute_text>

@@ -125,7 +125,10 @@ SIVID_DECL svg draw_candidate_chart(std::vector<candidate_bar> const& bars,
         auto const colour = detail::state_colour(b.state);
         std::string const tip = b.label + ": " + note(b);
         out.text(8, y + 18, state_sign(b.state),
-                 {.size = 13, .align = anchor::middle, .fill = detail::state_ink(b.state), .bold = true});
+                 {.size = 13,
+                  .align = anchor::middle,
+                  .fill = detail::state_ink(b.state),
+                  .bold = true});
         out.text(left - 10, y + 18, shorten(b.label, 44),
                  {.size = 12.5, .align = anchor::end, .bold = b.answer});
         if (says_something(b.proved)) {

@@ -113,8 +113,7 @@ SIVID_DECL std::string page::str() const {
            "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
            "'unsafe-inline'; script-src 'unsafe-inline'\">\n<style>" +
            std::string{page_style} + "</style>\n<script>" + std::string{page_script} +
-           "</script>\n</head>\n<body>\n<main>\n" + body_ + footer_ +
-           "</main>\n</body>\n</html>\n";
+           "</script>\n</head>\n<body>\n<main>\n" + body_ + footer_ + "</main>\n</body>\n</html>\n";
 }
 
 SIVID_DECL page& page::element(std::string const& name, std::string_view text) {

@@ -43,10 +43,11 @@ SIVID_DECL std::vector<attribute_text> paving_attributes(std::vector<paving_proj
     std::size_t const count = all.empty() ? 0 : all.front().boxes.size();
     for (paving_projection const& p : all) {
         if (p.boxes.size() != count) return {};
-        for (auto const& [what, of] : {std::pair{&p.x, &projected_box::x}, {&p.y, &projected_box::y}}) {
-            bool const known = std::any_of(sides.begin(), sides.end(), [&, w = what](side const& s) {
-                return s.what->label == w->label;
-            });
+        for (auto const& [what, of] :
+             {std::pair{&p.x, &projected_box::x}, {&p.y, &projected_box::y}}) {
+            bool const known =
+                std::any_of(sides.begin(), sides.end(),
+                            [&, w = what](side const& s) { return s.what->label == w->label; });
             if (!known) sides.push_back({what, &p.boxes, of, {}});
         }
     }
@@ -63,7 +64,8 @@ SIVID_DECL std::vector<attribute_text> paving_attributes(std::vector<paving_proj
     }
     if (order.empty()) return {};
     std::size_t const listed = std::min(order.size(), most);
-    std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(listed), order.end());
+    std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(listed),
+                      order.end());
     std::string names, scales, boxes;
     for (side const& s : sides) {
         names += s.what->label + '\n' + unit_text(s.what->unit) + '\n';

@@ -36,8 +36,8 @@ SIVID_DECL std::string table_html(table const& t) {
     for (std::size_t r = 0; r < t.rows.size(); ++r) {
         out += t.chosen_row == r ? "<tr class=\"chosen\">" : "<tr>";
         for (std::size_t const c : shown) {
-            out += std::string{"<td class=\""} + name(t.columns[c].kind) +
-                   "\" data-head=\"" + escape(t.columns[c].head) + "\">" +
+            out += std::string{"<td class=\""} + name(t.columns[c].kind) + "\" data-head=\"" +
+                   escape(t.columns[c].head) + "\">" +
                    (c < t.rows[r].size() ? escape(t.rows[r][c]) : "") + "</td>";
         }
         out += "</tr>";
