@@ -20,6 +20,16 @@ TEST_CASE("axes: the ends of the ranges meet the frame") {
     CHECK(std::isfinite(a.px(NAN)));
 }
 
+TEST_CASE("axes: the drawing says where its values are") {
+    axes const a{{"t", "s", {0, 3}}, {"u", "m/s^2", {-1, 2}}, {.width = 300, .height = 200}};
+    svg s{300, 200, "u"};
+    a.draw_frame(s);
+    std::string const left = coordinate(a.left()), right = coordinate(a.right());
+    CHECK_THAT(s.str(),
+               ContainsSubstring(" data-x=\"" + left + " " + right + " 0 3\" data-x-name=\"t\""));
+    CHECK_THAT(s.str(), ContainsSubstring(" -1 2\" data-y-name=\"u\" data-y-unit=\"m/s"));
+}
+
 TEST_CASE("axes: equal aspect makes one unit equally long and keeps the data in view") {
     axes const a{{"x", "m", {0, 8}},
                  {"y", "m", {0, 1.6}},

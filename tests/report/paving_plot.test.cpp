@@ -46,6 +46,34 @@ TEST_CASE("paving plot: boxes without any order are met with coarser cells") {
     CHECK(markup_error(text) == "");
 }
 
+TEST_CASE("paving plot: the boxes behind several projections, for the page's script") {
+    // Boxes in (a, b, c), as they project on (a, b) and (a, c).
+    using enum region;
+    paving_projection const ab{
+        {"a", "m", {0, 4}},
+        {"b", "s", {0, 2}},
+        {{{0, 4}, {1, 2}, inside}, {{1, 2}, {0, 1}, pending}, {{3, 4}, {0, 2}, outside}}};
+    paving_projection const ac{
+        {"a", "m", {0, 4}},
+        {"c", "", {0, 1}},
+        {{{0, 4}, {0, 0.5}, inside}, {{1, 2}, {0.5, 1}, pending}, {{3, 4}, {0, 1}, outside}}};
+    auto const all = paving_attributes({ab, ac});
+    REQUIRE(all.size() == 4);
+    CHECK(all[0].value == "a\nm\nb\ns\nc\n\n");
+    CHECK(all[1].value == "0 4 0 2 0 1 ");
+    // The largest first; what is outside is not listed.
+    CHECK(all[2].value == "3 0 10000 5000 10000 0 5000;1 2500 5000 0 5000 5000 10000;");
+    CHECK(all[3].value == "0");
+    CHECK(paving_attributes({ab, ac}, 1)[3].value == "1");
+    CHECK(paving_attributes({}).empty());
+    auto fewer = ac;
+    fewer.boxes.pop_back();
+    CHECK(paving_attributes({ab, fewer}).empty());
+    auto endless = ab;
+    endless.boxes[0].x = {0, INFINITY};
+    CHECK(paving_attributes({endless}).empty());
+}
+
 TEST_CASE("paving plot: the zoom leaves out what it cannot help") {
     paving_projection p{
         {"a", "", {0, 1}}, {"b", "", {0, 1}}, {{{0, 1}, {0, 1}, region::undecided}}};

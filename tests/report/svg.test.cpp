@@ -36,6 +36,15 @@ TEST_CASE("svg: shapes, groups and windows give balanced, finite markup") {
     CHECK(markup_error(s.str()) == "");
 }
 
+TEST_CASE("svg: data for the page's script") {
+    svg s{10, 10, "x"};
+    s.data("x", "1 2").data("x-name", "\"><script>");
+    CHECK(markup_error(s.str()) == "");
+    CHECK_THAT(s.str(), ContainsSubstring(" data-x=\"1 2\" data-x-name=\"&quot;&gt;&lt;script&gt;\""));
+    CHECK(machine_number(0.1) == "0.1");
+    CHECK(machine_number(-1e300) == "-1e+300");
+}
+
 TEST_CASE("svg: ids take the prefix of the page, and no text can forge one") {
     svg s{10, 10, "x"};
     s.rect(0, 0, 5, 5, {.fill = s.hatch("#ffffff", "#000000")});
