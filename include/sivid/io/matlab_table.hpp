@@ -64,9 +64,8 @@ struct matlab_vector {
         return result;
     }
     bool const column = index.starts_with(":,"), row = index.ends_with(",:");
-    std::string_view number = index;
-    if (column) number.remove_prefix(2);
-    if (row) number.remove_suffix(2);
+    std::string_view number; // nothing where both are named, which would share a colon
+    if (column != row) number = column ? index.substr(2) : index.substr(0, index.size() - 2);
     auto const* const end = number.data() + number.size();
     std::size_t at = 0;
     if (column == row || number.empty() || std::from_chars(number.data(), end, at).ptr != end ||
