@@ -141,7 +141,7 @@ elseif(WAY STREQUAL "conan")
         --test-folder=)
     file(COPY "${SOURCE}/packaging/conan/conanfile.txt" DESTINATION "${WORK}/program")
     run("${CONAN}" install "${WORK}/program" --no-remote -s compiler.cppstd=20 -s build_type=Debug
-        --output-folder "${WORK}/conan")
+        -o "sivid/*:with_parallel=True" --output-folder "${WORK}/conan")
     list(APPEND options "-DCMAKE_TOOLCHAIN_FILE=${WORK}/conan/conan_toolchain.cmake")
 elseif(WAY STREQUAL "vcpkg")
     # Packages that stand in for Boost and Eigen are empty: those of this machine are found.
