@@ -18,8 +18,9 @@ set(CPACK_ARCHIVE_SIVID_PROGRAMS_FILE_NAME
 
 # What is compiled for the machine that builds it would die of SIGILL on another, so it is not packed.
 set(CPACK_COMPONENTS_ALL sivid_headers)
-if(SIVID_NATIVE OR SIVID_SANITIZE)
-    message(STATUS "sivid: packages of headers only; programs for all machines need SIVID_NATIVE and SIVID_SANITIZE off")
+set(sivid_all_flags "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_RELEASE}")
+if(SIVID_NATIVE OR SIVID_SANITIZE OR sivid_all_flags MATCHES "=native")
+    message(STATUS "sivid: packages of headers only; programs are compiled for this machine alone, or with sanitizers")
 elseif(TARGET hovercraft AND TARGET sivid-import)
     list(APPEND CPACK_COMPONENTS_ALL sivid_programs)
 endif()
