@@ -12,11 +12,15 @@ set(CPACK_RESOURCE_FILE_LICENSE "${PROJECT_SOURCE_DIR}/LICENSE")
 set(CPACK_PACKAGE_CHECKSUM SHA256)
 set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_ARCHIVE_COMPONENT_INSTALL ON)
+set(CPACK_ARCHIVE_SIVID_HEADERS_FILE_NAME "sivid-${PROJECT_VERSION}-headers")
+set(CPACK_ARCHIVE_SIVID_PROGRAMS_FILE_NAME
+    "sivid-${PROJECT_VERSION}-programs-${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR}")
 
 # What is compiled for the machine that builds it would die of SIGILL on another, so it is not packed.
 set(CPACK_COMPONENTS_ALL sivid_headers)
-if(SIVID_NATIVE OR SIVID_SANITIZE)
-    message(STATUS "sivid: packages of headers only; programs for all machines need SIVID_NATIVE and SIVID_SANITIZE off")
+set(sivid_all_flags "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_RELEASE}")
+if(SIVID_NATIVE OR SIVID_SANITIZE OR sivid_all_flags MATCHES "=native")
+    message(STATUS "sivid: packages of headers only; programs are compiled for this machine alone, or with sanitizers")
 elseif(TARGET hovercraft AND TARGET sivid-import)
     list(APPEND CPACK_COMPONENTS_ALL sivid_programs)
 endif()

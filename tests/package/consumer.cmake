@@ -136,11 +136,12 @@ elseif(WAY STREQUAL "conan")
     set(ENV{CONAN_HOME} "${WORK}/home")
     run("${CONAN}" profile detect)
     file(APPEND "${WORK}/home/profiles/default"
-         "\n[platform_requires]\nboost/1.83.0\neigen/3.4.0\nnlohmann_json/3.11.3\n")
-    run("${CONAN}" create "${WORK}/release/sivid" --no-remote -s compiler.cppstd=20 -o sivid/*:with_io=True --test-folder=)
+         "\n[platform_requires]\nboost/1.83.0\neigen/3.4.0\nnlohmann_json/3.11.3\nonetbb/2021.12.0\n")
+    run("${CONAN}" create "${WORK}/release/sivid" --no-remote -s compiler.cppstd=20 -o "sivid/*:with_parallel=True"
+        --test-folder=)
     file(COPY "${SOURCE}/packaging/conan/conanfile.txt" DESTINATION "${WORK}/program")
     run("${CONAN}" install "${WORK}/program" --no-remote -s compiler.cppstd=20 -s build_type=Debug
-        --output-folder "${WORK}/conan")
+        -o "sivid/*:with_parallel=True" --output-folder "${WORK}/conan")
     list(APPEND options "-DCMAKE_TOOLCHAIN_FILE=${WORK}/conan/conan_toolchain.cmake")
 elseif(WAY STREQUAL "vcpkg")
     # Packages that stand in for Boost and Eigen are empty: those of this machine are found.
@@ -156,6 +157,9 @@ elseif(WAY STREQUAL "vcpkg")
         endif()
     endforeach()
     get_filename_component(vcpkg_root "${VCPKG}" DIRECTORY)
+    if(DEFINED ENV{VCPKG_ROOT})
+        set(vcpkg_root "$ENV{VCPKG_ROOT}")
+    endif()
     set(ENV{VCPKG_ROOT} "${vcpkg_root}")
     set(ENV{VCPKG_FORCE_SYSTEM_BINARIES} 1)
     run("${VCPKG}" install sivid --classic "--overlay-ports=${SOURCE}/packaging/vcpkg" "--overlay-ports=${WORK}/others"
