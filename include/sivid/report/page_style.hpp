@@ -44,7 +44,7 @@ p.caption{color:var(--muted);font-size:14.5px;margin:-10px 0 20px}
 table.narrow{width:auto}
 th{padding:6px 13px 7px;border-bottom:2px solid var(--ink);font-size:13.5px;font-weight:600;text-align:left;vertical-align:bottom}
 td{padding:7px 13px;border-bottom:1px solid var(--rule);vertical-align:top}
-th:first-child,td:first-child{padding-left:2px}th:last-child,td:last-child{padding-right:2px}
+th:first-child{white-space:nowrap}th:first-child,td:first-child{padding-left:2px}th:last-child,td:last-child{padding-right:2px}
 .number{text-align:right;white-space:nowrap}
 .symbol{font-weight:600;white-space:nowrap}
 td.note{color:var(--muted);font-size:14px;min-width:11em}
