@@ -45,7 +45,7 @@ p.caption{color:var(--muted);font-size:14.5px;margin:-10px 0 20px}
 table.narrow{width:auto}
 th{padding:6px 13px 7px;border-bottom:2px solid var(--ink);font-size:13.5px;font-weight:600;text-align:left;vertical-align:bottom}
 td{padding:7px 13px;border-bottom:1px solid var(--rule);vertical-align:top}
-th:first-child,td:first-child{padding-left:2px}th:last-child,td:last-child{padding-right:2px}
+th:first-child{white-space:nowrap}th:first-child,td:first-child{padding-left:2px}th:last-child,td:last-child{padding-right:2px}
 .number{text-align:right;white-space:nowrap}
 .symbol{font-weight:600;white-space:nowrap}
 td.note{color:var(--muted);font-size:14px;min-width:11em}
@@ -78,9 +78,9 @@ footer span{display:inline-block;margin-right:22px}
 @media(max-width:620px){main{padding:24px 16px}h1{font-size:27px}h2{font-size:20px;margin-top:38px}.banner{padding:16px;gap:13px}
 .banner .sign{width:30px;height:30px;line-height:30px;font-size:19px}.banner strong{font-size:18px}.cards{grid-template-columns:1fr 1fr}.card .value{font-size:18px}
 .plain,.box{padding-left:16px;padding-right:16px}.narrow{font-size:14px}.narrow .symbol{white-space:normal}.narrow :is(th,td){padding:6px 5px}}
-@media(max-width:1160px){.number{white-space:normal}}
+@media(max-width:1160px){th,td{padding-left:8px;padding-right:8px}td.note{min-width:8em}}
 @media screen and (max-width:740px){.panels.wide::before{content:"wider than the screen: scroll sideways \2192";position:sticky;left:0;color:var(--muted);font-size:13px}}
-@media screen and (max-width:1000px){table:not(.narrow),table:not(.narrow) :is(tbody,tr){display:block}table:not(.narrow) thead{position:absolute;clip-path:inset(50%);width:1px;height:1px;overflow:hidden}
+@media screen and (max-width:1060px){table:not(.narrow),table:not(.narrow) :is(tbody,tr){display:block}table:not(.narrow) thead{position:absolute;clip-path:inset(50%);width:1px;height:1px;overflow:hidden}
 table:not(.narrow) tr{padding:8px 0;border-bottom:1px solid var(--rule)}table:not(.narrow) tr.chosen{background:var(--tint)}
 table:not(.narrow) td{display:flex;gap:14px;padding:2px;border:0;text-align:left;white-space:normal;overflow-wrap:anywhere}
 table:not(.narrow) td::before{content:attr(data-head);flex:none;width:9em;color:var(--muted);font-weight:400;font-size:14px}table:not(.narrow) td:empty{display:none}}
@@ -94,7 +94,7 @@ figure text[fill="#00805d"]{fill:#45c9a0}figure text[fill="#b34e00"]{fill:#ff9a5
 figure [fill="#eef2f6"]{fill:#1d242b}figure [fill="#eef6fb"]{fill:#17262f}figure [stroke="#8b94a0"]{stroke:#727c88}}
 @media print{body{font-size:10.5pt}main{max-width:none;padding:0}h2{break-after:avoid;margin-top:26px}
 figure .panels svg,figcaption,.banner,.card,.box,tr{break-inside:avoid}.panels{grid-template-columns:repeat(2,1fr)}.panels.wide,.scroll{overflow:visible}.panels.wide svg{min-width:0}
-table{font-size:9pt}th{font-size:8.5pt}th,td{padding-left:6px;padding-right:6px}td.note{font-size:8.5pt;min-width:7em}.bubble{display:none}
+table{font-size:9pt}th{font-size:8.5pt}th,td{padding-left:6px;padding-right:6px}td.note{font-size:8.5pt;min-width:7em}.bubble{display:none}.number{white-space:normal}
 *{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
 )css";
 
