@@ -76,9 +76,10 @@ public:
 
     std::uint64_t bits() { return random_(); }
     std::uint64_t below(std::uint64_t n) { return random_() % n; }
-    /// Uniform in [lo, hi].
+    /// Uniform in [lo, hi]; the same on every machine, so nothing may be contracted.
     double uniform(double lo, double hi) {
-        return lo + (hi - lo) * (static_cast<double>(random_() >> 11) * 0x1p-53);
+        double const volatile above = (hi - lo) * (static_cast<double>(random_() >> 11) * 0x1p-53);
+        return lo + above;
     }
     /// Any finite bit pattern: every magnitude with equal weight, subnormals, both signs.
     double any() {
@@ -133,9 +134,10 @@ public:
             return near_quarter_turn();
         case 3:
             return magnitude(-60, 60);
-        case 4:
-            return moved((static_cast<double>(below(65)) - 32.0) * 0.25,
-                         static_cast<int>(below(7)) - 3);
+        case 4: {
+            int const by = static_cast<int>(below(7)) - 3; // one after the other on every machine
+            return moved((static_cast<double>(below(65)) - 32.0) * 0.25, by);
+        }
         case 5:
             return magnitude(-4, 10);
         case 6:
