@@ -215,6 +215,7 @@
 #include <sivid/paving/relaxed_intersection.hpp>
 #include <sivid/paving/response.hpp>
 #include <sivid/paving/response_audit.hpp>
+#include <sivid/paving/response_search.hpp>
 #include <sivid/paving/run_options.hpp>
 #include <sivid/paving/runge_kutta_run.hpp>
 #include <sivid/paving/scalar_run.hpp>

@@ -2,8 +2,11 @@
 #include <sivid/decision/prediction.hpp>
 
 #include "decision/planar_models.hpp"
+#include "paving/plain_problem.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
+
+#include <sivid/paving/data_test.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -68,6 +71,35 @@ TEST_CASE("a union of sets is predicted as such") {
     CHECK(y.low.back() > std::exp(-2.2) * 0.9);
     CHECK(y.high.back() >= 1.01 * std::exp(-0.2));
     CHECK(y.high.back() < 1.02 * std::exp(-0.2));
+}
+
+TEST_CASE("measurements leave of a tube what they leave of the parameters and no less") {
+    for (auto const& start : {sivid::interval(2.0), sivid::interval(1.95, 2.05)}) {
+        auto const data = plain_problem::make(0, 0, start);
+        sivid::data_test test(data, {});
+        auto p = decay({{between(0.3, 0.5)}, {between(0.5, 0.8)}}, {sivid::interval(1.0)}, 3);
+        auto const whole = sivid::predict(p, {.cells = 30});
+        p.measured = [&](sivid::box const& parameters) {
+            auto const& run = data.experiments[0];
+            return sivid::measured_responses{{test.run(0, run.initial, parameters)}, {run.initial}};
+        };
+        auto const found = sivid::predict(p, {.cells = 30});
+        REQUIRE(found.complete);
+        auto const feasible = plain_problem::feasible(); // from a start of 2
+        double widest = 0;
+        for (std::size_t k = 1; k < found.times.size(); ++k) {
+            double const t = found.times[k];
+            auto const& x = found.states[0];
+            CHECK(x.low[2 * k] <= std::exp(-feasible.upper() * t));
+            CHECK(x.high[2 * k] >= std::exp(-feasible.lower() * t));
+            CHECK(x.low[2 * k] >= whole.states[0].low[2 * k]);
+            CHECK(x.high[2 * k] <= whole.states[0].high[2 * k]);
+            double const own = std::exp(-feasible.lower() * t) - std::exp(-feasible.upper() * t);
+            widest = std::max(widest, (x.high[2 * k] - x.low[2 * k]) / own);
+            CHECK(whole.states[0].high[2 * k] - whole.states[0].low[2 * k] > 2 * own);
+        }
+        CHECK(widest < (start.lower() == start.upper() ? 1.1 : 1.6));
+    }
 }
 
 TEST_CASE("a motion that ends before the scenario does is said to") {

@@ -46,7 +46,7 @@ TEST_CASE("windows keep what is feasible in random problems") {
         options.share = d.coin() ? 0.02 : 0.2;
         CAPTURE(seed);
         auto const left = contract_by_windows(p, options);
-        REQUIRE_FALSE(left.empty);
+        REQUIRE_FALSE(left.empty());
         REQUIRE(contains(left.rest, planted.truth));
         CHECK(subset(left.rest, p.prior));
         for (std::size_t e = 0; e < p.experiments.size(); ++e) {
@@ -64,7 +64,7 @@ TEST_CASE("windows keep what is feasible in random problems") {
 TEST_CASE("windows contract a prior that no trajectory carries") {
     auto const p = support::swinging(6, 0.3, 7);
     auto const left = contract_by_windows(p, within(120));
-    REQUIRE_FALSE(left.empty);
+    REQUIRE_FALSE(left.empty());
     CHECK(left.windows > 10);
     for (std::size_t j = 0; j < 3; ++j) {
         CAPTURE(j, width(left.rest[j]) / width(p.prior[j]));
@@ -78,7 +78,7 @@ TEST_CASE("a prior without the truth is emptied or kept but nothing is invented"
     auto p = support::swinging(4, 0.1, 8);
     p.prior[0] = interval(12.0, 13.0);
     auto const left = contract_by_windows(p, within(60));
-    CHECK(left.empty);
+    CHECK(left.empty());
     identify_options options;
     options.search.seconds = 20;
     auto const found = identify(p, options);
@@ -96,6 +96,17 @@ TEST_CASE("experiments with outliers take no part in windows") {
     CHECK(width(sound.rest[0]) < 1.1 * width(plain_problem::feasible()));
 }
 
+TEST_CASE("windows are carried by Taylor models and series or not at all") {
+    auto const p = support::swinging(1, 0.2, 10, 0.1);
+    CHECK(contract_by_windows(p).windows > 0);
+    window_options other;
+    other.run.set = carried_set::doubleton;
+    CHECK(contract_by_windows(p, other).windows == 0);
+    window_options method;
+    method.run.enclosure.method = rk4();
+    CHECK(contract_by_windows(p, method).windows == 0);
+}
+
 TEST_CASE("windows end in time and when told to") {
     auto const p = support::swinging(20, 0.3, 9);
     int asked = 0;
@@ -104,4 +115,15 @@ TEST_CASE("windows end in time and when told to") {
     auto const left = contract_by_windows(p, options);
     CHECK(contains(left.rest, std::vector<double>{9, 0.3, 4}));
     CHECK(left.seconds < 30);
+}
+
+TEST_CASE("starts that are decimals are known: no windows are carried") {
+    auto p = support::swinging(6, 0.95, 7);
+    p.experiments[0].initial[0] = interval(std::nextafter(0.5, 0.0), std::nextafter(0.5, 1.0));
+    identify_options options;
+    options.search.seconds = 2;
+    options.search.boxes = 16;
+    CHECK_FALSE(identify(p, options).windows.has_value());
+    p.experiments[0].initial[0] = interval(0.2, 0.8);
+    CHECK(identify(p, options).windows.has_value());
 }

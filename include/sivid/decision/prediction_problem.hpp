@@ -6,11 +6,13 @@
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/model/parameter_choice.hpp>
+#include <sivid/paving/response.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -18,6 +20,13 @@
 #include <vector>
 
 namespace sivid {
+
+/// What data say of a box of parameters: responses of experiments over it, each with the box of
+/// starts that it is of.
+struct measured_responses {
+    response_list known;
+    std::vector<box> starts;
+};
 
 /// What is to be predicted: a scenario, for all parameters in a union of boxes and all starts in a
 /// box.
@@ -28,6 +37,9 @@ struct prediction_problem {
     std::vector<signal> inputs;
     box initial;    ///< the states at time 0
     double end = 0; ///< [s]
+    /// What measurements say of a box around some of the sets: every parameter that counts meets
+    /// all of them for some starts. May be left out; tubes are narrower with it.
+    std::function<measured_responses(box const&)> measured = nullptr;
 
     /// The smallest box around all sets.
     [[nodiscard]] box around() const {

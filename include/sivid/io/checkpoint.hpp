@@ -65,10 +65,9 @@ inline void put(checkpoint_lines& line, approximate_fit const& fit) {
 }
 
 inline void put(checkpoint_lines& line, window_contraction const& w) {
-    line("windows", w.starts.size(), w.empty ? 1 : 0, w.rounds, w.windows, w.longest, w.seconds);
-    if (w.empty) return;
-    line("rest", w.rest);
+    line("windows", w.starts.size(), w.empty() ? 1 : 0, w.rounds, w.windows, w.longest, w.seconds);
     for (auto const& x : w.starts) line("from", x);
+    if (!w.empty()) line("rest", w.rest);
 }
 
 inline void put(checkpoint_lines& line, search_state const& s) {

@@ -72,7 +72,7 @@ namespace sivid {
     return form;
 }
 
-/// "time": column or sample time, unit, offset, and the counter's bits.
+/// "time": column with unit and offset, or sample time, and the counter's bits.
 /// @throws input_error
 [[nodiscard]] inline time_mapping read_time_mapping(json_value const& entry, bool serial) {
     entry.allow_only({"column", "sample_time", "unit", "offset", "counter_bits"});
@@ -80,6 +80,8 @@ namespace sivid {
     auto const* step = entry.find("sample_time");
     if (step == nullptr) {
         time.column = mapping_entries::column(entry.at("column"));
+        (void)entry.at("unit"); // of a sample time both may be left out
+        (void)entry.at("offset");
     } else {
         if (serial)
             step->fail("a log that may lose lines has no constant step",

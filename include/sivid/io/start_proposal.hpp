@@ -5,11 +5,11 @@
 #include <sivid/io/dataset_value.hpp>
 #include <sivid/io/import_mapping.hpp>
 #include <sivid/io/unit_conversion.hpp>
+#include <sivid/paving/relaxed_intersection.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -34,9 +34,7 @@ struct start_proposal {
 
 namespace io_detail {
 
-/// The hull of what lies in all but `outliers` of the intervals; nothing where too few are left, or
-/// nothing does.
-///   x in all but q: at most q lower ends are above x, so x is not below the (q+1)-th largest.
+/// What all but `outliers` of the intervals have in common, as decimals.
 [[nodiscard]] inline start_proposal common_start(std::vector<interval> const& all,
                                                  std::size_t outliers) {
     start_proposal result;
@@ -44,16 +42,9 @@ namespace io_detail {
         result.refusal = outliers == 0 ? "too few readings" : "all readings nearby may be outliers";
         return result;
     }
-    std::vector<double> low, high;
-    for (auto const& x : all) {
-        low.push_back(x.lower());
-        high.push_back(x.upper());
-    }
-    auto const q = static_cast<std::ptrdiff_t>(outliers);
-    std::nth_element(low.begin(), low.begin() + q, low.end(), std::greater<>{});
-    std::nth_element(high.begin(), high.begin() + q, high.end());
-    double const a = low[outliers], b = high[outliers];
-    if (!(a <= b)) {
+    auto const common = relaxed_intersection(all, outliers);
+    double const a = common.lower(), b = common.upper();
+    if (is_empty(common)) {
         result.contradicted = true;
         result.refusal = "no value agrees with the readings";
     } else if (!(std::abs(a) < farthest_range / 2 && std::abs(b) < farthest_range / 2)) {

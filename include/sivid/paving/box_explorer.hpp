@@ -38,6 +38,14 @@ struct explored_box {
     }
 };
 
+/// How many outliers each experiment allows.
+[[nodiscard]] inline std::vector<std::size_t>
+outlier_budgets(identification_problem const& problem) {
+    std::vector<std::size_t> result;
+    for (auto const& e : problem.experiments) result.push_back(e.outliers);
+    return result;
+}
+
 /// Splits boxes of parameters and integrates the experiments over them, to the last measurement
 /// that can be reached: violated measurements end nothing.
 class box_explorer {
@@ -58,10 +66,9 @@ public:
     [[nodiscard]] std::size_t integrations() const { return test_.integrations(); }
     [[nodiscard]] std::size_t at_once() const { return test_.at_once(); }
 
-    /// A part of the prior of which nothing is known.
+    /// A part of the prior of which nothing is known but what `b` says beside.
     template <std::derived_from<explored_box> Box>
-    [[nodiscard]] Box unknown(box set) const {
-        Box b;
+    [[nodiscard]] Box unknown(box set, Box b = {}) const {
         b.set = std::move(set);
         b.known.resize(everything_.experiments.size());
         b.stale.assign(everything_.experiments.size(), true);

@@ -270,14 +270,14 @@ public:
         bool const point = paving_detail::unknown_count(initial, parameters) == 0;
         if (point && options.set == carried_set::taylor_model) {
             auto best = run(*recorded_[e], carried_set::taylor_model);
-            bool const fine = blur_of(*best) < 0.01;
+            bool const fine = best->blur() < 0.02;
             if (auto rest = parameters; fine || assess(*best, rest).refuted) return best;
             if (auto const f = smooth_flow(e)) {
                 // In steps as short as kinks of inputs are narrow.
                 auto smooth = run(*f, carried_set::taylor_model, 1e-8);
-                if (blur_of(*smooth) < blur_of(*best)) best = std::move(smooth);
+                if (smooth->blur() < best->blur()) best = std::move(smooth);
             }
-            if (blur_of(*best) < detail::infinity) return best;
+            if (best->blur() < detail::infinity) return best;
         }
         return run(*recorded_[e], carried_set::doubleton);
     }
@@ -292,16 +292,6 @@ public:
     }
 
 private:
-    /// The largest share of a measurement's width that a point's radii take; infinite where outputs
-    /// are missing.
-    [[nodiscard]] static double blur_of(response const& r) {
-        if (r.outputs() < r.measurements) return detail::infinity;
-        double most = 0;
-        for (std::size_t y = 0; y < r.outputs(); ++y) {
-            most = std::max(most, r.radius[y] / width(r.bounds[y]));
-        }
-        return most;
-    }
     /// The recorded flow without kinks; none where it has none.
     [[nodiscard]] std::unique_ptr<flow const> smooth_flow(std::size_t e) const {
         constexpr double share = 1e-5; // of a measurement's width

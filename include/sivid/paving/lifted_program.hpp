@@ -41,23 +41,23 @@ public:
     lifted_program(response_list const& known, box const& part, std::vector<box> const& starts,
                    double share)
         : known_(&known), unknowns_(known, part, starts), columns_(unknowns_.count) {
-        std::vector<paving_detail::scaled_polynomials> scaled;
         std::map<paving_detail::product, double> moves; // in bounds, by product
         for (std::size_t s = 0; s < known.size(); ++s) {
-            scaled.emplace_back(*known[s], unknowns_.places[s]);
-            scaled.back().find_moves(moves);
+            outputs_.emplace_back(*known[s], unknowns_.places[s]);
+            outputs_.back().find_moves(moves);
         }
         for (auto const& [product, most] : moves) {
             if (most > share) products_[product] = columns_++;
         }
-        for (auto const& p : scaled) blocks_.push_back(p.block(products_));
+        for (auto const& p : outputs_) blocks_.push_back(p.block(products_));
         for (auto const& [product, column] : products_) {
             blocks_.push_back(product.first == product.second
                                   ? tangents(product.first, column)
                                   : planes(product.first, product.second, column));
         }
-        for (auto& p : scaled) scales_.push_back(std::move(p.scale));
     }
+    lifted_program(lifted_program const&) = delete; // refers to its own unknowns
+    lifted_program& operator=(lifted_program const&) = delete;
 
     /// The parameters, then the starts of each experiment.
     [[nodiscard]] shared_unknowns const& unknowns() const { return unknowns_; }
@@ -77,8 +77,7 @@ public:
     /// was found.
     [[nodiscard]] double end_of(std::size_t experiment, std::size_t output, bool upwards) const {
         auto const& r = *(*known_)[experiment];
-        auto const row = paving_detail::scaled_polynomials(r, unknowns_.places[experiment])
-                             .row(output, products_, columns_);
+        auto const row = outputs_[experiment].row(output, products_, columns_);
         std::vector<double> goal;
         for (double const slope : row) goal.push_back(upwards ? slope : -slope);
         combined_polynomial target(unknowns_.count);
@@ -114,7 +113,8 @@ private:
         std::map<paving_detail::product, double> tilts;
         for (auto const& w : cut.weights) {
             if (w.block < known_->size()) {
-                measured.push_back({w.block, w.function, w.value * scales_[w.block][w.function]});
+                measured.push_back(
+                    {w.block, w.function, w.value * outputs_[w.block].scale[w.function]});
                 continue;
             }
             auto const& block = blocks_[w.block];
@@ -140,8 +140,8 @@ private:
     shared_unknowns unknowns_;
     std::size_t columns_;
     std::map<paving_detail::product, std::size_t> products_; ///< column of each
-    std::vector<minimax_block> blocks_;                      ///< experiments, then products
-    std::vector<std::vector<double>> scales_;
+    std::vector<paving_detail::scaled_polynomials> outputs_;
+    std::vector<minimax_block> blocks_; ///< experiments, then products
 };
 
 } // namespace sivid

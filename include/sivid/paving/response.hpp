@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <utility>
@@ -100,6 +101,16 @@ struct response {
     /// What a smaller box may take from an output's radius.
     [[nodiscard]] double shrinking_radius(std::size_t y) const {
         return y < lasting.size() ? std::max(0.0, radius[y] - lasting[y]) : radius[y];
+    }
+    /// The largest radius of an output, but for what lasts, against the half-width of its
+    /// measurement; infinite where outputs are missing.
+    [[nodiscard]] double blur() const {
+        if (outputs() < measurements) return std::numeric_limits<double>::infinity();
+        double most = 0;
+        for (std::size_t y = 0; y < outputs(); ++y) {
+            most = std::max(most, 2 * shrinking_radius(y) / width(bounds[y]));
+        }
+        return most;
     }
     /// Memory that it takes; its table is shared.
     [[nodiscard]] std::size_t bytes() const {

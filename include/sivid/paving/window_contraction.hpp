@@ -34,13 +34,14 @@ struct window_options {
 
 /// What windows leave of the prior.
 struct window_contraction {
-    box rest;                ///< contains every feasible parameter
+    box rest;                ///< contains every feasible parameter; empty: proved, there is none
     std::vector<box> starts; ///< of each experiment, contain every start that explains it
-    bool empty = false;      ///< proved: no parameter of the prior is feasible
     std::size_t rounds = 0;  ///< of programs over several windows
     std::size_t windows = 0; ///< that were carried, all together
     double longest = 0;      ///< of them [s]
     double seconds = 0;
+
+    [[nodiscard]] bool empty() const { return is_empty(rest); }
 };
 
 /// Contracts a prior over which no trajectory can be carried along the whole record.
@@ -51,7 +52,8 @@ struct window_contraction {
 ///   contract its start. The windows grow as the box shrinks.
 /// @guarantee  no feasible parameter is removed, nor a start from which one explains its
 /// experiment.
-///   Experiments with outliers, models with delays and with states of effects take no part.
+///   Experiments with outliers, models with delays and with states of effects take no part, and
+///   nothing is done where `run` asks for other enclosures than Taylor models by Taylor series.
 /// @cost  runs over windows, by Taylor models of degree 3, and a linear program for each side
 [[nodiscard]] SIVID_DECL window_contraction
 contract_by_windows(identification_problem const& problem, window_options const& options = {});

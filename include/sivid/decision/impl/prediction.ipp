@@ -6,6 +6,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/decision/motion_cover.hpp>
+#include <sivid/paving/lifted_program.hpp>
 #include <sivid/paving/work_limit.hpp>
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include <limits>
 #include <list>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -52,6 +54,7 @@ public:
         prediction result;
         result.times = cover_->times();
         result.excess = left.largest;
+        sharpen();
         collect(result);
         result.parts = parts_.size();
         result.integrations = cover_->integrations();
@@ -233,6 +236,64 @@ private:
         return best;
     }
 
+    /// What a part's motion and the measurements say together.
+    struct measured_part {
+        response_list known; ///< the measured ones, then the motion
+        std::unique_ptr<lifted_program> program;
+
+        measured_part(measured_responses data, motion_cover::part const& p)
+            : known(std::move(data.known)) {
+            known.push_back(p.known->answer);
+            data.starts.push_back(p.initial);
+            program =
+                std::make_unique<lifted_program>(known, p.parameters, data.starts, curved_share);
+        }
+        [[nodiscard]] double end_of(std::size_t output, bool upwards) const {
+            return program->end_of(known.size() - 1, output, upwards);
+        }
+    };
+
+    /// Draws in the ends of the tube, at the instants, to what the measurements leave of the parts
+    /// that hold them.
+    void sharpen() {
+        if (!problem_.measured) return;
+        std::map<motion_cover::knowledge const*, measured_responses> data;
+        std::map<item const*, measured_part> measured;
+        auto const of = [&](item const& i) -> measured_part const& {
+            auto const [at, fresh] = data.try_emplace(i.what.known.get());
+            if (fresh) at->second = problem_.measured(i.what.known->parameters);
+            return measured.try_emplace(&i, at->second, i.what).first->second;
+        };
+        std::size_t reached = cover_->times().size();
+        for (auto const& i : parts_) reached = std::min(reached, i.seen.reached);
+        for (std::size_t y = 0; y < reached * cover_->outputs(); ++y) {
+            for (bool const upwards : {false, true}) {
+                auto const end = [&](item& i) -> double& {
+                    return upwards ? i.seen.high[y] : i.seen.low[y];
+                };
+                std::vector<item const*> done;
+                while (limit_()) {
+                    auto& holder =
+                        *std::max_element(parts_.begin(), parts_.end(), [&](item& a, item& b) {
+                            return upwards ? end(a) < end(b) : end(a) > end(b);
+                        });
+                    bool const point = !(holder.seen.low[y] < holder.seen.high[y]);
+                    if (point || std::find(done.begin(), done.end(), &holder) != done.end()) break;
+                    done.push_back(&holder);
+                    double const bound = of(holder).end_of(y, upwards);
+                    bool const empty =
+                        upwards ? bound < holder.seen.low[y] : bound > holder.seen.high[y];
+                    if (!empty) {
+                        end(holder) =
+                            upwards ? std::min(end(holder), bound) : std::max(end(holder), bound);
+                    } else if (parts_.size() > 1) { // no parameter in it meets all measurements
+                        parts_.remove_if([&](item const& i) { return &i == &holder; });
+                    }
+                }
+            }
+        }
+    }
+
     void collect(prediction& result) {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         auto const m = cover_->outputs();
@@ -275,6 +336,9 @@ private:
                                                 [](double x) { return x == -infinity; });
         }
     }
+
+    /// Products that move no measurement by more than this share of its bound stay errors.
+    static constexpr double curved_share = 0.01;
 
     prediction_problem const& problem_;
     prediction_options options_;

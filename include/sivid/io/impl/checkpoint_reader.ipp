@@ -147,15 +147,14 @@ inline approximate_fit take_guess(checkpoint_parser& in) {
 inline window_contraction take_windows(checkpoint_parser& in) {
     window_contraction w;
     auto const experiments = in.count();
-    w.empty = in.count() != 0;
+    bool const empty = in.count() != 0;
     w.rounds = in.count();
     w.windows = in.count();
     w.longest = in.number();
     w.seconds = in.number();
     in.close();
-    if (w.empty) return w;
-    w.rest = in.open("rest").sides();
     for (std::size_t e = 0; e < experiments; ++e) w.starts.push_back(in.open("from").sides());
+    if (!empty) w.rest = in.open("rest").sides();
     return w;
 }
 
@@ -246,9 +245,11 @@ SIVID_DECL identification_state parse_checkpoint(std::string_view text, std::str
     }
     state.search = io_detail::take_search(in);
     in.end();
-    auto const& w = state.windows;
-    bool const other = w && !w->empty && w->rest.size() != state.search.prior.size();
-    if (other) in.damaged();
+    auto const sides = state.search.prior.size();
+    if (state.windows && state.windows->rest.size() == 0) { // nothing was left
+        state.windows->rest = box(std::vector<interval>(sides, interval_traits<interval>::empty()));
+    }
+    if (state.windows && state.windows->rest.size() != sides) in.damaged();
     try {
         state.search.require_valid();
     } catch (std::invalid_argument const&) {

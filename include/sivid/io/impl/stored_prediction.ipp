@@ -8,10 +8,12 @@
 #include <sivid/enclosure/parametric_set.hpp>
 #include <sivid/io/detail/stored_consistency.hpp>
 #include <sivid/paving/certificate.hpp>
+#include <sivid/paving/data_test.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -193,6 +195,33 @@ inline void state_assumptions(identification_problem const& data, prediction_req
             "each with every parameter: what is proved holds nevertheless, and nothing is refuted");
 }
 
+/// What the experiments without outliers say of the parameters that were identified; further sides
+/// of a box are other constants.
+inline std::function<measured_responses(box const&)> measured_by(identification_problem problem) {
+    struct kept {
+        identification_problem problem;
+        data_test test;
+        explicit kept(identification_problem p) : problem(std::move(p)), test(problem, {}) {}
+    };
+    auto const data = std::make_shared<kept>(std::move(problem));
+    return [data](box const& parameters) {
+        measured_responses result;
+        auto const own = static_cast<std::ptrdiff_t>(data->problem.prior.size());
+        box const first(std::vector<interval>(parameters.begin(), parameters.begin() + own));
+        for (std::size_t e = 0; e < data->problem.experiments.size(); ++e) {
+            auto const& run = data->problem.experiments[e];
+            if (run.outliers > 0) continue;
+            auto answer = std::make_shared<response>(*data->test.run(e, run.initial, first));
+            auto& sides = answer->unknowns.parameters;
+            for (auto at = parameters.begin() + own; at != parameters.end(); ++at)
+                sides.push_back({.centre = mid(*at)});
+            result.known.push_back(std::move(answer));
+            result.starts.push_back(run.initial);
+        }
+        return result;
+    };
+}
+
 inline bool is_excluded(paved_box const& b) { return b.verdict == box_verdict::outside; }
 
 } // namespace io_detail
@@ -259,11 +288,12 @@ predict_from(identification_problem const& data, stored_identification const& st
         formulas.insert(formulas.end(), added.begin(), added.end());
         auto const rebuilt = rebuild_products<interval>(asked, formulas);
         result->not_in_products = !rebuilt.malformed.empty() ? rebuilt.malformed : rebuilt.unproved;
+        auto const seen = rebuild_products<interval>(data, stored.products->sides);
         if (result->not_in_products.empty()) // do the equations of the data see them alone?
-            result->not_in_products =
-                rebuild_products<interval>(data, stored.products->sides).unproved;
+            result->not_in_products = seen.unproved;
         result->in_products = result->not_in_products.empty();
         if (result->in_products) {
+            if (!model.has_delays()) problem.measured = io_detail::measured_by(seen.problem);
             problem.choice = rebuilt.problem.choice;
             result->sides = formulas;
             for (auto const& row : stored.products->rows) {
@@ -275,6 +305,7 @@ predict_from(identification_problem const& data, stored_identification const& st
         }
     }
     if (!result->in_products) {
+        if (!model.has_delays()) problem.measured = io_detail::measured_by(data);
         for (auto const& row : stored.rows) {
             if (!io_detail::is_excluded(row)) problem.sets.push_back(extended(row.set));
         }

@@ -3,6 +3,7 @@
 #define SIVID_PAVING_DETAIL_EXPERIMENT_RUN_CLASS_HPP
 
 #include <sivid/enclosure/flow.hpp>
+#include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/response.hpp>
 #include <sivid/paving/run_options.hpp>
@@ -38,6 +39,11 @@ namespace paving_detail {
 /// Number of sides of an experiment that have a width.
 [[nodiscard]] inline std::size_t unknown_count(box const& initial, box const& prior) {
     return normalised_unknowns(initial, prior).variables;
+}
+
+/// Of Taylor models in so many unknowns.
+[[nodiscard]] inline std::size_t degree_for(run_options const& options, std::size_t unknowns) {
+    return unknowns > 0 && options.degree > 0 ? options.degree : suggested_degree(unknowns);
 }
 
 /// The smallest step for an experiment. A smallest step that is not much shorter than the pieces of

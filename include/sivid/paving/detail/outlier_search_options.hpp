@@ -13,8 +13,6 @@ struct outlier_search_options {
     data_test_options test{};
     double seconds = 10;
     std::size_t boxes = 20'000;
-    /// No side is split below this share of the prior.
-    double accuracy = 1e-6;
     /// Asked by any thread; false ends the search with what is proved until then. It stays false.
     std::function<bool()> keep_going = nullptr;
 };

@@ -5,7 +5,6 @@
 #include <sivid/paving/experiment_run.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/paving/detail/doubleton_run.hpp>
 #include <sivid/paving/detail/taylor_run.hpp>
 #include <sivid/paving/scalar_run.hpp>
@@ -33,8 +32,7 @@ SIVID_DECL std::unique_ptr<experiment_run> make_run(flow const& f, experiment co
                 "Taylor "
                 "series alone; sets of first order (carried_set::doubleton) take any method");
         }
-        auto const degree =
-            unknowns > 0 && options.degree > 0 ? options.degree : suggested_degree(unknowns);
+        auto const degree = degree_for(options, unknowns);
         // Points one by one: where nothing is unknown there are no boxes to fill the lanes.
         if (degree == 0) return make_scalar_run(f, e, samples, initial, prior, options);
         return std::make_unique<taylor_run<lanes<8>>>(f, e, samples, options, unknowns, degree);

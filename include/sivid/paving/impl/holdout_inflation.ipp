@@ -12,11 +12,13 @@
 #include <sivid/paving/inflation_relaxation.hpp>
 #include <sivid/paving/misfit.hpp>
 #include <sivid/paving/reduction.hpp>
+#include <sivid/paving/response_search.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -60,126 +62,59 @@ namespace paving_detail {
 struct holdout_box : explored_box {
     double least = 0;
     double most = detail::infinity;
+    bool fits = true;     ///< perhaps
     bool settled = false; ///< neither this nor whether it fits is worth a closer look
 };
 
-/// The range of the hold-out inflation over all parameters that fit. The boxes at its two ends are
-/// split or integrated anew until they are settled.
-class holdout_range {
+/// Which boxes may have the least or the largest hold-out inflation.
+class holdout_policy {
 public:
-    holdout_range(identification_problem const& both, std::size_t fitted, double fit_upper,
-                  box const& start, inflation_options const& options)
-        : explorer_(both, options.test),
-          fitted_(static_cast<std::ptrdiff_t>(fitted)),
-          fit_upper_(fit_upper),
-          share_(options.relative_width) {
-        for (auto const& e : both.experiments) outliers_.push_back(e.outliers);
-        boxes_.push_back(explorer_.unknown<holdout_box>(start));
-    }
+    using node = holdout_box;
 
-    /// @param work     boxes looked at and integrations; a step that was begun is ended
-    /// @param in_time  false ends it between two experiments
-    template <class InTime>
-    void narrow(std::size_t work, InTime const& in_time) {
-        while (!boxes_.empty() && tested() + integrations() < work && in_time()) {
-            auto low = end([](auto const& a, auto const& b) { return a.least < b.least; });
-            auto high = end([](auto const& a, auto const& b) { return a.most > b.most; });
-            if (low->settled && high->settled) return;
-            look(take(high->settled ? low : high), in_time);
-        }
-    }
-    /// Empty when no box is left.
-    [[nodiscard]] interval range() const {
-        double least = detail::infinity;
-        double most = 0;
-        for (auto const& b : boxes_) {
-            least = std::min(least, b.least);
-            most = std::max(most, b.most);
-        }
-        return interval_traits<interval>::bounds(least, most);
-    }
-    [[nodiscard]] std::size_t tested() const { return tested_; }
-    [[nodiscard]] std::size_t integrations() const { return explorer_.integrations(); }
+    std::ptrdiff_t fitted; ///< experiments; the others are held out
+    double fit_upper;      ///< of the inflation of all parameters that fit
+    double share;          ///< of the range that is worth a closer look
+    std::vector<std::size_t> outliers;
+    bool from_above = false; ///< which end of the range comes first
 
-private:
-    using place = std::vector<holdout_box>::iterator;
-
-    template <class Before>
-    [[nodiscard]] place end(Before const& before) {
-        return std::min_element(boxes_.begin(), boxes_.end(), before);
+    [[nodiscard]] bool before(node const& a, node const& b) const {
+        return from_above ? a.most > b.most : a.least < b.least;
     }
-    [[nodiscard]] holdout_box take(place at) {
-        auto b = std::move(*at);
-        *at = std::move(boxes_.back());
-        boxes_.pop_back();
-        return b;
-    }
-
-    template <class InTime>
-    void look(holdout_box b, InTime const& in_time) {
-        if (!b.is_blind()) {
-            auto parts = explorer_.halves(b);
-            if (parts.empty()) {
-                b.settled = true;
-                boxes_.push_back(std::move(b));
-            }
-            for (auto& half : parts) judge(std::move(half));
-            return;
-        }
-        std::vector<holdout_box> blind;
-        blind.push_back(std::move(b));
-        for (std::size_t k = boxes_.size(); k-- > 0 && blind.size() < explorer_.at_once();) {
-            auto const at = boxes_.begin() + static_cast<std::ptrdiff_t>(k);
-            if (at->is_blind() && !at->settled) blind.push_back(take(at));
-        }
-        explorer_.learn(blind, in_time);
-        for (auto& known : blind) {
-            if (known.fresh) {
-                judge(std::move(known));
-            } else {
-                boxes_.push_back(std::move(known));
-            }
-        }
-    }
-
-    /// Keeps the box unless nothing in it fits.
-    void judge(holdout_box b) {
-        ++tested_;
-        if (std::find(b.known.begin(), b.known.end(), nullptr) != b.known.end()) {
-            boxes_.push_back(std::move(b));
-            return;
-        }
+    [[nodiscard]] static bool drops(node const& b) { return !b.fits; }
+    void judge(node& b) const {
         auto const split = [&](auto const& all) {
-            return std::pair{std::vector(all.begin(), all.begin() + fitted_),
-                             std::vector(all.begin() + fitted_, all.end())};
+            return std::pair{std::vector(all.begin(), all.begin() + fitted),
+                             std::vector(all.begin() + fitted, all.end())};
         };
         auto const [fit_known, own_known] = split(b.known);
-        auto const [fit_outliers, own_outliers] = split(outliers_);
-        auto const fits = inflation_bounder(fit_known, fit_outliers, b.set)(fit_upper_);
-        if (fits.lower > fit_upper_) return;
+        auto const [fit_outliers, own_outliers] = split(outliers);
+        auto const found = inflation_bounder(fit_known, fit_outliers, b.set)(fit_upper);
+        b.fits = !(found.lower > fit_upper);
+        if (!b.fits) return;
         auto const own = inflation_bounder(own_known, own_outliers, b.set)(0);
         b.least = std::max(b.least, own.lower);
         b.most = std::min(
             b.most, inflation_from_above(own_known, own_outliers, b.set,
                                          own.starts.empty() ? middles(own_known) : own.starts));
-        double const tolerance = share_ * (std::isfinite(b.most) ? b.most : std::max(b.least, 1.0));
-        double const fit_tolerance = share_ * fit_upper_;
-        double unclear = fits.slack;
-        for (double const blur : fits.blur) unclear += blur;
+        double const tolerance = share * (std::isfinite(b.most) ? b.most : std::max(b.least, 1.0));
+        double const fit_tolerance = share * fit_upper;
+        double unclear = found.slack;
+        for (double const blur : found.blur) unclear += blur;
         b.settled = b.most - b.least <= tolerance && unclear <= fit_tolerance;
         for (std::size_t s = 0; s < b.known.size(); ++s) {
             auto const& r = *b.known[s];
             bool const cut = r.outputs() < r.measurements;
-            bool const is_fit = static_cast<std::ptrdiff_t>(s) < fitted_;
-            b.stale[s] = is_fit ? !(fits.blur[s] <= 0.3 * fit_tolerance) ||
-                                      (cut && fits.slack <= 0.5 * fit_tolerance)
-                                : cut || !(blur_of(r) <= 0.3 * tolerance);
+            bool const is_fit = static_cast<std::ptrdiff_t>(s) < fitted;
+            bool const vague = is_fit ? !(found.blur[s] <= 0.3 * fit_tolerance) ||
+                                            (cut && found.slack <= 0.5 * fit_tolerance)
+                                      : !(r.blur() <= 0.3 * tolerance);
+            b.stale[s] = vague && !b.settled;
         }
         b.smear = spread(own_known, b.set);
-        for (std::size_t j = 0; j < b.smear.size(); ++j) b.smear[j] += fits.smear[j];
-        boxes_.push_back(std::move(b));
+        for (std::size_t j = 0; j < b.smear.size(); ++j) b.smear[j] += found.smear[j];
     }
 
+private:
     [[nodiscard]] static std::vector<std::vector<double>>
     middles(inflation_bounder::responses const& known) {
         std::vector<std::vector<double>> starts;
@@ -188,14 +123,6 @@ private:
             for (auto const& side : r->unknowns.initial) x0.push_back(side.centre);
         }
         return starts;
-    }
-    /// What remainders may cost a misfit.
-    [[nodiscard]] static double blur_of(response const& r) {
-        double most = 0;
-        for (std::size_t y = 0; y < r.outputs(); ++y) {
-            most = std::max(most, 2 * r.shrinking_radius(y) / width(r.bounds[y]));
-        }
-        return most;
     }
     /// How far each parameter moves the misfit that it moves most.
     [[nodiscard]] static std::vector<double> spread(inflation_bounder::responses const& known,
@@ -214,14 +141,58 @@ private:
         }
         return most;
     }
+};
 
-    box_explorer explorer_;
-    std::ptrdiff_t fitted_;
-    double fit_upper_;
-    double share_;
-    std::vector<std::size_t> outliers_;
-    std::vector<holdout_box> boxes_;
-    std::size_t tested_ = 0;
+/// The range of the hold-out inflation over all parameters that fit. The boxes at its two ends are
+/// split or integrated anew until they are settled.
+class holdout_range {
+public:
+    holdout_range(identification_problem const& both, std::size_t fitted, double fit_upper,
+                  box const& start, inflation_options const& options)
+        : search_(both, options.test,
+                  {static_cast<std::ptrdiff_t>(fitted), fit_upper, options.relative_width,
+                   outlier_budgets(both)},
+                  start) {}
+
+    /// @param work     boxes looked at and integrations; a step that was begun is ended
+    /// @param in_time  false ends it between two experiments
+    void narrow(std::size_t work, std::function<bool()> const& in_time) {
+        while (tested() + integrations() < work && in_time() && unsettled_end()) {
+            search_.step(in_time);
+        }
+    }
+    /// Empty when no box is left.
+    [[nodiscard]] interval range() const {
+        double least = detail::infinity;
+        double most = 0;
+        for (auto const* list : {&search_.waiting(), &search_.stuck()}) {
+            for (auto const& b : *list) {
+                least = std::min(least, b.least);
+                most = std::max(most, b.most);
+            }
+        }
+        return interval_traits<interval>::bounds(least, most);
+    }
+    [[nodiscard]] std::size_t tested() const { return search_.tested(); }
+    [[nodiscard]] std::size_t integrations() const { return search_.integrations(); }
+
+private:
+    /// Whether a box at one end of the range is worth a closer look; it comes next.
+    [[nodiscard]] bool unsettled_end() {
+        auto& policy = search_.policy();
+        for (bool const above : {true, false}) {
+            policy.from_above = above;
+            auto const* next = search_.next();
+            if (next == nullptr || next->settled) continue;
+            if (std::none_of(search_.stuck().begin(), search_.stuck().end(),
+                             [&](holdout_box const& b) { return policy.before(b, *next); })) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    response_search<holdout_policy> search_;
 };
 
 } // namespace paving_detail

@@ -34,11 +34,24 @@ namespace paving_detail {
 
 /// Whether trajectories over the prior end early, from starts that nobody knows.
 inline bool starts_hinder(data_test& test, identification_problem const& problem) {
-    bool known = true;
-    for (auto const& e : problem.experiments) {
-        for (auto const& side : e.initial) known = known && !(width(side) > 0);
-    }
+    bool const known = std::all_of(
+        problem.experiments.begin(), problem.experiments.end(),
+        [](experiment const& e) { return normalised_unknowns(e.initial, {}).variables == 0; });
     return !known && test.reached(problem.prior) < 0.25;
+}
+
+/// The problem from the starts that windows have left.
+/// @throws std::invalid_argument  when they are of another problem
+inline identification_problem narrowed_by(window_contraction const& windows,
+                                          identification_problem problem) {
+    if (windows.rest.size() != problem.prior.size() ||
+        windows.starts.size() != problem.experiments.size())
+        throw std::invalid_argument("identification state: its windows are of another problem");
+    for (std::size_t e = 0; e < problem.experiments.size() && !windows.empty(); ++e) {
+        problem.experiments[e].initial = windows.starts[e];
+    }
+    problem.require_valid();
+    return problem;
 }
 
 /// Measurements that fail for every parameter that is left.
@@ -117,23 +130,12 @@ SIVID_DECL identification identify(identification_problem const& problem,
     std::optional<identification_problem> narrowed;         // whose starts windows have contracted
     std::optional<data_test> further;
     if (windows) {
-        bool const fits = windows->empty || (windows->rest.size() == posed.prior.size() &&
-                                             windows->starts.size() == posed.experiments.size());
-        if (!fits)
-            throw std::invalid_argument("identification state: its windows are of another problem");
-        narrowed = posed;
-        for (std::size_t e = 0; e < posed.experiments.size() && !windows->empty; ++e) {
-            narrowed->experiments[e].initial = windows->starts[e];
-        }
-        narrowed->require_valid();
+        narrowed = paving_detail::narrowed_by(*windows, posed);
         further.emplace(*narrowed, options.test);
-        auto const none =
-            box(std::vector<interval>(posed.prior.size(), interval_traits<interval>::empty()));
-        further->set_rest(windows->empty ? none : windows->rest);
-        result.windows = window_effort{
-            windows->windows, windows->longest, windows->seconds,
-            windows->empty ? 0
-                           : std::min(1.0, relative_volume(windows->rest, posed.prior).upper())};
+        further->set_rest(windows->rest);
+        result.windows =
+            window_effort{windows->windows, windows->longest, windows->seconds,
+                          std::min(1.0, relative_volume(windows->rest, posed.prior).upper())};
     }
     auto const& asked = narrowed ? *narrowed : posed;
     auto& searching = further ? *further : unhindered;

@@ -7,6 +7,7 @@
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>
 #include <sivid/model/problem.hpp>
+#include <sivid/paving/box_explorer.hpp>
 #include <sivid/paving/dependence.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/outlier_count.hpp>
@@ -35,9 +36,9 @@ public:
     few_violations(identification_problem const& problem, data_test_options const& options,
                    std::function<bool()> keep_going)
         : problem_(problem),
-          tolerant_(problem),
+          tolerant_(box_explorer::without_limit(problem)),
           keep_going_(std::move(keep_going)),
-          test_(with_any_outliers(tolerant_), options) {
+          test_(tolerant_, options) {
         for (auto const& e : problem.experiments) budgets_.push_back(e.measurements.size());
     }
     few_violations(few_violations const&) = delete; // the test refers to the problem
@@ -80,10 +81,6 @@ public:
     }
 
 private:
-    static identification_problem const& with_any_outliers(identification_problem& p) {
-        for (auto& e : p.experiments) e.outliers = e.measurements.size();
-        return p;
-    }
     /// Fits with one outlier less in an experiment, as long as that works.
     void decrease() {
         for (bool better = true; better && keep_going_();) {

@@ -5,7 +5,6 @@
 #include <sivid/paving/scalar_run.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/paving/detail/taylor_run.hpp>
 
 #include <memory>
@@ -20,9 +19,8 @@ SIVID_DECL std::unique_ptr<experiment_run> make_scalar_run(flow const& f, experi
     options.enclosure.minimum_step = minimum_step_for(e, options.enclosure.minimum_step);
     if (f.uncertain()) options.hopeless = 1e300;
     auto const unknowns = unknown_count(initial, prior);
-    auto const degree =
-        unknowns > 0 && options.degree > 0 ? options.degree : suggested_degree(unknowns);
-    return std::make_unique<taylor_run<double>>(f, e, samples, options, unknowns, degree);
+    return std::make_unique<taylor_run<double>>(f, e, samples, options, unknowns,
+                                                degree_for(options, unknowns));
 }
 
 } // namespace sivid

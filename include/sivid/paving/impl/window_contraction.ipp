@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,14 +48,17 @@ public:
 
     [[nodiscard]] window_contraction operator()() {
         auto const begin = clock::now();
-        if (!problem_->model.has_delays() && problem_->model.added_states.empty()) {
+        auto const& run = options_.run;
+        bool const as_asked = run.set == carried_set::taylor_model && !run.enclosure.method &&
+                              run.make == nullptr; // else by other means than these
+        if (as_asked && !problem_->model.has_delays() && problem_->model.added_states.empty()) {
             std::vector<window> chain;
-            for (std::size_t e = 0; e < records_.size() && !result_.empty; ++e) {
+            for (std::size_t e = 0; e < records_.size() && !result_.empty(); ++e) {
                 flows_.push_back(std::make_unique<flow const>(model_, problem_->choice,
                                                               problem_->experiments[e].inputs));
                 if (problem_->experiments[e].outliers == 0) follow(e, chain);
             }
-            if (!result_.empty) contract_together(some_of(std::move(chain)));
+            if (!result_.empty()) contract_together(some_of(std::move(chain)));
         }
         result_.seconds = std::chrono::duration<double>(clock::now() - begin).count();
         return std::move(result_);
@@ -69,6 +73,9 @@ private:
         double blur = 0; ///< the largest radius of an output against its bound
     };
 
+    void nothing_is_left() {
+        result_.rest = box(std::vector<interval>(result_.rest.size(), traits::empty()));
+    }
     /// The same model in which every state is measured, too.
     [[nodiscard]] static recorded_model with_states_seen(recorded_model model) {
         for (std::size_t i = 0; i < model.about.states.size(); ++i) {
@@ -81,16 +88,20 @@ private:
     [[nodiscard]] std::size_t states() const { return problem_->model.about.states.size(); }
     [[nodiscard]] double last_sample(std::size_t e) const { return records_[e].back().time; }
 
+    /// The measurements of a window. What is measured where it begins has contracted its start
+    /// already, but for the first one.
+    [[nodiscard]] record measured_in(window const& w) const {
+        bool const first = w.from == problem_->experiments[w.experiment].begin;
+        record part;
+        for (auto const& m : records_[w.experiment]) {
+            if (m.time <= w.to && (w.from < m.time || first)) part.push_back(m);
+        }
+        return part;
+    }
     /// Carries a window over the parameters that are left; with the states at its end as outputs.
     void run(window& w) const {
         auto const& whole = problem_->experiments[w.experiment];
-        bool const first = w.from == whole.begin;
-        experiment part{whole.name, {}, w.from, w.start, {}, 0};
-        auto const& record = records_[w.experiment];
-        for (auto const& m : record) {
-            // What is measured where a window begins has contracted its start already.
-            if (m.time <= w.to && (w.from < m.time || first)) part.measurements.push_back(m);
-        }
+        experiment part{whole.name, {}, w.from, w.start, measured_in(w), 0};
         for (std::size_t i = 0; i < states(); ++i) {
             part.measurements.push_back(
                 {w.to, problem_->model.about.channels.size() + i, traits::entire()});
@@ -103,19 +114,8 @@ private:
         auto const run =
             make_scalar_run(*flows_[w.experiment], part, samples, w.start, result_.rest, options);
         w.answer = (*run)(w.start, result_.rest);
-        w.blur = blur_of(*w.answer);
+        w.blur = w.answer->blur();
     }
-    /// Infinite where outputs are missing.
-    [[nodiscard]] static double blur_of(response const& r) {
-        if (r.outputs() < r.measurements) return detail::infinity;
-        double most = 0;
-        for (std::size_t y = 0; y < r.outputs(); ++y) {
-            double const e = 0.5 * width(r.bounds[y]);
-            if (std::isfinite(e)) most = std::max(most, r.radius[y] / std::max(e, 1e-300));
-        }
-        return most;
-    }
-
     /// Contracts a window's start by its own measurements. @returns false when nothing is left
     [[nodiscard]] bool contract_start(window& w) const {
         response_list const alone{w.answer};
@@ -147,8 +147,8 @@ private:
         }
         return left;
     }
-    /// The states at the end of a window.
-    [[nodiscard]] box end_of(window const& w) {
+    /// The states at the end of a window, unless there are none.
+    [[nodiscard]] std::optional<box> end_of(window const& w) const {
         response_list const alone{w.answer};
         lifted_program const program(alone, result_.rest, {w.start}, options_.share);
         auto const ranges = output_ranges(*w.answer, result_.rest);
@@ -163,7 +163,7 @@ private:
                     m.time == w.to && model_.observe[m.channel] == model_.observe[channel];
                 if (seen) side = traits::intersect(side, m.bound);
             }
-            result_.empty = result_.empty || !(below <= above) || is_empty(side);
+            if (!(below <= above) || is_empty(side)) return std::nullopt;
             end.push_back(side);
         }
         return box(std::move(end));
@@ -189,10 +189,9 @@ private:
                 length = next;
                 continue;
             }
-            result_.empty = !contract_start(w);
-            if (result_.empty) return;
-            start = end_of(w);
-            if (result_.empty) return;
+            auto end = contract_start(w) ? end_of(w) : std::nullopt;
+            if (!end) return nothing_is_left();
+            start = std::move(*end);
             if (k == 0) result_.starts[e] = w.start;
             at = w.to;
             length = std::min((w.to - w.from) * (w.blur < 0.3 ? 1.3 : 1.0), options_.longest);
@@ -216,19 +215,12 @@ private:
     [[nodiscard]] double carried_until(window const& w) const {
         auto const& r = *w.answer;
         double time = w.from;
-        auto const samples = slice(records_[w.experiment], w.from, w.to);
+        auto const samples = measured_in(w);
         for (std::size_t y = 0; y < std::min(r.outputs(), samples.size()); ++y) {
             if (r.radius[y] > 0.5 * too_blurred * 0.5 * width(r.bounds[y])) break;
             time = samples[y].time;
         }
         return time;
-    }
-    [[nodiscard]] static record slice(record const& whole, double from, double to) {
-        record part;
-        for (auto const& m : whole) {
-            if (from < m.time && m.time <= to) part.push_back(m);
-        }
-        return part;
     }
 
     /// So many that one program takes them: of each part of the chain the sharpest.
@@ -251,7 +243,7 @@ private:
         std::vector<double> lengths;
         for (auto const& w : windows) lengths.push_back(w.to - w.from);
         auto longest = lengths; // that each has had
-        while (!windows.empty() && limit_() && !result_.empty) {
+        while (!windows.empty() && limit_()) {
             auto const before = result_.rest;
             auto const count = windows.size();
             options_.workers(count, [&](std::size_t k) {
@@ -276,8 +268,7 @@ private:
                 result_.rest[j] = contracted(program, j, before[j]);
             });
             ++result_.rounds;
-            result_.empty = is_empty(result_.rest);
-            if (result_.empty) return;
+            if (result_.empty()) return nothing_is_left();
             std::vector<char> left(count, 1); // by window: of its start
             options_.workers(count, [&](std::size_t k) {
                 if (limit_()) left[k] = contract_start(windows[k]) ? 1 : 0;
@@ -285,8 +276,7 @@ private:
             bool grown = false;
             for (std::size_t k = 0; k < count; ++k) {
                 auto const& w = windows[k];
-                result_.empty = result_.empty || left[k] == 0;
-                if (result_.empty) return;
+                if (left[k] == 0) return nothing_is_left();
                 if (w.from == problem_->experiments[w.experiment].begin) {
                     result_.starts[w.experiment] = w.start;
                 }
