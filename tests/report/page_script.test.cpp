@@ -9,7 +9,7 @@
 using namespace sivid::report;
 
 TEST_CASE("page script: balanced, asks nothing of a network, enters texts as texts") {
-    for (auto const [open, close] :
+    for (auto const& [open, close] :
          {std::pair{'{', '}'}, std::pair{'(', ')'}, std::pair{'[', ']'}}) {
         // One of each stands in a regular expression, with its partner.
         CHECK(std::count(page_script.begin(), page_script.end(), open) ==
