@@ -15,7 +15,7 @@ TEST_CASE("identification parameters: table, chart, combinations and pavings wit
     detail::add_pavings(p, v);
     std::string const text = p.str();
     CHECK(markup_error(body_of(text)) == "");
-    CHECK_THAT(text, ContainsSubstring("<td class=\"number\">[0.2, 0.25]</td>"));
+    CHECK_THAT(text, ContainsSubstring("<td class=\"number\" data-head=\"prior\">[0.2, 0.25]</td>"));
     CHECK_THAT(text, ContainsSubstring("Combinations that the data fix"));
     CHECK(occurrences(text, ": whole prior</text>") == 3);
     CHECK(occurrences(text, ": closer</text>") == 3);

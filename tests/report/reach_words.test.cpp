@@ -29,7 +29,7 @@ TEST_CASE("words on runs name the scenario and its state and what to change") {
     found.reach = {r};
     auto const early = report::reach_words(p, found).at(0);
     for (auto const* part : {"run: ", "1.2 of 3.0 s", "x is 7.5",
-                             "a (80 %) and the start of x (15 %)", "Windows of less than"}) {
+                             "a (80 %), the start of x (15 %)", "Windows of less than"}) {
         CAPTURE(early, part);
         CHECK(has(early, part));
     }

@@ -84,6 +84,9 @@ public:
         return result;
     }
 
+    /// Whether the data allow the witness that is stored: they do not contradict themselves then.
+    [[nodiscard]] bool witness_is_proved() { return !witness_.empty() && proved(witness_); }
+
     /// Whether the data allow these parameters: the first ones of the point.
     [[nodiscard]] bool proved(std::vector<double> const& point) {
         auto const n = static_cast<std::ptrdiff_t>(data_.choice.unknown.size());
@@ -283,6 +286,8 @@ predict_from(identification_problem const& data, stored_identification const& st
     auto& problem = result->problem;
     problem = direct;
     problem.sets.clear();
+    // Of data that nothing explains everything would follow.
+    bool const hears_data = !model.has_delays() && search->witness_is_proved();
     result->sides = direct.choice.unknown;
     if (stored.products) {
         identification_problem asked;
@@ -302,7 +307,7 @@ predict_from(identification_problem const& data, stored_identification const& st
             result->not_in_products = seen.unproved;
         result->in_products = result->not_in_products.empty();
         if (result->in_products) {
-            if (!model.has_delays()) problem.measured = io_detail::measured_by(seen.problem);
+            if (hears_data) problem.measured = io_detail::measured_by(seen.problem);
             problem.choice = rebuilt.problem.choice;
             result->sides = formulas;
             for (auto const& row : stored.products->rows) {
@@ -314,7 +319,7 @@ predict_from(identification_problem const& data, stored_identification const& st
         }
     }
     if (!result->in_products) {
-        if (!model.has_delays()) problem.measured = io_detail::measured_by(data);
+        if (hears_data) problem.measured = io_detail::measured_by(data);
         for (auto const& row : stored.rows) {
             if (!io_detail::is_excluded(row)) problem.sets.push_back(extended(row.set));
         }

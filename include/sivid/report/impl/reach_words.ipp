@@ -5,11 +5,12 @@
 #include <sivid/report/reach_words.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/report/identification_report.hpp>
 #include <sivid/report/identification_words.hpp>
 #include <sivid/report/number_text.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -25,14 +26,14 @@ inline std::string name_of(run_reach::cause const& c) {
     return c.start ? "the start of " + c.name : formula_text(c.name);
 }
 
-/// "D33/Iz (62 %) and the start of r (20 %)"
+/// "D33/Iz (62 %), the start of r (20 %)"
 inline std::string causes_text(run_reach const& r) {
-    std::vector<std::string> all;
-    for (auto const& c : r.causes) {
-        if (all.size() == 3) break;
-        all.push_back(name_of(c) + " (" + brief(100 * c.share) + " %)");
+    std::string all;
+    for (std::size_t k = 0; k < std::min<std::size_t>(r.causes.size(), 3); ++k) {
+        auto const& c = r.causes[k];
+        all += (k == 0 ? "" : ", ") + name_of(c) + " (" + brief(100 * c.share) + " %)";
     }
-    return joined(all);
+    return all;
 }
 
 inline std::string what_ends(identification_problem const& problem, run_reach const& r) {
