@@ -16,7 +16,7 @@ endif()
 
 file(STRINGS "${WORK}/sivid.hpp" outside REGEX "^ *# *include")
 foreach(line IN LISTS outside)
-    if(NOT line MATCHES "^# *include <((boost|Eigen)/[^>]*|[a-z_]+|[a-z]+intrin\\.h)>")
+    if(NOT line MATCHES "^# *include <((boost|Eigen)/[^>]*|[a-z_]+|([a-z]+intrin|arm_neon)\\.h)>")
         message(SEND_ERROR "neither Boost, Eigen nor the standard library: ${line}")
     endif()
 endforeach()
