@@ -78,6 +78,7 @@ public:
             if (own != stored_.budget.end()) e.outliers = own->second;
         }
         request_.set = ranges_from(c.set, "--set");
+        request_.proof_seconds = std::min(request_.proof_seconds, 0.5 * c.budget);
         if (c.scenario.starts_with("data:")) {
             use_recorded(c.scenario.substr(5));
         } else {

@@ -207,6 +207,84 @@ TEST_CASE("boxes that were not decided count") {
     CHECK(t.verified("x at 1 > 1", stored).answer == answer::proved);
 }
 
+TEST_CASE("undecided boxes count where the measurements are not heard") {
+    prepared t;
+    auto stored = t.result.read();
+    stored.products->rows.push_back({{sivid::interval(0.8, 0.9)}, sivid::box_verdict::undecided});
+    adapt(stored);
+    auto model = t.problem.model;
+    auto const what = sivid::parse_requirement("x at 1 > 1", model, 1);
+    auto const p = sivid::predict_from(t.problem, stored, model, what.margins, prepared::request(),
+                                       "result.json");
+    REQUIRE(p->problem.measured);
+    CHECK(sivid::verify(p->problem, what, p->feasible, {.seconds = 2}).answer == answer::proved);
+    auto deaf = p->problem;
+    deaf.measured = nullptr;
+    CHECK(sivid::verify(deaf, what, p->feasible, {.seconds = 2}).answer == answer::open);
+    CHECK(sivid::predict(deaf).channels[0].low.back() <= 2 * std::exp(-0.9));
+    // Without a witness that is proved the measurements say nothing: no parameter may meet them.
+    stored.witness.reset();
+    auto const q = t.predicted(stored);
+    REQUIRE(q->problem.measured);
+    CHECK(q->problem.measured(q->problem.around(), nullptr).known.empty());
+    CHECK(sivid::predict(q->problem).channels[0].low.back() <= 2 * std::exp(-0.9));
+}
+
+TEST_CASE("tubes hold every motion that the data allow whatever narrows them") {
+    auto const spoilt = GENERATE(false, true);
+    CAPTURE(spoilt);
+    prepared t;
+    t.problem = io_support::two_rates_problem(spoilt);
+    if (spoilt) { // an experiment that may not have outliers besides
+        auto second = io_support::two_rates_problem().experiments[0];
+        second.name = "second";
+        t.problem.experiments.push_back(second);
+    }
+    stored_result const stored(t.problem);
+    auto r = prepared::request(3);
+    auto const set = GENERATE(false, true); // a start that is known less well than in the data
+    CAPTURE(set);
+    if (set) r.initial = {sivid::interval(1.5, 2.5)};
+    auto const p = t.predicted(stored.read(), r);
+    REQUIRE(p->in_products);
+    REQUIRE(p->problem.measured);
+    auto const tube = sivid::predict(p->problem);
+    REQUIRE(tube.complete);
+    auto deaf = p->problem;
+    deaf.measured = nullptr;
+    auto const wider = sivid::predict(deaf);
+    // What all samples allow: |2 exp(-q t) - 2 exp(-t/2)| <= 0.05, less what rounding does here.
+    double least = HUGE_VAL, most = 0;
+    for (double q = 0.3; q < 0.8; q += 1e-4) {
+        bool feasible = true;
+        for (int k = 1; k <= 6; ++k) {
+            double const s = 0.5 * k;
+            feasible =
+                feasible && std::abs(2 * std::exp(-q * s) - 2 * std::exp(-0.5 * s)) <= 0.05 - 1e-12;
+        }
+        if (!feasible) continue;
+        least = std::min(least, q);
+        most = std::max(most, q);
+    }
+    REQUIRE(least < most);
+    for (std::size_t k = 0; k < tube.times.size(); ++k) {
+        double const s = tube.times[k];
+        auto const& low = tube.channels[0].low[2 * k];
+        auto const& high = tube.channels[0].high[2 * k];
+        CAPTURE(s, low, high);
+        CHECK(low <= r.initial[0].lower() * std::exp(-most * s));
+        CHECK(high >= r.initial[0].upper() * std::exp(-least * s));
+        CHECK(low >= wider.channels[0].low[2 * k]);
+        CHECK(high <= wider.channels[0].high[2 * k]);
+    }
+    double const reached =
+        r.initial[0].upper() * std::exp(-least) - r.initial[0].lower() * std::exp(-most);
+    auto const one = static_cast<std::size_t>(
+        std::find_if(tube.times.begin(), tube.times.end(), [](double s) { return s >= 1 - 1e-9; }) -
+        tube.times.begin());
+    CHECK(tube.channels[0].high[2 * one] - tube.channels[0].low[2 * one] <= 1.05 * reached);
+}
+
 TEST_CASE("without a parameter there is nothing to say") {
     prepared t;
     auto stored = t.result.read();

@@ -7,13 +7,9 @@
 cmake_minimum_required(VERSION 3.22)
 
 string(REPLACE "|" ";" headers "${HEADERS}")
-string(REPLACE "|" ";" folders "${FOLDERS}")
-set(options -std=c++20 -DSIVID_COMPILED -DSIVID_COMPILED_MPFI -fsyntax-only -Wfatal-errors -w)
-foreach(folder IN LISTS folders)
-    if(folder AND NOT folder STREQUAL "/usr/include")
-        list(APPEND options -isystem "${folder}")
-    endif()
-endforeach()
+include("${CMAKE_CURRENT_LIST_DIR}/system_folders.cmake")
+system_folders(options "${FOLDERS}")
+list(PREPEND options -std=c++20 -DSIVID_COMPILED -DSIVID_COMPILED_MPFI -fsyntax-only -Wfatal-errors -w)
 file(MAKE_DIRECTORY "${WORK}")
 # The standard library and Eigen are read once (half the time). That no header lives on what they bring is a rule of
 # tests/architecture; with NOTHING_BEFORE nothing at all stands before a header.

@@ -31,13 +31,8 @@ endif()
 file(REMOVE_RECURSE "${WORK}")
 file(COPY "${project}/" DESTINATION "${WORK}/program")
 
-set(system "")
-string(REPLACE "|" ";" folders "${EIGEN}|${BOOST}")
-foreach(folder IN LISTS folders)
-    if(folder AND NOT folder STREQUAL "/usr/include")
-        list(APPEND system -isystem "${folder}")
-    endif()
-endforeach()
+include("${CMAKE_CURRENT_LIST_DIR}/system_folders.cmake")
+system_folders(system "${EIGEN}|${BOOST}")
 
 # compile(<option>...): no build system but the compiler.
 function(compile)

@@ -31,7 +31,6 @@ struct run_reach {
     /// Of the measured outputs up to `until`, in error bounds: the most that parameters and starts
     /// move one, and the most that was lost to remainders.
     double moved = 0, lost = 0;
-    double seconds = 0; ///< that the run took
 
     [[nodiscard]] bool complete() const { return !(until < end); }
 };

@@ -259,10 +259,11 @@ private:
         if (!problem_.measured) return;
         std::map<motion_cover::knowledge const*, measured_responses> data;
         std::map<item const*, measured_part> measured;
-        auto const of = [&](item const& i) -> measured_part const& {
+        auto const of = [&](item const& i) -> measured_part const* {
             auto const [at, fresh] = data.try_emplace(i.what.known.get());
             if (fresh) at->second = problem_.measured(i.what.known->parameters, limit_);
-            return measured.try_emplace(&i, at->second, i.what).first->second;
+            if (at->second.known.empty()) return nullptr;
+            return &measured.try_emplace(&i, at->second, i.what).first->second;
         };
         std::size_t reached = cover_->times().size();
         for (auto const& i : parts_) reached = std::min(reached, i.seen.reached);
@@ -280,7 +281,9 @@ private:
                     bool const point = !(holder.seen.low[y] < holder.seen.high[y]);
                     if (point || std::find(done.begin(), done.end(), &holder) != done.end()) break;
                     done.push_back(&holder);
-                    double const bound = of(holder).end_of(y, upwards);
+                    auto const* const part = of(holder);
+                    if (part == nullptr) return; // the measurements say nothing
+                    double const bound = part->end_of(y, upwards);
                     bool const empty =
                         upwards ? bound < holder.seen.low[y] : bound > holder.seen.high[y];
                     if (!empty) {

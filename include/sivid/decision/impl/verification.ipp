@@ -46,7 +46,6 @@ public:
     verification_search& operator=(verification_search const&) = delete;
 
     [[nodiscard]] verification operator()() {
-        auto const begun = std::chrono::steady_clock::now();
         std::vector<motion_cover::part> todo;
         for (int refinement = 0;; ++refinement) {
             motions_.emplace(problem_, what_, times_, options_.run);
@@ -63,12 +62,15 @@ public:
             if (todo.empty()) break;
         }
         finish();
-        result_.seconds =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+        result_.seconds = since(begun_);
         return std::move(result_);
     }
 
 private:
+    using clock = std::chrono::steady_clock;
+    [[nodiscard]] static double since(clock::time_point t) {
+        return std::chrono::duration<double>(clock::now() - t).count();
+    }
     struct item {
         motion_cover::part what;
         judged_motions::judgement says{};
@@ -193,15 +195,18 @@ private:
         for (auto& h : halves) open_.push_back(std::move(h));
     }
 
-    /// Whether the measurements refute all parameters of a part.
-    [[nodiscard]] bool meets_no_data(motion_cover::part const& p) const {
-        if (!problem_.measured || !limit_()) return false;
+    /// Whether the measurements refute all parameters of a part; they get at most half of the time.
+    [[nodiscard]] bool meets_no_data(motion_cover::part const& p) {
+        if (!problem_.measured || !limit_() || 2 * heard_ > since(begun_)) return false;
+        auto const asked = clock::now();
         auto all = p.parameters;
         for (std::size_t j = 0; j < all.size(); ++j) {
             if (slim_.idle[j]) all[j] = around_[j];
         }
         auto const data = problem_.measured(all, limit_);
-        return !data.known.empty() && !cut_contraction()(data.known, all);
+        bool const refuted = !data.known.empty() && !cut_contraction()(data.known, all);
+        heard_ += since(asked);
+        return refuted;
     }
 
     /// What is open since the grid is too coarse, once the grid is finer; empty: nothing is.
@@ -330,6 +335,8 @@ private:
     feasible_points const& feasible_;
     prediction_options options_;
     work_limit limit_;
+    clock::time_point begun_ = clock::now();
+    double heard_ = 0; ///< on what measurements say of parts [s]
     std::vector<double> times_, direct_times_;
     std::optional<judged_motions> motions_;
     std::unique_ptr<without_idle_parts> slim_direct_;

@@ -199,31 +199,38 @@ inline void state_assumptions(identification_problem const& data, prediction_req
 }
 
 /// What the experiments without outliers say of the parameters that were identified; further sides
-/// of a box are other constants.
+/// of a box are other constants. Nothing is prepared before somebody asks, and nothing said unless
+/// the witness is proved: of data that nothing explains everything would follow.
 inline std::function<measured_responses(box const&, std::function<bool()> const&)>
-measured_by(identification_problem problem) {
+measured_by(identification_problem problem, std::shared_ptr<feasible_search> witness) {
     struct kept {
         identification_problem problem;
+        std::shared_ptr<feasible_search> witness;
         std::function<bool()> keep_going;
-        data_test test;
-        explicit kept(identification_problem p)
-            : problem(std::move(p)), test(problem, options_asking(keep_going)) {}
-        static data_test_options options_asking(std::function<bool()> const& who) {
-            data_test_options result;
-            result.run.enclosure.keep_going = [&who] { return !who || who(); };
-            return result;
+        std::optional<data_test> test;
+        [[nodiscard]] bool ready() {
+            if (!test && witness && witness->witness_is_proved()) {
+                data_test_options options;
+                options.run.enclosure.keep_going = [this] { return !keep_going || keep_going(); };
+                test.emplace(problem, options);
+            }
+            witness = nullptr; // it has said what it knows
+            return test.has_value();
         }
     };
-    auto const data = std::make_shared<kept>(std::move(problem));
+    auto const data = std::make_shared<kept>();
+    data->problem = std::move(problem);
+    data->witness = std::move(witness);
     return [data](box const& parameters, std::function<bool()> const& keep_going) {
         data->keep_going = keep_going;
         measured_responses result;
+        if (!data->ready()) return result;
         auto const own = static_cast<std::ptrdiff_t>(data->problem.prior.size());
         box const first(std::vector<interval>(parameters.begin(), parameters.begin() + own));
         for (std::size_t e = 0; e < data->problem.experiments.size(); ++e) {
             auto const& run = data->problem.experiments[e];
             if (run.outliers > 0) continue;
-            auto answer = std::make_shared<response>(*data->test.run(e, run.initial, first));
+            auto answer = std::make_shared<response>(*data->test->run(e, run.initial, first));
             auto& sides = answer->unknowns.parameters;
             for (auto at = parameters.begin() + own; at != parameters.end(); ++at)
                 sides.push_back({.centre = mid(*at)});
@@ -286,8 +293,7 @@ predict_from(identification_problem const& data, stored_identification const& st
     auto& problem = result->problem;
     problem = direct;
     problem.sets.clear();
-    // Of data that nothing explains everything would follow.
-    bool const hears_data = !model.has_delays() && search->witness_is_proved();
+    bool const hears_data = !model.has_delays();
     result->sides = direct.choice.unknown;
     if (stored.products) {
         identification_problem asked;
@@ -307,7 +313,7 @@ predict_from(identification_problem const& data, stored_identification const& st
             result->not_in_products = seen.unproved;
         result->in_products = result->not_in_products.empty();
         if (result->in_products) {
-            if (hears_data) problem.measured = io_detail::measured_by(seen.problem);
+            if (hears_data) problem.measured = io_detail::measured_by(seen.problem, search);
             problem.choice = rebuilt.problem.choice;
             result->sides = formulas;
             for (auto const& row : stored.products->rows) {
@@ -319,7 +325,7 @@ predict_from(identification_problem const& data, stored_identification const& st
         }
     }
     if (!result->in_products) {
-        if (hears_data) problem.measured = io_detail::measured_by(data);
+        if (hears_data) problem.measured = io_detail::measured_by(data, search);
         for (auto const& row : stored.rows) {
             if (!io_detail::is_excluded(row)) problem.sets.push_back(extended(row.set));
         }

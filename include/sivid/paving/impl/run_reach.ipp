@@ -12,7 +12,6 @@
 #include <sivid/paving/local_response.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -70,7 +69,6 @@ inline run_reach reach_of_run(identification_problem const& problem, std::size_t
                               recorded_model const& seen, box const& parameters,
                               run_options const& options) {
     constexpr std::size_t instants = 50;
-    auto const begin = std::chrono::steady_clock::now();
     auto const& whole = problem.experiments[e];
     auto samples = thinned(sorted(whole.measurements), instants);
     auto const states = whole.initial.size();
@@ -91,8 +89,6 @@ inline run_reach reach_of_run(identification_problem const& problem, std::size_t
     experiment run{whole.name, whole.inputs, whole.begin, whole.initial, samples, samples.size()};
     flow const f(seen, problem.choice, whole.inputs);
     auto const r = (*make_run(f, run, samples, parameters, options))(whole.initial, parameters);
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     auto const local = expand(*r, parameters);
     auto const ranges = output_ranges(*r, local);
     auto const against_limit = [&](std::size_t i, double width) {
