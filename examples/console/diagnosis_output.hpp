@@ -197,6 +197,8 @@ inline void print_summary(sivid::diagnosis const& d, std::string const& id,
                       ? report::inflation_text(detail::range_of(d.inflation))
                       : std::string{"not bounded"})
               << "\n";
+    auto const view = sivid::report::view_of(d);
+    for (auto const& words : view.why) std::cout << "  " << words << "\n";
     for (auto const& p : d.where) {
         std::cout << "  where: " << p.kind << " " << p.name << (p.proved ? " (proved)" : "")
                   << (p.law.empty() ? "" : ", like ") << p.law << "\n";
@@ -210,7 +212,7 @@ inline void print_summary(sivid::diagnosis const& d, std::string const& id,
     }
     std::cout << "\n";
     detail::print_constants(d);
-    for (auto const& e : sivid::report::view_of(d).at_ends) {
+    for (auto const& e : view.at_ends) {
         std::cout << "  " << report::end_words(e) << "\n";
     }
     if (d.remainder) {

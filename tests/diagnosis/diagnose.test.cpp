@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/diagnosis/diagnose.hpp>
 #include <sivid/diagnosis/diagnosis_consistency.hpp>
+#include <sivid/io/diagnosis_json.hpp>
 
 #include "diagnosis/small_catalogue.hpp"
 #include "support/catch.hpp"
+#include "support/pendulum.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -47,6 +49,21 @@ TEST_CASE("the only scenario has the gap of the whole campaign") {
     CHECK(d.scenario_inflation[0].hull->lower() == d.inflation.lower());
     CHECK(d.scenario_inflation[0].hull->upper() == d.inflation.upper());
     CHECK(d.channel_inflation.size() == 2);
+}
+
+TEST_CASE("where it is open whether there is a gap the runs say what holds them back") {
+    auto problem = support::swinging(4, 0.95, 7, 0.5);
+    problem.experiments[0].measurements[100].bound = interval(5.0, 5.01);
+    diagnosis_options options;
+    options.seconds = 2;
+    auto const d = diagnose(std::move(problem), {}, options).result;
+    REQUIRE(d.gap == gap_verdict::undecided);
+    REQUIRE(d.reach.size() == 1);
+    CHECK(d.reach[0].scenario == "swing");
+    CHECK(d.reach[0].until < 4);
+    CHECK_FALSE(d.reach[0].causes.empty());
+    CHECK(diagnosis_json(d, "swing").find("\"reach\"") != std::string::npos);
+    CHECK(run(small_campaign::with_drag(0.3)).result.reach.empty());
 }
 
 TEST_CASE("a missing drag is found, proved and sized, and holds on held-out data") {

@@ -3,6 +3,7 @@
 #define SIVID_DIAGNOSIS_DIAGNOSIS_HPP
 
 #include <sivid/number/interval_traits.hpp>
+#include <sivid/paving/run_reach.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -235,6 +236,7 @@ struct diagnosis {
     gap_verdict gap = gap_verdict::undecided;
     inflation_range inflation = unknown_inflation();
     std::vector<named_estimate> scenario_inflation, channel_inflation;
+    std::vector<run_reach> reach; ///< where the gap is undecided: what holds runs back
     std::vector<broken_relation_report> relations;
     std::vector<suspected_place> where; ///< most important first
     std::vector<cause> causes;          ///< best first

@@ -36,6 +36,7 @@ struct diagnosis_options {
     step_effort part{2, 0.01};        ///< the inflation of one scenario or channel ...
     double parts_share = 0.05;        ///< ... and of all of them, see `step_effort::share`
     double first_fit_share = 0.4;     ///< of the model itself
+    double reach_share = 0.02;        ///< why it is not known whether there is a gap
     double relations_share = 0.1;     ///< which equations cannot hold
     double verdict_share = 0.15;      ///< kept from the candidates for the proofs about them
     double discharge_share = 0.15;    ///< whether a sensor, not its equation, may be wrong

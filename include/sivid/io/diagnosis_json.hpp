@@ -5,6 +5,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/io/json_writer.hpp>
+#include <sivid/io/reach_json.hpp>
 
 #include <cstddef>
 #include <optional>
@@ -78,6 +79,7 @@ private:
         json_.key("inflation").bounds(d_->inflation);
         hulls("scenarios", d_->scenario_inflation);
         hulls("channels", d_->channel_inflation);
+        write_reach(json_, d_->reach);
         json_.end_object();
     }
     void relations() {

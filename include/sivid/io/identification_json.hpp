@@ -7,6 +7,7 @@
 #include <sivid/io/identification_csv.hpp>
 #include <sivid/io/json_writer.hpp>
 #include <sivid/io/problem_digest.hpp>
+#include <sivid/io/reach_json.hpp>
 #include <sivid/io/sha256.hpp>
 #include <sivid/paving/identify.hpp>
 

@@ -19,13 +19,13 @@ struct run_reach {
     /// A parameter, or the start of a state, with its share in the width of `state` at `until`.
     struct cause {
         bool start = false;
-        std::size_t index = 0;
-        std::string name; ///< of the parameter, or of the state
+        std::size_t index = 0; ///< of the parameter, or of the state
+        std::string name;
         double share = 0;
     };
-    std::size_t experiment = 0;
+    std::string scenario;
     double begin = 0, until = 0, end = 0; ///< [s]; all states are bounded up to `until`
-    std::size_t state = 0;                ///< the widest at `until`, against its limit
+    std::string state, unit;              ///< the widest at `until`, against its limit
     double width = 0;                     ///< of that state, there
     std::vector<cause> causes;            ///< the largest first, at least a tenth each
     /// Of the measured outputs up to `until`, in error bounds: the most that parameters and starts

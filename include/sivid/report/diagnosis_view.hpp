@@ -153,8 +153,9 @@ struct diagnosis_view {
         meanings{}; ///< of effects: "a first-order lag of the rudder"
 
     gap_state gap = gap_state::open;
-    range inflation{}; ///< proved
-    double fitted = 0; ///< inflation of the model's best fit, not proved; 0: no fit
+    range inflation{};              ///< proved
+    double fitted = 0;              ///< inflation of the model's best fit, not proved; 0: no fit
+    std::vector<std::string> why{}; ///< why it is open whether there is a gap
     std::vector<share_of_gap> scenario_gaps{}, channel_gaps{};
     std::vector<place_view> places{}; ///< most important first
     std::vector<relation_view> relations{};

@@ -3,8 +3,7 @@
 #define SIVID_REPORT_REACH_WORDS_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/model/problem.hpp>
-#include <sivid/paving/identification.hpp>
+#include <sivid/paving/run_reach.hpp>
 
 #include <string>
 #include <vector>
@@ -12,9 +11,8 @@
 namespace sivid::report {
 
 /// Why little was excluded, a sentence for each experiment that says something, and what to change:
-/// from what the runs of `identification::reach` measured.
-[[nodiscard]] SIVID_DECL std::vector<std::string> reach_words(identification_problem const& problem,
-                                                              identification const& found);
+/// from what runs over all that is left measured.
+[[nodiscard]] SIVID_DECL std::vector<std::string> reach_words(std::vector<run_reach> const& reach);
 
 } // namespace sivid::report
 

@@ -88,6 +88,7 @@ private:
         if (provable && effort_.go_on("bounding the gap"))
             prove_gap(bound, base, effort_, options_.gap);
         know_gap();
+        if (run_.result.gap == gap_verdict::undecided) see_reach();
         announce();
     }
     void know_gap() {
@@ -101,6 +102,12 @@ private:
         d.relations.clear();
         run_.findings.clear();
         run_.places = {};
+    }
+    /// Why it could not be told whether there is a gap.
+    void see_reach() {
+        double const end = effort_.left() - effort_.seconds_of({0, options_.reach_share});
+        auto const run = limited(effort_.test(), [this, end] { return effort_.left() >= end; }).run;
+        run_.result.reach = reach_of_runs(run_.base, run_.base.prior, run);
     }
     void find_relations() {
         if (!effort_.go_on("proving which equations cannot hold")) return;

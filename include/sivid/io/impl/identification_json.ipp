@@ -41,21 +41,7 @@ SIVID_DECL std::string identification_json(identification_problem const& problem
         json.key("longest").nearest(w.longest).key("seconds").nearest(w.seconds);
         json.key("left").nearest(w.left).end_object();
     }
-    if (!found.reach.empty()) { // how far runs over what is left are carried
-        json.key("reach").begin_array();
-        for (auto const& r : found.reach) {
-            json.begin_object(layout::one_line);
-            json.key("scenario").string(problem.experiments[r.experiment].name);
-            json.key("until").nearest(r.until).key("end").nearest(r.end);
-            json.key("state").string(problem.model.about.states[r.state].name);
-            json.key("width").nearest(r.width).key("by").begin_object();
-            for (auto const& c : r.causes)
-                json.key((c.start ? "start of " : "") + c.name).nearest(c.share);
-            json.end_object();
-            json.key("moved").nearest(r.moved).key("lost").nearest(r.lost).end_object();
-        }
-        json.end_array();
-    }
+    write_reach(json, found.reach);
     if (found.effort) { // what the reason follows from
         auto const& e = *found.effort;
         json.key("search").begin_object(layout::one_line);

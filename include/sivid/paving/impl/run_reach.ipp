@@ -74,7 +74,7 @@ inline run_reach reach_of_run(identification_problem const& problem, std::size_t
     auto const states = whole.initial.size();
     auto const channels = problem.model.about.channels.size();
     run_reach result;
-    result.experiment = e;
+    result.scenario = whole.name;
     result.begin = result.until = whole.begin;
     result.end = samples.back().time;
     for (std::size_t k = 0; k < samples.size(); ++k) {
@@ -95,12 +95,15 @@ inline run_reach reach_of_run(identification_problem const& problem, std::size_t
         return width / problem.model.about.states[i].limit;
     };
     auto const widest = [&](auto const& width_of) {
-        for (std::size_t i = 0; i < states; ++i) {
-            bool const wider = !(against_limit(i, width_of(i)) <=
-                                 against_limit(result.state, width_of(result.state)));
-            if (i == 0 || wider) result.state = i;
+        std::size_t state = 0;
+        for (std::size_t i = 1; i < states; ++i) {
+            if (!(against_limit(i, width_of(i)) <= against_limit(state, width_of(state))))
+                state = i;
         }
-        result.width = width_of(result.state);
+        result.state = problem.model.about.states[state].name;
+        result.unit = problem.model.about.states[state].unit;
+        result.width = width_of(state);
+        return state;
     };
     widest([&](std::size_t i) { return width(whole.initial[i]); });
     std::size_t at = 0; // the last outputs where all states were reached
@@ -117,8 +120,8 @@ inline run_reach reach_of_run(identification_problem const& problem, std::size_t
     }
     if (at == 0) return result;
     result.until = samples[at - 1].time;
-    widest([&](std::size_t i) { return width(ranges[at - states + i]); });
-    result.causes = causes_of(problem, *r, local, at - states + result.state);
+    auto const state = widest([&](std::size_t i) { return width(ranges[at - states + i]); });
+    result.causes = causes_of(problem, *r, local, at - states + state);
     return result;
 }
 

@@ -184,6 +184,12 @@ SIVID_DECL page diagnosis_page(diagnosis_view const& v) {
     for (end_view const& e : v.at_ends) warnings.push_back(end_words(e) + ".");
     out.warnings(warnings);
     out.add(summary_table(v));
+    if (!v.why.empty()) {
+        out.prose("Why it is not proved whether some parameter explains the data:");
+        std::vector<std::string> lines;
+        for (auto const& words : v.why) lines.push_back(words + ".");
+        out.bullets(lines);
+    }
     detail::add_places(out, v);
     figure const misfits = misfit_figure(v);
     if (!misfits.panels.empty()) out.subsection("How far each channel misses its bounds");

@@ -4,6 +4,8 @@
 
 #include <sivid/report/diagnosis_report.hpp>
 
+#include <sivid/report/reach_words.hpp>
+
 namespace sivid::report {
 
 namespace detail {
@@ -140,6 +142,7 @@ SIVID_DECL diagnosis_view view_of(diagnosis const& d, diagnosis_plot_data const&
                                                               : gap_state::open,
                      .inflation = detail::drawn(d.inflation),
                      .fitted = options.base_fitted,
+                     .why = reach_words(d.reach),
                      .scenario_gaps = detail::drawn_shares(d.scenario_inflation),
                      .channel_gaps = detail::drawn_shares(d.channel_inflation),
                      .answer = d.answer == answer_kind::none      ? answer_state::nothing

@@ -36,14 +36,13 @@ inline std::string causes_text(run_reach const& r) {
     return all;
 }
 
-inline std::string what_ends(identification_problem const& problem, run_reach const& r) {
-    auto const& state = problem.model.about.states[r.state];
+inline std::string what_ends(run_reach const& r) {
     auto const carried = r.until - r.begin;
     auto words = carried > 0 ? "over what is left, trajectories are carried for " + brief(carried) +
                                    " of " + brief(r.end - r.begin) + " s"
                              : std::string{"over what is left, no trajectory is carried anywhere"};
-    words += ": there " + state.name + " is " + brief(r.width) + " " + unit_text(state.unit) +
-             " wide" + (r.causes.empty() ? "" : ", by " + causes_text(r));
+    words += ": there " + r.state + " is " + brief(r.width) + " " + unit_text(r.unit) + " wide" +
+             (r.causes.empty() ? "" : ", by " + causes_text(r));
     words += carried > 0 ? ". Windows of less than " + brief(carried) + " s" : ". Shorter windows";
     if (!r.causes.empty()) words += ", or " + name_of(r.causes.front()) + " in a narrower range,";
     return words + " would tell more";
@@ -51,13 +50,12 @@ inline std::string what_ends(identification_problem const& problem, run_reach co
 
 } // namespace detail
 
-SIVID_DECL std::vector<std::string> reach_words(identification_problem const& problem,
-                                                identification const& found) {
+SIVID_DECL std::vector<std::string> reach_words(std::vector<run_reach> const& reach) {
     std::vector<std::string> result;
-    for (auto const& r : found.reach) {
-        auto const name = problem.experiments[r.experiment].name + ": ";
+    for (auto const& r : reach) {
+        auto const name = r.scenario + ": ";
         if (!r.complete()) {
-            result.push_back(name + detail::what_ends(problem, r));
+            result.push_back(name + detail::what_ends(r));
         } else if (r.moved < 1) {
             result.push_back(name + "parameters and starts move no measurement by more than " +
                              detail::brief(r.moved) +

@@ -158,13 +158,13 @@ SIVID_DECL bool find_explaining_point(identification_problem const& problem,
     };
     auto const best = whole();
     if (explains(best)) return true;
-    struct candidate {
+    struct tried_box {
         std::size_t box;
         double inflation, volume;
     };
-    std::vector<candidate> list;
+    std::vector<tried_box> list;
     for (std::size_t k = 0; k < excluded.size(); ++k) {
-        candidate next{k, HUGE_VAL, relative_volume(excluded[k], problem.prior).upper()};
+        tried_box next{k, HUGE_VAL, relative_volume(excluded[k], problem.prior).upper()};
         if (!best.parameters.empty() && !clock.over(0.5)) {
             auto const near = whole.at(nearest_in(excluded[k], best.parameters), best.starts);
             if (explains(near)) return true;
@@ -173,15 +173,15 @@ SIVID_DECL bool find_explaining_point(identification_problem const& problem,
         list.push_back(next);
     }
     auto const by = [&](auto const& before, std::size_t count) {
-        std::vector<candidate> first(std::min(count, list.size()));
+        std::vector<tried_box> first(std::min(count, list.size()));
         std::partial_sort_copy(list.begin(), list.end(), first.begin(), first.end(), before);
         return first;
     };
     auto const promising =
-        by([](candidate const& a, candidate const& b) { return a.inflation < b.inflation; },
+        by([](tried_box const& a, tried_box const& b) { return a.inflation < b.inflation; },
            options.fits - options.fits / 4);
     auto const large =
-        by([](candidate const& a, candidate const& b) { return a.volume > b.volume; },
+        by([](tried_box const& a, tried_box const& b) { return a.volume > b.volume; },
            options.fits / 4);
     for (bool const near : {false, true}) {
         for (auto const& c : near ? promising : large) {
