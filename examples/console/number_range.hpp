@@ -23,6 +23,15 @@ inline CLI::Validator number_between(double least, double most) {
             range.str(), "number_between"};
 }
 
+/// For the name of a folder that need not be given: an empty one is none.
+inline CLI::Validator folder_name() {
+    return {[](std::string const& text) {
+                return text.empty() ? std::string{"--out is empty: give a folder for the results"}
+                                    : std::string{};
+            },
+            "", "folder_name"};
+}
+
 } // namespace console
 
 #endif

@@ -6,6 +6,7 @@
 #include <sivid/io/certificates_csv.hpp>
 #include <sivid/io/file_set.hpp>
 #include <sivid/io/identification_csv.hpp>
+#include <sivid/io/printable_text.hpp>
 
 #include <filesystem>
 #include <string>
@@ -13,12 +14,13 @@
 
 namespace console {
 
-/// The way from one folder to another, if there is one.
+/// The way from one folder to another, if there is one that may stand in a file.
 inline std::string seen_from(std::filesystem::path const& here,
                              std::filesystem::path const& there) {
     std::error_code fault;
     auto const way = std::filesystem::relative(there, here, fault);
-    return fault ? std::string{} : way.generic_string();
+    auto const text = fault ? std::string{} : way.generic_string();
+    return sivid::unprintable_in(text).empty() ? text : std::string{};
 }
 
 /// boxes.csv, products.csv and certificates.csv; result.json is for the caller to add last.

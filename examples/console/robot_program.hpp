@@ -169,7 +169,8 @@ inline int decide_by_result(std::string const& name, sivid::recorded_model const
     app.add_option("--budget", c.budget, "seconds")
         ->check(number_between(0.0, 1e9))
         ->capture_default_str();
-    auto* const out = app.add_option("--out", c.out, "folder for the report and the JSON file");
+    auto* const out = app.add_option("--out", c.out, "folder for the report and the JSON file")
+                          ->check(folder_name());
     app.add_flag("--quiet", c.quiet, "no progress");
     if (verify) {
         app.add_option("--require", c.requirement, "such as \"always(abs(w) < 20)\"")->required();

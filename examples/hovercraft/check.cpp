@@ -99,7 +99,7 @@ int run(check_command const& c) {
     options.all = c.all;
     options.sample = c.sample;
     options.seed = c.seed;
-    options.seconds = 0.5 * c.budget.value_or(c.all ? 3600 : 10);
+    options.seconds = c.budget.value_or(c.all ? 3600 : 10);
     options.further_assumptions = data.assumptions;
     options.certificate.keep_going = [] { return !console::interrupted(); };
     auto const findings = work(problem, stored, options, c.multiprecision);

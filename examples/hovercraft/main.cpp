@@ -261,7 +261,7 @@ private:
         s->add_option("--sample", c.sample, "so many inside and so many excluded boxes")
             ->capture_default_str();
         s->add_option("--seed", c.seed, "of the sample")->capture_default_str();
-        s->add_option("--budget", c.budget, "seconds for the boxes (10, with --all 3600)")
+        s->add_option("--budget", c.budget, "seconds (10, with --all 3600)")
             ->check(console::number_between(0.0, 1e9));
         s->add_flag("--multiprecision", c.multiprecision,
                     "boxes too in 40 digits: 20 times slower");
@@ -290,7 +290,8 @@ private:
         s.add_option("--budget", c.budget, "seconds")
             ->check(console::number_between(0.0, 1e9))
             ->capture_default_str();
-        auto* const out = s.add_option("--out", c.out, "folder for the report and the JSON file");
+        auto* const out = s.add_option("--out", c.out, "folder for the report and the JSON file")
+                              ->check(console::folder_name());
         if (needs_out) out->required();
         s.add_flag("--quiet", c.quiet, "no progress");
         add_variants(s, shared_);

@@ -55,6 +55,7 @@ int parse_and_run(int argc, char** argv) {
     } catch (CLI::ParseError const& e) {
         return app.exit(e) == 0 ? 0 : static_cast<int>(console::bad_input);
     }
+    if (out.empty()) throw sivid::output_error("--out is empty: give a folder for the data set");
     sivid::import_tools tools;
 #ifdef SIVID_HAS_ZLIB
     tools.inflate = inflated;

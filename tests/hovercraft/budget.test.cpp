@@ -99,6 +99,32 @@ TEST_CASE("a budget ends identify in time however wide the boxes inside are") {
     }
 }
 
+TEST_CASE("a budget and Ctrl-C end check in time however many boxes there are") {
+    using namespace std::chrono_literals;
+    temporary_folder const folder;
+    auto const out = folder.path() / "out";
+    // Tens of thousands of boxes of products, and as many steps of proof.
+    REQUIRE(run({"identify", h3.string(), "--out", out.string(), "--accuracy", "1e-8", "--budget",
+                 "4", "--quiet"})
+                .code != 2);
+    for (bool const all : {false, true}) {
+        std::vector<std::string> arguments{"check", out.string(), "--budget", "1"};
+        if (all) arguments.push_back("--all");
+        child const timed(arguments, folder.path());
+        auto const end = timed.wait_at_most(60);
+        CAPTURE(all, timed.out());
+        CHECK(end.code == 3);
+        CHECK(end.processor < 2.5); // tests are less optimised than the program
+        CHECK_THAT(timed.out(), ContainsSubstring("not within the budget"));
+    }
+    child const stopped({"check", out.string(), "--all"}, folder.path());
+    std::this_thread::sleep_for(500ms);
+    stopped.signal(SIGINT);
+    auto const end = stopped.wait_at_most(60);
+    CHECK(end.code == 3);
+    CHECK(end.processor < 2.5);
+}
+
 TEST_CASE("Ctrl-C ends every phase with the files written") {
     using namespace std::chrono_literals;
     auto const tolerant =
@@ -223,6 +249,7 @@ TEST_CASE("texts of a data set neither steer a terminal nor fill it") {
           one{"\"name\": \"S3\"", "\"name\": \"S3\\u2066\"", "control character: U+2066"},
           one{"\"unit\": \"m\"", "\"unit\": \"" + red + "\"", "control character"},
           one{"\"Sv\":", "\"" + std::string(5000, 'k') + "\":", "unknown constant 'kkk"},
+          one{"\"id\": \"h3\"", "\"id\": \"" + std::string(100000, 'k') + "\"", "has 100000 bytes"},
           one{"[0.2, 0.25]", "[-1e308, 1e308]", "/parameters/Sv/prior"},
           one{"[0.2, 0.25]", "[0.2, 1e101]", "beyond 1e100"},
           one{"\"u\": [2, 2]", "\"u\": [-1e300, 1e300]", "/scenarios/0/initial/u"}}) {
@@ -253,6 +280,7 @@ TEST_CASE("an empty name is no folder for results") {
              {"identify", h3.string()},
              {"generate", "--scenario", "S3", "--relative", "0.1"},
              {"rank"},
+             {"verify", h3.string(), "--scenario", "S2", "--require", "x <= 7"},
              {"simulate", "--scenario", "S1"}}) {
         auto arguments = start;
         arguments.insert(arguments.end(), {"--out", ""});

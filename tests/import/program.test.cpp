@@ -152,6 +152,9 @@ TEST_CASE("compressed MATLAB files: read, or refused with a way out", "[import]"
 TEST_CASE("usage", "[import]") {
     CHECK(run({}).code == 2);
     CHECK(run({"mapping.json"}).code == 2);
+    auto const nowhere = run({"mapping.json", "--out", ""});
+    CHECK(nowhere.code == 2);
+    CHECK_THAT(nowhere.err, ContainsSubstring("--out is empty"));
     CHECK(run({"mapping.json", "--out", "x", "--unknown"}).code == 2);
     auto const help = run({"--help"});
     CHECK(help.code == 0);

@@ -12,6 +12,7 @@
 #include <sivid/io/impl/diagnosis_json.ipp>
 #include <sivid/io/impl/exact_decimal.ipp>
 #include <sivid/io/impl/explaining_motion.ipp>
+#include <sivid/io/impl/identifiability_check.ipp>
 #include <sivid/io/impl/identification_csv.ipp>
 #include <sivid/io/impl/identification_json.ipp>
 #include <sivid/io/impl/identification_reader.ipp>

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -28,9 +29,15 @@ class drawing_check {
 
 public:
     /// @param pieces  of boxes that are looked at before a claim is left open
+    /// @param keep_going  once false, claims are left open; may be empty
     drawing_check(identification_problem const& problem, stored_identification const& stored,
-                  stored_products const& rebuilt, std::size_t pieces = 400'000)
-        : problem_(&problem), stored_(&stored), rebuilt_(&rebuilt), most_(pieces) {
+                  stored_products const& rebuilt, std::size_t pieces = 400'000,
+                  std::function<bool()> keep_going = nullptr)
+        : problem_(&problem),
+          stored_(&stored),
+          rebuilt_(&rebuilt),
+          most_(pieces),
+          keep_going_(std::move(keep_going)) {
         auto const n = problem.prior.size();
         faces_.resize(n);
         for (auto const& row : stored.rows) {
@@ -65,7 +72,7 @@ public:
             auto const image = image_of(intersect(row.set, problem_->prior));
             bool proved = image.has_value();
             if (proved) {
-                auto const left = cover(*image, rows).gaps;
+                auto const left = cover(*image, rows, 2e-15, keep_going_).gaps;
                 proved = std::all_of(left.begin(), left.end(),
                                      [](box const& gap) { return is_rounding(gap); });
             }
@@ -118,7 +125,10 @@ private:
         return true;
     }
 
+    [[nodiscard]] bool late() const { return keep_going_ && !keep_going_(); }
+
     [[nodiscard]] bool is_excluded(box const& gap) {
+        if (late()) return false;
         struct piece {
             box set;
             std::vector<std::size_t> near;
@@ -137,7 +147,7 @@ private:
             }
             if (near.empty()) continue;
             auto const cut = place_to_cut(next.set);
-            if (!cut || spent_++ >= most_) return false;
+            if (!cut || spent_++ >= most_ || late()) return false;
             auto [low, high] = bisect(next.set, cut->first, cut->second);
             waiting.push_back({std::move(low), near});
             waiting.push_back({std::move(high), std::move(near)});
@@ -182,6 +192,7 @@ private:
     stored_products const* rebuilt_;
     std::vector<std::vector<double>> faces_; ///< of the rows, by side
     std::size_t most_, spent_ = 0;
+    std::function<bool()> keep_going_;
 };
 
 } // namespace sivid

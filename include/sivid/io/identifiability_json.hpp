@@ -12,17 +12,17 @@
 namespace sivid {
 
 /// Writes what data can tell as one value, the member "identifiability" of a result file:
-///   `at`: the parameters over which the proofs hold, the very doubles; `rank`: proved from both
-///   sides, and in floating point; `free`, `fixed`: motions and formulas, each with whether it is
-///   proved; `hardly_noticed`, `nearly_fixed`, `directions`: computed, not proved.
+///   `at`: the parameters and starts over which the proofs hold, the very doubles; `rank`: proved
+///   from both sides, and in floating point; `free`, `fixed`: motions and formulas, each with
+///   whether it is proved; `hardly_noticed`, `nearly_fixed`, `directions`: computed, not proved.
 inline void write_identifiability(json_writer& json, identifiability const& found) {
     using layout = json_writer::layout;
     auto const name = [&](std::size_t c) { return found.unknowns[c].name; };
     json.begin_object().key("at").begin_object(layout::one_line);
     for (std::size_t c = 0; c < found.unknowns.size(); ++c) {
         auto const& q = found.unknowns[c];
-        if (q.experiment) continue;
-        auto const& side = found.parameters[q.index];
+        auto const& side =
+            q.experiment ? found.starts[*q.experiment][q.index] : found.parameters[q.index];
         json.key(q.name).begin_array(layout::one_line);
         json.nearest(side.lower()).nearest(side.upper()).end_array();
     }

@@ -49,6 +49,11 @@ inline check_finding agreement(std::string what, std::string const& fault,
             fault.empty() ? detail : fault};
 }
 
+/// Of what the time did not suffice for.
+inline check_finding late(std::string what) {
+    return {std::move(what), check_finding::outcome::undecided, "not within the budget"};
+}
+
 } // namespace io_detail
 
 /// The hull of the rows is the one stated, and every row lies in the prior.
@@ -189,20 +194,28 @@ inline check_finding agreement(std::string what, std::string const& fault,
                                                        : "the one that was identified, by SHA-256");
 }
 
-/// Whether the reason to stop follows from what was left and from the budgets.
-[[nodiscard]] inline check_finding check_stop(stored_identification const& stored) {
+/// Whether the reason to stop follows from what was left and from what the search was to end at.
+/// That a search was told to stop, or would not have shrunk its hull, does not: these count as not
+/// checked.
+/// @param prior  of the paving that was searched
+[[nodiscard]] inline check_finding check_stop(stored_identification const& stored,
+                                              box const& prior) {
+    using traits = interval_traits<interval>;
     auto const& rows = stored.products ? stored.products->rows : stored.rows;
-    auto const any = [&](box_verdict v) {
-        return std::any_of(rows.begin(), rows.end(),
-                           [v](paved_box const& row) { return row.verdict == v; });
-    };
-    bool const pending = any(box_verdict::pending);
-    bool const open = pending || any(box_verdict::undecided);
+    bool pending = false, undecided = false;
+    interval inner{0.0}, outer{0.0};
+    for (auto const& row : rows) {
+        pending = pending || row.verdict == box_verdict::pending;
+        undecided = undecided || row.verdict == box_verdict::undecided;
+        auto const v = relative_volume(intersect(row.set, prior), prior);
+        outer = traits::add(outer, v);
+        if (row.verdict == box_verdict::inside) inner = traits::add(inner, v);
+    }
     auto const r = stored.reason;
-    bool holds = (r == stop_reason::decided) == !open;
-    bool const by_budget = r == stop_reason::time_budget || r == stop_reason::box_budget ||
-                           r == stop_reason::memory_budget || r == stop_reason::cancelled;
-    holds = holds && (!by_budget || pending || !stored.effort);
+    bool holds = (r == stop_reason::decided) == !(pending || undecided);
+    // Boxes wait unless the search came to its end.
+    if (stored.effort && r != stop_reason::decided)
+        holds = holds && pending == (r != stop_reason::accuracy_reached);
     // Where measurements came one by one there is no budget of memory.
     holds = holds && (stored.effort || stored.grounds.empty() || r != stop_reason::memory_budget);
     if (stored.effort && pending) { // otherwise no budget was looked at in the end
@@ -210,19 +223,31 @@ inline check_finding agreement(std::string what, std::string const& fault,
         bool const time = e.seconds > e.most_seconds, boxes = e.boxes >= e.most_boxes;
         bool const nearly =
             e.seconds >= 0.98 * e.most_seconds - 0.1; // an integration was cut short
+        bool const enough = !e.sufficient_ratio ||
+                            (*e.sufficient_ratio < 1 && inner.upper() > 0 &&
+                             inner.upper() >= (1 - 1e-6) * *e.sufficient_ratio * outer.lower());
         holds =
             holds && (!time || r == stop_reason::time_budget) &&
             (r != stop_reason::time_budget || nearly) &&
             (r == stop_reason::box_budget) == (boxes && !time && r != stop_reason::time_budget) &&
-            (r != stop_reason::memory_budget || e.most_bytes.has_value());
+            (r != stop_reason::memory_budget || e.most_bytes.has_value()) &&
+            (r != stop_reason::inside_share || enough) &&
+            (r != stop_reason::hulls_rest || !e.hull_gain || *e.hull_gain > 0);
     }
     auto const words = std::string{to_string(r)};
     auto found = io_detail::agreement(
         "reason to stop", holds ? "" : "'" + words + "' does not follow from boxes and budgets",
         words + ", given boxes and budgets");
-    if (holds && !stored.effort && stored.grounds.empty()) {
-        return {found.what, check_finding::outcome::undecided, "the budgets are not stated"};
+    if (!holds) return found;
+    bool const stated = stored.effort &&
+                        (stored.effort->sufficient_ratio || r != stop_reason::inside_share) &&
+                        (stored.effort->hull_gain || r != stop_reason::hulls_rest);
+    if (!stated && (stored.effort || stored.grounds.empty())) {
+        return {found.what, check_finding::outcome::undecided,
+                "what the search was to end at is not stated"};
     }
+    if (r == stop_reason::cancelled || r == stop_reason::hulls_rest)
+        return {found.what, check_finding::outcome::nothing, "'" + words + "' leaves no trace"};
     return found;
 }
 
@@ -270,6 +295,7 @@ template <class I>
                                                box_cover const& found) {
     using traits = interval_traits<interval>;
     std::string fault;
+    if (!found.complete) return io_detail::late(std::move(what));
     if (!found.overlaps.empty()) {
         fault = std::to_string(found.overlaps.size()) + " pairs of boxes overlap";
     }

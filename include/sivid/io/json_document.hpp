@@ -32,8 +32,8 @@ public:
 
     [[noreturn]] void fail(std::string problem, std::string remedy) const;
 
-    /// A non-empty text without control characters and marks that hide or turn text: it may be
-    /// printed (`printable_text.hpp`).
+    /// A non-empty text of at most 1000 bytes without control characters and marks that hide or
+    /// turn text: it may be printed (`printable_text.hpp`).
     [[nodiscard]] std::string const& string() const;
 
     /// The same, but it may be empty.
@@ -48,6 +48,11 @@ public:
         if (text == second) return true;
         if (text == first) return false;
         fail(text_of("found ", in_quotes(text)), std::string{"write "} + first + " or " + second);
+    }
+
+    [[nodiscard]] bool boolean() const {
+        expect(kind::boolean, "true or false");
+        return text_ == "true";
     }
 
     /// A number as written. That its double is finite is checked here.

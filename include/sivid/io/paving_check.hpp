@@ -47,8 +47,9 @@ public:
     [[nodiscard]] check_finding covering(std::string what) {
         std::vector<box> sets;
         for (auto const& row : *rows_) sets.push_back(row.set);
-        auto found = cover(problem_->prior, sets);
+        auto found = cover(problem_->prior, sets, 2e-15, options_->certificate.keep_going);
         auto result = check_cover(std::move(what), *problem_, *rows_, found);
+        covered_ = found.complete;
         gaps_ = std::move(found.gaps);
         std::erase_if(gaps_, [this](box const& gap) { return is_rounding(gap); });
         return result;
@@ -76,6 +77,7 @@ public:
     /// ones).
     /// @given  `covering` was called
     [[nodiscard]] check_finding outside(std::string what) {
+        if (!covered_) return io_detail::late(std::move(what));
         if (gaps_.empty()) return {std::move(what), outcome::nothing, ""};
         if (auto const at = explaining_point()) return contradicted(what, *at);
         if (options_->all) return all_outside(std::move(what));
@@ -108,6 +110,8 @@ public:
     /// What the rows leave of the prior, but for rounding.
     /// @given  `covering` was called
     [[nodiscard]] std::vector<box> const& gaps() const { return gaps_; }
+    /// Whether the time sufficed for the gaps.
+    [[nodiscard]] bool covered() const { return covered_; }
 
 private:
     /// Of the time for a claim, the share in which fits look for what contradicts it.
@@ -250,6 +254,7 @@ private:
         for (auto const& row : *rows_) rows.push_back(row.set);
         exclusion_check<Fast> exclude(*problem_, effort(), options_->run);
         auto open = exclude.follow(proof_, rows);
+        bool const late = exclude.over(); // then rows are among what is open
         std::erase_if(open, [this](box const& gap) { return is_rounding(gap); });
         std::string const steps = std::to_string(exclude.steps()) + " steps proved, " +
                                   std::to_string(exclude.by_weights()) +
@@ -260,6 +265,8 @@ private:
             found.detail += "; two integrators contradict each other: a defect, please report it";
             return found;
         };
+        if (late && !open.empty())
+            return sound({std::move(what), outcome::undecided, steps + ", not within the budget"});
         if (open.empty()) {
             return sound({std::move(what), outcome::verified,
                           steps + ", " + std::to_string(exclude.runs()) + " runs"});
@@ -320,6 +327,7 @@ private:
     std::vector<paved_box> const* rows_;
     std::vector<box> starts_;
     std::vector<box> gaps_; ///< what the rows leave of the prior
+    bool covered_ = true;
     identification_check_options const* options_;
     exclusion_proof proof_;
 };

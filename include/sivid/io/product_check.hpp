@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -140,7 +141,8 @@ check_combinations_of_products(stored_identification const& stored) {
 template <class I>
 [[nodiscard]] check_finding check_volumes_of_products(identification_problem const& problem,
                                                       stored_identification const& stored,
-                                                      stored_products const& rebuilt) {
+                                                      stored_products const& rebuilt,
+                                                      std::function<bool()> const& keep_going) {
     using outcome = check_finding::outcome;
     using traits = interval_traits<I>;
     std::string const what = "volumes";
@@ -161,7 +163,9 @@ template <class I>
         auto const& boxes = inner ? inside : left;
         auto const& stated = inner ? stored.inner : stored.outer;
         std::string const which = inner ? "inner" : "outer";
-        auto const share = anew(boxes, cells);
+        auto const found = anew(boxes, cells, keep_going);
+        if (!found) return io_detail::late(what);
+        auto const& share = *found;
         auto const volume =
             intersect(interval_traits<interval>::bounds(traits::lower(share), traits::upper(share)),
                       interval_traits<interval>::bounds(0.0, 1.0));
@@ -169,7 +173,8 @@ template <class I>
         if (is_empty(stated) || io_detail::apart(volume, stated) > room) {
             return {what, outcome::refuted, "the " + which + " volume is not that of the products"};
         }
-        auto const repeated = again(boxes, volume_cells(left.size()));
+        auto const repeated = again(boxes, volume_cells(left.size()), 2e-3, keep_going);
+        if (keep_going && !keep_going()) return io_detail::late(what);
         double const slack = 0.05 * width(repeated) + room;
         if (std::abs(repeated.lower() - stated.lower()) > slack ||
             std::abs(repeated.upper() - stated.upper()) > slack) {

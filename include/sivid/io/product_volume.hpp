@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -37,9 +39,14 @@ public:
 
     /// @param boxes  of the products, which overlap in faces only
     /// @param cells  parts of the factors' prior for one box, at most
-    [[nodiscard]] I operator()(std::vector<box> const& boxes, std::size_t cells) const {
+    /// @param keep_going  once false, nothing is known; may be empty
+    [[nodiscard]] std::optional<I> operator()(std::vector<box> const& boxes, std::size_t cells,
+                                              std::function<bool()> const& keep_going = {}) const {
         I sum = traits::point(0.0);
-        for (auto const& r : boxes) sum = traits::add(sum, share(r, cells));
+        for (auto const& r : boxes) {
+            if (keep_going && !keep_going()) return std::nullopt;
+            sum = traits::add(sum, share(r, cells));
+        }
         return sum;
     }
 

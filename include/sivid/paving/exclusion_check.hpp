@@ -45,14 +45,20 @@ public:
     }
 
     [[nodiscard]] std::size_t runs() const { return count_; }
+    /// Whether the time is up.
+    [[nodiscard]] bool over() const {
+        if (options_.keep_going && !options_.keep_going()) return true;
+        return std::chrono::duration<double>(clock::now() - begin_).count() > options_.seconds;
+    }
 
     /// Follows a proof from the prior on: each step is proved by its weights, or else by weights of
     /// the check's own.
     /// @param rows  of which nothing is claimed
-    /// @returns  boxes that hold all of the prior that is in no row and not proved to be excluded
+    /// @returns  boxes that hold all of the prior that is in no row and not proved to be excluded;
+    ///           once it is `over`, of rows as well
     [[nodiscard]] std::vector<box> follow(exclusion_proof const& proof,
                                           std::vector<box> const& rows) {
-        proof_walk walk(problem_->prior, rows, runs_.size());
+        proof_walk walk(problem_->prior, rows, runs_.size(), [this] { return !over(); });
         for (auto const& step : proof) {
             if (walk.done() || over()) break;
             if (step.what == proof_step::kind::run) {
@@ -109,10 +115,6 @@ private:
     /// A box is cut so often before it is left to others.
     static constexpr std::size_t most_cuts = 200;
 
-    [[nodiscard]] bool over() const {
-        if (options_.keep_going && !options_.keep_going()) return true;
-        return std::chrono::duration<double>(clock::now() - begin_).count() > options_.seconds;
-    }
     /// One experiment over a region; nothing where two integrators contradict each other.
     [[nodiscard]] std::shared_ptr<response const> run(std::size_t e, box const& region) {
         ++count_;

@@ -57,6 +57,8 @@ struct search_effort {
     double seconds = 0, most_seconds = 0; ///< of the search alone, when it stopped
     std::size_t boxes = 0, most_boxes = 0;
     std::optional<std::size_t> most_bytes; ///< nothing: as many as there are
+    /// What it was to end at, as in `inversion_options`; nothing: not stated.
+    std::optional<double> sufficient_ratio{}, hull_gain{};
 };
 
 /// How windows of the records contracted the prior before it was searched.

@@ -44,8 +44,10 @@ public:
     /// @param boxes  of the reduced parameters, which overlap in faces only
     /// @param cells  parts of the prior of the factors, at most
     /// @returns in a time O(cells * boxes)
+    /// @param keep_going  once false, the parts stay as they are: wider, as sound; may be empty
     [[nodiscard]] interval operator()(std::vector<box> const& boxes, std::size_t cells = 200,
-                                      double accuracy = 2e-3) const {
+                                      double accuracy = 2e-3,
+                                      std::function<bool()> const& keep_going = {}) const {
         std::vector<interval> plain;
         for (auto const& r : boxes) plain.push_back(plain_share(r));
         auto const cell_at = [&](box p) {
@@ -64,7 +66,8 @@ public:
         std::vector<cell> heap{cell_at(prior_)};
         double most = upper(heap[0].volume);
         double gap = width(heap[0].volume);
-        while (!factors_.empty() && heap.size() < cells && gap > accuracy * most) {
+        while (!factors_.empty() && heap.size() < cells && gap > accuracy * most &&
+               (!keep_going || keep_going())) {
             std::pop_heap(heap.begin(), heap.end(), narrower);
             auto const worst = std::move(heap.back());
             heap.pop_back();

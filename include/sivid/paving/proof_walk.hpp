@@ -21,8 +21,10 @@ namespace sivid {
 class proof_walk {
 public:
     /// @param rows  boxes of which nothing is claimed
-    proof_walk(box const& prior, std::vector<box> rows, std::size_t experiments)
-        : rows_(std::move(rows)) {
+    /// @param keep_going  once false, rows may be in what is left open; may be empty
+    proof_walk(box const& prior, std::vector<box> rows, std::size_t experiments,
+               std::function<bool()> keep_going = nullptr)
+        : rows_(std::move(rows)), keep_going_(std::move(keep_going)) {
         std::vector<std::size_t> all(rows_.size());
         for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
         waiting_.push_back({prior, response_list(experiments), std::move(all)});
@@ -83,15 +85,21 @@ private:
 
     void leave(box const& part, std::vector<std::size_t> const& rows) {
         std::vector<box> meeting;
+        if (keep_going_ && !keep_going_()) {
+            open_.push_back(part);
+            return;
+        }
         for (auto const k : rows) {
             auto common = intersect(rows_[k], part);
             if (subset(part, common)) return;
             if (!is_empty(common)) meeting.push_back(std::move(common));
         }
-        for (auto& gap : cover(part, meeting).gaps) open_.push_back(std::move(gap));
+        for (auto& gap : cover(part, meeting, 2e-15, keep_going_).gaps)
+            open_.push_back(std::move(gap));
     }
 
     std::vector<box> rows_;
+    std::function<bool()> keep_going_;
     std::vector<place> waiting_; ///< the current one last
     std::vector<box> open_;
 };

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -20,6 +21,7 @@ struct box_cover {
     /// Pairs of the family whose interiors meet by more than the tolerance; a pair may stand here
     /// more than once.
     std::vector<std::pair<std::size_t, std::size_t>> overlaps;
+    bool complete = true; ///< else gaps may share volume with boxes, and overlaps be missing
 };
 
 /// Subtracts a family of boxes from a whole by recursive cuts along their faces.
@@ -29,8 +31,13 @@ struct box_cover {
 class box_subtraction {
 public:
     /// @param tolerance  overlaps up to this share of a side's magnitude are rounding
-    box_subtraction(box const& whole, std::vector<box> const& family, double tolerance)
-        : whole_(&whole), family_(&family), tolerance_(tolerance) {}
+    /// @param keep_going  once false, the rest is left as it is; may be empty
+    box_subtraction(box const& whole, std::vector<box> const& family, double tolerance,
+                    std::function<bool()> keep_going = nullptr)
+        : whole_(&whole),
+          family_(&family),
+          tolerance_(tolerance),
+          keep_going_(std::move(keep_going)) {}
 
     [[nodiscard]] box_cover operator()() {
         std::vector<std::size_t> all(family_->size());
@@ -131,6 +138,11 @@ private:
     }
 
     void divide(box cell, std::vector<std::size_t> const& from) {
+        if (!result_.complete || (keep_going_ && !keep_going_())) {
+            result_.complete = false;
+            result_.gaps.push_back(std::move(cell));
+            return;
+        }
         std::vector<std::size_t> list;
         box around;
         for (auto const k : from) {
@@ -170,15 +182,18 @@ private:
     box const* whole_;
     std::vector<box> const* family_;
     double tolerance_;
+    std::function<bool()> keep_going_;
     box_cover result_;
 };
 
+/// @param keep_going  once false, `complete` is, and gaps hold what was not worked out
 /// @guarantee  on the doubles of the bounds a point of the whole lies in a box of the family or in
 /// a gap; gaps share volume with boxes only in slices of a few floats
 /// @cost  about n log n for n boxes that share few cuts, more when cuts meet many boxes
 [[nodiscard]] inline box_cover cover(box const& whole, std::vector<box> const& family,
-                                     double tolerance = 2e-15) {
-    return box_subtraction(whole, family, tolerance)();
+                                     double tolerance = 2e-15,
+                                     std::function<bool()> keep_going = nullptr) {
+    return box_subtraction(whole, family, tolerance, std::move(keep_going))();
 }
 
 } // namespace sivid

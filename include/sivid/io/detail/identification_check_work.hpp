@@ -8,9 +8,11 @@
 #include <sivid/io/drawing_check.hpp>
 #include <sivid/io/fewest_outliers_check.hpp>
 #include <sivid/io/forced_outlier_check.hpp>
+#include <sivid/io/identifiability_check.hpp>
 #include <sivid/io/identification_consistency.hpp>
 #include <sivid/io/paving_check.hpp>
 #include <sivid/io/product_check.hpp>
+#include <sivid/paving/work_limit.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -33,7 +35,13 @@ public:
     identification_check_work(identification_problem const& problem,
                               stored_identification const& stored,
                               identification_check_options const& options)
-        : problem_(&problem), stored_(&stored), options_(options) {}
+        : problem_(&problem),
+          stored_(&stored),
+          options_(options),
+          limit_(options.seconds, options.certificate.keep_going) {
+        auto& how = options_.certificate;
+        how.keep_going = how.enclosure.keep_going = options_.run.enclosure.keep_going = limit_;
+    }
 
     /// All findings, each handed to `tell` as soon as it is there.
     std::vector<check_finding> operator()(std::function<void(check_finding const&)> const& tell) {
@@ -47,14 +55,14 @@ public:
         };
         stored_products rebuilt;
         bool const by_products = stored_->products.has_value();
-        auto options = options_;
-        if (by_products) options.seconds *= 0.5; // for two pavings
+        auto& options = options_;
+        // Each of what takes long gets a share of the time that is left.
+        auto const within = [&](double share) { options.seconds = share * limit_.seconds(); };
         // Finer than the search: what it cut off must be cut off again.
         auto& fine = options.run.enclosure;
         double const stated = stored_->tolerance > 0 ? stored_->tolerance : fine.tolerance;
         fine.tolerance = std::clamp(0.01 * stated, 1e-11, fine.tolerance);
         fine.relative_tolerance = std::min(fine.relative_tolerance, 1e3 * fine.tolerance);
-        fine.keep_going = options.certificate.keep_going;
         if (by_products) {
             rebuilt = rebuild_products<Exact>(*problem_, stored_->products->sides);
             add([&] { return check_products(rebuilt, *stored_->products); });
@@ -63,15 +71,18 @@ public:
         add([&] { return check_files(*stored_); });
         add([&] { return check_problem(*problem_, *stored_); });
         add([&] { return check_assumptions(*problem_, *stored_, options_.further_assumptions); });
-        add([&] { return check_stop(*stored_); });
+        add([&] {
+            return check_stop(*stored_, by_products ? rebuilt.problem.prior : problem_->prior);
+        });
         add([&] { return check_verdict(*stored_); });
         add([&] {
             return by_products ? check_hull_of_products<Exact>(*problem_, *stored_, rebuilt)
                                : check_hull(*problem_, *stored_);
         });
         add([&] {
-            return by_products ? check_volumes_of_products<Fast>(*problem_, *stored_, rebuilt)
-                               : check_volumes(*problem_, *stored_);
+            return by_products
+                       ? check_volumes_of_products<Fast>(*problem_, *stored_, rebuilt, limit_)
+                       : check_volumes(*problem_, *stored_);
         });
         add([&] {
             return by_products ? check_combinations_of_products(*stored_)
@@ -80,31 +91,34 @@ public:
         add([&] { return witness(); });
         add([&] {
             return check_forced<Fast>(*problem_, *stored_, hits_, options_.certificate.enclosure,
-                                      0.5 * options_.seconds);
+                                      0.2 * limit_.seconds());
         });
         add([&] {
             auto how = options_.certificate;
             if (options_.all) how.runs_per_claim = static_cast<std::size_t>(-1);
-            return check_fewest<Fast>(*problem_, *stored_, how, 0.5 * options_.seconds,
+            return check_fewest<Fast>(*problem_, *stored_, how, 0.2 * limit_.seconds(),
                                       options_.all ? 0 : std::max<std::size_t>(options_.sample, 1),
                                       options_.seed + 2);
         });
+        add([&] { return check_identifiability(*problem_, *stored_, limit_); });
         if (by_products) add([&] { return check_rows(*problem_, *stored_); });
         bool const drawn = by_products && rebuilt.unproved.empty();
         paving_check<Fast> boxes(*problem_, problem_->choice.unknown, stored_->rows, starts_,
                                  options, by_products ? exclusion_proof{} : stored_->proof);
         add([&] { return boxes.covering("cover"); });
         std::optional<drawing_check<Exact>> drawing;
-        if (drawn) drawing.emplace(*problem_, *stored_, rebuilt);
+        if (drawn) drawing.emplace(*problem_, *stored_, rebuilt, 400'000, limit_);
         add([&] {
             std::string const what = "inside boxes";
+            within(drawn ? 0.25 : 0.5);
             if (!drawn) return boxes.inside(what);
             auto found = drawing->inside(what);
             return found.found == outcome::undecided ? boxes.inside(what) : found;
         });
         add([&] {
             std::string const what = "excluded boxes";
-            if (!drawn) return boxes.outside(what);
+            within(drawn ? 0.25 : 1.0);
+            if (!drawn || !boxes.covered()) return boxes.outside(what);
             auto found = drawing->excluded(what, boxes.gaps());
             return found.found == outcome::undecided ? boxes.outside(what) : found;
         });
@@ -112,8 +126,14 @@ public:
         paving_check<Fast> products(rebuilt.problem, stored_->products->sides,
                                     stored_->products->rows, starts_, options, stored_->proof);
         add([&] { return products.covering("product cover"); });
-        add([&] { return products.inside("inside products"); });
-        add([&] { return products.outside("excluded products"); });
+        add([&] {
+            within(0.5);
+            return products.inside("inside products");
+        });
+        add([&] {
+            within(1.0);
+            return products.outside("excluded products");
+        });
         return all;
     }
 
@@ -158,8 +178,9 @@ private:
         if (!stored_->witness) return {"witness", outcome::nothing, fault};
         auto const w = witness_point(fault);
         if (!w) return {"witness", outcome::refuted, fault};
-        enclosure_options const fine{
+        enclosure_options fine{
             .order = 14, .tolerance = 1e-11, .relative_tolerance = 1e-3, .minimum_step = 1e-6};
+        fine.keep_going = limit_;
         check_finding result{"witness", outcome::verified, ""};
         std::size_t samples = 0;
         auto const p = point_box(w->parameters);
@@ -204,7 +225,8 @@ private:
 
     identification_problem const* problem_;
     stored_identification const* stored_;
-    identification_check_options options_;
+    identification_check_options options_; ///< its `seconds` are those of the step at hand
+    work_limit limit_;
     std::vector<box> starts_;             ///< of a verified witness
     std::vector<std::vector<bool>> hits_; ///< of the witness
 };

@@ -42,6 +42,14 @@ struct stored_identification {
         std::map<std::string, std::size_t> stated_rows; ///< how many of each kind
     };
 
+    /// What data can tell, where it is said, as far as it is called proved.
+    struct identifiability_claims {
+        std::map<std::string, interval> at; ///< the unknowns for which it holds, the very doubles
+        std::vector<std::string> unknowns;
+        std::size_t least_rank = 0, most_rank = 0;
+        std::vector<std::string> proved; ///< free motions and fixed formulas, as `claims_of` says
+    };
+
     std::string dataset;
     std::string source_folder; ///< the data set, as seen from the folder of the result; may be ""
     std::string source_digest; ///< of `dataset_digest`; "" when the file has none
@@ -68,6 +76,7 @@ struct stored_identification {
     /// How many outliers are needed, in all and by scenario; nothing when the result does not say.
     std::optional<proved_count> fewest;
     std::map<std::string, proved_count> fewest_alone;
+    std::optional<identifiability_claims> identifiability;
     std::vector<paved_box> rows;                    ///< of boxes.csv, read outward
     std::map<std::string, std::size_t> stated_rows; ///< how many of each kind, if stated
 };

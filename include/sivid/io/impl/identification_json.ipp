@@ -53,6 +53,8 @@ SIVID_DECL std::string identification_json(identification_problem const& problem
         } else {
             json.null();
         }
+        if (e.sufficient_ratio) json.key("sufficient_ratio").nearest(*e.sufficient_ratio);
+        if (e.hull_gain) json.key("hull_gain").nearest(*e.hull_gain);
         json.end_object();
     }
     json.key("enclosures").begin_object(layout::one_line); // of the search, for certificates.csv

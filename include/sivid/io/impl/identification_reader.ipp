@@ -8,6 +8,7 @@
 #include <sivid/io/certificates_csv.hpp>
 #include <sivid/io/csv_table.hpp>
 #include <sivid/io/detail/stored_identification.hpp>
+#include <sivid/io/identifiability_check.hpp>
 #include <sivid/io/json_document.hpp>
 #include <sivid/io/sha256.hpp>
 #include <sivid/io/text_file.hpp>
@@ -54,6 +55,35 @@ Word one_of(json_value const& entry, std::initializer_list<Word> words) {
     entry.fail(text_of("unknown word ", in_quotes(entry.string())), "see the format");
 }
 
+inline stored_identification::identifiability_claims read_claims(json_value const& entry) {
+    stored_identification::identifiability_claims result;
+    auto const& at = entry.at("at");
+    for (std::size_t c = 0; c < at.members().size(); ++c) {
+        auto const& ends = at.members()[c].elements();
+        if (ends.size() != 2) at.members()[c].fail("not a pair of bounds", "write [lower, upper]");
+        double const low = *nearest(ends[0].number()), high = *nearest(ends[1].number());
+        if (low > high) at.members()[c].fail("lower is above upper", "write [lower, upper]");
+        result.at[at.name_of(c)] = interval_traits<interval>::bounds(low, high);
+    }
+    for (auto const& name : entry.at("unknowns").elements())
+        result.unknowns.push_back(name.string());
+    result.least_rank = count(entry.at("rank").at("least"));
+    result.most_rank = count(entry.at("rank").at("most"));
+    auto const proved = [](json_value const& claim) { return claim.at("proved").boolean(); };
+    for (auto const& m : entry.at("free").elements()) {
+        if (!proved(m)) continue;
+        std::map<std::string, long> weights;
+        auto const& of = m.at("weights");
+        for (std::size_t c = 0; c < of.members().size(); ++c) {
+            weights[of.name_of(c)] = std::lround(*nearest(of.members()[c].number()));
+        }
+        result.proved.push_back(motion_claim(m.at("kind").string(), weights));
+    }
+    for (auto const& f : entry.at("fixed").elements())
+        if (proved(f)) result.proved.push_back("fixed " + f.at("formula").string());
+    return result;
+}
+
 inline stop_reason stop_reason_of(json_value const& entry) {
     for (int k = 0; !to_string(static_cast<stop_reason>(k)).empty(); ++k) {
         auto const reason = static_cast<stop_reason>(k);
@@ -91,6 +121,10 @@ inline void read_result(json_value const& root, stored_identification& result) {
                                       count(search->at("most_boxes")),
                                       {}};
         if (bytes.type() != json_value::kind::null) result.effort->most_bytes = count(bytes);
+        if (auto const* ratio = search->find("sufficient_ratio"))
+            result.effort->sufficient_ratio = nearest(ratio->number());
+        if (auto const* gain = search->find("hull_gain"))
+            result.effort->hull_gain = nearest(gain->number());
     }
     if (auto const* enclosures = root.find("enclosures"))
         result.tolerance = *nearest(enclosures->at("tolerance").number());
@@ -162,6 +196,8 @@ inline void read_result(json_value const& root, stored_identification& result) {
         result.forced.push_back(
             {f.at("scenario").string(), *nearest(f.at("t").number()), f.at("channel").string()});
     if (auto const* rows = root.find("rows")) result.stated_rows = read_counts(*rows);
+    if (auto const* told = root.find("identifiability"))
+        result.identifiability = read_claims(*told);
 }
 
 inline std::vector<paved_box> read_rows(csv_table const& table,

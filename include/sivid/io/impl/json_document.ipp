@@ -24,8 +24,13 @@ SIVID_DECL void json_value::fail(std::string problem, std::string remedy) const 
 
 SIVID_DECL std::string const& json_value::string() const {
     expect(kind::string, "a text in quotes");
+    constexpr std::size_t longest = 1000; // what is printed
     if (text_.empty()) fail("the text is empty", "give a name");
-    return any_string();
+    auto const& text = any_string();
+    if (text.size() > longest)
+        fail(text_of("the text ", in_quotes(text_), " has ", std::to_string(text.size()), " bytes"),
+             "at most " + std::to_string(longest));
+    return text;
 }
 
 SIVID_DECL std::string const& json_value::raw_string() const {

@@ -180,8 +180,13 @@ SIVID_DECL identification identify(identification_problem const& problem,
     result.run = options.test.run;
     result.run.enclosure.keep_going = nullptr; // it is this call's
     result.boxes = found.tested;
-    result.effort = search_effort{
-        found.seconds, std::min(search.seconds, 1e300), found.tested, search.boxes, {}};
+    result.effort = search_effort{found.seconds,
+                                  std::min(search.seconds, 1e300),
+                                  found.tested,
+                                  search.boxes,
+                                  {},
+                                  search.sufficient_ratio,
+                                  search.hull_gain};
     if (search.memory < std::numeric_limits<std::size_t>::max()) {
         result.effort->most_bytes = search.memory;
     }
