@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/io/product_volume.hpp>
+#include <sivid/paving/preimage_volume.hpp>
 
 #include "io/small_identification.hpp"
 #include "support/catch.hpp"

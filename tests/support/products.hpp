@@ -6,6 +6,7 @@
 #include "support/models.hpp"
 #include "support/random.hpp"
 
+#include <sivid/paving/dependence.hpp>
 #include <sivid/paving/identify.hpp>
 
 namespace support {

@@ -139,10 +139,10 @@ check_combinations_of_products(stored_identification const& stored) {
 ///   The enclosure by `product_volume` proves them where it lies within what is stated; they must
 ///   also be as the identification computes them from these boxes.
 template <class I>
-[[nodiscard]] check_finding check_volumes_of_products(identification_problem const& problem,
-                                                      stored_identification const& stored,
-                                                      stored_products const& rebuilt,
-                                                      std::function<bool()> const& keep_going) {
+[[nodiscard]] check_finding
+check_volumes_of_products(identification_problem const& problem,
+                          stored_identification const& stored, stored_products const& rebuilt,
+                          std::function<bool()> const& keep_going = {}) {
     using outcome = check_finding::outcome;
     using traits = interval_traits<I>;
     std::string const what = "volumes";
@@ -163,9 +163,7 @@ template <class I>
         auto const& boxes = inner ? inside : left;
         auto const& stated = inner ? stored.inner : stored.outer;
         std::string const which = inner ? "inner" : "outer";
-        auto const found = anew(boxes, cells, keep_going);
-        if (!found) return io_detail::late(what);
-        auto const& share = *found;
+        auto const share = anew(boxes, cells, keep_going);
         auto const volume =
             intersect(interval_traits<interval>::bounds(traits::lower(share), traits::upper(share)),
                       interval_traits<interval>::bounds(0.0, 1.0));

@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdlib>
 #include <functional>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -39,12 +38,12 @@ public:
 
     /// @param boxes  of the products, which overlap in faces only
     /// @param cells  parts of the factors' prior for one box, at most
-    /// @param keep_going  once false, nothing is known; may be empty
-    [[nodiscard]] std::optional<I> operator()(std::vector<box> const& boxes, std::size_t cells,
-                                              std::function<bool()> const& keep_going = {}) const {
+    /// @param keep_going  once false, the answer is that it is no more than all; may be empty
+    [[nodiscard]] I operator()(std::vector<box> const& boxes, std::size_t cells,
+                               std::function<bool()> const& keep_going = {}) const {
         I sum = traits::point(0.0);
         for (auto const& r : boxes) {
-            if (keep_going && !keep_going()) return std::nullopt;
+            if (keep_going && !keep_going()) return traits::bounds(0.0, 1.0);
             sum = traits::add(sum, share(r, cells));
         }
         return sum;
