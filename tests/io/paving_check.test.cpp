@@ -62,6 +62,46 @@ TEST_CASE("a few floats between inside rows are no claim, a gap that is wider is
     CHECK(outside(0x1p-30) == outcome::refuted);
 }
 
+TEST_CASE("a prior that is one float wide in a side excludes nothing by being thin") {
+    auto problem = io_support::two_rates_problem();
+    problem.prior[1] = interval(0.5, std::nextafter(0.5, 1.0)); // the truth, as a decimal
+    identification_check_options options;
+    options.all = true;
+    options.seconds = 60;
+    auto const outside = [&](std::vector<interval> const& left) {
+        std::vector<paved_box> rows;
+        for (auto const& a : left)
+            rows.push_back({box{a, problem.prior[1]}, box_verdict::undecided});
+        paving_check<interval> check(problem, {"a", "b"}, rows, {}, options);
+        CHECK(check.covering("cover").found == outcome::verified);
+        return check.outside("outside").found;
+    };
+    CHECK(outside({}) == outcome::refuted);
+    CHECK(outside({interval(1.5, 2.0)}) == outcome::refuted);
+    CHECK(outside({interval(0.5, 0.75), interval(0.75, 2.0)}) == outcome::nothing);
+    std::vector<interval> many; // more than are subtracted one by one
+    for (double a = 0.5; a < 2; a += 0.125) many.push_back(interval(a, a + 0.125));
+    CHECK(outside(many) == outcome::nothing);
+    many.erase(many.begin() + 4); // where the truth begins
+    CHECK(outside(many) == outcome::refuted);
+}
+
+TEST_CASE("slivers that are much together are claims") {
+    box const whole{interval(1.0, 1.0 + 0x1p-30)};
+    std::vector<box> few, many;
+    for (int k = 0; k < 1000; ++k) {
+        double const at = 1.0 + k * 0x1p-50;
+        (k == 0 ? few : many).push_back({interval(at, at + 0x1p-50)});
+    }
+    io_detail::drop_slivers(few, whole);
+    CHECK(few.empty());
+    io_detail::drop_slivers(many, whole);
+    CHECK(many.size() == 999);
+    std::vector<box> all{box{interval(1.0, 1.0 + 0x1p-51)}};
+    io_detail::drop_slivers(all, box{interval(1.0, 1.0 + 0x1p-51)});
+    CHECK(all.size() == 1);
+}
+
 TEST_CASE(
     "boxes proved but for their rims are counted apart, and nothing is said of thinner ones") {
     auto const problem = io_support::one_rate_problem();

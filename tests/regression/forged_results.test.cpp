@@ -15,6 +15,7 @@
 #endif
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -68,9 +69,9 @@ TEST_CASE("the result that is forged below is sampled and verified in the whole"
 }
 
 TEST_CASE("consistent data said to be inconsistent are refuted for every seed") {
-    for (bool const reduced : {false, true}) {
-        auto const problem =
-            reduced ? io_support::two_rates_problem() : io_support::one_rate_problem();
+    for (int const kind : {0, 1, 2}) {
+        auto problem = kind > 0 ? io_support::two_rates_problem() : io_support::one_rate_problem();
+        if (kind == 2) problem.prior[1] = interval(0.5, std::nextafter(0.5, 1.0)); // a decimal
         auto forged = io_support::stored_result(problem).read();
         forged.verdict = verdict::inconsistent;
         forged.grounds = to_string(verdict_grounds::excluded_boxes);
@@ -82,7 +83,7 @@ TEST_CASE("consistent data said to be inconsistent are refuted for every seed") 
         forged.files.erase("products.csv");
         adapt(problem, forged);
         for (std::uint64_t seed = 1; seed <= 7; ++seed) {
-            CAPTURE(reduced, seed);
+            CAPTURE(kind, seed);
             CHECK(checked(problem, forged, false, seed) == outcome::refuted);
         }
     }

@@ -52,12 +52,11 @@ public:
         }
     }
 
-    /// @param gaps  what the rows leave of the prior
+    /// @param gaps  what the rows leave of the prior, without slivers
     [[nodiscard]] check_finding excluded(std::string what, std::vector<box> const& gaps) {
         if (gaps.empty()) return {std::move(what), outcome::nothing, ""};
         std::size_t open = 0;
-        // Slices of a few floats lie between rows whose faces were rounded.
-        for (auto const& gap : gaps) open += is_rounding(gap) || is_excluded(gap) ? 0 : 1;
+        for (auto const& gap : gaps) open += is_excluded(gap) ? 0 : 1;
         return finding(std::move(what), gaps.size(), open);
     }
     [[nodiscard]] check_finding inside(std::string what) {
@@ -72,9 +71,9 @@ public:
             auto const image = image_of(intersect(row.set, problem_->prior));
             bool proved = image.has_value();
             if (proved) {
-                auto const left = cover(*image, rows, 2e-15, keep_going_).gaps;
-                proved = std::all_of(left.begin(), left.end(),
-                                     [](box const& gap) { return is_rounding(gap); });
+                auto left = cover(*image, rows, 2e-15, keep_going_).gaps;
+                io_detail::drop_slivers(left, *image);
+                proved = left.empty();
             }
             open += proved ? 0 : 1;
         }
@@ -83,19 +82,12 @@ public:
     }
 
 private:
-    static constexpr double last_digits = 0x1p-50;
-
     [[nodiscard]] static check_finding finding(std::string what, std::size_t count,
                                                std::size_t open) {
         auto detail = std::to_string(count - open) + " of " + std::to_string(count) +
                       " follow from the products";
         return {std::move(what), open == 0 ? outcome::verified : outcome::undecided,
                 std::move(detail)};
-    }
-    static bool is_rounding(box const& gap) {
-        return std::any_of(gap.begin(), gap.end(), [](interval const& side) {
-            return side.upper() - side.lower() <= last_digits * mag(side);
-        });
     }
     /// The products over a box, outward.
     [[nodiscard]] std::optional<box> image_of(box const& x) const {
@@ -113,13 +105,13 @@ private:
         return result;
     }
     /// Whether a row has more than a rounding error in common with an image.
-    [[nodiscard]] static bool meets(box const& row, box const& image) {
+    [[nodiscard]] bool meets(box const& row, box const& image) const {
         for (std::size_t k = 0; k < row.size(); ++k) {
             double const common = std::min(row[k].upper(), image[k].upper()) -
                                   std::max(row[k].lower(), image[k].lower());
-            if (common <= last_digits * mag(row[k]) && (row[k].lower() < row[k].upper())) {
+            auto const& whole = rebuilt_->problem.prior[k];
+            if (io_detail::is_sliver(common, mag(row[k]), whole) && row[k].lower() < row[k].upper())
                 return false;
-            }
             if (common < 0) return false;
         }
         return true;

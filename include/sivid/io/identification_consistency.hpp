@@ -49,6 +49,28 @@ inline check_finding agreement(std::string what, std::string const& fault,
             fault.empty() ? detail : fault};
 }
 
+/// Whether a width is what rounding to decimals leaves: a few floats, and next to nothing of the
+/// whole. A whole that is a few floats wide itself has no slivers.
+inline bool is_sliver(double size, double magnitude, interval const& whole) {
+    return size <= 0x1p-50 * magnitude && size <= 1e-6 * (whole.upper() - whole.lower());
+}
+/// Drops boxes that are slivers of the whole in a side, as long as all of them together are next to
+/// nothing of it.
+inline void drop_slivers(std::vector<box>& boxes, box const& whole) {
+    auto const thin = [&](box const& x) {
+        for (std::size_t j = 0; j < x.size(); ++j) {
+            double const w = x[j].upper() - x[j].lower();
+            if (width(whole[j]) > 0 && is_sliver(w, mag(x[j]), whole[j])) return true;
+        }
+        return false;
+    };
+    double volume = 0;
+    for (auto const& x : boxes) {
+        if (thin(x)) volume += relative_volume(x, whole).upper();
+    }
+    if (volume <= 1e-6) std::erase_if(boxes, thin);
+}
+
 /// Of what the time did not suffice for.
 inline check_finding late(std::string what) {
     return {std::move(what), check_finding::outcome::undecided, "not within the budget"};

@@ -44,6 +44,8 @@ public:
           options_(&options),
           proof_(std::move(proof)) {}
 
+    /// Inside rows are printed inward: a few floats between neighbours are in none, and nothing is
+    /// said of them.
     [[nodiscard]] check_finding covering(std::string what) {
         std::vector<box> sets;
         for (auto const& row : *rows_) sets.push_back(row.set);
@@ -51,7 +53,7 @@ public:
         auto result = check_cover(std::move(what), *problem_, *rows_, found);
         covered_ = found.complete;
         gaps_ = std::move(found.gaps);
-        std::erase_if(gaps_, [this](box const& gap) { return is_rounding(gap); });
+        io_detail::drop_slivers(gaps_, problem_->prior);
         return result;
     }
 
@@ -188,16 +190,6 @@ private:
                 "found by a fit, proved by a validated run: the contrary holds at" + words_of(at)};
     }
 
-    /// Inside rows are printed inward: a few floats between neighbours are in none, and nothing is
-    /// said of them.
-    [[nodiscard]] bool is_rounding(box const& gap) const {
-        for (std::size_t j = 0; j < gap.size(); ++j) {
-            double const w = gap[j].upper() - gap[j].lower();
-            if (width(problem_->prior[j]) > 0 && w <= 0x1p-50 * mag(gap[j])) return true;
-        }
-        return false;
-    }
-
     /// What is left of an excluded box without its rim; nothing of one that is thinner than that.
     [[nodiscard]] std::optional<box> without_rim(box x) const {
         for (std::size_t j = 0; j < x.size(); ++j) {
@@ -255,7 +247,7 @@ private:
         exclusion_check<Fast> exclude(*problem_, effort(), options_->run);
         auto open = exclude.follow(proof_, rows);
         bool const late = exclude.over(); // then rows are among what is open
-        std::erase_if(open, [this](box const& gap) { return is_rounding(gap); });
+        io_detail::drop_slivers(open, problem_->prior);
         std::string const steps = std::to_string(exclude.steps()) + " steps proved, " +
                                   std::to_string(exclude.by_weights()) +
                                   " by the weights of the result";

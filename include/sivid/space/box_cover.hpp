@@ -49,8 +49,11 @@ public:
 private:
     static constexpr std::size_t few = 6;
 
-    [[nodiscard]] bool thick(std::size_t i) const { return !is_point((*whole_)[i]); }
-    static bool is_point(interval const& s) { return s.lower() == s.upper(); }
+    /// A side that is cut: not one that stands for a single number, a decimal perhaps.
+    [[nodiscard]] bool thick(std::size_t i) const {
+        auto const& side = (*whole_)[i];
+        return side.upper() - side.lower() > 0x1p-50 * mag(side);
+    }
 
     /// A slice between faces that differ by rounding, of which nothing finer is told.
     [[nodiscard]] bool is_rounding(box const& x) const {
@@ -59,7 +62,7 @@ private:
         }
         return false;
     }
-    /// Whether the interiors meet; in sides where the whole is a point, whether the points do.
+    /// Whether the interiors meet; in sides where the whole is no thicker than a number, the sides.
     [[nodiscard]] bool meets(box const& a, box const& b) const {
         for (std::size_t i = 0; i < a.size(); ++i) {
             double const low = std::max(a[i].lower(), b[i].lower());
