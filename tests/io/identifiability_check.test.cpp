@@ -14,7 +14,6 @@ namespace {
 stored_identification with_claims(identification_problem const& problem, bool reread = true) {
     auto const found = io_support::two_rates_result(problem);
     auto const told = identifiability_of(problem, point_box({1.0, 0.5}));
-    REQUIRE(told.most_rank == 1);
     io_support::stored_result file(problem, found);
     identification_json_options options;
     options.dataset = "small";
@@ -34,6 +33,7 @@ TEST_CASE("what data can tell is read as it was written and proved anew") {
     auto const problem = io_support::two_rates_problem();
     auto const stored = with_claims(problem);
     auto const direct = *with_claims(problem, false).identifiability;
+    CHECK(direct.most_rank == 1);
     CHECK(stored.identifiability->unknowns == direct.unknowns);
     CHECK(stored.identifiability->proved == direct.proved);
     CHECK(stored.identifiability->proved.size() == 2); // a motion and the product that it leaves

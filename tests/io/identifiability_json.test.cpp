@@ -40,6 +40,7 @@ TEST_CASE("numbers that are none and ranks that differ are said as they are") {
     identifiability told;
     told.unknowns = {{"a", 0, {}, interval(0.0, 1.0)}, {"x(run)", 0, 0, interval(0.0, 1.0)}};
     told.parameters = {interval(0.25, 0.5)};
+    told.starts = {box{interval(0.5, 1.0)}};
     told.most_rank = 2;
     told.missing = 3;
     told.nearly_free = {{motion_kind::translation, {0, 2}, 0.5, false}};
@@ -47,8 +48,8 @@ TEST_CASE("numbers that are none and ranks that differ are said as they are") {
     json_writer writer;
     write_identifiability(writer, told);
     auto const json = nlohmann::json::parse(writer.text());
-    CHECK(json["at"].size() == 1); // of parameters alone
     CHECK(json["at"]["a"] == std::vector<double>{0.25, 0.5});
+    CHECK(json["at"]["x(run)"] == std::vector<double>{0.5, 1});
     CHECK(json["rank"]["least"] == 0);
     CHECK(json["rank"]["most"] == 2);
     CHECK(json["outputs_not_reached"] == 3);

@@ -224,6 +224,7 @@ TEST_CASE("undecided boxes count where the measurements are not heard") {
     CHECK(sivid::predict(deaf).channels[0].low.back() <= 2 * std::exp(-0.9));
     // Without a witness that is proved the measurements say nothing: no parameter may meet them.
     stored.witness.reset();
+    stored.grounds = to_string(sivid::verdict_grounds::inside_boxes);
     auto const q = t.predicted(stored);
     REQUIRE(q->problem.measured);
     CHECK(q->problem.measured(q->problem.around(), nullptr).known.empty());
