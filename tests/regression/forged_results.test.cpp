@@ -66,6 +66,9 @@ TEST_CASE("the result that is forged below is sampled and verified in the whole"
     auto const good = io_support::stored_result(problem).read();
     CHECK(checked(problem, good) == outcome::sampled);
     CHECK(checked(problem, good, true) == outcome::verified);
+    auto thin = io_support::two_rates_problem();
+    thin.prior[1] = interval(0.5, std::nextafter(0.5, 1.0)); // a decimal
+    CHECK(checked(thin, io_support::stored_result(thin).read(), true) == outcome::verified);
 }
 
 TEST_CASE("consistent data said to be inconsistent are refuted for every seed") {

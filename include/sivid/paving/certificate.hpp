@@ -4,6 +4,7 @@
 
 #include <sivid/paving/detail/certificate_options.hpp>
 #include <sivid/paving/plain_campaign.hpp>
+#include <sivid/space/box_cover.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -136,7 +137,8 @@ private:
         for (auto const& p : pieces) region = hull(region, p.set);
         bool wide = false;
         for (std::size_t j = 0; j < region.size(); ++j) {
-            wide = wide || width(region[j]) > options_.widest_region * width(prior_[j]);
+            wide = wide || (!is_one_number(prior_[j]) &&
+                            width(region[j]) > options_.widest_region * width(prior_[j]));
         }
         if (wide && split(pieces, region, nullptr)) return;
         bool const seek = std::any_of(pieces.begin(), pieces.end(),
@@ -186,7 +188,7 @@ private:
         double most = -1;
         for (std::size_t j = 0; j < region.size(); ++j) {
             double const whole = width(prior_[j]);
-            if (whole > 0 && width(region[j]) / whole > most) {
+            if (!is_one_number(prior_[j]) && width(region[j]) / whole > most) {
                 most = width(region[j]) / whole;
                 widest = j;
             }

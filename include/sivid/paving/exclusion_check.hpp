@@ -210,7 +210,7 @@ private:
         double most = -1;
         for (std::size_t j = 0; j < region.size(); ++j) {
             double const whole = width(problem_->prior[j]);
-            if (whole > 0 && width(region[j]) / whole > most) {
+            if (!is_one_number(problem_->prior[j]) && width(region[j]) / whole > most) {
                 most = width(region[j]) / whole;
                 widest = j;
             }

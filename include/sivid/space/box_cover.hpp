@@ -14,6 +14,11 @@
 
 namespace sivid {
 
+/// Whether a side stands for one number: a point, or a few floats around a decimal.
+[[nodiscard]] inline bool is_one_number(interval const& side) {
+    return side.upper() - side.lower() <= 0x1p-50 * mag(side);
+}
+
 /// What a family of boxes leaves of a whole, and where it counts something twice.
 struct box_cover {
     /// Boxes with disjoint interiors: together the closure of the whole without the family.
@@ -49,11 +54,7 @@ public:
 private:
     static constexpr std::size_t few = 6;
 
-    /// A side that is cut: not one that stands for a single number, a decimal perhaps.
-    [[nodiscard]] bool thick(std::size_t i) const {
-        auto const& side = (*whole_)[i];
-        return side.upper() - side.lower() > 0x1p-50 * mag(side);
-    }
+    [[nodiscard]] bool thick(std::size_t i) const { return !is_one_number((*whole_)[i]); }
 
     /// A slice between faces that differ by rounding, of which nothing finer is told.
     [[nodiscard]] bool is_rounding(box const& x) const {
