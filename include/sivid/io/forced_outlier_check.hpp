@@ -45,7 +45,7 @@ inline std::optional<std::size_t> widest_side(box const& x, box const& prior) {
     double most = 1e-12;
     for (std::size_t j = 0; j < x.size(); ++j) {
         double const whole = width(prior[j]);
-        if (!(whole > 0) || !(width(x[j]) / whole > most)) continue;
+        if (is_one_number(prior[j]) || !(width(x[j]) / whole > most)) continue;
         most = width(x[j]) / whole;
         best = j;
     }
