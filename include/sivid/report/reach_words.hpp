@@ -11,8 +11,9 @@
 
 namespace sivid::report {
 
-/// Why little was excluded, a sentence for each experiment that says something, and what to change:
-/// from what the runs of `identification::reach` measured.
+/// Why little was excluded, and what to change: that what was proved inside stays, and a sentence
+/// for each of the first experiments, from what the runs of `identification::reach` measured.
+/// Empty where much was excluded.
 [[nodiscard]] SIVID_DECL std::vector<std::string> reach_words(identification_problem const& problem,
                                                               identification const& found);
 
