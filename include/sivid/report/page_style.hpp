@@ -94,7 +94,7 @@ figure [stroke="#0072b2"]{stroke:#4aa8e0}figure [stroke="#a0447a"]{stroke:#d07ab
 figure text[fill="#00805d"]{fill:#45c9a0}figure text[fill="#b34e00"]{fill:#ff9a57}
 figure [fill="#eef2f6"]{fill:#1d242b}figure [fill="#eef6fb"]{fill:#17262f}figure [stroke="#8b94a0"]{stroke:#727c88}}
 @media print{body{font-size:10.5pt}main{max-width:none;padding:0}h2{break-after:avoid;margin-top:26px}
-figure .panels svg,figcaption,.banner,.card,.box,tr{break-inside:avoid}.panels{grid-template-columns:repeat(2,1fr)}.panels.wide,.scroll{overflow:visible}.panels.wide svg{min-width:0}
+figure .panels svg,figcaption,.banner,.card,.box,tr{break-inside:avoid}.panels,.panels.pair{grid-template-columns:repeat(2,1fr)}.panels.wide,.scroll{overflow:visible}.panels.wide svg{min-width:0}
 table{font-size:9pt}th{font-size:8.5pt}th,td{padding-left:6px;padding-right:6px}td.note{font-size:8.5pt;min-width:7em}.bubble{display:none}.number{white-space:normal}td.text{overflow-wrap:anywhere}
 *{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
 )css";
