@@ -65,8 +65,8 @@ void print_summary(sivid::identification_problem const& problem, sivid::identifi
         std::cout << "\n";
     }
     for (auto const& c : view.combinations)
-        std::cout << "  " << c.formula << " in " << report::outward_text(c.hull) << " " << c.unit
-                  << "\n";
+        std::cout << "  " << report::formula_text(c.formula) << " in "
+                  << report::outward_text(c.hull) << " " << c.unit << "\n";
     std::vector<std::string> combined, idle;
     for (auto const j : found.entangled) {
         bool const stands = std::any_of(found.combinations.begin(), found.combinations.end(),

@@ -6,7 +6,7 @@ import { readFileSync, writeFileSync, mkdirSync } from "node:fs";
 import { basename, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { browser, find_browser } from "./devtools.mjs";
-import { accessibility, hovered, layout, pictures } from "./looks.mjs";
+import { accessibility, hovered, layout, pictures, swept } from "./looks.mjs";
 
 const widths = [400, 800, 1100, 1400];
 const ends = [400, 1400];   // axe and the pointer: what lies between has the same texts
@@ -49,7 +49,7 @@ async function findings_of(b, url, pointer = true) {
             opened = true;
             const where = `${width} px, ${scheme}`;
             add(where, await t.call(layout, width < 740));
-            if (ends.includes(width)) add(where, await t.call(accessibility));
+            if (ends.includes(width)) add(where, await t.call(accessibility, scheme === "dark"));
             if (options.pictures && pointer) writeFileSync(join(options.pictures, `${basename(url, ".html")}-${width}-${scheme}.png`), await t.picture());
         }
         if (pointer && ends.includes(width)) add(`${width} px, pointer`, await pointed(t));
@@ -67,28 +67,21 @@ async function findings_of(b, url, pointer = true) {
     return all;
 }
 
-/// Moves the pointer over every picture of the page.
+/// Moves the pointer over every picture of the page; the mouse itself then shows the same at one of the places.
 async function pointed(t) {
     const findings = [];
-    const height = await t.value("innerHeight");
     for (const p of await t.call(pictures)) {
         if (!(p.values || p.boxes || p.tips)) continue;
-        const name = `“${p.name}”`;
-        await t.value(`scrollTo(0, ${p.top - 60})`);
-        const top = p.top - (await t.value("scrollY"));
-        // A grid finds something in every picture.
-        const seen = [], step = 9;
-        for (let i = 1; i < step; ++i) {
-            const x = p.left + (p.width * i) / step, y = top + (p.height * ((i * 4) % step || 4)) / step;
-            if (x >= (await t.value("innerWidth")) || y >= height) continue;
-            await t.mouse(x, y);
-            const h = await t.call(hovered);
-            if (h.lines.length) seen.push({ x, y, ...h });
-            if (h.beyond) findings.push(`${name}: what is shown lies beyond the screen`);
-            if (h.marksOutside) findings.push(`${name}: an outline lies beyond its picture`);
-        }
+        const name = `“${p.name}”`, seen = await t.call(swept, p.number, 8, 6, `(${hovered})`, null);
+        if (seen.some((h) => h.beyond)) findings.push(`${name}: what is shown lies beyond the screen`);
+        if (seen.some((h) => h.marksOutside)) findings.push(`${name}: an outline lies beyond its picture`);
         if (!seen.length) findings.push(`${name}: the pointer shows nothing`);
-        if (p.values && !seen.some((h) => / = [-\d]/.test(h.lines[0]))) findings.push(`${name}: the pointer shows no values`);
+        else if (p.values && !seen.some((h) => / = [-\d]/.test(h.lines[0]))) findings.push(`${name}: the pointer shows no values`);
+        if (!seen.length) continue;
+        const { x, y, lines } = seen[Math.floor(seen.length / 2)];
+        await t.mouse(x, y);
+        const h = await t.call(hovered);
+        if (h.lines.join("\n") !== lines.join("\n")) findings.push(`${name}: the mouse shows “${h.lines}”, not “${lines}”`);
     }
     await t.mouse(1, 1);
     return findings;
@@ -101,21 +94,15 @@ async function linked(b, url) {
     await t.show("screen", "light");
     await t.open(url);
     for (const p of (await t.call(pictures)).filter((q) => q.boxes)) {
-        await t.value(`scrollTo(0, ${p.top - 60})`);
-        const top = p.top - (await t.value("scrollY"));
-        let hit;
-        for (let i = 1; i < 40 && !hit; ++i)
-            for (let k = 1; k < 30 && !hit; ++k) {
-                const x = p.left + (p.width * i) / 40, y = top + (p.height * k) / 30;
-                await t.mouse(x, y);
-                const h = await t.call(hovered);
-                if (h.lines.some((l) => l.startsWith("box, ")) && h.marked.includes(p.number)) hit = { x, y, ...h };
-            }
-        if (!hit) findings.push(`“${p.name}”: no box under the pointer`);
+        const box = (h, number) => h.lines.some((l) => l.startsWith("box, ")) && h.marked.includes(number);
+        const place = (await t.call(swept, p.number, 40, 30, `(${hovered})`, `(${box})`)).find((h) => box(h, p.number));
+        if (place) await t.mouse(place.x, place.y);
+        const hit = place && (await t.call(hovered));
+        if (!hit || !box(hit, p.number)) findings.push(`“${p.name}”: no box under the pointer`);
         else {
             if (hit.marked.length < 2) findings.push(`“${p.name}”: the box is outlined in no other picture`);
-            await t.mouse(hit.x, hit.y, "mousePressed", "left");
-            await t.mouse(hit.x, hit.y, "mouseReleased", "left");
+            await t.mouse(place.x, place.y, "mousePressed", "left");
+            await t.mouse(place.x, place.y, "mouseReleased", "left");
             await t.mouse(2, 2);
             const kept = await t.call(hovered);
             if (!kept.kept || kept.marked.length !== hit.marked.length) findings.push(`“${p.name}”: a click does not keep the box`);
@@ -133,10 +120,11 @@ async function planted(b) {
         <p style="color:#aaa">pale</p><div style="width:300px;overflow:auto"><table><tr><td style="white-space:nowrap">${"wide ".repeat(60)}</td></tr></table></div>
         <p style="width:1500px">beyond</p><img src="http://example.invalid/x.png"><svg role="img" width="100" height="50" viewBox="0 0 100 50"><rect width="100" height="50" fill="#fff"/>
         <text x="90" y="20" font-size="12">cut</text><text x="5" y="20" font-size="12">one</text><text x="8" y="22" font-size="12">two</text>
-        <text x="5" y="40" font-size="3">tiny</text><rect y="25" x="50" width="50" height="25" fill="#333"/><text x="55" y="45" font-size="12">dark</text></svg>
+        <text x="5" y="40" font-size="3">tiny</text><rect y="25" x="50" width="50" height="25" fill="#333"/><text x="55" y="45" font-size="12">dark</text>
+        <svg x="60" y="0" width="40" height="24" viewBox="60 0 40 24" overflow="hidden"><rect x="0" y="0" width="500" height="500" fill="#222"/><text x="62" y="18" font-size="9">inner</text></svg></svg>
         <div class="panels"></div><div class="bubble"></div></main><script>throw new Error("planted")</script></body></html>`;
     const found = await findings_of(b, "data:text/html;charset=utf-8," + encodeURIComponent(faults), false);
-    const wanted = ["script: Error: planted", "color-contrast", "image-alt", "cut, ", "beyond the edge", "cut by its picture", "lie on each other", "px small", "contrast 1.",
+    const wanted = ["script: Error: planted", "color-contrast", "image-alt", "cut, ", "beyond the edge", "cut by its picture", "lie on each other", "px small", "contrast 1.", "contrast 1.32: “inner”",
         "a picture without a name", "network: http://example.invalid", "html-has-lang", "the page is"];
     return wanted.filter((w) => !found.some((f) => f.includes(w))).map((w) => `the planted fault was not seen: ${w}`);
 }
@@ -144,10 +132,12 @@ async function planted(b) {
 if (options.pictures) mkdirSync(options.pictures, { recursive: true });
 const b = await browser.start(program);
 let bad = 0;
+let begin = performance.now();
 const report = (name, findings) => {
-    const lines = [...new Set(findings)];
+    const lines = [...new Set(findings)], now = performance.now();
     bad += lines.length;
-    console.log(`${lines.length ? "FAILED" : "passed"}: ${name}`);
+    console.log(`${lines.length ? "FAILED" : "passed"}: ${name} (${((now - begin) / 1000).toFixed(1)} s)`);
+    begin = now;
     for (const line of lines) console.log(`  ${line}`);
 };
 try {

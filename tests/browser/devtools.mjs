@@ -8,14 +8,15 @@ import { join } from "node:path";
 
 const names = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
 
-/// The browser's program: $CHROMIUM, else the first of the usual names that answers; none: undefined.
+/// The browser's program: $CHROMIUM, else the first of the usual names that answers, or does not in time, as on a machine with
+/// other things to do; none: undefined.
 export function find_browser() {
     for (const name of process.env.CHROMIUM ? [process.env.CHROMIUM] : names) {
         try {
             execFileSync(name, ["--version"], { stdio: ["ignore", "ignore", "ignore"], timeout: 60000 });
             return name;
-        } catch {
-            // the next one
+        } catch (e) {
+            if (e.code === "ETIMEDOUT") return name;
         }
     }
     return undefined;

@@ -40,6 +40,11 @@ export function layout(sideways) {
         // In painting order; what a text stands on is the last shape under its middle.
         const all = [...svg.querySelectorAll("rect,path,circle,text")].filter((e) => !e.closest("defs")), texts = [];
         const boxes = new Map(all.map((e) => [e, e.getBoundingClientRect()]));
+        // What an inner picture cuts off is not under a text; its own rectangle would contain that.
+        const windows = new Map([...svg.querySelectorAll("svg")].map((inner) => {
+            const m = inner.getScreenCTM(), v = inner.viewBox.baseVal, from = new DOMPoint(v.x, v.y).matrixTransform(m);
+            return [inner, new DOMRect(from.x, from.y, v.width * m.a, v.height * m.d)];
+        }));
         all.forEach((t, order) => {
             if (t.tagName !== "text" || !t.textContent.trim()) return;
             const b = boxes.get(t), what = `“${t.textContent}” in “${name}”`;
@@ -55,7 +60,7 @@ export function layout(sideways) {
             let ground = parsed(getComputedStyle(svg.querySelector("rect")).fill) ?? [255, 255, 255];
             for (const under of all.slice(0, order)) {
                 const u = boxes.get(under);
-                const window = under.ownerSVGElement === svg ? area : under.ownerSVGElement.getBoundingClientRect();
+                const window = windows.get(under.ownerSVGElement) ?? area;
                 if (under.tagName === "text" || !inside(u, x, y) || !inside(window, x, y)) continue;
                 const style = getComputedStyle(under), fill = style.fill.startsWith("url") ? parsed(getComputedStyle(svg.querySelector(style.fill.match(/#[^")]+/)[0] + " rect")).fill) : parsed(style.fill);
                 const p = new DOMPoint(x, y).matrixTransform(under.getScreenCTM().inverse());
@@ -70,9 +75,11 @@ export function layout(sideways) {
     return findings;
 }
 
-/// Findings of axe-core, which has been put into the page.
-export async function accessibility() {
-    const result = await axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"], resultTypes: ["violations"] });
+/// Findings of axe-core, which has been put into the page. `colours`: what else it looks for does not depend on them.
+export async function accessibility(colours) {
+    const tags = { type: "tag", values: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"] };
+    const runOnly = colours ? { type: "rule", values: axe.getRules(["cat.color"]).map((r) => r.ruleId).filter((id) => id !== "color-contrast-enhanced") } : tags;
+    const result = await axe.run(document, { runOnly, resultTypes: ["violations"] });
     return result.violations.flatMap((v) => v.nodes.slice(0, 5).map((n) => `${v.id}: ${v.help}; ${n.html.slice(0, 110)} ${n.any.map((a) => a.message).join("; ").slice(0, 160)}`));
 }
 
@@ -93,4 +100,39 @@ export function hovered() {
         beyond: bubble.children.length > 0 && (b.left < 0 || b.top < 0 || b.right > innerWidth || b.bottom > innerHeight),
         marksOutside: [...document.querySelectorAll(".mark")].filter((m) => { const r = m.getBoundingClientRect(), s = m.ownerSVGElement.getBoundingClientRect();
             return r.left < s.left - 1 || r.right > s.right + 1 || r.top < s.top - 1 || r.bottom > s.bottom + 1; }).length };
+}
+
+/// Moves a pointer over one picture in a grid, by events of the page's own: a mouse takes a frame for each place. What `hovered` tells at
+/// the places where something is shown, with the places on the screen; `until`: a function of that and the picture's number, to stop at;
+/// it is asked in the middles of the paving's boxes first, which may be smaller than any grid.
+export function swept(number, columns, rows, hovered, until) {
+    const svg = document.querySelectorAll(".panels svg[role=img]")[number], stop = until && eval(until), told = eval(hovered), seen = [];
+    scrollTo(0, svg.getBoundingClientRect().top + scrollY - 60);
+    const b = svg.getBoundingClientRect(), places = [];
+    const numbers = (text) => text.trim().split(/\s+/).map(Number);
+    const boxes = until && svg.closest("figure[data-boxes]")?.dataset;
+    if (boxes) {
+        const names = boxes.sides.split("\n"), scales = numbers(boxes.scales), to_screen = svg.getScreenCTM();
+        const place = (key, ends) => {
+            const k = names.findIndex((n, i) => i % 2 === 0 && n === svg.dataset[key + "Name"]) / 2, [from, to, lo, hi] = numbers(svg.dataset[key]);
+            const middle = scales[2 * k] + ((ends[2 * k] + ends[2 * k + 1]) / 2e4) * (scales[2 * k + 1] - scales[2 * k]);
+            return from + ((to - from) * (middle - lo)) / (hi - lo);
+        };
+        for (const text of boxes.boxes.split(";").filter(Boolean).slice(0, 100)) {
+            const p = new DOMPoint(place("x", numbers(text).slice(1)), place("y", numbers(text).slice(1))).matrixTransform(to_screen);
+            places.push([p.x, p.y]);
+        }
+    }
+    for (let i = 1; i < columns; ++i)
+        for (let k = 1; k < rows; ++k) places.push([b.left + (b.width * i) / columns, b.top + (b.height * k) / rows]);
+    for (const [x, y] of places) {
+        const under = document.elementFromPoint(x, y);
+        if (under?.closest("svg[role=img]") !== svg) continue;
+        under.dispatchEvent(new PointerEvent("pointermove", { clientX: x, clientY: y, bubbles: true }));
+        const h = told();
+        if (h.lines.length) seen.push({ x, y, ...h });
+        if (stop && stop(h, number)) break;
+    }
+    svg.dispatchEvent(new PointerEvent("pointerleave"));
+    return seen;
 }

@@ -7,8 +7,10 @@
 #include "support/catch.hpp"
 #include "support/pendulum.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <string>
 
 using namespace sivid;
@@ -56,6 +58,44 @@ TEST_CASE("runs that are complete say how much measurements are moved and what w
     CHECK(r.lost < 1);
     p.prior[0] = interval(0.4999, 0.5001);
     CHECK(reach_of_runs(p, p.prior, {})[0].moved < 0.01);
+}
+
+TEST_CASE("no parameter moves a measurement by more than the spread that is stated") {
+    auto p = plain_problem::make();
+    auto const r = reach_of_runs(p, p.prior, {})[0];
+    CHECK(r.instants == r.measured);
+    auto const& side = p.prior[0];
+    double most = 0;
+    for (auto const& m : p.experiments[0].measurements) {
+        double low = HUGE_VAL, high = -HUGE_VAL;
+        for (int k = 0; k <= 100; ++k) {
+            double const a = side.lower() + (side.upper() - side.lower()) * k / 100;
+            double const x = 2 * std::exp(-a * m.time);
+            low = std::min(low, x);
+            high = std::max(high, x);
+        }
+        most = std::max(most, 0.5 * (high - low) / (0.5 * width(m.bound)));
+    }
+    CHECK(r.spread >= most);
+    CHECK(r.spread < 1.3 * most);
+    CHECK(r.spread >= r.moved);
+    // An exact measurement has no bound to be compared with.
+    p.experiments[0].measurements[2].bound =
+        interval(p.experiments[0].measurements[2].bound.lower());
+    CHECK_FALSE(std::isfinite(reach_of_runs(p, p.prior, {})[0].spread));
+}
+
+TEST_CASE("a run that time ends says that it says nothing") {
+    auto const p = support::swinging(8, 0.01, 7);
+    auto const whole = reach_of_runs(p, p.prior, {})[0];
+    CHECK_FALSE(whole.interrupted);
+    CHECK(whole.instants < whole.measured);
+    run_options some;
+    some.enclosure.keep_going = [left = std::make_shared<int>(4)] { return --*left > 0; };
+    auto const cut = reach_of_runs(p, p.prior, some);
+    REQUIRE(cut.size() == 1);
+    CHECK(cut[0].interrupted);
+    CHECK(cut[0].until < whole.until);
 }
 
 TEST_CASE("long records are looked at in places and time ends the looking") {

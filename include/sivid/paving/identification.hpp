@@ -76,7 +76,7 @@ struct identification {
     sivid::verdict verdict = sivid::verdict::undecided;
     stop_reason reason = stop_reason::decided;
     std::optional<window_effort> windows; ///< nothing where none were needed
-    /// Over what is left, where little was excluded and the search has not decided all.
+    /// Over what is left, where little was excluded and the search has not decided all of it.
     std::vector<run_reach> reach;
     std::optional<search_effort> effort; ///< nothing where measurements came one by one
     /// Of the prior: inside boxes are proved, what no other box covers is excluded by proof.
@@ -98,6 +98,11 @@ struct identification {
     std::size_t boxes = 0;
     std::size_t integrations = 0;
     double seconds = 0;
+
+    /// Nothing was decided, or more than half of the prior's volume is left.
+    [[nodiscard]] bool excludes_little() const {
+        return verdict == sivid::verdict::undecided || paving.outer_volume().upper() > 0.5;
+    }
 };
 
 } // namespace sivid

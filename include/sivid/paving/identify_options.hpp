@@ -33,7 +33,8 @@ struct identify_options {
     /// Boxes tested to draw the paving of the prior, when the search ran in products of parameters.
     std::size_t drawn_boxes = 1500;
     /// What may be added to `search.seconds`, at most, to complete a result: the box about the
-    /// witness, the drawing of the prior, the measurements that fail in every case.
+    /// witness, the drawing of the prior, the measurements that fail in every case; and as much
+    /// again to see why little was excluded.
     double completing_seconds = 0.3;
     /// Called with the state every `search.checkpoint_seconds` of the search and when a budget ends
     /// it (in place of `search.checkpoint`).

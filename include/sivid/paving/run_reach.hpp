@@ -31,6 +31,13 @@ struct run_reach {
     /// Of the measured outputs up to `until`, in error bounds: the most that parameters and starts
     /// move one, and the most that was lost to remainders.
     double moved = 0, lost = 0;
+    /// At most half the range of each measured output up to `until`, in error bounds: what all
+    /// parameters and starts together move it from the middle of its range. Infinite where an
+    /// output was not enclosed, or was measured exactly.
+    double spread = 0;
+    std::size_t instants = 0; ///< that were looked at; long records are looked at in places
+    std::size_t measured = 0; ///< instants with measurements
+    bool interrupted = false; ///< time ended the run: `until` says nothing
 
     [[nodiscard]] bool complete() const { return !(until < end); }
 };

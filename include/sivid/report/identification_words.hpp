@@ -33,7 +33,7 @@ namespace sivid::report {
 /// True when the proof left (nearly) all of the parameter's prior.
 [[nodiscard]] SIVID_DECL bool is_unresolved(parameter_view const& p);
 
-/// Formula text for a reader: a raised dot for '*'.
+/// Formula text for a reader: a raised dot for '*', at which lines do not break.
 [[nodiscard]] SIVID_DECL std::string formula_text(std::string const& formula);
 
 [[nodiscard]] SIVID_DECL std::string headline(identification_view const& v);

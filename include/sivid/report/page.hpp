@@ -38,7 +38,7 @@ struct page_head {
 /// How the panels of a figure are laid out.
 enum class panel_layout {
     grid, ///< as many as fit, at least 340 px each
-    pair, ///< at least 400 px each
+    pair, ///< at least 360 px each
     wide  ///< one below the other over the full width; scrolls on a narrow screen
 };
 

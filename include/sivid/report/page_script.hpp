@@ -13,7 +13,7 @@ namespace sivid::report {
 inline constexpr std::string_view page_script = R"js(
 "use strict";
 addEventListener("DOMContentLoaded", () => {
-const regions = ["outside", "pending: not looked at", "undecided", "inside: proved to explain the data"];
+const regions = ["outside", "pending: not looked at closely", "undecided", "inside: proved to explain the data"];
 const make = (name, attributes, parent) => {
   const e = document.createElementNS(parent.namespaceURI, name);
   for (const key in attributes) e.setAttribute(key, attributes[key]);
@@ -104,7 +104,7 @@ const read = (plot, px, py) => {
   if (framed) lines.push(value(x.name, x.at(px), x.step, x.unit) + ", " + value(y.name, y.at(py), y.step, y.unit));
   let nearest = null, least = 10;
   for (const t of plot.tips) {
-    const b = t.of.getBBox();
+    const b = t.box ??= t.of.getBBox();
     const d = Math.hypot(Math.max(b.x - px, 0, px - b.x - b.width), Math.max(b.y - py, 0, py - b.y - b.height)) + 1e-3 * Math.sqrt(b.width * b.height);
     if (d < least) { least = d; nearest = t; }
   }
@@ -130,6 +130,7 @@ const show = (plot, px, py, left, top) => {
   const { lines, box } = read(plot, px, py);
   if (box) for (const p of plots) mark(p, box, p === plot);
   for (const line of lines) bubble.append(Object.assign(document.createElement("div"), { textContent: line }));
+  bubble.style.left = "0";                        // or what was near an edge stays narrow
   const { width, height } = bubble.getBoundingClientRect();
   bubble.style.left = Math.max(4, Math.min(left + 14, document.documentElement.clientWidth - width - 6)) + "px";
   bubble.style.top = (top + 18 + height < innerHeight ? top + 18 : Math.max(4, top - height - 12)) + "px";
@@ -140,9 +141,12 @@ for (const plot of plots) {
   const { svg } = plot;
   const units = (e) => new DOMPoint(e.clientX, e.clientY).matrixTransform(svg.getScreenCTM().inverse());
   const at = (e) => { const p = units(e); return show(plot, p.x, p.y, e.clientX, e.clientY); };
-  svg.addEventListener("pointermove", (e) => { if (!kept) at(e); });
+  let last = null;
+  svg.addEventListener("pointermove", (e) => { last = e; if (!kept) at(e); });
   svg.addEventListener("pointerleave", () => { if (!kept) clear(); });
-  svg.addEventListener("click", (e) => { if (at(e)) keep(true); });
+  // Clicks come in whole pixels: what was seen is kept, not what lies beside it.
+  const near = (e) => last && Math.hypot(e.clientX - last.clientX, e.clientY - last.clientY) < 1.5 ? last : e;
+  svg.addEventListener("click", (e) => { if (at(near(e))) keep(true); });
   const move = () => {
     const p = new DOMPoint(cursor.x, cursor.y).matrixTransform(svg.getScreenCTM());
     show(plot, cursor.x, cursor.y, p.x, p.y);
@@ -159,7 +163,7 @@ for (const plot of plots) {
       e.preventDefault();
     } else if (e.key === "Enter") { move(); keep(true); }
   });
-  svg.addEventListener("blur", () => { if (!kept) clear(); });
+  svg.addEventListener("blur", () => { if (!kept && cursor?.svg === svg) clear(); });
 }
 addEventListener("keydown", (e) => { if (e.key === "Escape") clear(); });
 addEventListener("click", (e) => { if (kept && !e.target.closest("svg")) clear(); });

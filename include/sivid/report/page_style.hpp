@@ -54,7 +54,7 @@ figure{margin:18px 0 28px}
 .panels{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,340px),1fr));gap:14px 18px}
 .panels.wide{display:block;overflow-x:auto}
 .panels.wide svg{min-width:700px}
-.panels.pair{grid-template-columns:repeat(auto-fill,minmax(min(100%,400px),1fr))}
+.panels.pair{grid-template-columns:repeat(auto-fill,minmax(min(100%,360px),1fr))}
 .panels svg{display:block;width:100%;height:auto}
 .legend{display:flex;flex-wrap:wrap;gap:4px 22px;margin:0 0 12px;font-size:14px;list-style:none;padding:0;max-width:none}
 .legend li{display:flex;align-items:center;gap:8px;margin:0}
@@ -64,7 +64,7 @@ figcaption b{color:var(--ink)}
 .plain{padding:18px 22px 8px;background:var(--tint);border-radius:6px;margin:0 0 20px}
 .plain ul{list-style:none;padding:0}
 .plain li{position:relative;padding-left:26px;margin:9px 0}
-.plain li::before{content:"";position:absolute;left:2px;top:.5em;width:11px;height:6px;border-left:2.5px solid var(--accent);border-bottom:2.5px solid var(--accent);transform:rotate(-45deg)}
+.plain li::before{content:"";position:absolute;left:4px;top:.62em;width:7px;height:7px;border-radius:50%;background:var(--accent)}
 .box{padding:16px 22px 6px;border:1px solid var(--rule);border-radius:6px;margin:0 0 20px}
 .box h2{margin:0 0 8px;padding:0;border:0;font-size:17px}
 .warning{border-color:var(--noted);background:var(--noted-soft)}
@@ -77,7 +77,7 @@ footer{margin-top:56px;padding-top:14px;border-top:1px solid var(--rule);color:v
 footer span{display:inline-block;margin-right:22px}
 @media(max-width:620px){main{padding:24px 16px}h1{font-size:27px}h2{font-size:20px;margin-top:38px}.banner{padding:16px;gap:13px}
 .banner .sign{width:30px;height:30px;line-height:30px;font-size:19px}.banner strong{font-size:18px}.cards{grid-template-columns:1fr 1fr}.card .value{font-size:18px}
-.plain,.box{padding-left:16px;padding-right:16px}.narrow{font-size:14px}.narrow .symbol{white-space:normal}.narrow :is(th,td){padding:6px 5px}}
+.plain,.box{padding-left:16px;padding-right:16px}.narrow{font-size:13px}.narrow .symbol,.narrow th,.narrow th:first-child{white-space:normal}.narrow :is(th,td){padding:6px 3px}}
 @media(max-width:1160px){th,td{padding-left:8px;padding-right:8px}td.note{min-width:8em}}
 @media screen and (max-width:740px){.panels.wide::before{content:"wider than the screen: scroll sideways \2192";position:sticky;left:0;color:var(--muted);font-size:13px}}
 @media screen and (max-width:1060px){table:not(.narrow),table:not(.narrow) :is(tbody,tr){display:block}table:not(.narrow) thead{position:absolute;clip-path:inset(50%);width:1px;height:1px;overflow:hidden}
@@ -90,11 +90,12 @@ table:not(.narrow) td::before{content:attr(data-head);flex:none;width:9em;color:
 .banner .sign{color:#14171b}
 figure [fill="#ffffff"]{fill:#14171b}figure [stroke="#ffffff"]{stroke:#14171b}figure [fill="#1a1d21"]{fill:#e6e9ed}figure [stroke="#1a1d21"]{stroke:#e6e9ed}
 figure [fill="#5b6470"]{fill:#a3adb8}figure [stroke="#e6e8ec"]{stroke:#2a3037}figure [fill="#eceef1"]{fill:#252a31}figure [fill="#d5d9df"]{fill:#434b55}
+figure [stroke="#0072b2"]{stroke:#4aa8e0}figure [stroke="#a0447a"]{stroke:#d07ab0}
 figure text[fill="#00805d"]{fill:#45c9a0}figure text[fill="#b34e00"]{fill:#ff9a57}
 figure [fill="#eef2f6"]{fill:#1d242b}figure [fill="#eef6fb"]{fill:#17262f}figure [stroke="#8b94a0"]{stroke:#727c88}}
 @media print{body{font-size:10.5pt}main{max-width:none;padding:0}h2{break-after:avoid;margin-top:26px}
-figure .panels svg,figcaption,.banner,.card,.box,tr{break-inside:avoid}.panels{grid-template-columns:repeat(2,1fr)}.panels.wide,.scroll{overflow:visible}.panels.wide svg{min-width:0}
-table{font-size:9pt}th{font-size:8.5pt}th,td{padding-left:6px;padding-right:6px}td.note{font-size:8.5pt;min-width:7em}.bubble{display:none}.number{white-space:normal}
+figure .panels svg,figcaption,.banner,.card,.box,tr{break-inside:avoid}.panels,.panels.pair{grid-template-columns:repeat(2,1fr)}.panels.wide,.scroll{overflow:visible}.panels.wide svg{min-width:0}
+table{font-size:9pt}th{font-size:8.5pt}th,td{padding-left:6px;padding-right:6px}td.note{font-size:8.5pt;min-width:7em}.bubble{display:none}.number{white-space:normal}td.text{overflow-wrap:anywhere}
 *{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
 )css";
 

@@ -19,8 +19,10 @@
 /// is called an estimate.
 namespace sivid::report {
 
-inline constexpr std::string_view proved_mark = "\xE2\x9C\x93 proved";
-inline constexpr std::string_view estimate_mark = "\xE2\x89\x88 estimate";
+// A sign stays with its word where lines end.
+inline constexpr std::string_view proved_mark = "\xE2\x9C\x93\xC2\xA0proved";
+inline constexpr std::string_view estimate_mark = "\xE2\x89\x88\xC2\xA0"
+                                                  "estimate";
 
 /// "a, b and c"
 [[nodiscard]] SIVID_DECL std::string enumeration(std::vector<std::string> const& all,

@@ -3,6 +3,8 @@
 #define SIVID_REPORT_REACH_WORDS_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/model/problem.hpp>
+#include <sivid/paving/identification.hpp>
 #include <sivid/paving/run_reach.hpp>
 
 #include <string>
@@ -10,9 +12,16 @@
 
 namespace sivid::report {
 
-/// Why little was excluded, a sentence for each experiment that says something, and what to change:
-/// from what runs over all that is left measured.
-[[nodiscard]] SIVID_DECL std::vector<std::string> reach_words(std::vector<run_reach> const& reach);
+/// Why runs over all that is left tell little, and what to change: a sentence for each of the first
+/// experiments that say something, from what they measured.
+/// @param ended_by_itself  the search did: more time would find the same
+[[nodiscard]] SIVID_DECL std::vector<std::string> reach_words(std::vector<run_reach> const& reach,
+                                                              bool ended_by_itself = false);
+
+/// Why an identification excluded little: first that what was proved inside stays, then what its
+/// runs tell. Empty where much was excluded.
+[[nodiscard]] SIVID_DECL std::vector<std::string> reach_words(identification_problem const& problem,
+                                                              identification const& found);
 
 } // namespace sivid::report
 

@@ -213,10 +213,9 @@ SIVID_DECL identification identify(identification_problem const& problem,
         }
         result.forced = paving_detail::find_forced(searching, asked, left);
     }
-    bool const little =
-        result.verdict == verdict::undecided || result.paving.outer_volume().upper() > 0.5;
-    if (little && result.reason != stop_reason::decided &&
+    if (result.excludes_little() && result.reason != stop_reason::decided &&
         result.reason != stop_reason::cancelled) {
+        limit.allow(options.completing_seconds); // the box about the witness may have taken all
         auto run = options.test.run;
         run.enclosure.keep_going = limit;
         result.reach = reach_of_runs(asked, left, run);

@@ -14,7 +14,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
+#include <iterator>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -22,12 +23,18 @@ namespace sivid {
 
 namespace paving_detail {
 
-/// The measurements of some of the instants, spread over all of them.
-[[nodiscard]] inline record thinned(record const& samples, std::size_t instants) {
+/// @given  samples in the order of time
+[[nodiscard]] inline std::vector<double> instants_of(record const& samples) {
     std::vector<double> times;
     for (auto const& m : samples) {
         if (times.empty() || m.time > times.back()) times.push_back(m.time);
     }
+    return times;
+}
+
+/// The measurements of some of the instants, spread over all of them.
+[[nodiscard]] inline record thinned(record const& samples, std::size_t instants) {
+    auto const times = instants_of(samples);
     if (times.size() <= instants) return samples;
     std::vector<double> kept;
     for (std::size_t k = 1; k <= instants; ++k) {
@@ -70,13 +77,16 @@ inline run_reach reach_of_run(identification_problem const& problem, std::size_t
                               run_options const& options) {
     constexpr std::size_t instants = 50;
     auto const& whole = problem.experiments[e];
-    auto samples = thinned(sorted(whole.measurements), instants);
+    auto const all = sorted(whole.measurements);
+    auto samples = thinned(all, instants);
     auto const states = whole.initial.size();
     auto const channels = problem.model.about.channels.size();
     run_reach result;
     result.scenario = whole.name;
     result.begin = result.until = whole.begin;
     result.end = samples.back().time;
+    result.instants = instants_of(samples).size();
+    result.measured = instants_of(all).size();
     for (std::size_t k = 0; k < samples.size(); ++k) {
         bool const last = k + 1 == samples.size() || samples[k].time < samples[k + 1].time;
         if (!last || samples[k].channel >= channels) continue;
@@ -89,6 +99,7 @@ inline run_reach reach_of_run(identification_problem const& problem, std::size_t
     experiment run{whole.name, whole.inputs, whole.begin, whole.initial, samples, samples.size()};
     flow const f(seen, problem.choice, whole.inputs);
     auto const r = (*make_run(f, run, samples, parameters, options))(whole.initial, parameters);
+    result.interrupted = options.enclosure.cancelled();
     auto const local = expand(*r, parameters);
     auto const ranges = output_ranges(*r, local);
     auto const against_limit = [&](std::size_t i, double width) {
@@ -109,16 +120,24 @@ inline run_reach reach_of_run(identification_problem const& problem, std::size_t
     std::size_t at = 0; // the last outputs where all states were reached
     for (std::size_t y = 0; y < r->outputs(); ++y) {
         if (samples[y].channel + 1 == channels + states && is_bounded(ranges[y])) at = y + 1;
-        if (samples[y].channel >= channels || !std::isfinite(r->radius[y])) continue;
+    }
+    if (at == 0) return result;
+    for (std::size_t y = 0; y < at; ++y) {
+        if (samples[y].channel >= channels) continue;
         double moved = 0;
         for (std::size_t v = 0; v < r->table->variables; ++v)
             moved += std::abs(local.slope[v * r->outputs() + y]);
         double const bound = 0.5 * width(samples[y].bound);
-        if (!(bound > 0)) continue;
+        double const spread = (moved + local.rest[y]) / bound;
+        bool const known = bound > 0 && std::isfinite(r->radius[y]) && std::isfinite(spread);
+        if (!known) {
+            result.spread = std::numeric_limits<double>::infinity();
+            continue;
+        }
+        result.spread = std::max(result.spread, spread);
         result.moved = std::max(result.moved, moved / bound);
         result.lost = std::max(result.lost, r->radius[y] / bound);
     }
-    if (at == 0) return result;
     result.until = samples[at - 1].time;
     auto const state = widest([&](std::size_t i) { return width(ranges[at - states + i]); });
     result.causes = causes_of(problem, *r, local, at - states + state);

@@ -115,7 +115,7 @@ private:
                     : "no window of the records can be carried from starts so wide: state them "
                       "more narrowly, or give samples nearer to them";
         }
-        view_.statistics.why = reach_words(found_.reach);
+        view_.statistics.why = reach_words(problem_, found_);
         view_.version = std::string{"sivid "} + std::string{version};
         view_.date = options_.date;
         view_.machine = options_.machine;

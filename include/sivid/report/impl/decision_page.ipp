@@ -5,6 +5,7 @@
 #include <sivid/report/decision_page.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/report/identification_words.hpp>
 #include <sivid/report/number_text.hpp>
 #include <sivid/report/table.hpp>
 
@@ -99,6 +100,16 @@ inline void add_motions(page& out, prediction const& found, decision_page_option
     out.add(f);
 }
 
+/// The comparison's text, with a number where it has several sides: |x| < 1 has two.
+inline std::string margin_title(std::vector<std::string> const& labels, std::size_t c) {
+    if (c >= labels.size()) return "comparison";
+    auto const place = labels.begin() + static_cast<std::ptrdiff_t>(c);
+    auto const all = std::count(labels.begin(), labels.end(), *place);
+    if (all == 1) return *place;
+    return *place + " (" + std::to_string(1 + std::count(labels.begin(), place, *place)) + " of " +
+           std::to_string(all) + ")";
+}
+
 inline void add_parameters(page& out, stored_prediction const& about,
                            decision_page_options const& o) {
     out.section("For which parameters");
@@ -106,20 +117,23 @@ inline void add_parameters(page& out, stored_prediction const& about,
     table t{.columns = {{"quantity", column_kind::symbol}, {"range", column_kind::number}},
             .rows = {}};
     for (std::size_t j = 0; j < around.size(); ++j)
-        t.rows.push_back({about.sides[j], text_of(around[j])});
+        t.rows.push_back({formula_text(about.sides[j]), text_of(around[j])});
     t.caption = "The smallest ranges around the union of " + count_text(about.problem.sets.size()) +
                 (about.in_products ? " boxes, in the products that the data fix."
                                    : " boxes of parameters.");
     out.add(t);
     if (!o.set.empty()) out.bullets(o.set);
-    table starts{.columns = {{"state", column_kind::symbol},
-                             {"start", column_kind::number},
-                             {"unit", column_kind::note}},
-                 .rows = {}};
+    table starts{
+        .columns = {{"state", column_kind::symbol}, {"start", column_kind::number}, {"unit"}},
+        .rows = {}};
     auto const& states = about.problem.model.about.states;
-    for (std::size_t i = 0; i < states.size(); ++i)
-        starts.rows.push_back(
-            {states[i].name, given_text(range_of(about.problem.initial[i])), states[i].unit});
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        range const start = range_of(about.problem.initial[i]);
+        auto const low = given_text(start.lo);
+        starts.rows.push_back({states[i].name,
+                               low == given_text(start.hi) ? low : given_text(start),
+                               unit_text(states[i].unit)});
+    }
     out.add(starts);
 }
 
@@ -154,7 +168,8 @@ SIVID_DECL std::string answer_sentence(stored_prediction const& about, verificat
         text += " (motions are enclosed up to t = " + exact_text(b.reached) + " s)";
     text += ", at ";
     for (std::size_t j = 0; j < b.parameters.size(); ++j)
-        text += (j > 0 ? ", " : "") + about.sides[j] + " in " + detail::text_of(b.parameters[j]);
+        text += (j > 0 ? ", " : "") + formula_text(about.sides[j]) + " in " +
+                detail::text_of(b.parameters[j]);
     return text + ".";
 }
 
@@ -204,13 +219,12 @@ SIVID_DECL page prediction_page(stored_prediction const& about, prediction const
     out.cards(cards);
     detail::add_motions(out, found, o);
     out.section("At the end");
-    table t{.columns = {{"quantity", column_kind::symbol},
-                        {"range", column_kind::number},
-                        {"unit", column_kind::note}},
-            .rows = {}};
+    table t{
+        .columns = {{"quantity", column_kind::symbol}, {"range", column_kind::number}, {"unit"}},
+        .rows = {}};
     for (auto const& c : found.channels) {
         range const r{c.low.back(), c.high.back()};
-        t.rows.push_back({c.name, is_finite(r) ? outward_text(r) : "not known", c.unit});
+        t.rows.push_back({c.name, is_finite(r) ? outward_text(r) : "not known", unit_text(c.unit)});
     }
     out.add(t);
     detail::add_parameters(out, about, o);
@@ -260,10 +274,10 @@ SIVID_DECL page verification_page(stored_prediction const& about, requirement co
     figure f{.panels = {},
              .legend = motion_plot_legend(margins, options),
              .title = "The margins of the comparisons, for all parameters and starts.",
-             .caption = "A comparison holds where its margin is above 0. The requirement's text "
-                        "says when it has to."};
+             .caption = "A comparison holds where its margin is above 0, each of its margins if it "
+                        "has several sides. The requirement's text says when it has to."};
     for (std::size_t c = 0; c < margins.size(); ++c) {
-        options.title = c < asked.labels.size() ? asked.labels[c] : "comparison";
+        options.title = detail::margin_title(asked.labels, c);
         f.panels.push_back(draw_motion_plot(margins[c], options));
     }
     out.section("The requirement against the tube");
@@ -271,7 +285,8 @@ SIVID_DECL page verification_page(stored_prediction const& about, requirement co
     if (!found.open.empty()) {
         out.section("Where it is open");
         table t{.columns = {}, .rows = {}};
-        for (auto const& side : about.sides) t.columns.push_back({side, column_kind::number});
+        for (auto const& side : about.sides)
+            t.columns.push_back({formula_text(side), column_kind::number});
         t.columns.push_back({"robustness", column_kind::number});
         t.columns.push_back({"why", column_kind::note});
         for (std::size_t k = 0; k < std::min<std::size_t>(found.open.size(), 40); ++k) {

@@ -66,8 +66,9 @@ inline void add_scenario(page& out, identification_view const& v, scenario_view 
                                                               : std::string{"Reference line: "} +
                                                                     sentence(v.reference_meaning);
     range time;
-    bool residuals = false;
+    bool residuals = false, tubes = false;
     for (channel_series const& c : s.channels) {
+        tubes = tubes || !c.tube.empty();
         time = hull(time, time_range(c));
         residuals =
             residuals || std::any_of(c.measured.begin(), c.measured.end(),
@@ -76,9 +77,12 @@ inline void add_scenario(page& out, identification_view const& v, scenario_view 
     std::string const which = "scenario " + s.name;
     figure measured{.panels = {},
                     .legend = time_plot_legend(s.channels),
-                    .title = "Measurements and proven enclosure, " + which + ".",
-                    .caption = "Every bar is a measured interval; the band contains the model's "
-                               "output at every instant, not only at the samples. " +
+                    .title = (tubes ? "Measurements and proven enclosure, " : "Measurements, ") +
+                             which + ".",
+                    .caption = "Every bar is a measured interval" +
+                               std::string{tubes ? "; the band contains the model's output at "
+                                                   "every instant, not only at the samples. "
+                                                 : ". "} +
                                tube + reference};
     figure against{.panels = {},
                    .title = "The enclosure within each measured interval, " + which + ".",
@@ -149,7 +153,6 @@ inline void add_computation(page& out, identification_view const& v) {
               (v.statistics.stop_reason.empty()
                    ? ""
                    : std::string{"Why it stopped: "} + sentence(v.statistics.stop_reason)));
-    for (auto const& words : v.statistics.why) out.prose(sentence(words));
     table t{.columns = {{"volume relative to the prior"}, {"proved within", column_kind::number}},
             .rows = {}};
     if (!is_empty(v.volume_inner)) {
@@ -183,6 +186,14 @@ inline void add_computation(page& out, identification_view const& v) {
         }
         out.add(c);
     }
+}
+
+inline void add_why_little(page& out, identification_view const& v) {
+    if (v.statistics.why.empty()) return;
+    out.subsection("Why little is excluded");
+    std::vector<std::string> lines;
+    for (auto const& words : v.statistics.why) lines.push_back(words + ".");
+    out.bullets(lines);
 }
 
 inline void add_identifiability(page& out, identification_view const& v) {
@@ -227,6 +238,7 @@ SIVID_DECL page identification_page(identification_view const& v) {
     out.plain_words(plain_statements(v));
     out.assumptions(v.assumptions);
     detail::add_parameters(out, v);
+    detail::add_why_little(out, v);
     detail::add_pavings(out, v);
     detail::add_identifiability(out, v);
     bool const drawn =

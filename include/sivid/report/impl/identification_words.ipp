@@ -24,6 +24,8 @@ SIVID_DECL std::string at_least_percent(double share) {
 }
 
 SIVID_DECL std::string percent_interval(range const& share) {
+    if (share.lo == share.hi && (share.lo == 0 || share.lo == 1))
+        return share.lo == 0 ? "0 %" : "100 %";
     return is_empty(share) ? std::string{}
                            : outward_text(share, {.significant = 2, .shift = 2}) + " %";
 }
@@ -41,7 +43,7 @@ SIVID_DECL bool is_unresolved(parameter_view const& p) { return share_of_prior(p
 SIVID_DECL std::string formula_text(std::string const& formula) {
     std::string out;
     for (char const c : formula) {
-        out += c == '*' ? std::string{"\xE2\x80\x89\xC2\xB7\xE2\x80\x89"} : std::string(1, c);
+        out += c == '*' ? std::string{"\xE2\x80\xAF\xC2\xB7\xE2\x80\xAF"} : std::string(1, c);
     }
     return out;
 }
@@ -134,7 +136,10 @@ SIVID_DECL std::vector<std::string> plain_statements(identification_view const& 
             out.push_back("Every parameter vector that explains the data has " + hulls + ".");
         }
         for (combination_view const& c : v.combinations) {
-            out.push_back(std::string{"Every parameter vector that explains the data has "} +
+            bool const all =
+                !is_empty(c.prior) && c.hull.lo <= c.prior.lo && c.hull.hi >= c.prior.hi;
+            out.push_back((all ? "Nothing could be excluded for "
+                               : "Every parameter vector that explains the data has ") +
                           formula_text(c.formula) + " in " + outward_text(c.hull) +
                           unit_suffix(c.unit) + "." + (c.note.empty() ? "" : " " + c.note));
         }
@@ -145,11 +150,14 @@ SIVID_DECL std::vector<std::string> plain_statements(identification_view const& 
         }
         if (is_finite(v.volume_outer)) {
             std::string text =
-                std::string{"At most "} + at_most_percent(v.volume_outer.hi) +
-                " of the prior's volume can explain the data; all the rest is excluded by proof.";
+                v.volume_outer.hi >= 1
+                    ? "Nothing (or nearly nothing) of the prior's volume could be excluded."
+                    : "At most " + at_most_percent(v.volume_outer.hi) +
+                          " of the prior's volume can explain the data; all the rest is excluded "
+                          "by proof.";
             if (is_finite(v.volume_inner) && v.volume_inner.lo > 0) {
-                text += std::string{" At least "} + at_least_percent(v.volume_inner.lo) +
-                        " does explain it.";
+                text += " At least " + at_least_percent(v.volume_inner.lo) +
+                        " of it is proved to explain the data.";
             }
             out.push_back(text);
         }

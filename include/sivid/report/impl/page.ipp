@@ -6,9 +6,10 @@
 
 namespace sivid::report {
 
-SIVID_DECL page::page(page_head const& head) : title_{head.title} {
-    body_ = std::string{"<header><p class=\"kind\">"} + escape(head.kind) + "</p><h1>" +
-            escape(head.title) + "</h1>";
+SIVID_DECL page::page(page_head const& head) : title_{head.title.empty() ? head.kind : head.title} {
+    body_ = "<header>";
+    if (!head.title.empty()) body_ += "<p class=\"kind\">" + escape(head.kind) + "</p>";
+    body_ += "<h1>" + escape(title_) + "</h1>";
     body_ +=
         head.lead.empty() ? "" : std::string{"<p class=\"lead\">"} + escape(head.lead) + "</p>";
     body_ += "</header>\n";

@@ -107,7 +107,7 @@ SIVID_DECL std::vector<legend_entry> paving_plot_legend(std::vector<paving_proje
     };
     add(used[3], symbol::inside, "inside: proved to explain the data");
     add(used[2], symbol::undecided, "undecided");
-    add(used[1], symbol::pending, "pending: not looked at");
+    add(used[1], symbol::pending, "pending: not looked at closely");
     add(true, symbol::outside, "outside: proved impossible");
     add(witness, symbol::witness, "witness");
     add(zoom, symbol::window, "what the closer look shows");

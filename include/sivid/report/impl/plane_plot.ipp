@@ -114,6 +114,9 @@ SIVID_DECL svg draw_plane_plot(plane_series const& s, plane_plot_options const& 
     if (!s.reference.empty() && is_finite(s.reference.front())) {
         point const& start = s.reference.front();
         out.circle(a.px(start.x), a.py(start.y), 4, {.fill = palette::ink}, "start");
+        double const wide = approximate_text_width("start", 11) + 6;
+        out.rect(a.px(start.x) - wide / 2, a.py(start.y) - 20, wide, 14,
+                 {.fill = palette::paper, .opacity = 0.8}, 3);
         out.text(a.px(start.x), a.py(start.y) - 9, "start", {.size = 11, .align = anchor::middle});
     }
     out.close();

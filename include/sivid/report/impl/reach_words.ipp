@@ -5,6 +5,7 @@
 #include <sivid/report/reach_words.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/paving/verdict.hpp>
 #include <sivid/report/identification_words.hpp>
 #include <sivid/report/number_text.hpp>
 
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sivid::report {
@@ -26,47 +28,108 @@ inline std::string name_of(run_reach::cause const& c) {
     return c.start ? "the start of " + c.name : formula_text(c.name);
 }
 
-/// "D33/Iz (62 %), the start of r (20 %)"
+/// "62 % of it by D33/Iz, 20 % by the start of r"
 inline std::string causes_text(run_reach const& r) {
     std::string all;
     for (std::size_t k = 0; k < std::min<std::size_t>(r.causes.size(), 3); ++k) {
         auto const& c = r.causes[k];
-        all += (k == 0 ? "" : ", ") + name_of(c) + " (" + brief(100 * c.share) + " %)";
+        all += (k == 0 ? "" : ", ") + brief(100 * c.share) + (k == 0 ? " % of it by " : " % by ") +
+               name_of(c);
     }
     return all;
 }
 
+/// Where trajectories end, and why.
+inline std::string end_text(run_reach const& r) {
+    auto const carried = r.until - r.begin;
+    auto words = carried > 0
+                     ? "over all that is left, trajectories are enclosed for " + brief(carried) +
+                           " of " + brief(r.end - r.begin) + " s only; there "
+                     : std::string{"over all that is left, trajectories are enclosed "
+                                   "nowhere; at the start "};
+    words += r.state + " is " + brief(r.width) + unit_suffix(r.unit) + " wide";
+    return words + (r.causes.empty() ? "" : " (" + causes_text(r) + ")");
+}
+
 inline std::string what_ends(run_reach const& r) {
     auto const carried = r.until - r.begin;
-    auto words = carried > 0 ? "over what is left, trajectories are carried for " + brief(carried) +
-                                   " of " + brief(r.end - r.begin) + " s"
-                             : std::string{"over what is left, no trajectory is carried anywhere"};
-    words += ": there " + r.state + " is " + brief(r.width) + " " + unit_text(r.unit) + " wide" +
-             (r.causes.empty() ? "" : ", by " + causes_text(r));
-    words += carried > 0 ? ". Windows of less than " + brief(carried) + " s" : ". Shorter windows";
-    if (!r.causes.empty()) words += ", or " + name_of(r.causes.front()) + " in a narrower range,";
-    return words + " would tell more";
+    auto words = end_text(r) + ". Scenarios shorter than " +
+                 brief(carried > 0 ? carried : r.end - r.begin) + " s";
+    if (!r.causes.empty()) words += ", or a narrower range for " + name_of(r.causes.front()) + ",";
+    return words + " may tell more";
+}
+
+/// What is left moves measurements less than their bounds are wide.
+inline std::string what_hardly_moves(run_reach const& r) {
+    auto words =
+        "parameters and starts that are left move no measurement" +
+        (r.instants < r.measured
+             ? " (of " + count_text(r.instants) + " instants among " + count_text(r.measured) + ")"
+             : std::string{}) +
+        (r.complete() ? "" : " of the first " + brief(r.until - r.begin) + " s") +
+        " by more than " + rounded_text(r.spread * (1 + 1e-9), rounding::up, {.significant = 2}) +
+        " of its error bound: such data hardly tell them apart; smaller bounds, or "
+        "motions that depend more on them, would";
+    return words + (r.complete() ? "" : ". Beyond that, " + end_text(r));
+}
+
+/// Empty where nothing but the boxes' size is in the way.
+inline std::string why_of(run_reach const& r, bool ended_by_itself) {
+    if (!r.complete() && r.interrupted)
+        return "no time was left to see how far trajectories are enclosed: a larger budget may "
+               "tell";
+    if (r.until > r.begin && r.spread < 1) return what_hardly_moves(r);
+    if (!r.complete()) return what_ends(r);
+    if (!(r.lost < 1))
+        return "trajectories over all that is left blur by " +
+               (std::isfinite(r.lost) ? brief(r.lost) : std::string{"any number of"}) +
+               " error bounds: more time, or shorter scenarios, may tell more";
+    if (ended_by_itself) return {};
+    return "trajectories over all that is left are enclosed to the end, and parameters and starts "
+           "move measurements by up to " +
+           brief(r.moved) + " error bounds: a larger budget may tell more";
+}
+
+/// What no method could exclude; empty where that is not much.
+inline std::string proved_inside_text(identification const& found) {
+    double const inside = found.paving.inner_volume().lower();
+    if (!(inside >= 0.05)) return {};
+    return "At least " + at_least_percent(std::min(inside, 1.0)) +
+           " of the prior's volume is proved to explain the data: nothing of it can be excluded "
+           "by them. Smaller error bounds, further measurements, or motions that depend more on "
+           "the parameters would";
 }
 
 } // namespace detail
 
-SIVID_DECL std::vector<std::string> reach_words(std::vector<run_reach> const& reach) {
+SIVID_DECL std::vector<std::string> reach_words(std::vector<run_reach> const& reach,
+                                                bool ended_by_itself) {
+    constexpr std::size_t most = 6;
     std::vector<std::string> result;
     for (auto const& r : reach) {
-        auto const name = r.scenario + ": ";
-        if (!r.complete()) {
-            result.push_back(name + detail::what_ends(r));
-        } else if (r.moved < 1) {
-            result.push_back(name + "parameters and starts move no measurement by more than " +
-                             detail::brief(r.moved) +
-                             " of its error bound: such data cannot tell more; smaller bounds, or "
-                             "motions that depend more on them, would");
-        } else if (!(r.lost < 1)) {
-            result.push_back(name + "trajectories over what is left blur by " +
-                             (std::isfinite(r.lost) ? detail::brief(r.lost) : "any number of") +
-                             " error bounds: more time, or shorter windows, would tell more");
+        if (&r - reach.data() == most && reach.size() > most) {
+            result.push_back(count_text(reach.size() - most) +
+                             " further scenarios: see \xE2\x80\x9Creach\xE2\x80\x9D in the "
+                             "result file");
+            break;
         }
+        auto const words = detail::why_of(r, ended_by_itself);
+        if (!words.empty()) result.push_back(r.scenario + ": " + words);
     }
+    return result;
+}
+
+SIVID_DECL std::vector<std::string> reach_words(identification_problem const& problem,
+                                                identification const& found) {
+    std::vector<std::string> result;
+    if (!found.excludes_little()) return result;
+    if (auto words = detail::proved_inside_text(found); !words.empty())
+        result.push_back(std::move(words));
+    if (found.reach.empty() && found.reason == stop_reason::time_budget &&
+        !problem.model.has_delays())
+        result.push_back("No time was left to see why: a larger budget may tell");
+    for (auto& words : reach_words(found.reach, is_complete(found.reason)))
+        result.push_back(std::move(words));
     return result;
 }
 
