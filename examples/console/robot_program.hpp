@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The whole program around a model and its effects: PROGRAM FOLDER --out DIR, and then
-// PROGRAM predict | verify DIR/model --scenario FILE.
+// PROGRAM predict | verify DIR/model --scenario FILE; beside it PROGRAM rank FOLDER --out DIR.
 #ifndef EXAMPLES_CONSOLE_ROBOT_PROGRAM_HPP
 #define EXAMPLES_CONSOLE_ROBOT_PROGRAM_HPP
 
@@ -8,6 +8,7 @@
 #include "diagnosis_output.hpp"
 #include "number_range.hpp"
 #include "program.hpp"
+#include "rank_command.hpp"
 #include "result_files.hpp"
 #include "thorough_diagnosis.hpp"
 
@@ -187,6 +188,29 @@ inline int decide_by_result(std::string const& name, sivid::recorded_model const
     return verify ? run_verify(model, catalogue, c, find) : run_predict(model, catalogue, c, find);
 }
 
+/// PROGRAM rank FOLDER ...: how far each parameter can move the measurements.
+inline int rank_folder(std::string const& name, sivid::recorded_model const& model, int argc,
+                       char** argv) {
+    rank_request c;
+    std::filesystem::path folder;
+    c.command_line = command_line(name, argc, argv);
+    CLI::App app{"How far can each parameter alone move the measurements, over the whole prior?"};
+    app.add_option("folder", folder, "folder with dataset.json")->required();
+    app.add_option("--out", c.out, "folder for ranking.html and ranking.json")->required();
+    app.add_option("--budget", c.budget, "seconds; it ends earlier when all bounds are close")
+        ->check(number_between(0.0, 1e9))
+        ->capture_default_str();
+    app.add_flag("--quiet", c.quiet, "no progress");
+    try {
+        app.parse(argc - 1, argv + 1);
+    } catch (CLI::ParseError const& e) {
+        return app.exit(e) == 0 ? 0 : static_cast<int>(bad_input);
+    }
+    auto const data = sivid::read_dataset(folder, sivid::names_of(model.about));
+    c.dataset = data.id;
+    return run_rank(sivid::problem_from_dataset(data, model), c);
+}
+
 /// `main` of such a program.
 /// @param about      what the program does, for --help
 /// @param model      a functor with names, rate and observe
@@ -199,10 +223,12 @@ int robot_program(std::string const& name, std::string const& about, Model const
         if (first == "predict" || first == "verify")
             return decide_by_result(name, sivid::record_model(model), catalogue, first == "verify",
                                     argc, argv);
+        if (first == "rank") return rank_folder(name, sivid::record_model(model), argc, argv);
         std::filesystem::path folder, out;
         double budget = 60;
         bool quiet = false;
-        CLI::App app{about + "\n\nThen: predict OUT/model ..., verify OUT/model ... (--help)"};
+        CLI::App app{about + "\n\nThen: predict OUT/model ..., verify OUT/model ...; and: rank "
+                             "FOLDER ... (--help)"};
         app.add_option("folder", folder, "folder with dataset.json")->required();
         app.add_option("--out", out, "folder for report.html, model.html and JSON files")
             ->required();

@@ -98,8 +98,13 @@ struct simulate_command {
 
 struct rank_command {
     hovercraft craft;
+    std::filesystem::path dataset;    ///< whose measurements are moved; or
+    std::string scenario;             ///< a name, a file, or all; neither: the state equations
+    std::vector<std::string> unknown; ///< of a scenario: the constants to rank
     std::filesystem::path out;
+    double budget = 10;            ///< [s]
     std::vector<std::string> free; ///< derived constants to take as independent
+    bool quiet = false;
     std::string command_line;
 };
 [[nodiscard]] int run(rank_command const& command);

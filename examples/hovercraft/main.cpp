@@ -438,11 +438,29 @@ private:
 
     void add_rank() {
         auto* const s = app_.add_subcommand(
-            "rank", "the influence of each constant on each state equation, within proved bounds");
-        s->add_option("--out", rank_.out, "folder for ranking.html and ranking.csv")->required();
+            "rank", "how far each constant can move the measurements of a data set or scenario, "
+                    "or each state equation, within proved bounds");
+        auto* const dataset =
+            s->add_option("dataset", rank_.dataset,
+                          "a folder with dataset.json; without it and --scenario: the state "
+                          "equations");
+        s->add_option("--scenario", rank_.scenario,
+                      "all (S1, S2, S3), the name of a built-in one, or a JSON file: measured at "
+                      "20 Hz, within the bounds of h3")
+            ->excludes(dataset);
+        s->add_option("--unknown", rank_.unknown, "of a scenario: the constants to rank")
+            ->delimiter(',')
+            ->excludes(dataset);
+        s->add_option("--out", rank_.out, "folder for ranking.html and ranking.json or .csv")
+            ->required();
+        s->add_option("--budget", rank_.budget, "seconds; it ends earlier when bounds are close")
+            ->check(console::number_between(0.0, 1e9))
+            ->capture_default_str();
         s->add_option("--free", rank_.free,
-                      "constants to rank although they follow from others, such as A")
+                      "of the equations: constants to rank although they follow from others, such "
+                      "as A")
             ->delimiter(',');
+        s->add_flag("--quiet", rank_.quiet, "no progress");
         add_variants(*s, shared_);
         s->callback([this] {
             action_ = [this] {

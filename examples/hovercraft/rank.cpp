@@ -3,6 +3,9 @@
 #include "commands.hpp"
 #include "console/console.hpp"
 #include "console/program.hpp"
+#include "console/rank_command.hpp"
+#include "posed_problem.hpp"
+#include "scenario.hpp"
 
 #include <sivid/io/file_set.hpp>
 #include <sivid/number/decimal_output.hpp>
@@ -75,10 +78,46 @@ std::string judge(sivid::model_description const& about,
            " % of the strongest one's bound";
 }
 
+/// The constants of scenarios in their priors, seen 20 times a second within the bounds of h3.
+sivid::identification_problem measured(sivid::recorded_model const& model, rank_command const& c) {
+    sivid::identification_problem problem{model, {}, {}, {}};
+    problem.choice.unknown =
+        c.unknown.empty() ? std::vector<std::string>{"Sv", "Sg", "L"} : c.unknown;
+    std::vector<sivid::interval> prior;
+    for (auto const& name : problem.choice.unknown) {
+        auto const k = sivid::index_of(model.about.constants, name, "constant");
+        prior.push_back(ranking_prior(model.about.constants[k]));
+    }
+    problem.prior = sivid::box(prior);
+    constexpr double bounds[] = {0.02, 0.02, 0.05, 0.02, 0.02, 0.03};
+    for (auto const& s : find_scenarios(c.scenario, sivid::names_of(model.about))) {
+        sivid::experiment e;
+        e.name = s.name;
+        e.initial = sivid::box(s.initial.size());
+        for (std::size_t i = 0; i < s.initial.size(); ++i) e.initial[i] = s.initial[i].enclosure;
+        for (auto const& input : s.inputs)
+            e.inputs.push_back(sivid::exact_signal(input, s.duration));
+        auto const instants = static_cast<int>(20 * s.duration + 1e-9);
+        for (int n = 1; n <= instants; ++n) {
+            for (std::size_t k = 0; k < std::size(bounds); ++k)
+                e.measurements.push_back({n / 20.0, k, {-bounds[k], bounds[k]}});
+        }
+        problem.experiments.push_back(std::move(e));
+    }
+    return problem;
+}
+
 } // namespace
 
 int run(rank_command const& c) {
     auto const model = sivid::record_model(c.craft);
+    console::rank_request request{"", c.scenario, c.out, c.budget, c.quiet, c.command_line};
+    if (!c.scenario.empty()) return console::run_rank(measured(model, c), request);
+    if (!c.dataset.empty()) {
+        auto const data = sivid::read_dataset(c.dataset, sivid::names_of(model.about));
+        request.dataset = data.id;
+        return console::run_rank(posed(data, model, {}), request);
+    }
     auto const ranking = rank_constants(model, default_ranges(), c.free);
     console::prepare_folder(c.out);
     auto const ranges = default_ranges();

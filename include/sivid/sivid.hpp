@@ -243,6 +243,7 @@
 #include <sivid/decision/prediction.hpp>
 #include <sivid/decision/prediction_options.hpp>
 #include <sivid/decision/prediction_problem.hpp>
+#include <sivid/decision/rank.hpp>
 #include <sivid/decision/requirement.hpp>
 #include <sivid/decision/robustness.hpp>
 #include <sivid/decision/verification.hpp>

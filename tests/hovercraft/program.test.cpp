@@ -587,6 +587,27 @@ TEST_CASE("simulate and rank write their tables and pages") {
     CHECK(rows(folder.path() / "rank" / "ranking.csv") > 20);
 }
 
+TEST_CASE("rank bounds the effects on a data set and on a scenario") {
+    temporary_folder const folder;
+    auto const out = folder.path() / "out";
+    auto const k = run({"rank", h3, "--out", out.string(), "--quiet"});
+    CHECK((k.code == 0 || k.code == 3));
+    CHECK_THAT(k.out, ContainsSubstring("S3 u: Sg") &&
+                          ContainsSubstring("matter in combination only") &&
+                          ContainsSubstring("Sg*L"));
+    auto const json = json_of(out / "ranking.json");
+    CHECK(json["format"] == "sivid-ranking-1");
+    CHECK(json["channels"].size() == 6);
+    CHECK(fs::exists(out / "ranking.html"));
+    // On a straight ride nothing is known of the three.
+    auto const s = run({"rank", "--scenario", "S1", "--out", (folder.path() / "s1").string()});
+    CHECK(s.code == 0);
+    CHECK_THAT(s.out, ContainsSubstring("Sg cannot matter"));
+    CHECK(run({"rank", h3, "--scenario", "S1", "--out", out.string()}).code == 2);
+    CHECK(run({"rank", "--scenario", "S1", "--unknown", "nothing", "--out", out.string()}).code ==
+          2);
+}
+
 TEST_CASE("simulate takes ranges of constants") {
     temporary_folder const folder;
     auto const out = folder.path() / "out";

@@ -84,3 +84,31 @@ TEST_CASE("what is not known is no number") {
     CHECK(json.at("at_end").at("x").elements()[0].type() == sivid::json_value::kind::null);
     CHECK(sivid::tubes_csv(empty) == "from,to,x_lower,x_upper\n0,0,,\n0,1,0,1\n1,1,,\n");
 }
+
+TEST_CASE("a ranking is written with its bounds outward and its witnesses") {
+    auto const problem = io_support::two_rates_problem();
+    auto const found = sivid::rank(problem, {.seconds = 5});
+    sivid::decision_json_options options;
+    options.dataset = "d";
+    auto const json =
+        sivid::parse_json("ranking.json", sivid::ranking_json(problem, found, options));
+    CHECK(json.at("format").string() == "sivid-ranking-1");
+    CHECK(json.at("dataset").string() == "d");
+    REQUIRE(json.at("channels").elements().size() == found.channels.size());
+    auto const& c = found.channels.front();
+    auto const& effects = json.at("channels").elements()[0].at("effects").elements();
+    auto const order = c.order();
+    REQUIRE(effects.size() == order.size());
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        auto const& e = c.effects[order[k]];
+        CHECK(effects[k].at("parameter").string() == problem.choice.unknown[order[k]]);
+        CHECK(number(effects[k].at("effect").elements()[0]) <= e.low);
+        CHECK(number(effects[k].at("effect").elements()[1]) >= e.high);
+        REQUIRE(e.low > 0);
+        CHECK(number(effects[k].at("from")) == e.from);
+        CHECK(number(effects[k].at("to")) == e.to);
+    }
+    // The rates act as a product.
+    CHECK(json.at("only_in_products").elements().size() == 2);
+    CHECK(json.at("products").elements()[0].string() == "a*b");
+}

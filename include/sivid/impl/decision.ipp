@@ -4,6 +4,7 @@
 
 #include <sivid/decision/impl/motion_cover.ipp>
 #include <sivid/decision/impl/prediction.ipp>
+#include <sivid/decision/impl/rank.ipp>
 #include <sivid/decision/impl/requirement.ipp>
 #include <sivid/decision/impl/robustness.ipp>
 #include <sivid/decision/impl/verification.ipp>

@@ -4,6 +4,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/decision/prediction.hpp>
+#include <sivid/decision/rank.hpp>
 #include <sivid/decision/verification.hpp>
 #include <sivid/io/stored_prediction.hpp>
 
@@ -35,6 +36,12 @@ struct decision_json_options {
                                                        requirement const& asked,
                                                        verification const& found,
                                                        decision_json_options const& options);
+
+/// `ranking.json` in the format sivid-ranking-1: effects in error bounds, outward; of each measured
+/// channel the strongest first.
+[[nodiscard]] SIVID_DECL std::string ranking_json(identification_problem const& about,
+                                                  ranking const& found,
+                                                  decision_json_options const& options);
 
 } // namespace sivid
 

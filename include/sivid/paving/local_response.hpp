@@ -41,29 +41,33 @@ inline void normalise(normalised_unknowns::side const& s, interval const& part, 
 
 } // namespace paving_detail
 
-/// Re-expands a response in d, where q = middle + reach * d for each of its variables.
-/// @given  |middle| + reach <= 1 but for rounding
-/// @guarantee  encloses the outputs for all d in [-1,1]^N.
-///   Rounding: with |middle| + reach <= 1 each stage is a contraction in the sum norm, so the
-///   errors of all stages stay below (variables * (2 degree + 8)) units of the polynomial's norm.
+/// The polynomials of a response in q - middle.
+struct shifted_response {
+    std::vector<double> coefficients; ///< as those of the response
+    std::vector<double> rounding;     ///< per output: errors of the coefficients, all together
+};
+
+/// @given  |middle| + reach <= 1 but for rounding, where d in [-1,1]^N stands for q = middle +
+///         reach * d
+/// @guarantee  rounding: with |middle| + reach <= 1 each stage is a contraction in the sum norm, so
+///   the errors of all stages, and of scaling and summing the terms in d, stay below (variables *
+///   (2 degree + 8)) units of the polynomial's norm
 /// @cost  O(monomials * degree * outputs), streaming over the outputs
-[[nodiscard]] inline local_response expand(response const& known, std::vector<double> middle,
-                                           std::vector<double> reach) {
+[[nodiscard]] inline shifted_response shifted(response const& known,
+                                              std::vector<double> const& middle) {
     constexpr double unit = std::numeric_limits<double>::epsilon();
     auto const& table = *known.table;
     auto const outputs = known.outputs();
     auto const n = table.variables;
-    local_response local;
-    local.middle = std::move(middle);
-    local.reach = std::move(reach);
-    auto c = known.coefficients;
-    std::vector<double> norm(outputs, 0.0);
+    shifted_response result{known.coefficients, std::vector<double>(outputs, 0.0)};
+    auto& c = result.coefficients;
+    auto& norm = result.rounding;
     for (std::size_t m = 0; m < table.size(); ++m) {
         double const* row = c.data() + m * outputs;
         for (std::size_t y = 0; y < outputs; ++y) norm[y] += std::abs(row[y]);
     }
     for (std::size_t v = 0; v < n; ++v) {
-        double const shift = local.middle[v];
+        double const shift = middle[v];
         if (shift == 0) continue;
         table.shift(v, [&](std::size_t m, std::size_t k) {
             double* const to = c.data() + m * outputs;
@@ -71,6 +75,23 @@ inline void normalise(normalised_unknowns::side const& s, interval const& part, 
             for (std::size_t y = 0; y < outputs; ++y) to[y] += shift * above[y];
         });
     }
+    double const errors = static_cast<double>((n + 1) * (2 * table.degree + 8) + table.size());
+    for (auto& x : norm) x *= 2 * errors * unit;
+    return result;
+}
+
+/// Re-expands a response in d, where q = middle + reach * d for each of its variables.
+/// @given  |middle| + reach <= 1 but for rounding
+/// @guarantee  encloses the outputs for all d in [-1,1]^N; see `shifted` for rounding
+[[nodiscard]] inline local_response expand(response const& known, std::vector<double> middle,
+                                           std::vector<double> reach) {
+    auto const& table = *known.table;
+    auto const outputs = known.outputs();
+    auto const n = table.variables;
+    auto const [c, rounding] = shifted(known, middle);
+    local_response local;
+    local.middle = std::move(middle);
+    local.reach = std::move(reach);
     local.value.assign(outputs, 0.0);
     local.rest.assign(outputs, 0.0);
     local.slope.assign(n * outputs, 0.0);
@@ -111,27 +132,35 @@ inline void normalise(normalised_unknowns::side const& s, interval const& part, 
             for (std::size_t v = 0; v < n; ++v) local.curvature[v] += e[v] > 0 ? total : 0.0;
         }
     }
-    double const errors = static_cast<double>((n + 1) * (2 * table.degree + 8) + table.size());
     for (std::size_t y = 0; y < outputs; ++y) {
-        double const rounding = 2 * errors * unit * norm[y];
-        local.rest[y] = (local.rest[y] + known.radius[y] + rounding) * (1 + 1e-12) + 1e-290;
+        local.rest[y] = (local.rest[y] + known.radius[y] + rounding[y]) * (1 + 1e-12) + 1e-290;
         if (!(local.rest[y] >= 0)) local.rest[y] = std::numeric_limits<double>::infinity();
     }
     return local;
 }
 
+/// Where a part of a response's box lies among its unknowns: q = middle + reach * d.
+struct unknowns_of_part {
+    std::vector<double> middle, reach; ///< per variable; starts keep all of their range
+
+    /// @param parameters  a box inside the one that the response was computed for (trusted)
+    unknowns_of_part(response const& known, box const& parameters)
+        : middle(known.table->variables, 0.0), reach(known.table->variables, 1.0) {
+        for (std::size_t j = 0; j < parameters.size(); ++j) {
+            auto const& side = known.unknowns.parameters[j];
+            if (side.radius == 0) continue;
+            paving_detail::normalise(side, parameters[j], middle[side.variable],
+                                     reach[side.variable]);
+        }
+    }
+};
+
 /// Re-expands a response about the middle of a part of its box.
 /// @param parameters  a box inside the one that the response was computed for (trusted)
 /// @guarantee  encloses the outputs for all parameters in the part and all starts of the response
 [[nodiscard]] inline local_response expand(response const& known, box const& parameters) {
-    std::vector<double> middle(known.table->variables, 0.0);
-    std::vector<double> reach(known.table->variables, 1.0);
-    for (std::size_t j = 0; j < parameters.size(); ++j) {
-        auto const& side = known.unknowns.parameters[j];
-        if (side.radius == 0) continue;
-        paving_detail::normalise(side, parameters[j], middle[side.variable], reach[side.variable]);
-    }
-    return expand(known, std::move(middle), std::move(reach));
+    unknowns_of_part part(known, parameters);
+    return expand(known, std::move(part.middle), std::move(part.reach));
 }
 
 /// Encloses each output that was reached, over a part of the response's box.

@@ -4,6 +4,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/decision/prediction.hpp>
+#include <sivid/decision/rank.hpp>
 #include <sivid/decision/verification.hpp>
 #include <sivid/io/stored_prediction.hpp>
 #include <sivid/report/motion_plot.hpp>
@@ -22,7 +23,7 @@ struct simulated_line {
     std::vector<std::vector<double>> further{};  ///< [time][expression]
 };
 
-/// What pages of predictions and verifications say besides.
+/// What pages of decisions say besides.
 struct decision_page_options {
     std::string dataset{}, scenario{}, about{};
     std::vector<std::string> set{}; ///< "Ff in [0.286, 0.777] N"
@@ -48,6 +49,19 @@ struct decision_page_options {
                                                 requirement const& asked, verification const& found,
                                                 prediction const& tubes,
                                                 decision_page_options const& options);
+
+/// An effect in error bounds, rounded outward.
+[[nodiscard]] SIVID_DECL std::string effect_text(parameter_effect const& e);
+
+/// What a ranking proves, in sentences: what cannot matter, and what acts in products only.
+[[nodiscard]] SIVID_DECL std::vector<std::string>
+ranking_sentences(identification_problem const& about, ranking const& found);
+
+/// A page with a bar for the effect of each parameter on each channel, full up to what is reached
+/// and hatched up to what is not excluded.
+[[nodiscard]] SIVID_DECL page ranking_page(identification_problem const& about,
+                                           ranking const& found,
+                                           decision_page_options const& options);
 
 } // namespace sivid::report
 

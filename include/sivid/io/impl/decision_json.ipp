@@ -158,6 +158,59 @@ SIVID_DECL std::string verification_json(stored_prediction const& about, require
     return json.text();
 }
 
+SIVID_DECL std::string ranking_json(identification_problem const& about, ranking const& found,
+                                    decision_json_options const& options) {
+    auto const& names = about.choice.unknown;
+    json_writer json;
+    json.begin_object();
+    json.key("format").string("sivid-ranking-1");
+    json.key("dataset").string(options.dataset);
+    json.key("scenario").string(options.scenario);
+    json.key("prior");
+    io_detail::write_box(json, names, about.prior);
+    json.key("assumptions").begin_array();
+    json.string(input_assumption(about.experiments)).end_array();
+    json.key("complete").boolean(found.complete);
+    json.key("channels").begin_array();
+    for (auto const& c : found.channels) {
+        json.begin_object();
+        json.key("experiment").string(about.experiments[c.experiment].name);
+        json.key("channel").string(about.model.about.channels[c.channel].name);
+        json.key("effects").begin_array();
+        for (auto const j : c.order()) {
+            auto const& e = c.effects[j];
+            auto const place = c.place_of(j);
+            json.begin_object(json_writer::layout::one_line);
+            json.key("parameter").string(names[j]);
+            json.key("acts").boolean(e.acts).key("effect");
+            io_detail::write_bounds(json, e.low, e.high);
+            json.key("place").begin_array().integer(place.best).integer(place.worst).end_array();
+            if (e.low > 0) {
+                json.key("time").nearest(e.time).key("from").nearest(e.from);
+                json.key("to").nearest(e.to).key("at").begin_object();
+                for (std::size_t i = 0; i < names.size(); ++i)
+                    if (i != j) json.key(names[i]).nearest(e.at[i]);
+                json.end_object().key("initial").begin_object();
+                for (std::size_t i = 0; i < e.start.size(); ++i)
+                    json.key(about.model.about.states[i].name).nearest(e.start[i]);
+                json.end_object();
+            }
+            json.end_object();
+        }
+        json.end_array().end_object();
+    }
+    json.end_array();
+    json.key("only_in_products").begin_array(json_writer::layout::one_line);
+    for (auto const j : found.combinations.entangled) json.string(names[j]);
+    json.end_array().key("products").begin_array(json_writer::layout::one_line);
+    for (auto const& c : found.combinations.combinations) json.string(c.formula);
+    json.end_array();
+    json.key("parts").integer(found.parts);
+    json.key("integrations").integer(found.integrations);
+    json.key("seconds").nearest(found.seconds).end_object();
+    return json.text();
+}
+
 } // namespace sivid
 
 #endif
