@@ -32,6 +32,7 @@
 #include <sivid/report/impl/paving_raster.ipp>
 #include <sivid/report/impl/place_words.ipp>
 #include <sivid/report/impl/plane_plot.ipp>
+#include <sivid/report/impl/ranking_page.ipp>
 #include <sivid/report/impl/reach_words.ipp>
 #include <sivid/report/impl/residual_plot.ipp>
 #include <sivid/report/impl/rounded_decimal.ipp>

@@ -4,7 +4,6 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/decision/prediction.hpp>
-#include <sivid/decision/rank.hpp>
 #include <sivid/decision/verification.hpp>
 #include <sivid/io/stored_prediction.hpp>
 #include <sivid/report/motion_plot.hpp>
@@ -49,19 +48,6 @@ struct decision_page_options {
                                                 requirement const& asked, verification const& found,
                                                 prediction const& tubes,
                                                 decision_page_options const& options);
-
-/// An effect in error bounds, rounded outward.
-[[nodiscard]] SIVID_DECL std::string effect_text(parameter_effect const& e);
-
-/// What a ranking proves, in sentences: what cannot matter, and what acts in products only.
-[[nodiscard]] SIVID_DECL std::vector<std::string>
-ranking_sentences(identification_problem const& about, ranking const& found);
-
-/// A page with a bar for the effect of each parameter on each channel, full up to what is reached
-/// and hatched up to what is not excluded.
-[[nodiscard]] SIVID_DECL page ranking_page(identification_problem const& about,
-                                           ranking const& found,
-                                           decision_page_options const& options);
 
 } // namespace sivid::report
 

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_REPORT_IMPL_RANKING_PAGE_IPP
+#define SIVID_REPORT_IMPL_RANKING_PAGE_IPP
+
+#include <sivid/report/ranking_page.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/report/bar_chart.hpp>
+#include <sivid/report/number_text.hpp>
+#include <sivid/report/table.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace sivid::report {
+
+SIVID_DECL std::string effect_text(parameter_effect const& e) {
+    if (e.high == 0) return "0";
+    if (e.high < 0.01) return "< 0.01";
+    if (!std::isfinite(e.high)) return "from " + rounded_text(e.low, rounding::down);
+    double const more = 5e-4 * e.high; // so that close bounds read well
+    return outward_text({std::max(0.0, e.low - more), e.high + more}, {.significant = 2});
+}
+
+SIVID_DECL std::vector<std::string> ranking_sentences(identification_problem const& about,
+                                                      ranking const& found) {
+    std::vector<std::string> lines;
+    auto const& names = about.choice.unknown;
+    for (std::size_t j = 0; j < names.size(); ++j) {
+        auto const most = found.overall(j);
+        if (most.upper() == 0) {
+            lines.push_back(names[j] + " cannot matter: no equation carries it to a channel.");
+        } else if (most.upper() < 1) {
+            lines.push_back(names[j] + " cannot matter: it moves no measurement by more than " +
+                            rounded_text(most.upper(), rounding::up) + " error bounds.");
+        }
+    }
+    auto const& products = found.combinations;
+    if (!products.entangled.empty()) {
+        std::string text;
+        for (auto const j : products.entangled) {
+            if (!(found.overall(j).upper() < 1)) text += (text.empty() ? "" : ", ") + names[j];
+        }
+        if (text.empty()) return lines;
+        text += " matter in combination only: no measurement tells them apart beyond ";
+        for (std::size_t k = 0; k < products.combinations.size(); ++k)
+            text += (k > 0 ? ", " : "") + products.combinations[k].formula;
+        lines.push_back(text + ".");
+    }
+    return lines;
+}
+
+SIVID_DECL page ranking_page(identification_problem const& about, ranking const& found,
+                             decision_page_options const& o) {
+    page out{{.kind = "Ranking",
+              .title = o.scenario.empty() ? o.dataset : o.scenario,
+              .lead = "How far can each parameter alone move the measurements?"}};
+    out.banner(found.complete ? outcome::proved : outcome::undecided,
+               found.complete ? "Proved from both sides" : "Proved, some bounds still apart",
+               "Over the whole prior: all values of the other parameters, all starts.");
+    out.cards({{"time", duration_text(found.seconds), ""},
+               {"parts", count_text(found.parts), "of the prior"},
+               {"integrations", count_text(found.integrations), "validated"}});
+    if (auto const lines = ranking_sentences(about, found); !lines.empty()) out.bullets(lines);
+    out.section("Effects");
+    figure f{.panels = {},
+             .title = "The largest effects, in error bounds.",
+             .caption = "Full up to what a pair of validated runs reaches, hatched up to what is "
+                        "proved never to be passed. Below 1 a parameter moves no measurement of "
+                        "the channel by its error bound.",
+             .layout = panel_layout::wide};
+    table t{.columns = {{"experiment", column_kind::text},
+                        {"channel", column_kind::symbol},
+                        {"parameter", column_kind::symbol},
+                        {"effect", column_kind::number},
+                        {"place", column_kind::text}},
+            .rows = {}};
+    for (auto const& c : found.channels) {
+        auto const& experiment = about.experiments[c.experiment].name;
+        auto const& channel = about.model.about.channels[c.channel].name;
+        std::vector<bar> bars;
+        for (auto const j : c.order()) {
+            auto const& e = c.effects[j];
+            auto const& name = about.choice.unknown[j];
+            if (e.high > 0) bars.push_back({.label = name, .value = {e.low, e.high}});
+            auto const place = c.place_of(j);
+            auto text = std::to_string(place.best);
+            if (place.worst > place.best) text += " to " + std::to_string(place.worst);
+            t.rows.push_back({experiment, channel, name, effect_text(e), text});
+        }
+        if (bars.empty()) continue;
+        f.panels.push_back(draw_bar_chart(bars, {.width = 900,
+                                                 .title = channel + ", " + experiment,
+                                                 .quantity = "effect",
+                                                 .unit = "error bounds",
+                                                 .threshold = 1,
+                                                 .threshold_label = "1"}));
+    }
+    out.add(f);
+    t.caption = "Place: among the parameters; one number where the bounds certify it.";
+    out.add(t);
+    out.section("Over what");
+    table prior{.columns = {{"parameter", column_kind::symbol}, {"prior", column_kind::number}},
+                .rows = {}};
+    for (std::size_t j = 0; j < about.prior.size(); ++j)
+        prior.rows.push_back({about.choice.unknown[j],
+                              outward_text({about.prior[j].lower(), about.prior[j].upper()})});
+    out.add(prior);
+    out.assumptions({input_assumption(about.experiments) + ".",
+                     "At the instants of the measurements, against half the width of their bounds; "
+                     "what was measured does not enter."});
+    out.footer(o.footer);
+    return out;
+}
+
+} // namespace sivid::report
+
+#endif

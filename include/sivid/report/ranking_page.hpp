@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_REPORT_RANKING_PAGE_HPP
+#define SIVID_REPORT_RANKING_PAGE_HPP
+
+#include <sivid/compiled.hpp>
+#include <sivid/decision/rank.hpp>
+#include <sivid/model/problem.hpp>
+#include <sivid/report/decision_page.hpp>
+#include <sivid/report/page.hpp>
+
+#include <string>
+#include <vector>
+
+namespace sivid::report {
+
+/// An effect in error bounds, rounded outward.
+[[nodiscard]] SIVID_DECL std::string effect_text(parameter_effect const& e);
+
+/// What a ranking proves, in sentences: what cannot matter, and what acts in products only.
+[[nodiscard]] SIVID_DECL std::vector<std::string>
+ranking_sentences(identification_problem const& about, ranking const& found);
+
+/// A page with a bar for the effect of each parameter on each channel, full up to what is reached
+/// and hatched up to what is not excluded.
+[[nodiscard]] SIVID_DECL page ranking_page(identification_problem const& about,
+                                           ranking const& found,
+                                           decision_page_options const& options);
+
+} // namespace sivid::report
+
+#ifndef SIVID_COMPILED
+#include <sivid/report/impl/ranking_page.ipp>
+#endif
+
+#endif
