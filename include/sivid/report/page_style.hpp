@@ -74,7 +74,7 @@ svg:focus-visible{outline:2px solid var(--accent);outline-offset:2px}
 .bubble{position:fixed;z-index:1;max-width:min(420px,92vw);padding:7px 11px;background:var(--ink);color:var(--paper);border-radius:5px;font-size:13.5px;line-height:1.4;font-variant-numeric:tabular-nums;pointer-events:none;overflow-wrap:anywhere}
 .bubble:empty{display:none}.bubble.kept{outline:2px solid var(--mark)}
 footer{margin-top:56px;padding-top:14px;border-top:1px solid var(--rule);color:var(--muted);font-size:13.5px}
-footer span{display:inline-block;margin-right:22px}
+footer span{display:inline-block;margin-right:22px;max-width:100%;overflow-wrap:anywhere}
 @media(max-width:620px){main{padding:24px 16px}h1{font-size:27px}h2{font-size:20px;margin-top:38px}.banner{padding:16px;gap:13px}
 .banner .sign{width:30px;height:30px;line-height:30px;font-size:19px}.banner strong{font-size:18px}.cards{grid-template-columns:1fr 1fr}.card .value{font-size:18px}
 .plain,.box{padding-left:16px;padding-right:16px}.narrow{font-size:13px}.narrow .symbol,.narrow th,.narrow th:first-child{white-space:normal}.narrow :is(th,td){padding:6px 3px}}
@@ -94,7 +94,7 @@ figure [stroke="#0072b2"]{stroke:#4aa8e0}figure [stroke="#a0447a"]{stroke:#d07ab
 figure text[fill="#00805d"]{fill:#45c9a0}figure text[fill="#b34e00"]{fill:#ff9a57}
 figure [fill="#eef2f6"]{fill:#1d242b}figure [fill="#eef6fb"]{fill:#17262f}figure [stroke="#8b94a0"]{stroke:#727c88}}
 @media print{body{font-size:10.5pt}main{max-width:none;padding:0}h2{break-after:avoid;margin-top:26px}
-figure .panels svg,figcaption,.banner,.card,.box,tr{break-inside:avoid}.panels,.panels.pair{grid-template-columns:repeat(2,1fr)}.panels.wide,.scroll{overflow:visible}.panels.wide svg{min-width:0}
+figure .panels svg,figcaption,.banner,.card,.box,tr{break-inside:avoid}.panels{grid-template-columns:repeat(2,1fr)}.panels.pair{grid-template-columns:1fr}.panels.pair svg{max-width:70%;margin:auto}.panels.wide,.scroll{overflow:visible}.panels.wide svg{min-width:0}
 table{font-size:9pt}th{font-size:8.5pt}th,td{padding-left:6px;padding-right:6px}td.note{font-size:8.5pt;min-width:7em}.bubble{display:none}.number{white-space:normal}td.text{overflow-wrap:anywhere}
 *{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
 )css";
