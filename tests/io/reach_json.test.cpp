@@ -18,6 +18,8 @@ TEST_CASE("what holds runs back is written by name, and nothing where nobody loo
     r.width = 7.5;
     r.causes = {{false, 0, "a", 0.75}, {true, 0, "x", 0.25}};
     r.moved = 40;
+    r.spread = 60;
+    r.interrupted = true;
     r.lost = std::numeric_limits<double>::infinity();
     json_writer writer;
     writer.begin_object();
@@ -31,6 +33,8 @@ TEST_CASE("what holds runs back is written by name, and nothing where nobody loo
     CHECK(json[0]["end"] == 3);
     CHECK(json[0]["by"] == nlohmann::json{{"a", 0.75}, {"start of x", 0.25}});
     CHECK(json[0]["moved"] == 40);
+    CHECK(json[0]["spread"] == 60);
+    CHECK(json[0]["interrupted"] == true);
     CHECK(json[0]["lost"].is_null());
     json_writer silent;
     silent.begin_object();

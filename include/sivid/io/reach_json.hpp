@@ -23,7 +23,8 @@ inline void write_reach(json_writer& json, std::vector<run_reach> const& reach) 
         for (auto const& c : r.causes)
             json.key((c.start ? "start of " : "") + c.name).nearest(c.share);
         json.end_object();
-        json.key("moved").nearest(r.moved).key("lost").nearest(r.lost).end_object();
+        json.key("moved").nearest(r.moved).key("spread").nearest(r.spread);
+        json.key("lost").nearest(r.lost).key("interrupted").boolean(r.interrupted).end_object();
     }
     json.end_array();
 }
