@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// rank, for any model: how far each parameter can move the measurements of a data set.
+// rank, for any model: how far each parameter can move the measurements of a data set, and what
+// these are worth.
 #ifndef EXAMPLES_CONSOLE_RANK_COMMAND_HPP
 #define EXAMPLES_CONSOLE_RANK_COMMAND_HPP
 
 #include "console.hpp"
 #include "program.hpp"
 
+#include <sivid/decision/measurement_ranking.hpp>
 #include <sivid/decision/rank.hpp>
 #include <sivid/io/decision_json.hpp>
 #include <sivid/io/file_set.hpp>
@@ -13,8 +15,10 @@
 #include <sivid/report/ranking_page.hpp>
 #include <sivid/version.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <string>
 
 namespace console {
@@ -28,7 +32,8 @@ struct rank_request {
     std::string command_line;
 };
 
-/// Ranks, prints one line a channel, and writes ranking.html and ranking.json.
+/// Ranks parameters and, of a data set, measurements; prints one line a channel or a group, and
+/// writes ranking.html and ranking.json.
 /// @returns done, or undecided where bounds are still apart
 /// @throws std::invalid_argument, sivid::output_error
 inline int run_rank(sivid::identification_problem const& problem, rank_request const& c) {
@@ -37,10 +42,20 @@ inline int run_rank(sivid::identification_problem const& problem, rank_request c
     watch_interrupts();
     progress_line progress(c.quiet);
     progress.note("ranking the parameters of " + (c.scenario.empty() ? c.dataset : c.scenario));
+    auto const keep_going = [] { return !interrupted(); };
     sivid::rank_options options;
-    options.seconds = c.budget;
-    options.keep_going = [] { return !interrupted(); };
+    options.seconds = c.scenario.empty() ? c.budget / 2 : c.budget;
+    options.keep_going = keep_going;
     auto const found = sivid::rank(problem, options);
+    std::optional<sivid::measurement_ranking> measurements;
+    if (c.scenario.empty()) { // a scenario has none
+        progress.note("ranking the measurements");
+        sivid::measurement_ranking_options asked;
+        asked.seconds = std::max(0.0, c.budget - found.seconds);
+        asked.keep_going = keep_going;
+        measurements = sivid::rank_measurements(problem, asked);
+    }
+    auto const* const worth = measurements ? &*measurements : nullptr;
     progress.finish();
     sivid::decision_json_options json;
     json.dataset = c.dataset;
@@ -51,8 +66,8 @@ inline int run_rank(sivid::identification_problem const& problem, rank_request c
     page.footer = {std::string{"sivid "} + std::string{sivid::version}, today(), machine_text(),
                    c.command_line};
     sivid::file_set files(c.out);
-    files.add("ranking.html", report::ranking_page(problem, found, page).str());
-    files.add("ranking.json", sivid::ranking_json(problem, found, json));
+    files.add("ranking.html", report::ranking_page(problem, found, page, worth).str());
+    files.add("ranking.json", sivid::ranking_json(problem, found, json, worth));
     files.commit();
     std::cout << "effects in error bounds, over the whole prior, strongest first: "
               << (found.complete ? "proved" : "proved, some bounds still apart") << "\n";
@@ -69,10 +84,21 @@ inline int run_rank(sivid::identification_problem const& problem, rank_request c
     for (auto const& line : report::ranking_sentences(problem, found))
         std::cout << "  " << line << "\n";
     std::cout << "  " << report::duration_text(found.seconds) << ", " << found.parts << " parts, "
-              << found.integrations
-              << " validated integrations\n  written: " << (c.out / "ranking.html").string()
-              << " and ranking.json\n";
-    return found.complete ? done : undecided;
+              << found.integrations << " validated integrations\n";
+    if (worth != nullptr) {
+        std::cout << "what explains the data grows without some of them: "
+                  << (worth->complete ? "proved" : "proved, some bounds still apart") << "\n";
+        for (auto const& g : worth->groups)
+            std::cout << "  without " << report::group_text(problem, g.what) << " ("
+                      << g.measurements << "): " << report::growth_text(g.growth) << "\n";
+        if (worth->explained == sivid::verdict::inconsistent)
+            std::cout << "  no parameter explains all of the data: nothing can grow\n";
+        std::cout << "  " << report::duration_text(worth->seconds) << ", " << worth->integrations
+                  << " validated integrations\n";
+    }
+    std::cout << "  written: " << (c.out / "ranking.html").string() << " and ranking.json\n";
+    bool const complete = found.complete && (worth == nullptr || worth->complete);
+    return complete ? done : undecided;
 }
 
 } // namespace console

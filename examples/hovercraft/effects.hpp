@@ -168,9 +168,9 @@ inline sivid::effect thrust_loss_with_speed() {
     using namespace sivid::literals;
     namespace any = sivid::effects;
     return {wind(),
-            any::input_lag("rudder_lag", "delta", "rad", 2, {0_dec, 1_dec}),
+            any::input_lag("rudder_lag", "delta", "rad", {0_dec, 1_dec}, 2),
             any::input_delay("input_delay", "delta", {0_dec, 0.5_dec}),
-            any::input_trim("rudder_trim", "delta", "d0", "rad", {-0.2_dec, 0.2_dec}),
+            any::input_trim("rudder_trim", "delta", "rad", {-0.2_dec, 0.2_dec}),
             thrust_offset(),
             cg_offset(),
             ground_slope(),
@@ -183,7 +183,7 @@ inline sivid::effect thrust_loss_with_speed() {
             any::input_saturation("rudder_saturation", "delta", "rad", {0.05_dec, 1_dec}),
             any::input_dead_band("rudder_deadband", "delta", "rad", {0_dec, 0.3_dec}),
             any::sensor_scale("position_scale", {"x", "y"}, {-0.2_dec, 0.2_dec}),
-            any::input_lag("motor_lag", "W", "1/s", 1000, {0_dec, 1_dec}, true),
+            any::input_lag("motor_lag", "W", "1/s", {0_dec, 1_dec}, 1000, true),
             dry_yaw_friction(),
             friction_anisotropy(),
             any::sensor_latency("position_latency", {"x", "y"}, {0_dec, 0.5_dec}),

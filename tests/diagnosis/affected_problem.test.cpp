@@ -10,7 +10,7 @@ using namespace sivid::literals;
 TEST_CASE("an affected problem has the effects' parameters as further unknowns") {
     auto const base = small_campaign::problem();
     auto const p = affected(base, {effects::linear_damping("drag", "v", {0_dec, 0.5_dec}),
-                                   effects::input_lag("lag", "u", "N", 5, {0.1_dec, 1_dec})});
+                                   effects::input_lag("lag", "u", "N", {0.1_dec, 1_dec}, 5)});
     CHECK(p.choice.unknown == std::vector<std::string>{"k", "drag.k", "lag.tau"});
     REQUIRE(p.prior.size() == 3);
     CHECK(contains(p.prior[2], 0.1));
@@ -26,7 +26,7 @@ TEST_CASE("an affected problem has the effects' parameters as further unknowns")
 
 TEST_CASE("starts of added states follow the parameters they depend on") {
     auto base = small_campaign::problem();
-    auto p = affected(base, {effects::input_lag("lag", "u", "N", 5, {0.1_dec, 1_dec}),
+    auto p = affected(base, {effects::input_lag("lag", "u", "N", {0.1_dec, 1_dec}, 5),
                              effects::input_dead_band("band", "u", "N", {0_dec, 0.25_dec})});
     // 1 - b
     CHECK(p.experiments[0].initial[2].lower() == 0.75);
@@ -44,10 +44,10 @@ TEST_CASE("analytic inputs are read at the begin") {
     auto base = small_campaign::problem();
     base.experiments[0].inputs = {
         analytic_signal::from([](auto const& t) { return 0.5 + t * sin(t); })};
-    auto const p = affected(base, {effects::input_lag("lag", "u", "N", 5, {0.1_dec, 1_dec})});
+    auto const p = affected(base, {effects::input_lag("lag", "u", "N", {0.1_dec, 1_dec}, 5)});
     CHECK(p.experiments[0].initial[2].lower() == 0.5);
     base.experiments[0].inputs = {analytic_signal::from([](auto const& t) { return 1 / t; })};
-    CHECK_THROWS_AS(affected(base, {effects::input_lag("lag", "u", "N", 5, {0.1_dec, 1_dec})}),
+    CHECK_THROWS_AS(affected(base, {effects::input_lag("lag", "u", "N", {0.1_dec, 1_dec}, 5)}),
                     std::domain_error);
 }
 
@@ -55,7 +55,7 @@ TEST_CASE("a state that starts at an uncertain input starts within its error") {
     auto base = small_campaign::problem();
     base.experiments[0].inputs = {
         sampled_signal({0, 5}, {1, 2}, interpolation::linear, {0.25, 0.5})};
-    auto const p = affected(base, {effects::input_lag("lag", "u", "N", 5, {0.1_dec, 1_dec})});
+    auto const p = affected(base, {effects::input_lag("lag", "u", "N", {0.1_dec, 1_dec}, 5)});
     CHECK(p.experiments[0].initial[2].lower() == 0.75);
     CHECK(p.experiments[0].initial[2].upper() == 1.25);
 }

@@ -175,6 +175,36 @@ TEST_CASE("a delay is found and its witness verified") {
     CHECK(d.causes.front().assumptions.size() == 1);
 }
 
+TEST_CASE("instruments that drift, are askew or clip are named") {
+    using namespace sivid::literals;
+    std::vector<effect> const instruments{
+        effects::sensor_drift("v_drift", "v", "m/s^2", {-0.2_dec, 0.2_dec}),
+        effects::sensor_rotation("askew", {"p", "v"}, {-0.5_dec, 0.5_dec}),
+        effects::sensor_saturation("v_clipped", "v", "m/s", {0.25_dec, 2_dec})};
+    auto catalogue = small_campaign::catalogue();
+    catalogue.insert(catalogue.end(), instruments.begin(), instruments.end());
+    for (std::size_t k = 0; k < instruments.size(); ++k) {
+        auto problem = small_campaign::problem({});
+        for (auto& e : problem.experiments) {
+            for (std::size_t n = 0; n + 1 < e.measurements.size(); n += 2) {
+                auto &p = e.measurements[n].bound, &v = e.measurements[n + 1].bound;
+                double const y = mid(p), z = mid(v), t = e.measurements[n].time;
+                double const seen_y = k == 1 ? std::cos(0.25) * y - std::sin(0.25) * z : y;
+                double const seen_z = k == 0   ? z + 0.05 * t
+                                      : k == 1 ? std::sin(0.25) * y + std::cos(0.25) * z
+                                               : std::fmax(-0.5, std::fmin(z, 0.5));
+                p = interval(seen_y - 0.03, seen_y + 0.03);
+                v = interval(seen_z - 0.03, seen_z + 0.03);
+            }
+        }
+        auto const d = diagnose(problem, catalogue, {});
+        for (auto const& c : find_contradictions(d.result)) FAIL_CHECK(c.claim + ": " + c.reason);
+        CHECK(d.result.gap == gap_verdict::certified);
+        CHECK(d.result.answer == answer_kind::effects);
+        CHECK(d.result.effects == names{instruments[k].name});
+    }
+}
+
 TEST_CASE("what no catalogue has stays unexplained") {
     small_campaign::truth gust;
     gust.missing = [](double t, double, double) { return t > 1 && t < 1.6 ? 1.5 : 0.0; };

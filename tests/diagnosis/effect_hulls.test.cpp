@@ -15,7 +15,7 @@ namespace {
 
 std::vector<effect> const late{effects::input_delay("late", "u", {0_dec, 0.5_dec})};
 std::vector<effect> lag(bool rests = false) {
-    return {effects::input_lag("lag", "u", "N", 5, {0_dec, 1_dec}, rests)};
+    return {effects::input_lag("lag", "u", "N", {0_dec, 1_dec}, 5, rests)};
 }
 /// The cart pushed through a lag. One experiment: its truth knows one input.
 identification_problem with_lag(double tau) {

@@ -65,7 +65,7 @@ TEST_CASE("an effect keeps the relations that it does not act in") {
     auto const slope = any::constant_rate("slope", "v", "m/s^2", {-1_dec, 1_dec});
     auto const scale = any::sensor_scale("scale", {"p"}, {-0.5_dec, 0.5_dec});
     auto const late = any::input_delay("late", "u", {0_dec, 0.5_dec});
-    auto const lag = any::input_lag("lag", "u", "N", 10, {0_dec, 0.5_dec});
+    auto const lag = any::input_lag("lag", "u", "N", {0_dec, 0.5_dec}, 10);
     CHECK(keeps({}, kinematic()));
     CHECK(keeps({}, dynamic(true)));
     for (auto const& e : {slope, late, lag}) {

@@ -63,7 +63,7 @@ TEST_CASE("a problem in which only the delay is unknown can be verified") {
 }
 
 TEST_CASE("starts of lags follow the parameters") {
-    auto const lag = effects::input_lag("lag", "u", "N", 5, {0.1_dec, 1_dec});
+    auto const lag = effects::input_lag("lag", "u", "N", {0.1_dec, 1_dec}, 5);
     auto const band = effects::input_dead_band("band", "u", "N", {0_dec, 0.25_dec});
     auto const p = affected(small_campaign::problem(), {lag, band});
     approximate_fit guess;

@@ -598,11 +598,18 @@ TEST_CASE("rank bounds the effects on a data set and on a scenario") {
     auto const json = json_of(out / "ranking.json");
     CHECK(json["format"] == "sivid-ranking-1");
     CHECK(json["channels"].size() == 6);
+    auto const& without = json["measurements"]["without"];
+    CHECK(without.size() == 6 + 4);
+    auto const psi = std::find_if(without.begin(), without.end(),
+                                  [](auto const& g) { return g.value("channel", "") == "psi"; });
+    REQUIRE(psi != without.end());
+    CHECK((*psi)["growth"] == nlohmann::json{1, 1}); // the heading follows from the others
+    CHECK_THAT(k.out, ContainsSubstring("without psi (30): nothing changes"));
     CHECK(fs::exists(out / "ranking.html"));
     // On a straight ride nothing is known of the three.
     auto const s = run({"rank", "--scenario", "S1", "--out", (folder.path() / "s1").string()});
     CHECK(s.code == 0);
-    CHECK_THAT(s.out, ContainsSubstring("Sg cannot matter"));
+    CHECK_THAT(s.out, ContainsSubstring("Sg cannot matter") && !ContainsSubstring("without"));
     CHECK(run({"rank", h3, "--scenario", "S1", "--out", out.string()}).code == 2);
     CHECK(run({"rank", "--scenario", "S1", "--unknown", "nothing", "--out", out.string()}).code ==
           2);

@@ -112,3 +112,31 @@ TEST_CASE("a ranking is written with its bounds outward and its witnesses") {
     CHECK(json.at("only_in_products").elements().size() == 2);
     CHECK(json.at("products").elements()[0].string() == "a*b");
 }
+
+TEST_CASE("a ranking writes what measurements are worth, where it was asked") {
+    auto const problem = io_support::two_rates_problem();
+    auto const found = sivid::rank(problem, {.keep_going = [] { return false; }});
+    sivid::measurement_ranking worth;
+    worth.explained = sivid::verdict::consistent;
+    worth.volume = {0.125, 0.25};
+    worth.coordinates = {"a*b"};
+    worth.groups = {
+        {.what = {.experiment = {}, .channel = 0}, .measurements = 6, .growth = {1.5, 2.1}},
+        {.what = {.experiment = 0, .channel = {}, .from = 1.25}, .measurements = 4}};
+    auto const json =
+        sivid::parse_json("ranking.json", sivid::ranking_json(problem, found, {}, &worth));
+    auto const& told = json.at("measurements");
+    CHECK(told.at("explained").string() == "consistent");
+    CHECK(told.at("coordinates").elements()[0].string() == "a*b");
+    auto const& groups = told.at("without").elements();
+    REQUIRE(groups.size() == 2);
+    CHECK(groups[0].at("channel").string() == problem.model.about.channels[0].name);
+    CHECK(number(groups[0].at("growth").elements()[0]) == 1.5);
+    CHECK(number(groups[0].at("growth").elements()[1]) >= 2.1);
+    CHECK(groups[1].at("experiment").string() == "run");
+    CHECK(number(groups[1].at("from")) == 1.25);
+    CHECK(groups[1].find("to") == nullptr);
+    CHECK(groups[1].at("growth").elements()[1].type() == sivid::json_value::kind::null);
+    auto const silent = sivid::parse_json("ranking.json", sivid::ranking_json(problem, found, {}));
+    CHECK(silent.find("measurements") == nullptr);
+}

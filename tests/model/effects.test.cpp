@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <stdexcept>
 
 using namespace sivid;
 using namespace sivid::literals;
@@ -37,7 +38,7 @@ struct cart {
 double at(recorded_model const& m, node_id n, double u, double parameter) {
     graph g;
     auto const image = copy_into(g, m.g, {n}, [&](node const& leaf, graph& to) {
-        double const states[] = {-0.5, 2, 0.25}, constants[] = {2, parameter};
+        double const states[] = {-0.5, 2, 0.25}, constants[] = {2, parameter, parameter};
         auto const k = static_cast<std::size_t>(leaf.index);
         return to.constant(leaf.op == operation::state      ? states[k]
                            : leaf.op == operation::constant ? constants[k]
@@ -68,14 +69,14 @@ TEST_CASE("effects of inputs") {
     CHECK(rate(limit, 0, 1.5, 0.5) == 1);
     CHECK(rate(limit, 0, -1.5, 0.5) == -1);
     CHECK(rate(limit, 0, 0.25, 0.5) == 0.5);
-    CHECK(rate(effects::input_trim("e", "u", "b", "N", prior), 0, 1, 0.5) == 3);
+    CHECK(rate(effects::input_trim("e", "u", "N", prior), 0, 1, 0.5) == 3);
     CHECK(rate(effects::input_gain("e", "u", prior), 0, 1, 0.5) == 3);
-    auto const lag = effects::input_lag("e", "u", "N", 10, prior);
+    auto const lag = effects::input_lag("e", "u", "N", prior, 10);
     CHECK(rate(lag, 0, 7, 0.5) == 0.5);
     CHECK(rate(lag, 2, 7, 0.5) == (7 - 0.25) / 0.5);
     auto const model = with(cart{}, lag);
     CHECK(at(model, model.added_states[0].at_begin, 7, 0.5) == 7);
-    auto const resting = with(cart{}, effects::input_lag("e", "u", "N", 10, prior, true));
+    auto const resting = with(cart{}, effects::input_lag("e", "u", "N", prior, 10, true));
     CHECK(at(resting, resting.added_states[0].at_begin, 7, 0.5) == 0);
     CHECK(with(cart{}, effects::input_delay("e", "u", prior)).input_delays.size() == 1);
 }
@@ -95,15 +96,27 @@ TEST_CASE("effects of sensors") {
     auto const scale = effects::sensor_scale("e", {"y", "z"}, prior);
     CHECK(channel(scale, 0, 0.5) == -0.75);
     CHECK(channel(scale, 1, 0.5) == 3);
+    CHECK(channel(effects::sensor_drift("e", "y", "m/s^2", prior), 0, 0.5) == 1); // at t = 3
+    auto const clipped = effects::sensor_saturation("e", "z", "m", {0_dec, 9_dec});
+    CHECK(channel(clipped, 1, 0.5) == 0.5);
+    CHECK(channel(clipped, 0, 0.5) == -0.5);
+    CHECK(channel(clipped, 1, nearest(clipped.parameters[0].neutral)) == 2);
+    auto const askew = effects::sensor_rotation("e", {"y", "z"}, prior);
+    CHECK(std::abs(channel(askew, 0, 0.5) - (-0.5 * std::cos(0.5) - 2 * std::sin(0.5))) < 1e-15);
+    CHECK(std::abs(channel(askew, 1, 0.5) - (-0.5 * std::sin(0.5) + 2 * std::cos(0.5))) < 1e-15);
+    CHECK(channel(askew, 1, 0) == 2);
+    CHECK_THROWS_AS(effects::sensor_rotation("e", {"y"}, prior), std::invalid_argument);
+    // What an instrument cannot show it cannot show however it is mounted and scaled.
+    auto const both = with(cart{}, clipped, effects::sensor_scale("f", {"z"}, {1_dec, 1_dec}));
+    CHECK(at(both, both.observe[1], 0, 0.5) == 0.5);
     auto const late = with(cart{}, effects::sensor_latency("e", {"y", "z"}, prior));
     CHECK(late.channel_delays.size() == 2);
 }
 
 TEST_CASE("the neutral value leaves the model as it is") {
     for (auto const& e :
-         {effects::input_dead_band("e", "u", "N", prior),
-          effects::input_trim("e", "u", "b", "N", prior), effects::input_gain("e", "u", prior),
-          effects::constant_rate("e", "x", "m/s^2", prior),
+         {effects::input_dead_band("e", "u", "N", prior), effects::input_trim("e", "u", "N", prior),
+          effects::input_gain("e", "u", prior), effects::constant_rate("e", "x", "m/s^2", prior),
           effects::linear_damping("e", "x", prior), effects::drift("e", "c", prior),
           effects::input_saturation("e", "u", "N", prior)}) {
         double const neutral = nearest(e.parameters[0].neutral);

@@ -6,6 +6,8 @@
 
 #include <sivid/report/ranking_page.hpp>
 
+#include <limits>
+
 using namespace sivid::report;
 using namespace sivid_tests;
 using namespace decision_support;
@@ -32,4 +34,42 @@ TEST_CASE("a ranking shows a bar for what acts and says what cannot matter") {
     auto const open = ranking_page(problem, cut, {.dataset = "d"}).str();
     CHECK(markup_error(body_of(open)) == "");
     CHECK_THAT(open, ContainsSubstring("some bounds still apart"));
+}
+
+TEST_CASE("a ranking shows what measurements are worth") {
+    auto const p = decay({{between(0.5, 1)}}, {sivid::interval(2.0)}, 2);
+    sivid::identification_problem problem{p.model, p.choice, p.sets[0], {}};
+    sivid::experiment e;
+    e.name = "run <3>";
+    e.initial = p.initial;
+    e.measurements = {{1, 0, between(0.9, 1)}, {2, 0, between(0, 1.9)}};
+    problem.experiments = {e};
+    auto const found = sivid::rank(problem);
+    auto const worth = sivid::rank_measurements(problem, {.times = 2});
+    auto const text = ranking_page(problem, found, {.dataset = "d"}, &worth).str();
+    CHECK(markup_error(body_of(text)) == "");
+    CHECK_THAT(text, ContainsSubstring("Which measurements matter") &&
+                         ContainsSubstring("nothing changes") &&
+                         ContainsSubstring("from 1.50 s on"));
+    auto none = worth;
+    none.groups.clear();
+    none.explained = sivid::verdict::inconsistent;
+    CHECK_THAT(ranking_page(problem, found, {.dataset = "d"}, &none).str(),
+               ContainsSubstring("nothing can grow"));
+}
+
+TEST_CASE("groups and growths in words") {
+    sivid::identification_problem about;
+    about.model.about.channels = {{"psi", "rad"}};
+    about.experiments.resize(1);
+    about.experiments[0].name = "S3";
+    CHECK(group_text(about, {.experiment = {}, .channel = 0}) == "psi");
+    CHECK(group_text(about, {.experiment = 0, .channel = 0, .from = 1, .to = 2.5}) ==
+          "psi of S3, 1.00 to 2.50 s");
+    CHECK(group_text(about, {.experiment = {}, .channel = {}, .to = 2.5}) == "before 2.50 s");
+    CHECK(growth_text({1, 1}) == "nothing changes");
+    CHECK(growth_text({2.0534, 2.2588}) == "2.05 to 2.26 times");
+    CHECK(growth_text({1, 1.0999}) == "at most 1.10 times");
+    CHECK(growth_text({1.5, std::numeric_limits<double>::infinity()}) == "at least 1.50 times");
+    CHECK(growth_text({1, std::numeric_limits<double>::infinity()}) == "not bounded");
 }

@@ -37,7 +37,7 @@ inline std::vector<sivid::effect> catalogue() {
     return {overflow(),
             any::sensor_bias("outlet_offset", "y", "V", {-4_dec, 4_dec}),
             any::sensor_scale("sensor_scale", {"y"}, {-0.3_dec, 0.3_dec}),
-            any::input_trim("pump_offset", "u", "d0", "V", {-1_dec, 1_dec}),
+            any::input_trim("pump_offset", "u", "V", {-1_dec, 1_dec}),
             any::input_saturation("pump_saturation", "u", "V", {1_dec, 8_dec}),
             any::linear_damping("leak", "x2", {0_dec, 0.02_dec}),
             any::drift("outlet_drift", "k3", {-0.0002_dec, 0.0002_dec})};

@@ -3,6 +3,7 @@
 #define SIVID_IO_DECISION_JSON_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/decision/measurement_ranking.hpp>
 #include <sivid/decision/prediction.hpp>
 #include <sivid/decision/rank.hpp>
 #include <sivid/decision/verification.hpp>
@@ -39,9 +40,11 @@ struct decision_json_options {
 
 /// `ranking.json` in the format sivid-ranking-1: effects in error bounds, outward; of each measured
 /// channel the strongest first.
-[[nodiscard]] SIVID_DECL std::string ranking_json(identification_problem const& about,
-                                                  ranking const& found,
-                                                  decision_json_options const& options);
+/// @param measurements  what groups of them are worth; null: not asked
+[[nodiscard]] SIVID_DECL std::string
+ranking_json(identification_problem const& about, ranking const& found,
+             decision_json_options const& options,
+             measurement_ranking const* measurements = nullptr);
 
 } // namespace sivid
 

@@ -9,9 +9,10 @@
 #include <utility>
 #include <vector>
 
-/// Effects that any model may have. Each takes what it acts on by name and the prior of its
-/// parameter, since sizes depend on the machine. Orders put the parts of an actuator one behind the
-/// other: delay, dead band, lag, saturation, trim and gain.
+/// Effects that any model may have. Each takes, in this order, its name, what it acts on by name,
+/// the unit of its parameter where that is not fixed, and the parameter's prior, since sizes depend
+/// on the machine; further values come last. Orders put the parts of an actuator one behind the
+/// other: delay, dead band, lag, saturation, trim and gain; an instrument's saturation comes last.
 namespace sivid::effects {
 
 struct range {
@@ -30,17 +31,17 @@ SIVID_DECL effect input_dead_band(std::string const& name, std::string const& in
                                   std::string const& unit, range const& b);
 /// First-order lag: d' = (u - d)/tau replaces u. tau = 0 is a limit, where the right-hand side is
 /// not defined.
+/// @param limit  of |d|, in the unit of the input
 /// @param rests  the lag starts at 0; otherwise at the input's value at the begin
 SIVID_DECL effect input_lag(std::string const& name, std::string const& input,
-                            std::string const& unit, double limit, range const& tau,
+                            std::string const& unit, range const& tau, double limit,
                             bool rests = false);
 /// The input clamped to [-lim, lim].
 SIVID_DECL effect input_saturation(std::string const& name, std::string const& input,
                                    std::string const& unit, range const& lim);
 /// u + d0.
 SIVID_DECL effect input_trim(std::string const& name, std::string const& input,
-                             std::string const& parameter, std::string const& unit,
-                             range const& d0);
+                             std::string const& unit, range const& d0);
 /// (1 + k) u.
 SIVID_DECL effect input_gain(std::string const& name, std::string const& input, range const& k);
 
@@ -61,6 +62,16 @@ SIVID_DECL effect drift(std::string const& name, std::string const& constant, ra
 /// y + b.
 SIVID_DECL effect sensor_bias(std::string const& name, std::string const& channel,
                               std::string const& unit, range const& b);
+/// y + d t: a bias that grows from 0 on.
+SIVID_DECL effect sensor_drift(std::string const& name, std::string const& channel,
+                               std::string const& unit, range const& d);
+/// y clamped to [-lim, lim].
+SIVID_DECL effect sensor_saturation(std::string const& name, std::string const& channel,
+                                    std::string const& unit, range const& lim);
+/// An instrument that is mounted askew by an angle: y cos a - z sin a and y sin a + z cos a for its
+/// two channels, of one unit.
+SIVID_DECL effect sensor_rotation(std::string const& name, std::vector<std::string> const& channels,
+                                  range const& a);
 /// (1 + k) y, for all the channels of one instrument.
 SIVID_DECL effect sensor_scale(std::string const& name, std::vector<std::string> const& channels,
                                range const& k);

@@ -54,6 +54,31 @@ inline std::vector<std::string> names_of_states(model_description const& about) 
     return names;
 }
 
+inline void write_worth(json_writer& json, identification_problem const& about,
+                        measurement_ranking const& found) {
+    json.begin_object();
+    json.key("explained").string(to_string(found.explained)).key("volume");
+    write_bounds(json, found.volume.lower(), found.volume.upper());
+    json.key("coordinates").begin_array(json_writer::layout::one_line);
+    for (auto const& c : found.coordinates) json.string(c);
+    json.end_array().key("complete").boolean(found.complete).key("without").begin_array();
+    for (auto const& g : found.groups) {
+        auto const& what = g.what;
+        json.begin_object(json_writer::layout::one_line);
+        if (what.channel)
+            json.key("channel").string(about.model.about.channels[*what.channel].name);
+        if (what.experiment)
+            json.key("experiment").string(about.experiments[*what.experiment].name);
+        if (std::isfinite(what.from)) json.key("from").nearest(what.from);
+        if (std::isfinite(what.to)) json.key("to").nearest(what.to);
+        json.key("measurements").integer(g.measurements).key("growth");
+        write_bounds(json, g.growth.lower(), g.growth.upper());
+        json.end_object();
+    }
+    json.end_array().key("integrations").integer(found.integrations);
+    json.key("seconds").nearest(found.seconds).end_object();
+}
+
 } // namespace io_detail
 
 SIVID_DECL std::string prediction_json(stored_prediction const& about, prediction const& found,
@@ -159,7 +184,8 @@ SIVID_DECL std::string verification_json(stored_prediction const& about, require
 }
 
 SIVID_DECL std::string ranking_json(identification_problem const& about, ranking const& found,
-                                    decision_json_options const& options) {
+                                    decision_json_options const& options,
+                                    measurement_ranking const* measurements) {
     auto const& names = about.choice.unknown;
     json_writer json;
     json.begin_object();
@@ -205,6 +231,10 @@ SIVID_DECL std::string ranking_json(identification_problem const& about, ranking
     json.end_array().key("products").begin_array(json_writer::layout::one_line);
     for (auto const& c : found.combinations.combinations) json.string(c.formula);
     json.end_array();
+    if (measurements != nullptr) {
+        json.key("measurements");
+        io_detail::write_worth(json, about, *measurements);
+    }
     json.key("parts").integer(found.parts);
     json.key("integrations").integer(found.integrations);
     json.key("seconds").nearest(found.seconds).end_object();

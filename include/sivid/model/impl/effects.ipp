@@ -4,6 +4,8 @@
 
 #include <sivid/model/effects.hpp>
 
+#include <stdexcept>
+
 namespace sivid::effects {
 
 namespace detail {
@@ -36,7 +38,7 @@ SIVID_DECL effect input_dead_band(std::string const& name, std::string const& in
 }
 
 SIVID_DECL effect input_lag(std::string const& name, std::string const& input,
-                            std::string const& unit, double limit, range const& tau, bool rests) {
+                            std::string const& unit, range const& tau, double limit, bool rests) {
     auto e = detail::one(name, "tau", "s", tau, "first-order lag of the input " + input, 2);
     e.on_inputs = [input, unit, limit, rests, name](effect_scope& m) {
         auto& u = m.input(input);
@@ -58,9 +60,8 @@ SIVID_DECL effect input_saturation(std::string const& name, std::string const& i
 }
 
 SIVID_DECL effect input_trim(std::string const& name, std::string const& input,
-                             std::string const& parameter, std::string const& unit,
-                             range const& d0) {
-    auto e = detail::one(name, parameter, unit, d0, "constant offset of the input " + input, 4);
+                             std::string const& unit, range const& d0) {
+    auto e = detail::one(name, "d0", unit, d0, "constant offset of the input " + input, 4);
     e.on_inputs = [input](effect_scope& m) { m.input(input) += m.parameter(); };
     return e;
 }
@@ -117,6 +118,38 @@ SIVID_DECL effect sensor_bias(std::string const& name, std::string const& channe
                               std::string const& unit, range const& b) {
     auto e = detail::one(name, "b", unit, b, "bias of the sensor " + channel);
     e.on_channels = [channel](effect_scope& m) { m.channel(channel) += m.parameter(); };
+    return e;
+}
+
+SIVID_DECL effect sensor_drift(std::string const& name, std::string const& channel,
+                               std::string const& unit, range const& d) {
+    auto e = detail::one(name, "d", unit, d, "drift of the sensor " + channel);
+    e.on_channels = [channel](effect_scope& m) { m.channel(channel) += m.parameter() * m.time(); };
+    return e;
+}
+
+SIVID_DECL effect sensor_saturation(std::string const& name, std::string const& channel,
+                                    std::string const& unit, range const& lim) {
+    auto e =
+        detail::one(name, "lim", unit, lim, "saturation of the sensor " + channel, 1, lim.upper);
+    e.on_channels = [channel](effect_scope& m) {
+        m.channel(channel) = saturate(m.channel(channel), -m.parameter(), m.parameter());
+    };
+    return e;
+}
+
+SIVID_DECL effect sensor_rotation(std::string const& name, std::vector<std::string> const& channels,
+                                  range const& a) {
+    if (channels.size() != 2)
+        throw std::invalid_argument("sensor_rotation '" + name + "': needs two channels");
+    auto e = detail::one(name, "a", "rad", a,
+                         "rotation of the instrument of " + channels[0] + " and " + channels[1]);
+    e.on_channels = [channels](effect_scope& m) {
+        auto const y = m.channel(channels[0]), z = m.channel(channels[1]);
+        auto const c = cos(m.parameter()), s = sin(m.parameter());
+        m.channel(channels[0]) = c * y - s * z;
+        m.channel(channels[1]) = s * y + c * z;
+    };
     return e;
 }
 

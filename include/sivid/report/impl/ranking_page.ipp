@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sivid::report {
@@ -53,8 +54,78 @@ SIVID_DECL std::vector<std::string> ranking_sentences(identification_problem con
     return lines;
 }
 
+SIVID_DECL std::string group_text(identification_problem const& about,
+                                  measurement_group const& group) {
+    std::string text;
+    auto const add = [&text](std::string_view between, std::string const& more) {
+        text += (text.empty() ? std::string{} : std::string{between}) + more;
+    };
+    if (group.channel) add("", about.model.about.channels[*group.channel].name);
+    if (group.experiment) add(" of ", about.experiments[*group.experiment].name);
+    auto const second = [](double t) { return rounded_text(t, rounding::nearest); };
+    bool const from = std::isfinite(group.from), to = std::isfinite(group.to);
+    if (from && to)
+        add(", ", second(group.from) + " to " + second(group.to) + " s");
+    else if (from)
+        add(", ", "from " + second(group.from) + " s on");
+    else if (to)
+        add(", ", "before " + second(group.to) + " s");
+    return text;
+}
+
+SIVID_DECL std::string growth_text(interval const& growth) {
+    if (growth.upper() == 1) return "nothing changes";
+    auto const low = rounded_text(growth.lower(), rounding::down);
+    if (!std::isfinite(growth.upper()))
+        return growth.lower() > 1 ? "at least " + low + " times" : "not bounded";
+    auto const high = rounded_text(growth.upper(), rounding::up);
+    return growth.lower() > 1 ? low + " to " + high + " times" : "at most " + high + " times";
+}
+
+namespace detail {
+
+/// What the data would lose without some of the measurements.
+inline void add_worth(page& out, identification_problem const& about,
+                      measurement_ranking const& found) {
+    out.section("Which measurements matter");
+    if (found.groups.empty()) {
+        out.prose(found.explained == verdict::inconsistent
+                          ? "No parameter explains all of the data: nothing can grow."
+                          : "Nothing was compared.");
+        return;
+    }
+    table t{.columns = {{"without", column_kind::text},
+                        {"measurements", column_kind::number},
+                        {"what explains the rest grows", column_kind::text}},
+            .rows = {}};
+    std::vector<bar> bars;
+    for (auto const& g : found.groups) {
+        auto const name = group_text(about, g.what);
+        t.rows.push_back({name, count_text(g.measurements), growth_text(g.growth)});
+        bars.push_back({.label = name, .value = {g.growth.lower(), g.growth.upper()}});
+    }
+    std::string sides;
+    for (auto const& c : found.coordinates) sides += (sides.empty() ? "" : ", ") + c;
+    out.add(figure{.panels = {draw_bar_chart(bars, {.width = 900,
+                                                    .title = "Growth without them",
+                                                    .quantity = "growth of the volume",
+                                                    .unit = "times",
+                                                    .threshold = 1,
+                                                    .threshold_label = "1"})},
+                   .title = "By how much the set of parameters grows without a group of "
+                            "measurements.",
+                   .caption = "Volumes of " + sides +
+                              ". Full up to what is proved to be added, hatched up to what may be. "
+                              "Where nothing changes, the other measurements imply the group.",
+                   .layout = panel_layout::wide});
+    out.add(t);
+}
+
+} // namespace detail
+
 SIVID_DECL page ranking_page(identification_problem const& about, ranking const& found,
-                             decision_page_options const& o) {
+                             decision_page_options const& o,
+                             measurement_ranking const* measurements) {
     page out{{.kind = "Ranking",
               .title = o.scenario.empty() ? o.dataset : o.scenario,
               .lead = "How far can each parameter alone move the measurements?"}};
@@ -102,6 +173,7 @@ SIVID_DECL page ranking_page(identification_problem const& about, ranking const&
     out.add(f);
     t.caption = "Place: among the parameters; one number where the bounds certify it.";
     out.add(t);
+    if (measurements != nullptr) detail::add_worth(out, about, *measurements);
     out.section("Over what");
     table prior{.columns = {{"parameter", column_kind::symbol}, {"prior", column_kind::number}},
                 .rows = {}};

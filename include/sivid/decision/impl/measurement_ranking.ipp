@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DECISION_IMPL_MEASUREMENT_RANKING_IPP
+#define SIVID_DECISION_IMPL_MEASUREMENT_RANKING_IPP
+
+#include <sivid/decision/measurement_ranking.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/decision/detail/others_leave.hpp>
+#include <sivid/paving/identify.hpp>
+#include <sivid/paving/invert.hpp>
+#include <sivid/paving/work_limit.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+namespace decision_detail {
+
+/// Each channel that is measured, each experiment if there are several, and parts of the time.
+inline std::vector<measurement_group> usual_groups(identification_problem const& problem,
+                                                   std::size_t times) {
+    std::vector<measurement_group> result;
+    for (std::size_t c = 0; c < problem.model.about.channels.size(); ++c)
+        result.push_back({.experiment = {}, .channel = c});
+    for (std::size_t e = 0; problem.experiments.size() > 1 && e < problem.experiments.size(); ++e)
+        result.push_back({.experiment = e, .channel = {}});
+    double first = std::numeric_limits<double>::infinity(), last = -first;
+    for (auto const& e : problem.experiments) {
+        for (auto const& m : e.measurements) {
+            first = std::min(first, m.time);
+            last = std::max(last, m.time);
+        }
+    }
+    auto const end_of = [&](std::size_t k) { // of part k
+        return first + (last - first) * static_cast<double>(k) / static_cast<double>(times);
+    };
+    for (std::size_t k = 1; times > 1 && k <= times; ++k) {
+        measurement_group part;
+        if (k > 1) part.from = end_of(k - 1);
+        if (k < times) part.to = end_of(k);
+        result.push_back(part);
+    }
+    return result;
+}
+
+inline std::size_t count(identification_problem const& problem, measurement_group const& group) {
+    std::size_t n = 0;
+    for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
+        for (auto const& m : problem.experiments[e].measurements) n += group.holds(e, m) ? 1 : 0;
+    }
+    return n;
+}
+
+/// 1 + |more| / |set|.
+inline interval growth_of(subpaving const& set, subpaving const& more) {
+    using traits = interval_traits<interval>;
+    if (!more.has_outer()) return interval(1.0);
+    auto const ratio = [](interval const& a, interval const& b) {
+        bool undefined = false;
+        return traits::add(traits::point(1.0), traits::div(a, b, undefined));
+    };
+    double const least = ratio(more.inner_volume(), set.outer_volume()).lower();
+    double const inside = set.inner_volume().lower();
+    double const most = inside > 0 ? ratio(more.outer_volume(), interval(inside)).upper()
+                                   : std::numeric_limits<double>::infinity();
+    return {std::max(1.0, least), std::max(1.0, most)};
+}
+
+} // namespace decision_detail
+
+SIVID_DECL measurement_ranking rank_measurements(identification_problem const& problem,
+                                                 measurement_ranking_options const& options,
+                                                 std::vector<measurement_group> groups) {
+    auto const begin = std::chrono::steady_clock::now();
+    problem.require_valid();
+    work_limit const limit(options.seconds, options.keep_going);
+    if (groups.empty()) groups = decision_detail::usual_groups(problem, options.times);
+
+    identify_options asking;
+    asking.test.run = options.run;
+    asking.search.sufficient_ratio = 1 / (1 + options.accuracy / 2);
+    asking.search.seconds = options.seconds / 3;
+    asking.search.boxes = options.boxes;
+    asking.search.keep_outside = false;
+    asking.search.keep_going = limit;
+    asking.drawn_boxes = 1;
+    auto const all = identify(problem, asking);
+    auto const& posed = all.products ? all.products->map.problem() : problem;
+    auto const& set = all.products ? all.products->paving : all.paving;
+
+    measurement_ranking result;
+    result.explained = all.verdict;
+    result.coordinates = all.products ? all.products->map.side_names() : problem.choice.unknown;
+    result.volume = {set.inner_volume().lower(), set.outer_volume().upper()};
+    result.integrations = all.integrations;
+    result.complete = true;
+    if (!set.has_outer()) groups.clear();
+    std::vector<box> starts;
+    if (all.guess) {
+        for (std::size_t e = 0; e < all.guess->starts.size(); ++e)
+            starts.push_back(point_within(posed.experiments[e].initial, all.guess->starts[e]));
+    }
+    auto const close = [&](interval const& growth) {
+        return growth.upper() <= growth.lower() * (1 + options.accuracy);
+    };
+    for (std::size_t k = 0; k < groups.size(); ++k) {
+        measurement_worth worth{.what = groups[k],
+                                .measurements = decision_detail::count(problem, groups[k])};
+        if (worth.measurements == 0) continue;
+        work_limit const own(limit.seconds() / static_cast<double>(groups.size() - k), limit);
+        data_test_options test;
+        test.run = options.run;
+        decision_detail::others_leave difference(posed, groups[k], limited(test, own), starts);
+        inversion_options search;
+        search.accuracy_of_hull = true;
+        search.sufficient_ratio = 1;
+        search.seconds = own.seconds();
+        search.boxes = options.boxes;
+        search.keep_outside = false;
+        search.keep_going = own;
+        double const least = set.outer_volume().upper(), most = set.inner_volume().lower();
+        search.progress = [&](paving_progress const& now) {
+            return !(most > 0) ||
+                   !close({1 + now.inner / least, std::max(1.0, 1 + now.outer / most)});
+        };
+        auto const more = invert(difference, posed.prior, search);
+        worth.growth = decision_detail::growth_of(set, more.paving);
+        worth.boxes = more.tested;
+        result.integrations += difference.integrations();
+        result.complete = result.complete && close(worth.growth);
+        result.groups.push_back(std::move(worth));
+    }
+    std::stable_sort(result.groups.begin(), result.groups.end(),
+                     [](measurement_worth const& a, measurement_worth const& b) {
+                         return a.growth.lower() != b.growth.lower()
+                                    ? a.growth.lower() > b.growth.lower()
+                                    : a.growth.upper() > b.growth.upper();
+                     });
+    result.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return result;
+}
+
+} // namespace sivid
+
+#endif
