@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <deque>
 
 namespace withheld {
 
@@ -36,10 +37,36 @@ std::vector<effect> const& catalogue() {
     return all;
 }
 
+namespace {
+
+constexpr std::string_view wider = "_wider";
+
+std::vector<effect> wider_catalogue() {
+    static std::deque<std::string> names; // effects refer to them
+    auto all = catalogue();
+    for (auto& e : all) {
+        bool const vanishes_above = e.name == "rudder_saturation";
+        e.name = names.emplace_back(std::string{e.name} + std::string{wider});
+        for (auto& p : e.parameters) {
+            p.lo *= p.lo < 0 ? 4 : 0.25;
+            if (!vanishes_above) p.hi *= p.hi > 0 ? 4 : 0.25;
+        }
+    }
+    return all;
+}
+
+} // namespace
+
 effect const* effect_named(std::string_view name) {
-    for (auto const& e : catalogue())
-        if (e.name == name) return &e;
+    static std::vector<effect> const wide = wider_catalogue();
+    for (auto const* all : {&catalogue(), &wide})
+        for (auto const& e : *all)
+            if (e.name == name) return &e;
     return nullptr;
+}
+
+std::string plain_name(std::string_view name) {
+    return std::string{name.substr(0, name.size() - (name.ends_with(wider) ? wider.size() : 0))};
 }
 
 std::string six_digits(double value) {

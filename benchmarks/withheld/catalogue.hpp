@@ -27,7 +27,11 @@ struct effect {
 };
 
 std::vector<effect> const& catalogue();
-effect const* effect_named(std::string_view name); // null for an unknown name
+/// Null for an unknown name. "NAME_wider" is NAME over a prior four times as wide: ends at 0, or
+/// where the effect vanishes, stay.
+effect const* effect_named(std::string_view name);
+/// Without "_wider".
+std::string plain_name(std::string_view name);
 
 /// Draws a size into `e`; `scale` 1 is normal, 1/3 weak. `largest_rudder` is the largest angle that
 /// is commanded: a limit above it has no effect.

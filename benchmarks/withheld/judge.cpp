@@ -34,7 +34,8 @@ bool may_be_unexplained(label const& l) { return !l.attainable() || l.effects.si
 
 bool right_answer(label const& l, json const& answer, bool absorbed) {
     auto const kind = answer.at("kind").get<std::string>();
-    auto const said = names_in(member(answer, "effects"));
+    names said; // of an effect beyond its prior the name is right
+    for (auto const& n : names_in(member(answer, "effects"))) said.insert(plain_name(n));
     auto const truth = l.names();
     if (absorbed && kind == "none") return true;
     if (truth.empty()) return false;
@@ -150,7 +151,9 @@ void judge_causes(label const& l, known_fits const& known, json const& d, judgem
     bool const attainable = l.attainable();
     for (auto const& c : member(d, "causes")) {
         auto const effects = names_in(member(c, "effects"));
-        bool const explains = j.absorbed || (attainable && includes(effects, l.names()));
+        auto const held_by = l.held_by();
+        bool const explains =
+            j.absorbed || (held_by && includes(effects, names{held_by->begin(), held_by->end()}));
         auto const least = known.least(effects);
         auto const verdict = member(c, "verdict");
         if (verdict == "explains") {

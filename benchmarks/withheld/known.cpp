@@ -8,12 +8,15 @@
 namespace withheld {
 
 known_fits::known_fits(label const& l, json const& baseline) {
-    auto const truth = l.names();
     for (auto const* column : {"fit_base", "fit_base_best"})
         if (auto const x = l.number(column)) all_.push_back({{}, *x, {}});
-    if (l.attainable()) {
-        known_fit at{truth, l.number("fit_true").value_or(1.0), l.constants_true};
-        for (auto const& [name, values] : l.effects) {
+    if (auto const held_by = l.held_by()) {
+        known_fit at{{held_by->begin(), held_by->end()},
+                     l.number("fit_true").value_or(1.0),
+                     l.constants_true};
+        for (std::size_t e = 0; e < held_by->size(); ++e) {
+            auto const& name = (*held_by)[e];
+            auto const& values = l.effects[e].second;
             auto const& parameters = effect_named(name)->parameters;
             for (std::size_t i = 0; i < values.size() && i < parameters.size(); ++i)
                 at.values[name + '.' + std::string{parameters[i].name}] = values[i];

@@ -78,17 +78,28 @@ std::map<std::string, double> label::values(std::string const& column) const {
     return all;
 }
 
-bool label::attainable() const {
+std::optional<std::vector<std::string>> label::held_by() const {
+    std::vector<std::string> result;
     for (auto const& [name, values] : effects) {
-        auto const* known = effect_named(name);
-        if (known == nullptr) return false;
-        for (std::size_t i = 0; i < values.size() && i < known->parameters.size(); ++i)
-            if (values[i] < known->parameters[i].lo || values[i] > known->parameters[i].hi)
-                return false;
+        auto const holds = [&values = values](effect const* known) {
+            if (known == nullptr) return false;
+            for (std::size_t i = 0; i < values.size() && i < known->parameters.size(); ++i)
+                if (values[i] < known->parameters[i].lo || values[i] > known->parameters[i].hi)
+                    return false;
+            return true;
+        };
+        result.push_back(holds(effect_named(name)) ? name : name + "_wider");
+        if (!holds(effect_named(result.back()))) return std::nullopt;
     }
     for (auto const& [scenario, onset] : values("onsets"))
-        if (onset > 0) return false;
-    return true;
+        if (onset > 0) return std::nullopt;
+    return result;
+}
+
+bool label::attainable() const {
+    auto const names = held_by();
+    return names && std::none_of(names->begin(), names->end(),
+                                 [](auto const& n) { return n != plain_name(n); });
 }
 
 std::vector<label> read_labels(std::filesystem::path const& path) {

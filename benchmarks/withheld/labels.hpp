@@ -25,8 +25,11 @@ struct label {
     std::optional<double> number(std::string const& column) const; // of a further column
     /// "S1=0.9 S2=3" in a further column.
     std::map<std::string, double> values(std::string const& column) const;
-    /// Whether a candidate of the catalogue holds the truth: effects with parameters in their
-    /// priors, everywhere, from the start on.
+    /// The candidate of the catalogue that holds the truth, everywhere and from the start on: for
+    /// each effect its name, or "NAME_wider" where its parameters lie beyond their priors. Nothing
+    /// where none does.
+    std::optional<std::vector<std::string>> held_by() const;
+    /// Whether one does without wider priors.
     bool attainable() const;
 };
 

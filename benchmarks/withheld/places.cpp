@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "places.hpp"
+#include "catalogue.hpp"
 #include "instruments.hpp"
 
 #include <algorithm>
@@ -40,13 +41,14 @@ places places_of(std::string const& effect) {
         {"tether", force},
         {"stribeck", force},
         {"servo", rudder}};
-    if (auto const group = instrument_of(effect); !group.empty()) {
+    auto const name = plain_name(effect);
+    if (auto const group = instrument_of(name); !group.empty()) {
         places at;
         for (std::size_t const k : channels_of(group))
             at.sensors.insert(std::string{channel_names[k]});
         return at;
     }
-    auto const found = table.find(effect);
+    auto const found = table.find(name);
     return found == table.end() ? places{} : found->second;
 }
 

@@ -249,6 +249,7 @@
 #include <sivid/decision/robustness.hpp>
 #include <sivid/decision/verification.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/diagnosis/beyond_prior.hpp>
 #include <sivid/diagnosis/broken_relation.hpp>
 #include <sivid/diagnosis/candidate.hpp>
 #include <sivid/diagnosis/candidate_order.hpp>

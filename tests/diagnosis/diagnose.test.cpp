@@ -335,6 +335,35 @@ TEST_CASE("a long record does not outlast its budget") {
     }
 }
 
+TEST_CASE("an effect that is larger than its prior allows is followed beyond it, and said") {
+    struct planted {
+        small_campaign::truth real;
+        std::string effect;
+        double size;
+    };
+    for (auto const& [real, name, size] :
+         {planted{small_campaign::with_drag(1.5), "quadratic", 1.5},
+          planted{small_campaign::with_slope(-1.25), "slope", -1.25},
+          planted{small_campaign::with_scale(0.75), "scale", 0.75}}) {
+        auto const d = run(real).result;
+        CHECK(d.gap == gap_verdict::certified);
+        REQUIRE(d.answer == answer_kind::effects);
+        CHECK(d.effects == names{name + "_wider"});
+        auto const& c = d.causes.front();
+        REQUIRE(c.effects == names{name + "_wider"});
+        CHECK(c.verdict == cause_verdict::explains);
+        CHECK(std::abs(c.parameters[0].value - size) < 0.15);
+        REQUIRE(c.parameters[0].prior);
+        CHECK(contains(*c.parameters[0].prior, size));
+        if (c.parameters[0].hull) CHECK(contains(*c.parameters[0].hull, size));
+        // Within its prior it explains nothing, and that is not a contradiction.
+        CHECK(std::any_of(d.causes.begin(), d.causes.end(), [&](cause const& other) {
+            return other.effects == names{name} && other.verdict != cause_verdict::explains;
+        }));
+        CHECK(d.tried.complete());
+    }
+}
+
 TEST_CASE("a constant at the end of its prior is named, of the model and of the answer") {
     auto problem = small_campaign::problem(small_campaign::with_slope(0.3));
     problem.prior[0] = interval(1.2, 1.5); // the truth is 1

@@ -113,6 +113,33 @@ TEST_CASE("effects of sensors") {
     CHECK(late.channel_delays.size() == 2);
 }
 
+TEST_CASE("priors are widened where an effect may go further, and nowhere else") {
+    auto const wide = [](effects::range const& prior, decimal neutral) {
+        auto const e =
+            widened({.name = "e", .parameters = {{"k", "1", prior.lower, prior.upper, neutral}}});
+        CHECK(e.name == "e_wider");
+        return e.parameters[0].prior();
+    };
+    auto const same = [](interval const& x, double lo, double hi) {
+        return x.lower() == lo && x.upper() == hi;
+    };
+    CHECK(same(wide({0_dec, 1_dec}, 0_dec), 0, 4)); // a time
+    CHECK(same(wide({-1_dec, 0.5_dec}, 0_dec), -4, 2));
+    CHECK(same(wide({1_dec, 8_dec}, 8_dec), 0.25, 8)); // a limit
+    CHECK(same(wide({-8_dec, -1_dec}, 0_dec), -32, -0.25));
+    CHECK(same(wide({2_dec, 2_dec}, 0_dec), 2, 2)); // stated to be known
+    auto const tenth = wide({0_dec, 0.1_dec}, 0_dec);
+    CHECK(tenth.upper() >= 0.4);
+    CHECK(tenth.upper() < 0.4 + 1e-15);
+    std::vector<effect> const catalogue{effects::input_gain("gain", "u", prior)};
+    auto const found = effects_named(catalogue, {"gain", "gain_wider"});
+    CHECK(found[0].parameters[0].prior().upper() == 1);
+    CHECK(found[1].name == "gain_wider");
+    CHECK(found[1].parameters[0].prior().upper() == 4);
+    CHECK_THROWS_AS(effects_named(catalogue, {"loss_wider"}), std::invalid_argument);
+    CHECK(with(cart{}, found[1]).about.constants.back().name == "gain_wider.k");
+}
+
 TEST_CASE("the neutral value leaves the model as it is") {
     for (auto const& e :
          {effects::input_dead_band("e", "u", "N", prior), effects::input_trim("e", "u", "N", prior),

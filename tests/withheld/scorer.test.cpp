@@ -210,6 +210,25 @@ TEST_CASE("answers to what no candidate holds") {
     CHECK(judge(with("instrument", "lagging_xy", {0.2}), answering({"position_latency"})).right);
     CHECK_FALSE(judge(with("strong", "payload", {0.3}), unexplained).right); // in its prior
 
+    // Beyond its prior, and said so: the wider effect must hold the truth.
+    auto const strong = with("strong", "payload", {0.7});
+    CHECK(judge(strong, answering({"payload_wider"})).right);
+    CHECK_FALSE(judge(strong, answering({"wind_wider"})).right);
+    json wider = answering({"payload_wider"});
+    wider["relations"][0]["equation"] = "surge";
+    wider["where"][0]["name"] = "surge";
+    wider["causes"][0] = {{"effects", {"payload_wider"}},
+                          {"verdict", "explains"},
+                          {"inflation", {0.9, 0.95}},
+                          {"parameters", {{"payload_wider.dm", {0.6, 0.8}}}}};
+    CHECK(judge(strong, wider).hulls_checked == 1);
+    CHECK(false_proofs(strong, wider).empty());
+    wider["causes"][0]["parameters"]["payload_wider.dm"] = {0.75, 0.8};
+    CHECK(false_proofs(strong, wider) == strings{"hull"});
+    wider["causes"][0]["verdict"] = "excluded";
+    CHECK(false_proofs(strong, wider) == strings{"excluded"});
+    CHECK_FALSE(with("strong", "payload", {9}).held_by()); // four times the prior is 2
+
     auto part = with("experiments", "payload", {0.3});
     part.more["onsets"] = "S1=inf S4=inf";
     CHECK_FALSE(part.attainable());

@@ -125,8 +125,7 @@ inline void settle_claims(diagnosis_run& run) {
                                      [&name](effect const& e) { return e.name == name; });
         if (at == run.catalogue.end()) return false;
         return std::all_of(at->parameters.begin(), at->parameters.end(), [](auto const& p) {
-            auto const neutral = nearest(p.neutral);
-            return nearest(p.lower) <= neutral && neutral <= nearest(p.upper);
+            return contains(p.prior(), nearest(p.neutral));
         });
     });
     list_assumptions(run.result);

@@ -4,6 +4,7 @@
 
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/diagnosis/beyond_prior.hpp>
 #include <sivid/diagnosis/candidate.hpp>
 #include <sivid/diagnosis/detail/screened.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
@@ -34,8 +35,9 @@ public:
     }
 
     [[nodiscard]] std::vector<screened> const& candidates() const { return tried_; }
+    /// The effects that candidates name: those of the plan, then others with wider priors.
+    [[nodiscard]] std::vector<effect> const& catalogue() const { return catalogue_; }
     [[nodiscard]] std::size_t measurements() const { return measurements_; }
-    [[nodiscard]] bool stopped() const { return stopped_; }
     [[nodiscard]] std::vector<candidate> figures() const {
         std::vector<candidate> result;
         for (auto const& s : tried_) result.push_back(s.figures);
@@ -48,7 +50,7 @@ public:
         tried_candidates result;
         result.singles = count(singles());
         if (result.singles.tried < result.singles.planned) {
-            auto const n = catalogue_.size();
+            auto const n = planned_;
             auto const k = std::min(n, options_.partners);
             result.pairs.planned = k * (n - k) + k * (k - std::min<std::size_t>(k, 1)) / 2;
         } else {
@@ -56,7 +58,7 @@ public:
         }
         for (std::size_t size = 3; size <= options_.most_effects; ++size) {
             if (explained(size - 1)) break;
-            auto const planned = catalogue_.size() + 1 - std::min(size, catalogue_.size() + 1);
+            auto const planned = planned_ + 1 - std::min(size, planned_ + 1);
             auto const found = std::count_if(tried_.begin(), tried_.end(), [size](auto const& s) {
                 return s.figures.effects.size() == size;
             });
@@ -67,7 +69,8 @@ public:
     }
 
     /// The model itself, every single effect, then pairs, then larger sets where they are asked
-    /// for. Called again, it goes on where it was stopped.
+    /// for; where none explains, those that end at their priors with wider ones. Called again, it
+    /// goes on where it was stopped.
     /// @cost  21 effects: 22 fits, about 20 to 100 for pairs, about 20 for each further effect
     void run() {
         stopped_ = false;
@@ -80,6 +83,7 @@ public:
             join_one_more(size);
         }
         polish();
+        if (!stopped_ && !explained(catalogue_.size())) go_beyond();
     }
 
     /// Descends on from every fit that misses an explanation by little: which side of 1 the largest
@@ -136,7 +140,7 @@ private:
 
     [[nodiscard]] effect_sets singles() const {
         effect_sets wanted;
-        for (std::size_t e = 0; e < catalogue_.size(); ++e) wanted.push_back({e});
+        for (std::size_t e = 0; e < planned_; ++e) wanted.push_back({e});
         return wanted;
     }
     /// @given  all single effects were tried
@@ -147,7 +151,7 @@ private:
         auto partners = ranked_singles();
         partners.resize(std::min(partners.size(), alone ? 1 : options_.partners));
         for (auto const a : partners) {
-            for (std::size_t b = 0; b < catalogue_.size(); ++b) {
+            for (std::size_t b = 0; b < planned_; ++b) {
                 std::vector<std::size_t> pair{std::min(a, b), std::max(a, b)};
                 bool const known = std::find(wanted.begin(), wanted.end(), pair) != wanted.end();
                 if (b != a && !known) wanted.push_back(std::move(pair));
@@ -173,7 +177,7 @@ private:
         if (likeliest == nullptr) return;
         auto const part = likeliest->figures.effects;
         effect_sets larger;
-        for (std::size_t e = 0; e < catalogue_.size(); ++e) {
+        for (std::size_t e = 0; e < planned_; ++e) {
             if (std::find(part.begin(), part.end(), e) != part.end()) continue;
             larger.push_back(united(part, e));
         }
@@ -187,6 +191,24 @@ private:
             }
         }
         try_all(parts);
+    }
+    /// The closest candidates that end at a prior, with wider ones for the effects that do.
+    void go_beyond() {
+        constexpr std::size_t most = 6;
+        auto closest = tried_;
+        std::stable_sort(closest.begin(), closest.end(), [](screened const& a, screened const& b) {
+            return a.figures.inflation < b.figures.inflation;
+        });
+        effect_sets singles, others;
+        for (auto const& s : closest) {
+            auto const further = beyond_prior(s, catalogue_, planned_);
+            if (further == s.figures.effects) continue;
+            (further.size() == 1 ? singles : others).push_back(further);
+            if (singles.size() + others.size() == most) break;
+        }
+        try_all(singles);
+        if (!explained(1)) try_all(others);
+        polish();
     }
     [[nodiscard]] static std::vector<std::size_t> united(std::vector<std::size_t> effects,
                                                          std::size_t one) {
@@ -343,11 +365,12 @@ private:
         return best;
     }
 
-    /// Single effects, the likeliest first.
+    /// Single effects of the plan, the likeliest first.
     [[nodiscard]] std::vector<std::size_t> ranked_singles() const {
         std::vector<screened const*> singles;
         for (auto const& s : tried_) {
-            if (s.figures.effects.size() == 1) singles.push_back(&s);
+            if (s.figures.effects.size() == 1 && s.figures.effects[0] < planned_)
+                singles.push_back(&s);
         }
         std::stable_sort(singles.begin(), singles.end(), [&](auto const* a, auto const* b) {
             return a->figures.score(measurements_) < b->figures.score(measurements_);
@@ -362,6 +385,7 @@ private:
 
     identification_problem base_;
     std::vector<effect> catalogue_;
+    std::size_t planned_ = catalogue_.size(); ///< of them; wider ones follow
     screening_options options_;
     std::vector<screened> tried_;
     std::size_t measurements_ = 0;

@@ -28,6 +28,11 @@ struct effect_parameter {
     decimal lower;
     decimal upper;
     decimal neutral;
+    double widened = 1; ///< a power of 2: how far the ends that may move were moved
+
+    /// From `lower` to `upper`. An end at 0 or at the neutral value is what the effect is made for
+    /// and stays; others lie `widened` times as far out, or so much closer to 0.
+    [[nodiscard]] interval prior() const;
 };
 
 /// Something that a model leaves out, as an edit of its recording: inputs and constants may change
@@ -95,7 +100,10 @@ private:
     std::size_t first_parameter_ = 0;
 };
 
-/// Those of a catalogue that have these names, in the order of the names.
+/// The effect with priors four times as wide, under its name and "_wider".
+[[nodiscard]] SIVID_DECL effect widened(effect e);
+
+/// Those of a catalogue that have these names, in the order of the names; `widened` ones too.
 /// @throws std::invalid_argument  for a name that the catalogue lacks
 [[nodiscard]] SIVID_DECL std::vector<effect> effects_named(std::vector<effect> const& catalogue,
                                                            std::vector<std::string> const& names);

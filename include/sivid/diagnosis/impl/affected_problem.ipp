@@ -13,7 +13,7 @@ SIVID_DECL identification_problem affected(identification_problem const& base,
     for (auto const& e : effects) {
         for (auto const& p : e.parameters) {
             result.choice.unknown.push_back(e.name + "." + p.name);
-            prior.push_back(hull(enclose(p.lower), enclose(p.upper)));
+            prior.push_back(p.prior());
         }
     }
     result.prior = box(std::move(prior));

@@ -163,6 +163,7 @@ private:
         kept_ = share * options_.seconds;
         tried.run();
         run_.candidates = tried.candidates();
+        run_.catalogue = tried.catalogue();
         auto& d = run_.result;
         d.tried = tried.counts();
         std::vector<candidate> figures;

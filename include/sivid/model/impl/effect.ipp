@@ -4,12 +4,45 @@
 
 #include <sivid/model/effect.hpp>
 
+#include <string_view>
+
 namespace sivid {
+
+namespace detail {
+inline constexpr std::string_view wider = "_wider";
+}
+
+SIVID_DECL interval effect_parameter::prior() const {
+    using traits = interval_traits<interval>;
+    auto const out = traits::point(widened), in = traits::point(1 / widened);
+    auto const moved = [&](decimal end, decimal other) {
+        auto const x = enclose(end);
+        double const at = nearest(end);
+        if (at == 0 || at == nearest(neutral) || at == nearest(other)) return x;
+        bool const grows = (at < 0) == (at < nearest(other));
+        return traits::mul(x, grows ? out : in);
+    };
+    return hull(moved(lower, upper), moved(upper, lower));
+}
+
+SIVID_DECL effect widened(effect e) {
+    e.name += detail::wider;
+    if (!e.about.empty()) e.about += ", beyond the prior that was stated";
+    for (auto& p : e.parameters) p.widened *= 4;
+    return e;
+}
 
 SIVID_DECL std::vector<effect> effects_named(std::vector<effect> const& catalogue,
                                              std::vector<std::string> const& names) {
     std::vector<effect> result;
-    for (auto const& name : names) result.push_back(catalogue[index_of(catalogue, name, "effect")]);
+    for (auto name : names) {
+        bool const known = std::any_of(catalogue.begin(), catalogue.end(),
+                                       [&](effect const& e) { return e.name == name; });
+        bool const wider = !known && name.ends_with(detail::wider);
+        if (wider) name.resize(name.size() - detail::wider.size());
+        auto const& found = catalogue[index_of(catalogue, name, "effect")];
+        result.push_back(wider ? widened(found) : found);
+    }
     return result;
 }
 

@@ -124,11 +124,14 @@ inline missing_rate_series drawn(missing_rate_data const& m) {
 } // namespace detail
 
 SIVID_DECL void describe(std::vector<effect> const& catalogue, diagnosis_report_options& options) {
-    for (effect const& e : catalogue) {
+    auto const add = [&options](effect const& e) {
         options.meanings.emplace(e.name, e.about);
-        for (effect_parameter const& p : e.parameters) {
-            options.priors.emplace(e.name + "." + p.name, hull(enclose(p.lower), enclose(p.upper)));
-        }
+        for (effect_parameter const& p : e.parameters)
+            options.priors.emplace(e.name + "." + p.name, p.prior());
+    };
+    for (effect const& e : catalogue) {
+        add(e);
+        add(widened(e));
     }
 }
 
