@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: MIT
-# Parses each of HEADERS (separated by |) with nothing before it, as if what may be compiled once were: a header has to
-# name all that it declares with, and a file of definitions all that it needs beside its header. Where nothing is
-# compiled once both come together; that no order of them is a cycle is a rule of tests/architecture.
-# The line after the include is wrong: the compiler has to get there, and stops there, before it instantiates what the
+# Parses each of HEADERS (separated by |) as if it were alone (header_chains.cmake), and as if what may be compiled once
+# were: a header has to name all that it declares with, and a file of definitions all that it needs beside its header.
+# Where nothing is compiled once both come together; that no order of them is a cycle is a rule of tests/architecture.
+# Of the units every one whose number leaves PART when divided by PARTS.
+# The line after the includes is wrong: the compiler has to get there, and stops there, before it instantiates what the
 # header only defines (three quarters of the time).
 cmake_minimum_required(VERSION 3.22)
 
 string(REPLACE "|" ";" headers "${HEADERS}")
+include("${CMAKE_CURRENT_LIST_DIR}/header_chains.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/system_folders.cmake")
 system_folders(options "${FOLDERS}")
 list(PREPEND options -std=c++20 -DSIVID_COMPILED -DSIVID_COMPILED_MPFI -fsyntax-only -Wfatal-errors -w)
@@ -26,10 +28,21 @@ if(NOT NOTHING_BEFORE)
                     COMMAND_ERROR_IS_FATAL ANY)
     list(APPEND options -fsyntax-only -include "${WORK}/common.hpp")
 endif()
-foreach(header IN LISTS headers)
-    file(WRITE "${WORK}/alone.cpp" "#include <${header}>\nstatic_assert(false, \"end of the header\");\n")
+set(units "${headers}")
+if(NOT NOTHING_BEFORE)
+    string(REGEX REPLACE "[|].*" "" folder "${FOLDERS}")
+    header_chains(units "${folder}" ${headers})
+endif()
+set(number 0)
+foreach(unit IN LISTS units)
+    math(EXPR number "(${number} + 1) % ${PARTS}")
+    if(NOT number EQUAL PART)
+        continue()
+    endif()
+    string(REPLACE "|" ">\n#include <" includes "${unit}")
+    file(WRITE "${WORK}/alone.cpp" "#include <${includes}>\nstatic_assert(false, \"end of the headers\");\n")
     execute_process(COMMAND "${COMPILER}" ${options} "${WORK}/alone.cpp" ERROR_VARIABLE text OUTPUT_QUIET)
-    if(NOT text MATCHES "alone.cpp:2:[^\n]*error[^\n]*end of the header")
-        message(SEND_ERROR "<${header}> does not compile alone:\n${text}")
+    if(NOT text MATCHES "alone.cpp:[0-9]+:[^\n]*error[^\n]*end of the headers")
+        message(SEND_ERROR "one of these does not compile alone:\n#include <${includes}>\n${text}")
     endif()
 endforeach()
