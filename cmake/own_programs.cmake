@@ -32,6 +32,7 @@ if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
         endif()
     endif()
     if(SIVID_SANITIZE)
+        add_compile_definitions(SIVID_SANITIZED)   # some tests wait longer
         add_compile_options(-fsanitize=${SIVID_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
         add_link_options(-fsanitize=${SIVID_SANITIZE})
         if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

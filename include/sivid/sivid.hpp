@@ -239,6 +239,7 @@
 #include <sivid/paving/witness.hpp>
 #include <sivid/paving/work_limit.hpp>
 #include <sivid/decision/cell_bounds.hpp>
+#include <sivid/decision/measurement_group.hpp>
 #include <sivid/decision/measurement_ranking.hpp>
 #include <sivid/decision/motion_cover.hpp>
 #include <sivid/decision/prediction.hpp>

@@ -3,6 +3,7 @@
 #define SIVID_DECISION_MEASUREMENT_RANKING_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/decision/measurement_group.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/run_options.hpp>
 #include <sivid/paving/verdict.hpp>
@@ -10,24 +11,10 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace sivid {
-
-/// Measurements that could be left out together: those of a channel, of an experiment, or between
-/// two times.
-struct measurement_group {
-    std::optional<std::size_t> experiment, channel;         ///< nothing: all of them
-    double from = -std::numeric_limits<double>::infinity(); ///< [s]
-    double to = std::numeric_limits<double>::infinity();    ///< [s], itself not unless infinite
-
-    [[nodiscard]] bool holds(std::size_t e, measurement const& m) const {
-        return (!experiment || *experiment == e) && (!channel || *channel == m.channel) &&
-               m.time >= from && m.time < to;
-    }
-};
 
 /// How hard what measurements are worth is bounded.
 struct measurement_ranking_options {

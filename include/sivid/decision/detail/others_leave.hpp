@@ -2,7 +2,8 @@
 #ifndef SIVID_DECISION_DETAIL_OTHERS_LEAVE_HPP
 #define SIVID_DECISION_DETAIL_OTHERS_LEAVE_HPP
 
-#include <sivid/decision/measurement_ranking.hpp>
+#include <sivid/decision/measurement_group.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/paving/data_test.hpp>
 #include <sivid/paving/local_response.hpp>
 

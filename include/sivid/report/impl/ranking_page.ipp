@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace sivid::report {
@@ -56,21 +55,18 @@ SIVID_DECL std::vector<std::string> ranking_sentences(identification_problem con
 
 SIVID_DECL std::string group_text(identification_problem const& about,
                                   measurement_group const& group) {
-    std::string text;
-    auto const add = [&text](std::string_view between, std::string const& more) {
-        text += (text.empty() ? std::string{} : std::string{between}) + more;
-    };
-    if (group.channel) add("", about.model.about.channels[*group.channel].name);
-    if (group.experiment) add(" of ", about.experiments[*group.experiment].name);
+    std::string what, when;
+    if (group.channel) what = about.model.about.channels[*group.channel].name;
+    if (group.experiment)
+        what += (what.empty() ? "" : " of ") + about.experiments[*group.experiment].name;
     auto const second = [](double t) { return rounded_text(t, rounding::nearest); };
     bool const from = std::isfinite(group.from), to = std::isfinite(group.to);
     if (from && to)
-        add(", ", second(group.from) + " to " + second(group.to) + " s");
-    else if (from)
-        add(", ", "from " + second(group.from) + " s on");
-    else if (to)
-        add(", ", "before " + second(group.to) + " s");
-    return text;
+        when = second(group.from) + " to " + second(group.to) + " s";
+    else if (from || to)
+        when = from ? "from " + second(group.from) + " s on" : "before " + second(group.to) + " s";
+    if (what.empty()) return from && to ? when : "all " + when;
+    return what + (when.empty() ? "" : ", " + when);
 }
 
 SIVID_DECL std::string growth_text(interval const& growth) {
@@ -90,8 +86,8 @@ inline void add_worth(page& out, identification_problem const& about,
     out.section("Which measurements matter");
     if (found.groups.empty()) {
         out.prose(found.explained == verdict::inconsistent
-                          ? "No parameter explains all of the data: nothing can grow."
-                          : "Nothing was compared.");
+                      ? "No parameter explains all of the data: nothing can grow."
+                      : "Nothing was compared.");
         return;
     }
     table t{.columns = {{"without", column_kind::text},
@@ -99,24 +95,33 @@ inline void add_worth(page& out, identification_problem const& about,
                         {"what explains the rest grows", column_kind::text}},
             .rows = {}};
     std::vector<bar> bars;
+    std::string idle;
     for (auto const& g : found.groups) {
         auto const name = group_text(about, g.what);
         t.rows.push_back({name, count_text(g.measurements), growth_text(g.growth)});
-        bars.push_back({.label = name, .value = {g.growth.lower(), g.growth.upper()}});
+        if (g.changes_nothing()) {
+            idle += (idle.empty() ? "" : "; ") + name;
+            continue;
+        }
+        using traits = interval_traits<interval>;
+        auto const more = traits::mul(traits::sub(g.growth, traits::point(1)), traits::point(100));
+        bars.push_back({.label = name, .value = {std::max(0.0, more.lower()), more.upper()}});
     }
+    if (!idle.empty())
+        out.prose("Nothing changes without any one of these, which follow from the others: " +
+                  idle + ".");
     std::string sides;
     for (auto const& c : found.coordinates) sides += (sides.empty() ? "" : ", ") + c;
-    out.add(figure{.panels = {draw_bar_chart(bars, {.width = 900,
+    if (!bars.empty())
+        out.add(
+            figure{.panels = {draw_bar_chart(bars, {.width = 900,
                                                     .title = "Growth without them",
-                                                    .quantity = "growth of the volume",
-                                                    .unit = "times",
-                                                    .threshold = 1,
-                                                    .threshold_label = "1"})},
-                   .title = "By how much the set of parameters grows without a group of "
+                                                    .quantity = "what is added to the volume",
+                                                    .unit = "%"})},
+                   .title = "What is added to the set of parameters without a group of "
                             "measurements.",
                    .caption = "Volumes of " + sides +
-                              ". Full up to what is proved to be added, hatched up to what may be. "
-                              "Where nothing changes, the other measurements imply the group.",
+                              ". Full up to what is proved to be added, hatched up to what may be.",
                    .layout = panel_layout::wide});
     out.add(t);
 }
