@@ -192,7 +192,8 @@ private:
         }
         try_all(parts);
     }
-    /// The closest candidates that end at a prior, with wider ones for the effects that do.
+    /// The closest candidates of one or two effects that end at a prior, with wider ones for those
+    /// that do. (More of them, beyond their priors, would fit anything.)
     void go_beyond() {
         constexpr std::size_t most = 6;
         auto closest = tried_;
@@ -201,6 +202,7 @@ private:
         });
         effect_sets singles, others;
         for (auto const& s : closest) {
+            if (s.figures.effects.size() > 2) continue;
             auto const further = beyond_prior(s, catalogue_, planned_);
             if (further == s.figures.effects) continue;
             (further.size() == 1 ? singles : others).push_back(further);
