@@ -186,9 +186,10 @@ SIVID_DECL page ranking_page(identification_problem const& about, ranking const&
         prior.rows.push_back({about.choice.unknown[j],
                               outward_text({about.prior[j].lower(), about.prior[j].upper()})});
     out.add(prior);
-    out.assumptions({input_assumption(about.experiments) + ".",
-                     "At the instants of the measurements, against half the width of their bounds; "
-                     "what was measured does not enter."});
+    out.assumptions(
+        {input_assumption(about.experiments) + ".",
+         "Effects: at the instants of the measurements, against half the width of their "
+         "bounds; what was measured does not enter."});
     out.footer(o.footer);
     return out;
 }
