@@ -192,21 +192,21 @@ private:
         }
         try_all(parts);
     }
-    /// The closest candidates of one or two effects that end at a prior, with wider ones for those
-    /// that do. (More of them, beyond their priors, would fit anything.)
+    /// The closest candidates of one or two effects that end at a prior, with wider ones there.
     void go_beyond() {
         constexpr std::size_t most = 6;
         auto closest = tried_;
-        std::stable_sort(closest.begin(), closest.end(), [](screened const& a, screened const& b) {
-            return a.figures.inflation < b.figures.inflation;
-        });
+        std::ranges::stable_sort(closest, {},
+                                 [](screened const& s) { return s.figures.inflation; });
         effect_sets singles, others;
         for (auto const& s : closest) {
             if (s.figures.effects.size() > 2) continue;
             auto const further = beyond_prior(s, catalogue_, planned_);
             if (further == s.figures.effects) continue;
-            (further.size() == 1 ? singles : others).push_back(further);
-            if (singles.size() + others.size() == most) break;
+            for (auto const e : further)
+                if (e >= planned_) singles.push_back({e}); // one effect is the simpler answer
+            others.push_back(further);
+            if (others.size() == most) break;
         }
         try_all(singles);
         if (!explained(1)) try_all(others);
