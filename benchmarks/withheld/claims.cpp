@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a diagnosis proves about the truth itself, against a simulation of it.
+#include "confined.hpp"
 #include "judge.hpp"
 #include "measure.hpp"
 #include "reading.hpp"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 namespace withheld {
 
@@ -133,9 +135,9 @@ void check_missing(label const& l, recording const& data, json const& where, jud
     }
 }
 
-/// The inflation of the hold-out data at the label's fit of the model without effects.
-std::optional<double> base_holdout(label const& l, recording const& data) {
-    auto const values = l.values("best_fit");
+/// The inflation of the model without effects at these constants, over hold-out data or the others.
+std::optional<double> base_inflation(label const& l, recording const& data,
+                                     std::map<std::string, double> const& values, bool holdout) {
     if (values.empty()) return std::nullopt;
     world w;
     w.c = data.fixed;
@@ -145,7 +147,7 @@ std::optional<double> base_holdout(label const& l, recording const& data) {
     }
     double most = 0;
     for (auto const& s : data.scenarios) {
-        if (!s.plan.holdout) continue;
+        if (s.plan.holdout != holdout) continue;
         w.motor = s.plan.motor;
         w.rudder = s.plan.rudder;
         channels start{};
@@ -155,6 +157,22 @@ std::optional<double> base_holdout(label const& l, recording const& data) {
         most = std::max(most, inflation_of(all, s.budget));
     }
     return most;
+}
+
+/// Bounds of a part that must grow by no less: neither the true constants nor the label's fit do
+/// with less.
+void check_confined(label const& l, recording const& data, json const& d, judgement& j) {
+    auto const parts = member(member(d, "gap"), "confined");
+    if (!j.absorbed) j.part_right = is_confined_to(l, data, parts.empty() ? json{} : parts.front());
+    for (auto const& part : parts) {
+        double const lower = number(member(part, "factor"), 0).value_or(0);
+        auto const less = loosened(data, part, lower * (1 - 1e-3));
+        for (auto const& values : {l.constants_true, l.values("best_fit")}) {
+            auto const attained = base_inflation(l, less, values, false);
+            j.proof(!attained || *attained > 1, "confined",
+                    confined_text(part) + ", by less than " + short_text(lower));
+        }
+    }
 }
 
 /// Over all parameters that fit as well as is proved: the label's fit and the truth are among them
@@ -178,7 +196,7 @@ void check_over_fits(label const& l, recording const& data, json const& d, judge
     auto const held_by = l.held_by();
     std::optional<double> before;
     if (does_as_well(l.number("fit_base_best"), member(member(d, "gap"), "inflation")))
-        before = base_holdout(l, data);
+        before = base_inflation(l, data, l.values("best_fit"), true);
     for (auto const& c : member(d, "causes")) {
         auto const holdout = member(c, "holdout");
         if (before) check(bounds_in(member(holdout, "over_fits_before")), *before, "before");
@@ -195,6 +213,7 @@ void check_over_fits(label const& l, recording const& data, json const& d, judge
 void check_claims(label const& l, recording const& data, json const& d, judgement& j) {
     check_missing(l, data, member(d, "where"), j);
     check_over_fits(l, data, d, j);
+    check_confined(l, data, d, j);
 }
 
 } // namespace withheld

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "consistency.hpp"
 #include "catalogue.hpp"
+#include "confined.hpp"
 #include "places.hpp"
 #include "reading.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace withheld {
 
@@ -36,6 +38,7 @@ public:
         places();
         causes();
         parts();
+        confined();
         answer();
         shrink();
         return std::move(found_);
@@ -182,6 +185,40 @@ private:
                         name + " alone " + text_of(*part) + " beside all " + text_of(base_));
                 if (part && part->lower > part->upper)
                     add("verdict", name + " alone " + text_of(*part));
+            }
+        }
+    }
+
+    /// Without such a part the model explains the data: all that is proved of the others.
+    void confined() {
+        for (auto const& part : member(member(*d_, "gap"), "confined")) {
+            auto const factor = bounds_in(member(part, "factor")).value_or(bounds{});
+            auto const text = confined_text(part) + ' ' + text_of(factor);
+            if (gap_ == "none") add("confined", text + " beside gap none");
+            if (factor.lower > factor.upper || factor.upper < base_.lower - digits)
+                add("confined", text + " beside all " + text_of(base_));
+            auto const channel = text_of(member(part, "channel"));
+            auto const scenarios = names_in(member(part, "scenarios"));
+            for (auto const& r : member(*d_, "relations")) {
+                names seen, sensors = names_in(member(r, "sensors"));
+                for (auto const& w : member(r, "windows"))
+                    seen.insert(text_of(member(w, "scenario")));
+                bool const apart = !scenarios.empty() && !seen.empty() &&
+                                   std::none_of(seen.begin(), seen.end(), [&](auto const& s) {
+                                       return scenarios.contains(s);
+                                   });
+                if (member(r, "proved") == true &&
+                    (apart || (!channel.empty() && !sensors.contains(channel))))
+                    add("relation", relation_text(r) + " beside all but " + text);
+            }
+            for (auto const& [list, in] :
+                 {std::pair{"scenarios", scenarios}, std::pair{"channels", names{channel}}}) {
+                auto const alone = member(member(*d_, "gap"), list);
+                for (auto const& [name, range] : alone.items()) {
+                    bool const other = !in.empty() && *in.begin() != "" && !in.contains(name);
+                    if (other && number(range, 0).value_or(0) > 1)
+                        add("inflation", name + " alone beside all but " + text);
+                }
             }
         }
     }

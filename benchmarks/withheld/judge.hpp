@@ -28,6 +28,7 @@ struct judgement {
     bool right = false;
     bool open = false; // it says that it did not try everything: neither right nor wrong
     std::optional<bool> place_right; // of the first place; without effect: that there is none
+    std::optional<bool> part_right;  // of the first part that stands alone, where one does
     std::vector<finding> false_proofs;
     std::vector<finding> contradictions; // within the file, whatever the truth is
     std::size_t withdrawn = 0;           // claims that the program found in doubt itself

@@ -2,6 +2,7 @@
 // A cause that is proved to explain the data names parameters and starts that do. They are
 // simulated here, by other code than that which proved them.
 #include "catalogue.hpp"
+#include "confined.hpp"
 #include "judge.hpp"
 #include "measure.hpp"
 #include "reading.hpp"
@@ -150,6 +151,15 @@ void check_witnesses(recording const& data, json const& diagnosis, judgement& j)
     base["effects"] = json::array();
     base["verdict"] = member(base, "verdict") == "none" ? "explains" : "undecided";
     check(base);
+    // Parts that stand alone: with their bounds as wide as is said, the model explains all data.
+    for (auto const& part : member(member(diagnosis, "gap"), "confined")) {
+        auto const factor = number(member(part, "factor"), 1);
+        auto const w = world_of(data, base, member(part, "witness"));
+        j.proof(factor && w && within_priors(data, *w, base, part.at("witness")) &&
+                    inflation_at(loosened(data, part, *factor), *w, part.at("witness"), false) <=
+                        1 + 1e-3,
+                "confined", confined_text(part) + ", its witness");
+    }
 }
 
 } // namespace withheld

@@ -199,6 +199,7 @@ inline void print_summary(sivid::diagnosis const& d, std::string const& id,
               << "\n";
     auto const view = sivid::report::view_of(d);
     for (auto const& words : view.why) std::cout << "  " << words << "\n";
+    for (auto const& c : view.confined) std::cout << "  " << report::confined_clause(c) << "\n";
     for (auto const& p : d.where) {
         std::cout << "  where: " << p.kind << " " << p.name << (p.proved ? " (proved)" : "")
                   << (p.law.empty() ? "" : ", like ") << p.law << "\n";

@@ -257,6 +257,7 @@
 #include <sivid/diagnosis/candidate_verdicts.hpp>
 #include <sivid/diagnosis/channel_tube.hpp>
 #include <sivid/diagnosis/claim_review.hpp>
+#include <sivid/diagnosis/confined_gap.hpp>
 #include <sivid/diagnosis/declared_variation.hpp>
 #include <sivid/diagnosis/describe_candidate.hpp>
 #include <sivid/diagnosis/diagnose.hpp>

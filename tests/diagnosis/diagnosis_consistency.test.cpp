@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/diagnosis/diagnosis_consistency.hpp>
 
+#include <sivid/diagnosis/claim_review.hpp>
+
 #include "support/catch.hpp"
 
 #include <functional>
@@ -15,7 +17,7 @@ diagnosis sound() {
     d.gap = gap_verdict::certified;
     d.inflation = interval(2, 5);
     d.relations.push_back({"sway", {"u", "v", "r"}, true, {"u' varies little"}, {}, false});
-    d.relations.push_back({"psi", {"psi", "r"}, true, {}, {}, true});
+    d.relations.push_back({"psi", {"psi", "v"}, true, {}, {{"S2", 0, 1}}, true});
     suspected_place p{"equation", "sway", true, {"S1", 1, 2}, interval(1, 3), 2, "m/s^2", "", ""};
     p.assumptions = {"one sensor at most errs"};
     d.where.push_back(p);
@@ -41,7 +43,9 @@ diagnosis sound() {
     d.answer = answer_kind::effects;
     d.effects = {"wind"};
     d.shrink_fit = shrink(d.inflation, wind.inflation);
-    d.scenario_inflation = {{"S1", "1", 0, interval(1, 3)}};
+    d.scenario_inflation = {{"S1", "1", 0, interval(1, 3)}, {"S2", "1", 0, interval(0, 3)}};
+    d.channel_inflation = {{"v", "1", 0, interval(1.5, 3)}};
+    d.confined = {{"v", {}, interval(2, 6), {}, {"inputs are held"}}};
     return d;
 }
 
@@ -126,6 +130,34 @@ TEST_CASE("each contradiction is found and withdrawn with what rests on it") {
          [](auto const& d) { return !d.causes[0].parameters[0].hull; }},
         {"a part above the whole", [](auto& d) { d.scenario_inflation[0].hull = interval(6, 8); },
          [](auto const& d) { return !d.scenario_inflation[0].hull; }},
+        {"bounds that grow by no number",
+         [](auto& d) { d.confined[0].factor = unknown_inflation(); },
+         [](auto const& d) { return d.confined.empty(); }},
+        {"bounds of a part that need less than those of all",
+         [](auto& d) { d.confined[0].factor = interval(1, 1.5); },
+         [](auto const& d) { return d.confined.empty(); }},
+        {"a relation without the channel that stands alone",
+         [](auto& d) {
+             d.relations[1].sensors = {"psi", "r"};
+         },
+         [](auto const& d) { return d.relations.size() == 1 && d.confined.size() == 1; }},
+        {"a relation refuted where the rest is explained",
+         [](auto& d) { d.confined[0].scenarios = {"S1"}; },
+         [](auto const& d) { return d.relations.size() == 1 && d.confined.size() == 1; }},
+        {"a scenario missed where the rest is explained",
+         [](auto& d) {
+             d.confined[0].scenarios = {"S1"};
+             d.relations.pop_back();
+             d.scenario_inflation[1].hull = interval(1.5, 2);
+         },
+         [](auto const& d) {
+             return !d.scenario_inflation[1].hull && d.scenario_inflation[0].hull;
+         }},
+        {"a channel missed where the rest is explained",
+         [](auto& d) {
+             d.channel_inflation.push_back({"u", "1", 0, interval(1.5, 2)});
+         },
+         [](auto const& d) { return d.channel_inflation[0].hull && !d.channel_inflation[1].hull; }},
         {"another shrink", [](auto& d) { d.shrink_fit = interval(0.1, 0.2); },
          [](auto const& d) { return !d.shrink_fit; }},
         {"none beside a gap", [](auto& d) { d.answer = answer_kind::none; },

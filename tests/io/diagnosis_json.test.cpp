@@ -30,6 +30,22 @@ TEST_CASE("what stays unexplained is written with its size and place") {
     CHECK(json["remainder"]["where"][0]["name"] == "upper tank");
 }
 
+TEST_CASE("measurements that stand alone are written with their factor and its witness") {
+    diagnosis d;
+    d.confined.push_back(
+        {"v", {"S1", "S3"}, interval(1.5, 2.25), {{{"k", "1/s", 3}}, {}}, {"held"}});
+    d.confined.push_back({"", {"S2"}, interval(0, 4), {}, {}});
+    auto const json = nlohmann::json::parse(diagnosis_json(d, "cart"))["gap"]["confined"];
+    REQUIRE(json.size() == 2);
+    CHECK(json[0]["channel"] == "v");
+    CHECK(json[0]["scenarios"] == nlohmann::json{"S1", "S3"});
+    CHECK(json[0]["factor"] == nlohmann::json{1.5, 2.25});
+    CHECK(json[0]["witness"]["parameters"]["k"] == 3);
+    CHECK(json[0]["assumptions"][0] == "held");
+    CHECK(json[1]["channel"].is_null());
+    CHECK(nlohmann::json::parse(diagnosis_json({}, "cart"))["gap"]["confined"].empty());
+}
+
 TEST_CASE("all that a diagnosis says is written, bounds outward and names quoted") {
     diagnosis d;
     d.gap = gap_verdict::certified;

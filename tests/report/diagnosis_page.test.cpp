@@ -81,6 +81,7 @@ TEST_CASE("diagnosis page: hostile texts stay texts") {
     v.candidates[0].parameters[0].name = v.candidates[0].parameters[0].unit = evil;
     v.candidates[0].holdout->channels[0].name = evil;
     v.candidates[0].witness->initial[0].scenario = evil;
+    v.confined = {{evil, {evil}, {2, 3}}};
     v.scenario_gaps[0].name = v.unobservable[0] = v.next->manoeuvre = evil;
     v.missing_rates[0].equation = v.missing_rates[0].scenario = v.missing_rates[0].unit = evil;
     v.scenarios[0].name = v.scenarios[0].channels[0].name = v.scenarios[0].channels[0].unit = evil;
@@ -173,9 +174,14 @@ TEST_CASE("diagnosis page: a gap that nothing explains") {
             c.tube.clear();
         }
     }
+    v.confined = {{"", {"S4", "S7"}, {3.1, 3.3}}, {"v", {}, {0, 4.2}}};
     std::string const page = written(v, "diagnosis_page_unexplained.html");
     check_contained(page);
     CHECK_THAT(page, ContainsSubstring("Gap (proved); no candidate explains it"));
+    CHECK_THAT(page, ContainsSubstring("all but S4 and S7 is explained (proved)"));
+    CHECK_THAT(page, ContainsSubstring("Which measurements stand alone"));
+    CHECK_THAT(page,
+               ContainsSubstring("those of v, whose bounds must grow by a factor of at most 4.20"));
     CHECK_THAT(page, ContainsSubstring("12 are excluded (proved)"));
     CHECK(page.find("with the closest candidate, best fit") == std::string::npos);
     CHECK(page.find("of the gap (proved)") == std::string::npos);

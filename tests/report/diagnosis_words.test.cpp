@@ -115,6 +115,24 @@ TEST_CASE("diagnosis words: what is left with the closest candidate") {
     CHECK_THAT(remainder_clause(v), !ContainsSubstring("proved"));
 }
 
+TEST_CASE("diagnosis words: which measurements stand alone") {
+    CHECK(part_words({.channel = "v"}) == "v");
+    CHECK(part_words({.scenarios = {"S1", "S3"}}) == "S1 and S3");
+    CHECK(part_words({.channel = "v", .scenarios = {"S3"}}) == "v in S3");
+    confined_view const c{.channel = "v", .factor = {1.6123, 1.6548}};
+    CHECK(missing_fact(confined_clause(c), {"all data but those of v", "1.61 to 1.66", "proved"}) ==
+          "");
+    diagnosis_view v = hovercraft_diagnosis().view();
+    auto const answered = banner_sentence(v);
+    v.confined = {c};
+    CHECK(banner_sentence(v) == answered); // an effect explains all
+    for (auto const kind : {answer_state::unexplained, answer_state::open}) {
+        v.answer = kind;
+        CHECK_THAT(banner_sentence(v), ContainsSubstring(confined_clause(c)));
+        CHECK_THAT(headline(v), ContainsSubstring("; all but v is explained (proved)"));
+    }
+}
+
 TEST_CASE("diagnosis words: bounds are printed outward and open ends are said") {
     CHECK(span_text({3.1024, 3.1987}) == "3.10 to 3.20");
     CHECK(span_text({3.1, infinity}) == "at least 3.10");

@@ -444,6 +444,68 @@ TEST_CASE("missing rates and offsets of sensors against the truth") {
     CHECK(found("input", "W", 1, 2, "S4") == strings{"missing"});
 }
 
+TEST_CASE("parts that stand alone against the truth") {
+    temporary_folder const folder;
+    auto c = draw_campaign(3, 0, {family::bounds});
+    c.id = "w0000";
+    write_dataset(c, folder.path());
+    auto const data = read_recording(folder.path());
+    auto l = labelled("bounds", c.effects);
+    json truth;
+    for (auto const& u : c.unknown)
+        truth["parameters"][u.name] = l.constants_true[u.name] =
+            c.true_constants.*constant_named(u.name);
+    auto const channel = c.effects.at(0).substr(std::string{"bounds_"}.size());
+    auto const at = std::find(channel_names.begin(), channel_names.end(), channel);
+    double const reached = c.bound_factor[static_cast<std::size_t>(at - channel_names.begin())];
+    auto const found = [&](std::string const& name, double lo, double hi, json const& scenarios) {
+        json const part{
+            {"channel", name}, {"scenarios", scenarios}, {"factor", {lo, hi}}, {"witness", truth}};
+        json const d{{"gap", {{"verdict", "certified"}, {"confined", {part}}}}};
+        judgement j;
+        check_claims(l, data, d, j);
+        check_witnesses(data, d, j);
+        CHECK(j.part_right == (name == channel));
+        return kinds_of(j.false_proofs);
+    };
+    json const all = json::array();
+    CHECK(found(channel, 1, reached, all).empty());
+    CHECK(found(channel, 1, 1, all) == strings{"confined"});             // the witness
+    CHECK(found(channel, 1.1 * reached, 3, all) == strings{"confined"}); // the truth needs less
+    CHECK(found(channel, 1, reached, {"S1"}) == strings{"confined"});    // others need it, too
+    CHECK(found(channel == "u" ? "v" : "u", 1, 9, all) == strings{"confined"});
+    truth["parameters"]["Sv"] = 100;
+    CHECK(found(channel, 1, 9, all) == strings{"confined"}); // outside of the prior
+    truth = {};
+    CHECK(found(channel, 1, 9, all) == strings{"confined"}); // no witness
+
+    auto d = good();
+    d["causes"] = json::array();
+    auto const contradicted = [&](json const& part) {
+        d["gap"]["confined"] = {part};
+        d["answer"] = {{"kind", "open"}, {"effects", all}};
+        d["shrink"] = {{"fit", nullptr}, {"holdout", nullptr}};
+        auto kinds = contradictions(d);
+        std::erase(kinds, "untried");
+        return kinds;
+    };
+    d["where"] = all;
+    d["relations"][0]["windows"] = {{{"scenario", "S1"}, {"from", 0}, {"to", 1}}};
+    auto const part = [](json const& name, json const& scenarios, double lo, double hi) {
+        return json{{"channel", name}, {"scenarios", scenarios}, {"factor", {lo, hi}}};
+    };
+    CHECK(contradicted(part("r", all, 4, 5)).empty());
+    CHECK(contradicted(part("r", all, 2, 3)) == strings{"confined"}); // all need 3.1
+    CHECK(contradicted(part("u", all, 4, 5)) == strings{"relation"}); // of r and psi
+    CHECK(contradicted(part(nullptr, {"S1"}, 4, 5)).empty());
+    CHECK(contradicted(part(nullptr, {"S2"}, 4, 5)) == strings{"relation"});
+    d["gap"]["scenarios"] = {{"S1", {2, 3}}, {"S2", {0.5, 3}}};
+    d["gap"]["channels"] = {{"r", {2, 3}}, {"u", {0.5, 3}}};
+    CHECK(contradicted(part("r", all, 4, 5)).empty());
+    d["relations"] = all;
+    CHECK(contradicted(part("u", {"S2"}, 4, 5)) == strings{"inflation", "inflation"});
+}
+
 TEST_CASE("witnesses are simulated again") {
     temporary_folder const folder;
     auto const at = folder.path().string();

@@ -8,10 +8,12 @@
 #include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/diagnosis/place_report.hpp>
 #include <sivid/diagnosis/untouched_relation.hpp>
+#include <sivid/number/interval_traits.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -115,6 +117,109 @@ inline void review_relations(diagnosis_run& run) {
     d.relations.clear();
     for (auto const& f : run.findings) d.relations.push_back(reported(f));
     d.where = reported(run.places, run.findings);
+}
+
+/// Withdraws what is in doubt, and what rests on it, until nothing contradicts anything; every
+/// claim that was withdrawn stands in `d.withdrawn`.
+inline void withdraw_contradictions(diagnosis& d,
+                                    std::function<bool(std::string const&)> const& vanishes = {}) {
+    using about = contradiction::about;
+    for (int pass = 0; pass < 8; ++pass) {
+        auto found = find_contradictions(d, vanishes);
+        if (found.empty()) return;
+        // From behind, so that indices stay.
+        std::stable_sort(found.begin(), found.end(),
+                         [](auto const& a, auto const& b) { return a.index > b.index; });
+        std::size_t gone = d.relations.size();
+        for (auto const& c : found) {
+            d.withdrawn.push_back({c.claim, c.reason});
+            switch (c.kind) {
+            case about::gap:
+                d.gap = gap_verdict::undecided;
+                if (!(d.inflation.lower() <= d.inflation.upper()))
+                    d.inflation = unknown_inflation();
+                break;
+            case about::relation:
+                if (c.index >= gone) break;
+                gone = c.index;
+                d.relations.erase(d.relations.begin() + static_cast<std::ptrdiff_t>(c.index));
+                break;
+            case about::place:
+                d.where[c.index].proved = false;
+                d.where[c.index].missing.reset();
+                d.where[c.index].assumptions.clear();
+                break;
+            case about::cause: {
+                auto& cause = d.causes[c.index];
+                bool const explains = cause.inflation.upper() <= 1;
+                cause.verdict =
+                    explains && cause.witness ? cause_verdict::explains : cause_verdict::undecided;
+                if (!cause.excluded_by.empty()) {
+                    cause.excluded_by.clear();
+                    cause.assumptions.clear();
+                } else {
+                    auto const infinity = unknown_inflation().upper();
+                    cause.inflation = interval_traits<interval>::bounds(
+                        0, explains ? cause.inflation.upper() : infinity);
+                }
+                break;
+            }
+            case about::hull:
+                d.causes[c.index].parameters[c.member].hull.reset();
+                break;
+            case about::part:
+                (c.index < d.scenario_inflation.size()
+                     ? d.scenario_inflation[c.index]
+                     : d.channel_inflation[c.index - d.scenario_inflation.size()])
+                    .hull.reset();
+                break;
+            case about::confined:
+                d.confined.erase(d.confined.begin() + static_cast<std::ptrdiff_t>(c.index));
+                break;
+            case about::shrink:
+                d.shrink_fit.reset();
+                break;
+            case about::answer:
+                std::erase_if(d.indistinguishable, [&d](auto const& other) {
+                    return std::any_of(d.causes.begin(), d.causes.end(), [&](cause const& k) {
+                        return k.effects == other && k.verdict == cause_verdict::excluded;
+                    });
+                });
+                if (d.answer == answer_kind::none || d.answer == answer_kind::effects) {
+                    bool const chosen_excluded =
+                        d.answer == answer_kind::none ||
+                        std::any_of(d.causes.begin(), d.causes.end(), [&d](cause const& k) {
+                            return k.effects == d.effects && k.verdict == cause_verdict::excluded;
+                        });
+                    if (chosen_excluded) d.answer = answer_kind::unexplained, d.effects.clear();
+                } else {
+                    answer_by_proof(d);
+                }
+                break;
+            }
+        }
+    }
+}
+
+/// Adds every assumption that a shown proof rests on to the list of all.
+inline void list_assumptions(diagnosis& d) {
+    auto const add = [&d](std::vector<std::string> const& more) {
+        for (auto const& a : more) {
+            if (std::find(d.assumptions.begin(), d.assumptions.end(), a) == d.assumptions.end()) {
+                d.assumptions.push_back(a);
+            }
+        }
+    };
+    for (auto const& r : d.relations) {
+        if (r.proved) add(r.assumptions);
+    }
+    for (auto const& p : d.where) {
+        if (p.proved) add(p.assumptions);
+    }
+    for (auto const& c : d.causes) {
+        if (c.verdict != cause_verdict::undecided || c.witness) add(c.assumptions);
+    }
+    for (auto const& c : d.confined) add(c.assumptions);
 }
 
 /// The last step of a diagnosis: what contradicts is withdrawn, and every assumption is listed.

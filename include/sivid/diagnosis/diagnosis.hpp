@@ -155,6 +155,18 @@ struct named_witness {
     std::vector<start> starts;
 };
 
+/// Measurements that alone stand against the model: one parameter of the prior explains all the
+/// others, and these, too, once their error bounds grow.
+struct confined_gap {
+    std::string channel{};                ///< empty: every channel
+    std::vector<std::string> scenarios{}; ///< none: every scenario
+    /// The least factor by which the bounds of these measurements alone must grow until a parameter
+    /// explains all data; both ends are proved.
+    inflation_range factor = unknown_inflation();
+    named_witness witness{}; ///< a validated run proves `factor.upper()` there
+    std::vector<std::string> assumptions{};
+};
+
 /// How well hold-out data are met, before and after an effect is joined.
 struct holdout_figures {
     inflation_range inflation_before = unknown_inflation();
@@ -236,7 +248,8 @@ struct diagnosis {
     gap_verdict gap = gap_verdict::undecided;
     inflation_range inflation = unknown_inflation();
     std::vector<named_estimate> scenario_inflation, channel_inflation;
-    std::vector<run_reach> reach; ///< where the gap is undecided: what holds runs back
+    std::vector<confined_gap> confined; ///< parts of the data that alone stand against the model
+    std::vector<run_reach> reach;       ///< where the gap is undecided: what holds runs back
     std::vector<broken_relation_report> relations;
     std::vector<suspected_place> where; ///< most important first
     std::vector<cause> causes;          ///< best first

@@ -17,7 +17,7 @@ namespace sivid {
 
 /// Two claims of one diagnosis that cannot both be true, or a claim without what it rests on.
 struct contradiction {
-    enum class about { gap, relation, place, cause, hull, part, shrink, answer };
+    enum class about { gap, relation, place, cause, hull, part, confined, shrink, answer };
     about kind = about::gap;
     std::size_t index = 0;  ///< of the claim in doubt, in its list
     std::size_t member = 0; ///< of a cause's parameter
@@ -61,6 +61,7 @@ public:
         nested_causes();
         parts(d_->scenario_inflation, 0);
         parts(d_->channel_inflation, d_->scenario_inflation.size());
+        for (std::size_t k = 0; k < d_->confined.size(); ++k) confined(k);
         answer();
         return std::move(found_);
     }
@@ -216,6 +217,52 @@ private:
         }
     }
 
+    /// One parameter explains all but a part: what others contradict without it is in doubt.
+    void confined(std::size_t k) {
+        auto const& c = d_->confined[k];
+        auto const infinity = unknown_inflation().upper();
+        if (!is_range(c.factor) || !(c.factor.upper() < infinity)) {
+            add(about::confined, k, "the rest explained", "its factor is no range");
+        } else if (d_->gap == gap_verdict::none || c.factor.upper() < d_->inflation.lower()) {
+            add(about::confined, k, "bounds that must grow",
+                d_->gap == gap_verdict::none ? "the model as it is explains the data"
+                                             : "all of them must grow by more");
+        } else {
+            beside_confined(c);
+        }
+    }
+    void beside_confined(confined_gap const& c) {
+        auto const outside = [&c](std::string const& scenario) {
+            auto const& in = c.scenarios;
+            return !in.empty() && std::find(in.begin(), in.end(), scenario) == in.end();
+        };
+        std::string const reason = "without a part of the data that it does not rest on the model "
+                                   "as it is explains them";
+        for (std::size_t k = 0; k < d_->relations.size(); ++k) {
+            auto const& r = d_->relations[k];
+            auto const& seen = r.sensors;
+            bool const channel =
+                c.channel.empty() || std::find(seen.begin(), seen.end(), c.channel) != seen.end();
+            bool const apart = !r.windows.empty() &&
+                               std::all_of(r.windows.begin(), r.windows.end(),
+                                           [&](auto const& w) { return outside(w.scenario); });
+            if (r.proved && (!channel || apart)) {
+                add(about::relation, k, "relation " + r.equation, reason);
+            }
+        }
+        auto const alone = [&](std::vector<named_estimate> const& all, std::size_t first,
+                               auto const& is_outside) {
+            for (std::size_t k = 0; k < all.size(); ++k) {
+                if (all[k].hull && all[k].hull->lower() > 1 && is_outside(all[k].name)) {
+                    add(about::part, first + k, "inflation of " + all[k].name, reason);
+                }
+            }
+        };
+        alone(d_->scenario_inflation, 0, outside);
+        alone(d_->channel_inflation, d_->scenario_inflation.size(),
+              [&c](std::string const& name) { return !c.channel.empty() && c.channel != name; });
+    }
+
     void answer() {
         cause const* chosen = nullptr;
         for (std::size_t k = 0; k < d_->causes.size(); ++k) {
@@ -267,6 +314,8 @@ private:
 ///   - a cause that is excluded, or whose inflation is greater, while some of its effects alone
 ///     explain, or do with less: further effects may vanish;
 ///   - a scenario or channel that alone is met worse than all data;
+///   - a part of the data that alone stands against the model, by a factor below that of all, or
+///     beside a relation or an inflation of others, which do without this part;
 ///   - an answer that is excluded, "none" beside a certified gap, "unexplained" beside a cause that
 ///     explains, an excluded cause called not told apart; a shrink that the inflations do not give.
 /// @param vanishes  whether an effect's neutral value lies in its prior; empty: every one's does
@@ -274,105 +323,6 @@ private:
 find_contradictions(diagnosis const& d,
                     std::function<bool(std::string const&)> const& vanishes = {}) {
     return diagnosis_detail::claim_comparison(d, vanishes)();
-}
-
-/// Withdraws what is in doubt, and what rests on it, until nothing contradicts anything; every
-/// claim that was withdrawn stands in `d.withdrawn`.
-inline void withdraw_contradictions(diagnosis& d,
-                                    std::function<bool(std::string const&)> const& vanishes = {}) {
-    using about = contradiction::about;
-    for (int pass = 0; pass < 8; ++pass) {
-        auto found = find_contradictions(d, vanishes);
-        if (found.empty()) return;
-        // From behind, so that indices stay.
-        std::stable_sort(found.begin(), found.end(),
-                         [](auto const& a, auto const& b) { return a.index > b.index; });
-        std::size_t gone = d.relations.size();
-        for (auto const& c : found) {
-            d.withdrawn.push_back({c.claim, c.reason});
-            switch (c.kind) {
-            case about::gap:
-                d.gap = gap_verdict::undecided;
-                if (!(d.inflation.lower() <= d.inflation.upper()))
-                    d.inflation = unknown_inflation();
-                break;
-            case about::relation:
-                if (c.index >= gone) break;
-                gone = c.index;
-                d.relations.erase(d.relations.begin() + static_cast<std::ptrdiff_t>(c.index));
-                break;
-            case about::place:
-                d.where[c.index].proved = false;
-                d.where[c.index].missing.reset();
-                d.where[c.index].assumptions.clear();
-                break;
-            case about::cause: {
-                auto& cause = d.causes[c.index];
-                bool const explains = cause.inflation.upper() <= 1;
-                cause.verdict =
-                    explains && cause.witness ? cause_verdict::explains : cause_verdict::undecided;
-                if (!cause.excluded_by.empty()) {
-                    cause.excluded_by.clear();
-                    cause.assumptions.clear();
-                } else {
-                    auto const infinity = unknown_inflation().upper();
-                    cause.inflation = interval_traits<interval>::bounds(
-                        0, explains ? cause.inflation.upper() : infinity);
-                }
-                break;
-            }
-            case about::hull:
-                d.causes[c.index].parameters[c.member].hull.reset();
-                break;
-            case about::part:
-                (c.index < d.scenario_inflation.size()
-                     ? d.scenario_inflation[c.index]
-                     : d.channel_inflation[c.index - d.scenario_inflation.size()])
-                    .hull.reset();
-                break;
-            case about::shrink:
-                d.shrink_fit.reset();
-                break;
-            case about::answer:
-                std::erase_if(d.indistinguishable, [&d](auto const& other) {
-                    return std::any_of(d.causes.begin(), d.causes.end(), [&](cause const& k) {
-                        return k.effects == other && k.verdict == cause_verdict::excluded;
-                    });
-                });
-                if (d.answer == answer_kind::none || d.answer == answer_kind::effects) {
-                    bool const chosen_excluded =
-                        d.answer == answer_kind::none ||
-                        std::any_of(d.causes.begin(), d.causes.end(), [&d](cause const& k) {
-                            return k.effects == d.effects && k.verdict == cause_verdict::excluded;
-                        });
-                    if (chosen_excluded) d.answer = answer_kind::unexplained, d.effects.clear();
-                } else {
-                    answer_by_proof(d);
-                }
-                break;
-            }
-        }
-    }
-}
-
-/// Adds every assumption that a shown proof rests on to the list of all.
-inline void list_assumptions(diagnosis& d) {
-    auto const add = [&d](std::vector<std::string> const& more) {
-        for (auto const& a : more) {
-            if (std::find(d.assumptions.begin(), d.assumptions.end(), a) == d.assumptions.end()) {
-                d.assumptions.push_back(a);
-            }
-        }
-    };
-    for (auto const& r : d.relations) {
-        if (r.proved) add(r.assumptions);
-    }
-    for (auto const& p : d.where) {
-        if (p.proved) add(p.assumptions);
-    }
-    for (auto const& c : d.causes) {
-        if (c.verdict != cause_verdict::undecided || c.witness) add(c.assumptions);
-    }
 }
 
 } // namespace sivid

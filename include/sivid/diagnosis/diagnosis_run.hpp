@@ -35,11 +35,12 @@ struct diagnosis_options {
     step_effort exclusions{36, 0.08}; ///< ... and all of them
     step_effort part{2, 0.01};        ///< the inflation of one scenario or channel ...
     double parts_share = 0.05;        ///< ... and of all of them, see `step_effort::share`
-    double first_fit_share = 0.4;     ///< of the model itself
-    double reach_share = 0.02;        ///< why it is not known whether there is a gap
-    double relations_share = 0.1;     ///< which equations cannot hold
-    double verdict_share = 0.15;      ///< kept from the candidates for the proofs about them
-    double discharge_share = 0.15;    ///< whether a sensor, not its equation, may be wrong
+    step_effort confinement{12, 0.06}; ///< which measurements stand alone; boxes: for each of them
+    double first_fit_share = 0.4;      ///< of the model itself
+    double reach_share = 0.02;         ///< why it is not known whether there is a gap
+    double relations_share = 0.1;      ///< which equations cannot hold
+    double verdict_share = 0.15;       ///< kept from the candidates for the proofs about them
+    double discharge_share = 0.15;     ///< whether a sensor, not its equation, may be wrong
     double places_share = 0.25; ///< where the model, and then where the closest candidate departs
     std::size_t remaining_sets = 30; ///< of places that the closest candidate may have wrong
     screening_options screening{};   ///< but for its time: it gets all that the others leave

@@ -3,6 +3,7 @@
 #define SIVID_IMPL_DIAGNOSIS_IPP
 
 #include <sivid/diagnosis/impl/affected_problem.ipp>
+#include <sivid/diagnosis/impl/confined_gap.ipp>
 #include <sivid/diagnosis/impl/diagnose.ipp>
 #include <sivid/diagnosis/impl/diagnosis_run.ipp>
 #include <sivid/diagnosis/impl/effect_hulls.ipp>

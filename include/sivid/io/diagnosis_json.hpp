@@ -79,8 +79,22 @@ private:
         json_.key("inflation").bounds(d_->inflation);
         hulls("scenarios", d_->scenario_inflation);
         hulls("channels", d_->channel_inflation);
+        confined();
         write_reach(json_, d_->reach);
         json_.end_object();
+    }
+    void confined() {
+        json_.key("confined").begin_array();
+        for (auto const& c : d_->confined) {
+            json_.begin_object();
+            text_or_null("channel", c.channel);
+            strings("scenarios", c.scenarios);
+            json_.key("factor").bounds(c.factor);
+            witness(c.witness);
+            strings("assumptions", c.assumptions);
+            json_.end_object();
+        }
+        json_.end_array();
     }
     void relations() {
         json_.key("relations").begin_array();

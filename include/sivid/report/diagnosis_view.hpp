@@ -130,6 +130,13 @@ struct share_of_gap {
     double fitted = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// Measurements that alone stand against the model: one parameter explains all others.
+struct confined_view {
+    std::string channel{};                ///< empty: every one
+    std::vector<std::string> scenarios{}; ///< none: every one
+    range factor{}; ///< by which these bounds must grow until all data are explained; proved
+};
+
 /// What is left of the gap with the candidate that comes closest, when none explains the data.
 struct remainder_view {
     std::vector<std::string> effects{}; ///< of that candidate
@@ -157,6 +164,7 @@ struct diagnosis_view {
     double fitted = 0;              ///< inflation of the model's best fit, not proved; 0: no fit
     std::vector<std::string> why{}; ///< why it is open whether there is a gap
     std::vector<share_of_gap> scenario_gaps{}, channel_gaps{};
+    std::vector<confined_view> confined{};
     std::vector<place_view> places{}; ///< most important first
     std::vector<relation_view> relations{};
 

@@ -10,6 +10,7 @@
 #include <sivid/diagnosis/candidate_order.hpp>
 #include <sivid/diagnosis/candidate_verdicts.hpp>
 #include <sivid/diagnosis/claim_review.hpp>
+#include <sivid/diagnosis/confined_gap.hpp>
 #include <sivid/diagnosis/describe_candidate.hpp>
 #include <sivid/diagnosis/diagnosis_consistency.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
@@ -146,6 +147,7 @@ private:
         auto order = try_candidates(tried, options_.verdict_share);
         bool going = candidate_verdicts(run_, order, effort_, options_).verify();
         bool const proved = answer_by_proof(d);
+        if (!proved && going) confine();
         if (!proved && !d.tried.complete() && going) { // what is left is for the next ones
             order = try_candidates(tried, 0.2 * options_.verdict_share);
             going = candidate_verdicts(run_, order, effort_, options_).verify();
@@ -154,7 +156,20 @@ private:
         if (going) candidate_verdicts(run_, order, effort_, options_).refute();
         describe_remainder();
         propose(order);
+        if (proved) confine();
         measure_parts();
+    }
+
+    /// Which measurements alone stand against the model.
+    void confine() {
+        if (!effort_.go_on("looking which measurements stand alone")) return;
+        double const end = effort_.left() - effort_.seconds_of(options_.confinement);
+        confinement_options options;
+        options.go_on = [this, end] { return effort_.left() >= end && effort_.go_on(); };
+        options.lower = effort_.search(run_.base, options_.confinement);
+        options.lower.keep_going = options.go_on;
+        run_.result.confined = find_confined_gaps(run_.base, run_.candidates.front().fit,
+                                                  run_.result.inflation, options);
     }
 
     /// Tries what is left of the plan and decides what the answer is by then.

@@ -25,7 +25,7 @@ namespace sivid::report {
 namespace detail {
 
 inline void add_places(page& out, diagnosis_view const& v) {
-    if (v.places.empty() && v.relations.empty() && v.scenario_gaps.empty() &&
+    if (v.places.empty() && v.relations.empty() && v.confined.empty() && v.scenario_gaps.empty() &&
         v.channel_gaps.empty()) {
         return;
     }
@@ -42,6 +42,12 @@ inline void add_places(page& out, diagnosis_view const& v) {
             lines.push_back(count_text(v.relations.size() - most) +
                             " more are in the result file.");
         }
+        out.bullets(lines);
+    }
+    if (!v.confined.empty()) {
+        out.subsection("Which measurements stand alone");
+        std::vector<std::string> lines;
+        for (auto const& c : v.confined) lines.push_back(capitalised(confined_clause(c)) + ".");
         out.bullets(lines);
     }
     if (!v.scenario_gaps.empty() || !v.channel_gaps.empty()) {

@@ -175,6 +175,9 @@ SIVID_DECL diagnosis_view view_of(diagnosis const& d, diagnosis_plot_data const&
         return place_view{p.kind,     p.name, p.proved, window(p.where), detail::drawn(p.missing),
                           p.estimate, p.unit, p.law,    p.regime,        p.alternatives};
     };
+    for (confined_gap const& c : d.confined) {
+        v.confined.push_back({c.channel, c.scenarios, detail::drawn(c.factor)});
+    }
     for (suspected_place const& p : d.where) v.places.push_back(place(p));
     for (broken_relation_report const& r : d.relations) {
         relation_view out{r.equation, r.sensors, r.proved, {}, r.assumptions};

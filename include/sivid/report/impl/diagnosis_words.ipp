@@ -206,6 +206,16 @@ SIVID_DECL std::string remainder_clause(diagnosis_view const& v) {
     return proved || fitted ? out + ")" : out + "unknown size is left";
 }
 
+SIVID_DECL std::string part_words(confined_view const& c) {
+    auto const where = enumeration(c.scenarios);
+    return c.channel + (c.channel.empty() || where.empty() ? "" : " in ") + where;
+}
+
+SIVID_DECL std::string confined_clause(confined_view const& c) {
+    return "one parameter explains all data but those of " + part_words(c) +
+           ", whose bounds must grow by a factor of " + inflation_text(c.factor) + " (proved)";
+}
+
 SIVID_DECL std::string open_clause(diagnosis_view const& v) {
     std::string const tried = tried_text(v);
     candidate_view const* closest = nullptr;
@@ -225,10 +235,13 @@ SIVID_DECL std::string headline(diagnosis_view const& v) {
     std::string const gap = v.gap == gap_state::absent    ? "No gap (proved)"
                             : v.gap == gap_state::present ? "Gap (proved)"
                                                           : "Gap not decided";
-    if (v.answer == answer_state::unexplained) return gap + "; no candidate explains it";
+    std::string const rest = v.confined.empty() ? ""
+                                                : "; all but " + part_words(v.confined.front()) +
+                                                      " is explained (proved)";
+    if (v.answer == answer_state::unexplained) return gap + "; no candidate explains it" + rest;
     if (v.answer == answer_state::open) {
         std::string const tried = tried_text(v);
-        return gap + "; open" + (tried.empty() ? "" : ": " + tried);
+        return gap + "; open" + (tried.empty() ? "" : ": " + tried) + rest;
     }
     if (v.answer == answer_state::nothing || v.effects.empty()) return gap;
     candidate_view const* const c = answer_of(v);
@@ -265,6 +278,7 @@ SIVID_DECL std::string banner_sentence(diagnosis_view const& v) {
         parts.push_back(shrink_clause(v.shrink_holdout, "the hold-out data"));
     } else if (v.answer == answer_state::open) {
         parts.push_back(open_clause(v));
+        if (!v.confined.empty()) parts.push_back(confined_clause(v.confined.front()));
         if (!v.places.empty()) parts.push_back(place_clause(v.places.front()));
     } else if (v.answer == answer_state::unexplained) {
         auto const excluded =
@@ -277,6 +291,7 @@ SIVID_DECL std::string banner_sentence(diagnosis_view const& v) {
             (excluded > 0
                  ? ", " + count_text(static_cast<std::size_t>(excluded)) + " are excluded (proved)"
                  : std::string{}));
+        if (!v.confined.empty()) parts.push_back(confined_clause(v.confined.front()));
         parts.push_back(remainder_clause(v));
         if (!v.places.empty()) parts.push_back(place_clause(v.places.front()));
     } else if (v.gap != gap_state::absent && !v.places.empty()) {

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_CONFINED_GAP_HPP
+#define SIVID_DIAGNOSIS_CONFINED_GAP_HPP
+
+#include <sivid/approximate/approximate_fit.hpp>
+#include <sivid/compiled.hpp>
+#include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/measurement/record.hpp>
+#include <sivid/model/problem.hpp>
+#include <sivid/number/interval_traits.hpp>
+#include <sivid/paving/inflation.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sivid {
+
+/// Measurements of one channel, of some experiments, or of both.
+struct data_part {
+    std::optional<std::size_t> channel{};   ///< nothing: every one
+    std::vector<std::size_t> experiments{}; ///< none: every one
+
+    [[nodiscard]] bool holds(std::size_t e, measurement const& m) const {
+        bool const here = experiments.empty() ||
+                          std::find(experiments.begin(), experiments.end(), e) != experiments.end();
+        return here && (!channel || m.channel == *channel);
+    }
+};
+
+/// The problem with the error bounds of a part so many times as wide, about the same middles.
+/// @guarantee  the bounds are rounded outward
+[[nodiscard]] inline identification_problem loosened(identification_problem p,
+                                                     data_part const& part, double factor) {
+    using traits = interval_traits<interval>;
+    for (std::size_t e = 0; e < p.experiments.size(); ++e) {
+        for (auto& m : p.experiments[e].measurements) {
+            if (!part.holds(e, m)) continue;
+            auto const reach = traits::mul(traits::point(rad(m.bound)), traits::point(factor));
+            auto const middle = traits::point(mid(m.bound));
+            m.bound = traits::bounds(traits::sub(middle, reach).lower(),
+                                     traits::add(middle, reach).upper());
+        }
+    }
+    return p;
+}
+
+struct confinement_options {
+    std::size_t most = 4;          ///< experiments tried at each step where several are left out
+    inflation_options lower{};     ///< for the lower end of each factor
+    std::function<bool()> go_on{}; ///< false ends it with what was found; may be empty
+};
+
+/// Which measurements alone stand against a model: parts without which one parameter of the prior
+/// explains all the others, and the factor by which the bounds of the part must then grow. Tried
+/// are every channel, every experiment, a channel in one experiment and, where none of them is
+/// enough, experiments left out one after the other; a part that holds another one is not given.
+/// @param fit    of the problem
+/// @param whole  what is proved about its inflation
+/// @guarantee  each factor contains the least one; its upper end is finite, the witness attains it
+/// @cost  a fit for every channel and every experiment, about ten for each part that is found
+[[nodiscard]] SIVID_DECL std::vector<confined_gap>
+find_confined_gaps(identification_problem const& p, approximate_fit const& fit,
+                   inflation_range const& whole, confinement_options const& options);
+
+} // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/diagnosis/impl/confined_gap.ipp>
+#endif
+
+#endif
