@@ -149,6 +149,19 @@ TEST_CASE("outliers stay allowed where bounds grow") {
     CHECK(found[0].factor.lower() <= without[0].factor.upper()); // more is allowed
 }
 
+TEST_CASE("what no search proves from below is what all bounds need") {
+    auto const p = small_campaign::problem(small_campaign::with_scale(0.2));
+    auto const at = fit(p);
+    auto const whole = bound_inflation(p, &at).value;
+    confinement_options options;
+    options.lower.keep_going = [] { return false; };
+    for (auto const& known : {whole, unknown_inflation(), interval(0.5, 20)}) {
+        auto const found = find_confined_gaps(p, at, known, options);
+        REQUIRE(found.size() == 1);
+        CHECK(found[0].factor.lower() == (known.lower() > 1 ? known.lower() : 0));
+    }
+}
+
 TEST_CASE("a search that is stopped claims nothing unproved") {
     auto const p = small_campaign::problem(small_campaign::with_scale(0.2));
     for (int most = 0; most < 60; most += 7) {
