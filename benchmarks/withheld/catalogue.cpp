@@ -58,6 +58,7 @@ std::vector<effect> wider_catalogue() {
 } // namespace
 
 effect const* effect_named(std::string_view name) {
+    name = name.substr(0, name.find('@'));
     static std::vector<effect> const wide = wider_catalogue();
     for (auto const* all : {&catalogue(), &wide})
         for (auto const& e : *all)
@@ -66,7 +67,15 @@ effect const* effect_named(std::string_view name) {
 }
 
 std::string plain_name(std::string_view name) {
+    name = name.substr(0, name.find('@'));
     return std::string{name.substr(0, name.size() - (name.ends_with(wider) ? wider.size() : 0))};
+}
+
+bool acts_in(std::string_view name, std::string_view scenario) {
+    auto const at = name.find('@');
+    if (at == std::string_view::npos) return true;
+    auto const listed = '+' + std::string{name.substr(at + 1)} + '+';
+    return listed.find('+' + std::string{scenario} + '+') != std::string::npos;
 }
 
 std::string six_digits(double value) {

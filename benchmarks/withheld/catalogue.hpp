@@ -28,10 +28,12 @@ struct effect {
 
 std::vector<effect> const& catalogue();
 /// Null for an unknown name. "NAME_wider" is NAME over a prior four times as wide: ends at 0, or
-/// where the effect vanishes, stay.
+/// where the effect vanishes, stay. "NAME@S4+S5" is NAME in these scenarios only.
 effect const* effect_named(std::string_view name);
-/// Without "_wider".
+/// Without "_wider" and "@S4+S5".
 std::string plain_name(std::string_view name);
+/// Whether an effect of this name acts in a scenario.
+bool acts_in(std::string_view name, std::string_view scenario);
 
 /// Draws a size into `e`; `scale` 1 is normal, 1/3 weak. `largest_rudder` is the largest angle that
 /// is commanded: a limit above it has no effect.

@@ -34,8 +34,12 @@ bool may_be_unexplained(label const& l) { return !l.attainable() || l.effects.si
 
 bool right_answer(label const& l, json const& answer, bool absorbed) {
     auto const kind = answer.at("kind").get<std::string>();
-    names said; // of an effect beyond its prior the name is right
-    for (auto const& n : names_in(member(answer, "effects"))) said.insert(plain_name(n));
+    auto const plain = [](json const& effects) { // beyond its prior, or not everywhere: it is right
+        names result;
+        for (auto const& n : names_in(effects)) result.insert(plain_name(n));
+        return result;
+    };
+    auto const said = plain(member(answer, "effects"));
     auto const truth = l.names();
     if (absorbed && kind == "none") return true;
     if (truth.empty()) return false;
@@ -45,7 +49,7 @@ bool right_answer(label const& l, json const& answer, bool absorbed) {
     auto const other = member(answer, "indistinguishable");
     if (!catalogue_holds(truth) || !other.is_array() || other.size() > 3) return false;
     return std::any_of(other.begin(), other.end(),
-                       [&](json const& e) { return names_in(e) == truth; });
+                       [&](json const& e) { return plain(e) == truth; });
 }
 
 /// Lower bounds of the inflation of parts of the data against what fits have found.

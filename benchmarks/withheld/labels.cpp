@@ -4,6 +4,7 @@
 #include "instruments.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -52,6 +53,16 @@ label parsed(std::vector<std::string> const& header, std::vector<std::string> co
     return l;
 }
 
+/// Those of the column of starts, "S1(0,...) S2(...) H1(...)", that are not held out.
+std::vector<std::string> fit_scenarios(std::map<std::string, std::string> const& columns) {
+    std::vector<std::string> all;
+    auto const place = columns.find("starts");
+    if (place == columns.end()) return all;
+    for (auto const& part : split(place->second, ' '))
+        if (!part.starts_with('H')) all.push_back(part.substr(0, part.find('(')));
+    return all;
+}
+
 } // namespace
 
 std::set<std::string> label::names() const {
@@ -91,8 +102,20 @@ std::optional<std::vector<std::string>> label::held_by() const {
         result.push_back(holds(effect_named(name)) ? name : name + "_wider");
         if (!holds(effect_named(result.back()))) return std::nullopt;
     }
-    for (auto const& [scenario, onset] : values("onsets"))
-        if (onset > 0) return std::nullopt;
+    auto const onsets = values("onsets");
+    if (std::all_of(onsets.begin(), onsets.end(), [](auto const& o) { return o.second == 0; }))
+        return result;
+    std::string acting; // where it does, it does from the start on
+    bool everywhere = true;
+    for (auto const& scenario : fit_scenarios(more)) {
+        auto const at = onsets.find(scenario);
+        double const onset = at == onsets.end() ? 0 : at->second;
+        if (onset > 0 && std::isfinite(onset)) return std::nullopt;
+        everywhere = everywhere && onset == 0;
+        if (onset == 0) acting += (acting.empty() ? "@" : "+") + scenario;
+    }
+    if (acting.empty()) return std::nullopt;
+    for (auto& name : result) name += everywhere ? "" : acting;
     return result;
 }
 

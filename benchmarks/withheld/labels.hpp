@@ -25,11 +25,11 @@ struct label {
     std::optional<double> number(std::string const& column) const; // of a further column
     /// "S1=0.9 S2=3" in a further column.
     std::map<std::string, double> values(std::string const& column) const;
-    /// The candidate of the catalogue that holds the truth, everywhere and from the start on: for
-    /// each effect its name, or "NAME_wider" where its parameters lie beyond their priors. Nothing
-    /// where none does.
+    /// The candidate of the catalogue that holds the truth of the fit scenarios, from the start on:
+    /// for each effect its name, or "NAME_wider" where its parameters lie beyond their priors, or
+    /// "NAME@S4+S5" where it acts in these only. Nothing where none does.
     std::optional<std::vector<std::string>> held_by() const;
-    /// Whether one does without wider priors.
+    /// Whether one does without wider priors, in all scenarios.
     bool attainable() const;
 };
 

@@ -34,7 +34,7 @@ std::optional<world> world_of(recording const& data, json const& cause, json con
         auto const* known = effect_named(name.get<std::string>());
         if (known == nullptr) return std::nullopt;
         for (auto const& p : known->parameters) {
-            auto const full = std::string{known->name} + '.' + std::string{p.name};
+            auto const full = name.get<std::string>() + '.' + std::string{p.name};
             if (!parameters.contains(full)) return std::nullopt;
             auto const value = value_in(parameters.at(full));
             if (!value) return std::nullopt;
@@ -56,16 +56,28 @@ channels start_of(scenario const& plan, json const& witness) {
     return start;
 }
 
-double inflation_at(recording const& data, world w, json const& witness, bool holdout) {
+/// Effects that act in some scenarios only are none in the others.
+void switch_off(world& w, json const& cause, std::string const& scenario) {
+    for (auto const& name : names_in(member(cause, "effects"))) {
+        if (acts_in(name, scenario)) continue;
+        for (auto const& p : effect_named(name)->parameters)
+            w.e.*p.member = effect_values{}.*p.member;
+    }
+}
+
+double inflation_at(recording const& data, world const& all, json const& cause, bool holdout) {
+    auto const witness = member(cause, "witness");
     double most = 0;
     for (auto const& s : data.scenarios) {
         if (s.plan.holdout != holdout) continue;
+        auto w = all;
+        switch_off(w, cause, s.plan.name);
         w.motor = s.plan.motor;
         w.rudder = s.plan.rudder;
         auto const model =
             readings(w, start_of(s.plan, witness), s.plan.sample_times, careful_step);
-        auto all = misfits(s, model);
-        most = std::max(most, inflation_of(all, s.budget));
+        auto missed = misfits(s, model);
+        most = std::max(most, inflation_of(missed, s.budget));
     }
     return most;
 }
@@ -112,7 +124,7 @@ void check_holdout(recording const& data, world const& w, json const& cause, jud
     for (auto const* key : {"inflation_after", "over_fits_after"}) {
         auto const range = bounds_in(member(holdout, key));
         if (!range) continue;
-        if (!value) value = inflation_at(data, w, cause.at("witness"), true);
+        if (!value) value = inflation_at(data, w, cause, true);
         bool const above = known_starts && *value > range->upper * (1 + 1e-3);
         bool const below = *value < range->lower * (1 - 1e-3);
         j.proof(!above && !below, "holdout",
@@ -139,7 +151,7 @@ void check_witnesses(recording const& data, json const& diagnosis, judgement& j)
         double const said = number(member(cause, "inflation"), 1)
                                 .value_or(explains ? 1 : std::numeric_limits<double>::infinity());
         double const most = explains ? std::min(said, 1.0) : said;
-        double const value = inflation_at(data, *w, witness, false);
+        double const value = inflation_at(data, *w, cause, false);
         j.proof(value <= most * (1 + 1e-3), "witness",
                 effects + " at most " + short_text(most) + ", simulated " + short_text(value));
         check_holdout(data, *w, cause, j);
@@ -154,10 +166,11 @@ void check_witnesses(recording const& data, json const& diagnosis, judgement& j)
     // Parts that stand alone: with their bounds as wide as is said, the model explains all data.
     for (auto const& part : member(member(diagnosis, "gap"), "confined")) {
         auto const factor = number(member(part, "factor"), 1);
-        auto const w = world_of(data, base, member(part, "witness"));
-        j.proof(factor && w && within_priors(data, *w, base, part.at("witness")) &&
-                    inflation_at(loosened(data, part, *factor), *w, part.at("witness"), false) <=
-                        1 + 1e-3,
+        auto const witness = member(part, "witness");
+        base["witness"] = witness;
+        auto const w = world_of(data, base, witness);
+        j.proof(factor && w && within_priors(data, *w, base, witness) &&
+                    inflation_at(loosened(data, part, *factor), *w, base, false) <= 1 + 1e-3,
                 "confined", confined_text(part) + ", its witness");
     }
 }

@@ -93,15 +93,19 @@ public:
                 request_.inputs.push_back(sivid::exact_signal(input, s.duration));
         }
         if (effects.empty()) return;
-        // The scenario as an experiment, so that states which effects add get their starts.
+        // The scenario as an experiment, so that states which effects add get their starts, and
+        // effects of some experiments are switched.
         auto scenario = problem_;
         scenario.experiments.resize(1);
+        scenario.experiments[0].name = scenario_;
         scenario.experiments[0].inputs = request_.inputs;
         scenario.experiments[0].initial = request_.initial;
         scenario.experiments[0].begin = 0;
         for (auto const& [name, range] : request_.set) scenario.choice.fixed[name] = range;
         problem_ = sivid::affected(problem_, effects);
-        request_.initial = sivid::affected(scenario, effects).experiments[0].initial;
+        auto const joined = sivid::affected(scenario, effects).experiments[0];
+        request_.initial = joined.initial;
+        request_.inputs = joined.inputs;
     }
 
     /// The model, with the effects that the result speaks of.

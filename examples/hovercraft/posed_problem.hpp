@@ -28,8 +28,12 @@ posed(sivid::dataset const& data, sivid::recorded_model const& model,
     auto problem = sivid::problem_from_dataset(data, model, outliers);
     if (effects.empty()) return problem;
     try {
-        problem = sivid::affected(
-            problem, sivid::effects_named(sivid::chosen_effects(catalogue(), data), effects));
+        auto const named = sivid::effects_named(sivid::chosen_effects(catalogue(), data), effects);
+        for (auto const& e : named) {
+            for (auto const& scenario : e.only_in)
+                (void)sivid::index_of(problem.experiments, scenario, "scenario to fit");
+        }
+        problem = sivid::affected(problem, named);
     } catch (std::invalid_argument const& e) {
         throw bad_request(e.what());
     }

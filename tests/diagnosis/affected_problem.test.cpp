@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <sivid/approximate/fit/fit.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>
 
 #include "diagnosis/small_campaign.hpp"
@@ -22,6 +23,32 @@ TEST_CASE("an affected problem has the effects' parameters as further unknowns")
     }
     p.require_valid();
     CHECK(affected(base, {}).prior.size() == 1);
+}
+
+TEST_CASE("effects are switched on in the experiments in which they act") {
+    auto const base = small_campaign::problem();
+    auto const drag = effects::linear_damping("drag", "v", {0_dec, 0.5_dec});
+    auto const slope = effects::constant_rate("slope", "v", "m/s^2", {-1_dec, 1_dec});
+    auto const p =
+        affected(base, {only_within(drag, {"E2"}), slope, only_within(slope, {"E1", "E2"})});
+    CHECK(p.choice.unknown ==
+          std::vector<std::string>{"k", "drag@E2.k", "slope.a", "slope@E1+E2.a"});
+    p.require_valid();
+    for (std::size_t e = 0; e < 2; ++e) {
+        auto const& inputs = p.experiments[e].inputs;
+        REQUIRE(inputs.size() == 3);
+        CHECK(diagnosis_detail::input_at(inputs[1], 0).lower() == (e == 1 ? 1 : 0));
+        CHECK(diagnosis_detail::input_at(inputs[2], 0).lower() == 1);
+    }
+    // With the effect everywhere, and with one that acts in all experiments, runs are the same.
+    auto const at = [&base](effect const& e) {
+        auto const problem = affected(base, {e});
+        return fitter(problem).at({1.1, 0.3}, {{0, 0}, {0, 0.5}}).residuals;
+    };
+    CHECK(at(drag) == at(only_within(drag, {"E1", "E2"})));
+    auto const second = at(only_within(drag, {"E2"}));
+    CHECK(second[1] == at(drag)[1]);
+    CHECK(second[0] == fitter(base).at({1.1}, {{0, 0}, {0, 0.5}}).residuals[0]);
 }
 
 TEST_CASE("starts of added states follow the parameters they depend on") {

@@ -27,3 +27,18 @@ TEST_CASE("only effects whose fit ends at a prior that can be left are widened, 
     wider.figures.effects = {planned};
     CHECK(beyond_prior(wider, catalogue, planned) == std::vector<std::size_t>{planned});
 }
+
+TEST_CASE("an effect has one index in a catalogue") {
+    auto catalogue = small_campaign::catalogue();
+    auto const n = catalogue.size();
+    CHECK(index_of_effect(catalogue, catalogue[2]) == 2);
+    CHECK(index_of_effect(catalogue, only_within(catalogue[2], {"E1"})) == n);
+    CHECK(index_of_effect(catalogue, only_within(catalogue[2], {"E1"})) == n);
+    CHECK(catalogue.size() == n + 1);
+}
+
+TEST_CASE("what sits at the end of its prior is moved to the middle") {
+    auto const problem = small_campaign::problem(); // k in 0.5 .. 1.5
+    CHECK(away_from_ends(problem, {1.5}) == std::vector<double>{1.0});
+    CHECK(away_from_ends(problem, {1.2}) == std::vector<double>{1.2});
+}

@@ -130,6 +130,19 @@ TEST_CASE("experiments that differ are left out one after the other") {
     attack(p, found[0]);
 }
 
+TEST_CASE("parts may be whole experiments only") {
+    confinement_options options;
+    options.channels = false;
+    auto const p = campaign(4, {2}, small_campaign::with_scale(0.3));
+    auto const parts = find_unexplained_parts(p, fit(p), options);
+    REQUIRE(parts.size() == 1);
+    CHECK_FALSE(parts[0].channel);
+    CHECK(parts[0].experiments == std::vector<std::size_t>{2});
+    auto const scaled = small_campaign::problem(small_campaign::with_scale(0.2));
+    CHECK(find_unexplained_parts(scaled, fit(scaled), options).empty());
+    CHECK(find_unexplained_parts(scaled, {}, {}).empty()); // no fit
+}
+
 TEST_CASE("what is wrong everywhere is confined to nothing") {
     CHECK(confined(small_campaign::problem(small_campaign::with_drag(0.3))).empty());
     CHECK(confined(campaign(3, {0, 1, 2}, small_campaign::with_drag(0.3))).empty());

@@ -205,6 +205,48 @@ TEST_CASE("instruments that drift, are askew or clip are named") {
     }
 }
 
+TEST_CASE("an effect that acts in some experiments only is found with them") {
+    auto const in = [](std::vector<std::size_t> const& some, small_campaign::truth const& real) {
+        auto p = small_campaign::problem();
+        p.experiments.clear();
+        for (std::size_t e = 0; e < 5; ++e) {
+            bool const acts = std::find(some.begin(), some.end(), e) != some.end();
+            p.experiments.push_back(
+                small_campaign::experiment(e, acts ? real : small_campaign::truth{}));
+        }
+        return diagnose(p, small_campaign::catalogue(), {}).result;
+    };
+    struct expectation {
+        std::vector<std::size_t> some;
+        small_campaign::truth real;
+        std::string effect;
+        double value;
+    };
+    for (auto const& [some, real, effect, value] :
+         {expectation{{1, 3}, small_campaign::with_drag(0.3), "quadratic@E2+E4", 0.3},
+          {{2}, small_campaign::with_scale(0.25), "scale@E3", 0.25},
+          {{0, 4}, small_campaign::with_slope(0.4), "slope@E1+E5", 0.4},
+          {{0, 1, 2, 4}, small_campaign::with_scale(0.25), "scale@E1+E2+E3+E5", 0.25}}) {
+        auto const d = in(some, real);
+        CAPTURE(effect);
+        for (auto const& c : find_contradictions(d)) FAIL_CHECK(c.claim + ": " + c.reason);
+        CHECK(d.gap == gap_verdict::certified);
+        REQUIRE_FALSE(d.confined.empty());
+        REQUIRE(d.answer == answer_kind::effects);
+        CHECK(d.effects == names{effect});
+        REQUIRE_FALSE(d.causes.empty());
+        CHECK(d.causes[0].verdict == cause_verdict::explains);
+        REQUIRE(d.causes[0].parameters.size() == 1);
+        auto const& hull = d.causes[0].parameters[0].hull;
+        CHECK((!hull || contains(*hull, value)));
+        CHECK_FALSE(d.next);
+    }
+    // A delay has no switch.
+    auto const late = in({1, 3}, small_campaign::with_delay(0.3));
+    for (auto const& c : find_contradictions(late)) FAIL_CHECK(c.claim + ": " + c.reason);
+    for (auto const& e : late.effects) CHECK(e.find("late@") == std::string::npos);
+}
+
 TEST_CASE("what no catalogue has stays unexplained") {
     small_campaign::truth gust;
     gust.missing = [](double t, double, double) { return t > 1 && t < 1.6 ? 1.5 : 0.0; };

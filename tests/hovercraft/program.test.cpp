@@ -718,6 +718,27 @@ TEST_CASE("verify joins the effects that a result names, in whatever order") {
     CHECK(says.err.find("hovercraft: ") == std::string::npos);
 }
 
+TEST_CASE(
+    "effects that act in some scenarios only are identified and predicted with their switch") {
+    temporary_folder const folder;
+    auto const result = (folder.path() / "h3").string();
+    auto const with = [&](std::string const& effects) {
+        return run(
+            {"identify", h3, "--with", effects, "--budget", "2", "--out", result, "--quiet"});
+    };
+    auto const unknown = with("rudder_trim@S9");
+    CHECK(unknown.code == 2);
+    CHECK_THAT(unknown.err, ContainsSubstring("unknown scenario to fit 'S9'"));
+    CHECK_THAT(with("position_latency@S3").err, ContainsSubstring("cannot have a delay"));
+    REQUIRE(with("rudder_trim@S3").code == 0);
+    CHECK(json_of(fs::path(result) / "result.json")["effects"] == nlohmann::json{"rudder_trim@S3"});
+    // S1 goes straight ahead, whatever the trim is in S3.
+    auto const straight = run({"verify", result, "--scenario", "S1", "--require",
+                               "always(abs(v) < 1e-6)", "--budget", "5"});
+    CHECK(straight.code == 0);
+    CHECK_THAT(straight.out, ContainsSubstring("proved"));
+}
+
 TEST_CASE("describe prints the model as text and as a graph, bound or as written") {
     auto const text = run({"describe"});
     CHECK(text.code == 0);

@@ -117,6 +117,65 @@ TEST_CASE("effects are picked from a catalogue by their names") {
                       ContainsSubstring("unknown effect 'b'; known: a, k, x"));
 }
 
+TEST_CASE("an effect in some experiments only has a switch and is none where that is off") {
+    auto const m = with(tank{}, only_within(doubled("a"), {"E2", "E4"}));
+    REQUIRE(m.about.inputs.size() == 2);
+    CHECK(m.about.inputs[1].name == "a@E2+E4");
+    REQUIRE(m.about.constants.size() == 2);
+    CHECK(m.about.constants[1].name == "a@E2+E4.g");
+    struct outcome {
+        double rate;
+        std::size_t constants; ///< that the rate still depends on
+    };
+    auto const at = [&m](double on) {
+        graph g;
+        auto const root = copy_into(g, m.g, m.rate, [on](node const& n, graph& to) {
+            auto const k = static_cast<std::size_t>(n.index);
+            return n.op == operation::input   ? to.constant(k == 0 ? 2.0 : on)
+                   : n.op == operation::state ? to.constant(3.0)
+                                              : to.leaf(n.op, k);
+        });
+        auto const operands = operands_of(g, root);
+        outcome result{0, 0};
+        for (std::size_t k = 0; k < operands.size(); ++k) {
+            if (operands[k] && g.nodes()[k].op == operation::constant) ++result.constants;
+        }
+        graph values;
+        auto const value = copy_into(values, g, root, [](node const& n, graph& to) {
+            return to.constant(n.index == 0 ? 0.5 : 2.5);
+        });
+        result.rate = values.value(values[value.front()]).nearest;
+        return result;
+    };
+    CHECK(at(0).rate == -0.5 * 3 + 2);
+    CHECK(at(0).constants == 1); // k: the effect is gone, not only small
+    CHECK(at(1).rate == -0.5 * 3 + 2.5 * 2);
+    CHECK(at(1).constants == 2);
+
+    std::vector<effect> const catalogue{doubled("a"), doubled("b")};
+    auto const named = effects_named(catalogue, {"b@S1", "a_wider@S1+S3", "a"});
+    REQUIRE(named.size() == 3);
+    CHECK(named[0].name == "b@S1");
+    CHECK(named[0].only_in == std::vector<std::string>{"S1"});
+    CHECK(named[1].name == "a_wider@S1+S3");
+    CHECK(named[1].only_in == std::vector<std::string>{"S1", "S3"});
+    CHECK(named[1].parameters[0].widened == 4);
+    CHECK(named[2].only_in.empty());
+    CHECK_THROWS_AS(effects_named(catalogue, {"c@S1"}), std::invalid_argument);
+    CHECK(with(tank{}, named[0], named[1]).about.inputs.size() == 3);
+
+    effect late, lag;
+    late.name = "late";
+    late.parameters = {{"tau", "s", decimal(), decimal(), decimal()}};
+    late.on_inputs = [](effect_scope& e) { e.delay_input("u"); };
+    lag = late;
+    lag.on_inputs = [](effect_scope& e) { (void)e.add_state("d", "m", 1, e.input("u")); };
+    CHECK_NOTHROW(with(tank{}, late));
+    CHECK_THROWS_WITH(with(tank{}, only_within(late, {"S1"})),
+                      ContainsSubstring("'late@S1' acts in some experiments only"));
+    CHECK_THROWS_AS(with(tank{}, only_within(lag, {"S1"})), std::invalid_argument);
+}
+
 TEST_CASE("mistakes in effects are named") {
     auto const with_input = [](std::string const& name) {
         effect e;

@@ -444,6 +444,44 @@ TEST_CASE("missing rates and offsets of sensors against the truth") {
     CHECK(found("input", "W", 1, 2, "S4") == strings{"missing"});
 }
 
+TEST_CASE("an effect in some scenarios is named with them, and held to them") {
+    CHECK(plain_name("wind_wider@S1+S3") == "wind");
+    CHECK(effect_named("wind@S1") == effect_named("wind"));
+    CHECK(acts_in("wind", "S1"));
+    CHECK(acts_in("wind@S1+S3", "S3"));
+    CHECK_FALSE(acts_in("wind@S1+S3", "S2"));
+    CHECK_FALSE(acts_in("wind@S12", "S1"));
+    auto l = labelled("experiments", {"quadratic_yaw_damping"});
+    l.more["starts"] = "S1(0,0,0,0,0,0) S2(0,0,0,0,0,0) S3(0,0,0,0,0,0) H1(0,0,0,0,0,0)";
+    using held = std::optional<strings>;
+    CHECK(l.held_by() == held{{"quadratic_yaw_damping"}});
+    l.more["onsets"] = "S2=inf H1=inf";
+    CHECK(l.held_by() == held{{"quadratic_yaw_damping@S1+S3"}});
+    CHECK_FALSE(l.attainable());
+    l.more["onsets"] = "S2=inf S3=1.5";
+    CHECK_FALSE(l.held_by());
+    l.more["onsets"] = "H1=inf";
+    CHECK(l.held_by() == held{{"quadratic_yaw_damping"}});
+    l.more["onsets"] = "S2=inf";
+    auto d = answering({"quadratic_yaw_damping@S1+S3"});
+    d["causes"] = {{{"effects", {"quadratic_yaw_damping@S1+S3"}},
+                    {"verdict", "explains"},
+                    {"inflation", {0.9, 0.95}},
+                    {"parameters", {{"quadratic_yaw_damping@S1+S3.k", {0.05, 0.15}}}}}};
+    auto const j = judge(l, d);
+    CHECK(j.right);
+    CHECK(j.false_proofs.empty());
+    CHECK(j.hulls_checked > 0);
+    d["causes"][0]["parameters"]["quadratic_yaw_damping@S1+S3.k"] = {0.11, 0.15};
+    CHECK(false_proofs(l, d) == strings{"hull"});
+    d["causes"][0]["verdict"] = "excluded";
+    d["causes"][0]["inflation"] = {1.5, 2};
+    CHECK(false_proofs(l, d) == strings{"excluded", "inflation"});
+    d["causes"][0]["effects"] = {"quadratic_yaw_damping@S1"};
+    CHECK(false_proofs(l, d).empty());
+    CHECK_FALSE(judge(l, answering({"wind@S1+S3"})).right);
+}
+
 TEST_CASE("parts that stand alone against the truth") {
     temporary_folder const folder;
     auto c = draw_campaign(3, 0, {family::bounds});

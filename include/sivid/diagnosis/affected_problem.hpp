@@ -83,7 +83,8 @@ inline void start_added_states(identification_problem& problem) {
 }
 
 /// The same experiments, with effects joined to the model. The parameters of the effects become
-/// further unknowns, with the effects' priors.
+/// further unknowns, with the effects' priors; effects that act in some experiments only are
+/// switched on in these.
 ///   A parameter that is feasible for `base` is feasible here with all effects neutral.
 /// @throws std::invalid_argument as `with`
 [[nodiscard]] SIVID_DECL identification_problem affected(identification_problem const& base,

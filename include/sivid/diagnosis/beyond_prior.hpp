@@ -5,6 +5,7 @@
 #include <sivid/diagnosis/detail/screened.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/model/effect.hpp>
+#include <sivid/model/problem.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -13,6 +14,25 @@
 #include <vector>
 
 namespace sivid {
+
+/// The parameters, those at the end of their prior moved to its middle.
+[[nodiscard]] inline std::vector<double> away_from_ends(identification_problem const& problem,
+                                                        std::vector<double> parameters) {
+    for (std::size_t j = 0; j < parameters.size(); ++j) {
+        auto const& side = problem.prior[j];
+        if (end_of_prior(parameters[j], side) != prior_end::none) parameters[j] = mid(side);
+    }
+    return parameters;
+}
+
+/// The index of the effect of this name in a catalogue, to which it is added where it is not there.
+[[nodiscard]] inline std::size_t index_of_effect(std::vector<effect>& catalogue, effect e) {
+    auto const known = std::find_if(catalogue.begin(), catalogue.end(),
+                                    [&e](effect const& x) { return x.name == e.name; });
+    auto const index = static_cast<std::size_t>(known - catalogue.begin());
+    if (known == catalogue.end()) catalogue.push_back(std::move(e));
+    return index;
+}
 
 /// Whether the fit of an effect's parameters ends where its prior does and a wider one does not.
 [[nodiscard]] inline bool ends_at_prior(screened const& s, effect const& e, effect const& wider) {
@@ -38,10 +58,7 @@ beyond_prior(screened const& s, std::vector<effect>& catalogue, std::size_t plan
         if (e >= planned) continue;
         auto wider = widened(catalogue[e]);
         if (!ends_at_prior(s, catalogue[e], wider)) continue;
-        auto const known = std::find_if(catalogue.begin(), catalogue.end(),
-                                        [&](effect const& x) { return x.name == wider.name; });
-        e = static_cast<std::size_t>(known - catalogue.begin());
-        if (known == catalogue.end()) catalogue.push_back(std::move(wider));
+        e = index_of_effect(catalogue, std::move(wider));
     }
     std::sort(effects.begin(), effects.end());
     return effects;

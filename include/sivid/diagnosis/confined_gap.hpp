@@ -49,10 +49,19 @@ struct data_part {
 }
 
 struct confinement_options {
-    std::size_t most = 4;          ///< experiments tried at each step where several are left out
+    bool channels = true; ///< else parts are whole experiments
+    /// Where several experiments are left out: how many sets of them are followed, and experiments
+    /// tried with each; sets that leave as little are found together.
+    std::size_t most = 4;
     inflation_options lower{};     ///< for the lower end of each factor
     std::function<bool()> go_on{}; ///< false ends it with what was found; may be empty
 };
+
+/// Parts of the measurements without which fits explain all others, as `find_confined_gaps` looks
+/// for them. Nothing is proved.
+[[nodiscard]] SIVID_DECL std::vector<data_part>
+find_unexplained_parts(identification_problem const& p, approximate_fit const& fit,
+                       confinement_options const& options);
 
 /// Which measurements alone stand against a model: parts without which one parameter of the prior
 /// explains all the others, and the factor by which the bounds of the part must then grow. Tried

@@ -35,7 +35,7 @@ public:
     }
 
     [[nodiscard]] std::vector<screened> const& candidates() const { return tried_; }
-    /// The effects that candidates name: those of the plan, then others with wider priors.
+    /// What candidates name.
     [[nodiscard]] std::vector<effect> const& catalogue() const { return catalogue_; }
     [[nodiscard]] std::size_t measurements() const { return measurements_; }
     [[nodiscard]] std::vector<candidate> figures() const {
@@ -103,6 +103,19 @@ public:
         });
     }
 
+    /// Tries single effects (none: all of the plan) as such that act in these experiments only.
+    /// Those with delays or states of their own are left out.
+    void try_within(std::vector<std::string> const& experiments, effect_sets some = {}) {
+        if (some.empty()) some = singles();
+        effect_sets wanted;
+        for (auto const& one : some) {
+            auto const& e = catalogue_[one.front()];
+            if (remembers(with(base_.model, {e}), base_.model)) continue;
+            wanted.push_back({index_of_effect(catalogue_, only_within(e, experiments))});
+        }
+        try_all(wanted);
+    }
+
     /// Fits one set of effects, unless that was done.
     void try_one(std::vector<std::size_t> const& effects) { try_all({effects}); }
 
@@ -137,6 +150,12 @@ public:
 
 private:
     using clock = std::chrono::steady_clock;
+
+    [[nodiscard]] static bool remembers(recorded_model const& with, recorded_model const& without) {
+        return with.input_delays.size() > without.input_delays.size() ||
+               with.channel_delays.size() > without.channel_delays.size() ||
+               with.rate.size() > without.rate.size();
+    }
 
     [[nodiscard]] effect_sets singles() const {
         effect_sets wanted;
@@ -336,25 +355,6 @@ private:
         if (found.inflation < best.inflation) return found;
         best.squares = found.squares; // the descent's, whose least inflation is no better
         return best;
-    }
-    /// The parameters, those at the end of their prior moved to its middle.
-    [[nodiscard]] static std::vector<double> away_from_ends(identification_problem const& problem,
-                                                            std::vector<double> parameters) {
-        for (std::size_t j = 0; j < parameters.size(); ++j) {
-            auto const& side = problem.prior[j];
-            if (end_of_prior(parameters[j], side) != prior_end::none) parameters[j] = mid(side);
-        }
-        return parameters;
-    }
-    [[nodiscard]] static bool alike(std::vector<std::vector<double>> const& a,
-                                    std::vector<std::vector<double>> const& b) {
-        if (a.size() != b.size()) return false;
-        for (std::size_t e = 0; e < a.size(); ++e) {
-            for (std::size_t k = 0; k < a[e].size(); ++k) {
-                if (!(std::abs(a[e][k] - b[e][k]) < 1e-5)) return false;
-            }
-        }
-        return true;
     }
     /// The likeliest candidate tried whose effects are all among these.
     [[nodiscard]] screened const* best_part_of(std::vector<std::size_t> const& effects) const {

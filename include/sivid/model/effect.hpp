@@ -57,6 +57,10 @@ struct effect {
         bool rests = false; ///< it begins at 0, else at the input
     };
     std::optional<input_lag> lags{};
+    /// The experiments in which it acts, others do not see it; none: it acts in all. Such an effect
+    /// has a switch, an input of its name that is 1 where it acts and else 0; no delay and no state
+    /// of its own.
+    std::vector<std::string> only_in{};
 };
 
 /// What an effect sees of a model under construction and may change. Names are the model's own;
@@ -94,23 +98,35 @@ private:
         return expression(model_->g, model_->g.leaf(op, index));
     }
 
+    void begin(effect const& e, std::size_t first_parameter);
+    /// @throws std::invalid_argument for an effect that acts in some experiments only
+    void acts_everywhere(char const* what) const;
+
     recorded_model* model_;
     expression time_;
     std::vector<expression> states_, constants_, inputs_, rates_, channels_;
     std::size_t first_parameter_ = 0;
+    effect const* effect_ = nullptr; ///< whose edit it is
 };
 
 /// The effect with priors four times as wide, under its name and "_wider".
 [[nodiscard]] SIVID_DECL effect widened(effect e);
 
-/// Those of a catalogue that have these names, in the order of the names; `widened` ones too.
+/// The effect in these experiments only, under its name and "@S4+S5".
+[[nodiscard]] SIVID_DECL effect only_within(effect e, std::vector<std::string> experiments);
+
+/// Those of a catalogue that have these names, in the order of the names; `widened` ones, and those
+/// `only_within` some experiments, too.
 /// @throws std::invalid_argument  for a name that the catalogue lacks
 [[nodiscard]] SIVID_DECL std::vector<effect> effects_named(std::vector<effect> const& catalogue,
                                                            std::vector<std::string> const& names);
 
 /// A model with effects. Their parameters become constants `<effect>.<parameter>`, nominal at the
-/// neutral value; states that they add stand behind the model's own.
-/// @throws std::invalid_argument when an effect names what the model lacks, or stands twice
+/// neutral value; states that they add, and switches of those that act in some experiments only,
+/// stand behind the model's own states and inputs.
+/// @throws std::invalid_argument when an effect names what the model lacks, or stands twice, or
+/// acts
+///         in some experiments only and has a delay or a state of its own
 [[nodiscard]] SIVID_DECL recorded_model with(recorded_model const& base,
                                              std::vector<effect> effects);
 

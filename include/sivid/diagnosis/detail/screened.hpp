@@ -7,9 +7,11 @@
 #include <sivid/executor.hpp>
 #include <sivid/model/problem.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace sivid {
 
@@ -20,6 +22,18 @@ struct screened {
     approximate_fit fit;
     bool silent = false; ///< no value of the effect's parameters moves a measured output
 };
+
+/// Whether the residuals of two fits are the same, but for rounding.
+[[nodiscard]] inline bool alike(std::vector<std::vector<double>> const& a,
+                                std::vector<std::vector<double>> const& b) {
+    if (a.size() != b.size()) return false;
+    for (std::size_t e = 0; e < a.size(); ++e) {
+        for (std::size_t k = 0; k < a[e].size(); ++k) {
+            if (!(std::abs(a[e][k] - b[e][k]) < 1e-5)) return false;
+        }
+    }
+    return true;
+}
 
 struct screening_options {
     double seconds = 60;

@@ -26,7 +26,14 @@ public:
                     inflation_range const& whole, confinement_options const& options)
         : p_(&p), fit_(&fit), whole_(whole), options_(&options) {}
 
-    [[nodiscard]] std::vector<confined_gap> operator()() {
+    /// What fits find.
+    [[nodiscard]] std::vector<data_part> parts() const {
+        std::vector<data_part> result;
+        for (auto& f : smallest_parts()) result.push_back(std::move(f.part));
+        return result;
+    }
+    /// With proof.
+    [[nodiscard]] std::vector<confined_gap> operator()() const {
         std::vector<confined_gap> result;
         for (auto const& f : smallest_parts()) {
             if (!go_on()) break;
@@ -56,14 +63,14 @@ private:
             for (auto const& m : e.measurements) measured.insert(m.channel);
         }
         std::vector<data_part> channels, experiments, both;
-        if (measured.size() > 1) {
+        if (options_->channels && measured.size() > 1) {
             for (auto const y : measured) channels.push_back({y, {}});
         }
         auto const n = p_->experiments.size();
         for (std::size_t e = 0; n > 1 && e < n; ++e) experiments.push_back({{}, {e}});
         auto const without_channel = explained(channels);
-        found closest;
-        auto const without_experiment = explained(experiments, &closest);
+        std::vector<found> not_enough;
+        auto const without_experiment = explained(experiments, &not_enough);
         for (auto const& c : without_channel) {
             for (auto const& e : without_experiment)
                 both.push_back({c.part.channel, e.part.experiments});
@@ -80,52 +87,70 @@ private:
                 if (!holds) result.push_back(f);
             }
         }
-        return result.empty() ? several_experiments(std::move(closest)) : result;
+        return result.empty() ? several_experiments(std::move(not_enough)) : result;
     }
 
     /// Those parts without which the others are explained.
-    /// @param closest  receives the one that comes closest to it
+    /// @param not_enough  receives those without which they are not
     [[nodiscard]] std::vector<found> explained(std::vector<data_part> const& parts,
-                                               found* closest = nullptr) const {
+                                               std::vector<found>* not_enough = nullptr) const {
         std::vector<found> result;
         for (auto const& part : parts) {
             if (!go_on()) break;
             found f{part, fit_of_others(part)};
-            if (closest != nullptr && f.others.inflation < closest->others.inflation) *closest = f;
-            if (f.others.inflation <= 1) result.push_back(std::move(f));
+            if (f.others.inflation <= 1) {
+                result.push_back(std::move(f));
+            } else if (not_enough != nullptr) {
+                not_enough->push_back(std::move(f));
+            }
         }
         return result;
     }
     [[nodiscard]] approximate_fit fit_of_others(data_part const& part) const {
-        constexpr double promising = 3;
+        constexpr double promising = 3, close = 1.05;
         auto const others = loosened(*p_, part, nothing);
         fitter descend(others, options_->go_on);
         auto best = descend({fit_->parameters});
-        if (best.inflation <= 1 || best.inflation > promising) return best;
-        auto other = descend({mid(p_->prior)}); // from where the part has not drawn it
-        return other.inflation < best.inflation ? other : best;
+        auto const try_again = [&](double below, fit_start const& from) {
+            if (!(best.inflation > 1 && best.inflation < below)) return;
+            if (auto other = descend(from); other.inflation < best.inflation)
+                best = std::move(other);
+        };
+        try_again(promising, {}); // from where the part has not drawn it
+        try_again(close, {best.parameters, best.starts});
+        return best;
     }
 
-    /// One after the other what leaves the least is left out, until the rest is explained.
-    /// @param without  the experiment to begin with
-    [[nodiscard]] std::vector<found> several_experiments(found without) const {
+    /// Experiments are left out one after the other, from those on that leave the least, until the
+    /// rest is explained.
+    [[nodiscard]] std::vector<found> several_experiments(std::vector<found> one_less) const {
         auto const n = p_->experiments.size();
-        while (!without.part.experiments.empty() && without.part.experiments.size() + 2 < n) {
-            std::vector<data_part> more;
-            for (auto const e : worst(without)) {
-                more.push_back(without.part);
-                more.back().experiments.push_back(e);
+        for (std::size_t size = 2; size + 2 <= n && !one_less.empty(); ++size) {
+            keep_closest(one_less);
+            std::set<std::vector<std::size_t>> sets;
+            for (auto const& f : one_less) {
+                for (auto const e : worst(f)) {
+                    auto without = f.part.experiments;
+                    without.push_back(e);
+                    std::sort(without.begin(), without.end());
+                    sets.insert(std::move(without));
+                }
             }
-            found closest;
-            (void)explained(more, &closest);
-            if (!(closest.others.inflation <= without.others.inflation)) return {};
-            without = std::move(closest);
-            if (without.others.inflation > 1) continue;
-            auto& out = without.part.experiments;
-            std::sort(out.begin(), out.end());
-            return {std::move(without)};
+            std::vector<data_part> parts;
+            for (auto const& without : sets) parts.push_back({{}, without});
+            std::vector<found> not_enough;
+            auto result = explained(parts, &not_enough);
+            keep_closest(result);
+            if (!result.empty()) return result;
+            one_less = std::move(not_enough);
         }
         return {};
+    }
+    void keep_closest(std::vector<found>& all) const {
+        std::stable_sort(all.begin(), all.end(), [](found const& a, found const& b) {
+            return a.others.inflation < b.others.inflation;
+        });
+        if (all.size() > options_->most) all.resize(options_->most);
     }
     /// The experiments with the largest residuals, of those that a part does not hold.
     [[nodiscard]] std::vector<std::size_t> worst(found const& f) const {
@@ -210,6 +235,13 @@ private:
 };
 
 } // namespace diagnosis_detail
+
+SIVID_DECL std::vector<data_part> find_unexplained_parts(identification_problem const& p,
+                                                         approximate_fit const& fit,
+                                                         confinement_options const& options) {
+    if (fit.parameters.size() != p.prior.size()) return {};
+    return diagnosis_detail::gap_confinement(p, fit, unknown_inflation(), options).parts();
+}
 
 SIVID_DECL std::vector<confined_gap> find_confined_gaps(identification_problem const& p,
                                                         approximate_fit const& fit,

@@ -147,8 +147,8 @@ private:
         auto order = try_candidates(tried, options_.verdict_share);
         bool going = candidate_verdicts(run_, order, effort_, options_).verify();
         bool const proved = answer_by_proof(d);
-        if (!proved && going) confine();
-        if (!proved && !d.tried.complete() && going) { // what is left is for the next ones
+        bool const more = !proved && going && try_confined(tried);
+        if (!proved && going && (more || !d.tried.complete())) { // what is left is for these
             order = try_candidates(tried, 0.2 * options_.verdict_share);
             going = candidate_verdicts(run_, order, effort_, options_).verify();
             (void)answer_by_proof(d);
@@ -158,6 +158,54 @@ private:
         propose(order);
         if (proved) confine();
         measure_parts();
+    }
+
+    /// Effects that act in some experiments only: in those that stand alone against the model, or
+    /// in all but those that do so against a model with one effect.
+    /// @returns  whether there are some to be tried
+    [[nodiscard]] bool try_confined(screening& tried) {
+        confine();
+        auto const before = tried.candidates().size();
+        kept_ = 0.2 * options_.verdict_share * options_.seconds;
+        for (auto const& c : run_.result.confined) {
+            if (!c.scenarios.empty() && can_stand_in_a_name(c.scenarios))
+                tried.try_within(c.scenarios);
+        }
+        constexpr std::size_t most = 2;
+        confinement_options options;
+        options.channels = false;
+        options.go_on = options_.screening.go_on;
+        for (auto const k : closest_singles(most)) {
+            auto const& s = run_.candidates[k];
+            for (auto const& part : find_unexplained_parts(s.problem, s.fit, options)) {
+                std::vector<std::string> others;
+                for (std::size_t e = 0; e < run_.base.experiments.size(); ++e) {
+                    auto const& in = part.experiments;
+                    if (std::find(in.begin(), in.end(), e) == in.end())
+                        others.push_back(run_.base.experiments[e].name);
+                }
+                if (can_stand_in_a_name(others)) tried.try_within(others, {s.figures.effects});
+            }
+        }
+        return tried.candidates().size() > before;
+    }
+    [[nodiscard]] static bool can_stand_in_a_name(std::vector<std::string> const& scenarios) {
+        return std::all_of(scenarios.begin(), scenarios.end(), [](std::string const& s) {
+            return s.find_first_of("@+,") == std::string::npos;
+        });
+    }
+    [[nodiscard]] std::vector<std::size_t> closest_singles(std::size_t most) const {
+        std::vector<std::size_t> result;
+        for (std::size_t k = 0; k < run_.candidates.size(); ++k) {
+            auto const& effects = run_.candidates[k].figures.effects;
+            bool const everywhere =
+                effects.size() == 1 && run_.catalogue[effects.front()].only_in.empty();
+            if (everywhere) result.push_back(k);
+        }
+        std::ranges::stable_sort(
+            result, {}, [this](std::size_t k) { return run_.candidates[k].fit.inflation; });
+        result.resize(std::min(most, result.size()));
+        return result;
     }
 
     /// Which measurements alone stand against the model.
@@ -269,13 +317,18 @@ private:
         if (run_.answer == 0) {
             rest.inflation = d.inflation;
             rest.where = d.where;
-        } else if (effort_.go_on("looking for what is left")) {
+        } else if (same_inputs(nearest) && effort_.go_on("looking for what is left")) {
             options.search.most_sets = options_.remaining_sets;
             run_.remaining_places =
                 estimate_places(nearest.problem, std::move(options), &nearest.fit);
             for (auto const& p : run_.remaining_places.places) rest.where.push_back(reported(p));
         }
         d.remainder = std::move(rest);
+    }
+
+    /// Whether no effect of a candidate has a switch.
+    [[nodiscard]] bool same_inputs(screened const& s) const {
+        return s.problem.model.about.inputs.size() == run_.base.model.about.inputs.size();
     }
 
     void propose(candidate_order const& order) {
@@ -285,6 +338,10 @@ private:
             return;
         std::vector<screened const*> rivals{&run_.candidates[run_.answer]};
         for (auto const o : order.others()) rivals.push_back(&run_.candidates[o]);
+        // Whether a switch were on in another manoeuvre nobody knows.
+        if (!std::all_of(rivals.begin(), rivals.end(),
+                         [this](auto const* s) { return same_inputs(*s); }))
+            return;
         std::vector<double> errors(run_.base.model.about.channels.size(), 0.0);
         double period = 0.1;
         for (auto const& e : run_.base.experiments) {

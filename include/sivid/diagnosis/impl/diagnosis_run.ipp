@@ -18,7 +18,11 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
                                  data_test_options const& test, std::size_t boxes) {
     if (data.empty() || run.candidates.empty()) return;
     auto const begin = std::chrono::steady_clock::now();
-    bool const answered = !run.result.causes.empty();
+    // Whether effects of some scenarios act in the hold-out ones nobody knows.
+    auto const& inputs = run.base.model.about.inputs;
+    bool const answered =
+        !run.result.causes.empty() &&
+        run.candidates[run.answer].problem.model.about.inputs.size() == inputs.size();
     bool const one_by_one = test.workers.threads <= 1;
     auto const judge = [&](screened const& candidate, verified_inflation const& bound,
                            double share) {

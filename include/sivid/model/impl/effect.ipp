@@ -10,7 +10,21 @@ namespace sivid {
 
 namespace detail {
 inline constexpr std::string_view wider = "_wider";
+
+/// Splits "NAME@S4+S5"; without experiments the name as it is.
+inline std::vector<std::string> experiments_in(std::string& name) {
+    std::vector<std::string> result;
+    auto const at = name.find('@');
+    if (at == std::string::npos) return result;
+    for (std::size_t begin = at + 1; begin <= name.size();) {
+        auto const end = std::min(name.find('+', begin), name.size());
+        result.push_back(name.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    name.resize(at);
+    return result;
 }
+} // namespace detail
 
 SIVID_DECL interval effect_parameter::prior() const {
     using traits = interval_traits<interval>;
@@ -32,16 +46,32 @@ SIVID_DECL effect widened(effect e) {
     return e;
 }
 
+SIVID_DECL effect only_within(effect e, std::vector<std::string> experiments) {
+    std::string names, words;
+    for (auto const& x : experiments) {
+        names += (names.empty() ? "@" : "+") + x;
+        words += (words.empty() ? ", in " : ", ") + x;
+    }
+    e.name += names;
+    if (!e.about.empty()) e.about += words + " only";
+    e.only_in = std::move(experiments);
+    return e;
+}
+
 SIVID_DECL std::vector<effect> effects_named(std::vector<effect> const& catalogue,
                                              std::vector<std::string> const& names) {
     std::vector<effect> result;
     for (auto name : names) {
-        bool const known = std::any_of(catalogue.begin(), catalogue.end(),
-                                       [&](effect const& e) { return e.name == name; });
+        bool known = std::any_of(catalogue.begin(), catalogue.end(),
+                                 [&](effect const& e) { return e.name == name; });
+        auto const within = known ? std::vector<std::string>{} : detail::experiments_in(name);
+        known = std::any_of(catalogue.begin(), catalogue.end(),
+                            [&](effect const& e) { return e.name == name; });
         bool const wider = !known && name.ends_with(detail::wider);
         if (wider) name.resize(name.size() - detail::wider.size());
         auto const& found = catalogue[index_of(catalogue, name, "effect")];
         result.push_back(wider ? widened(found) : found);
+        if (!within.empty()) result.back() = only_within(result.back(), within);
     }
     return result;
 }
@@ -70,18 +100,32 @@ SIVID_DECL expression& effect_scope::channel(std::string const& name) {
     return channels_[index_of(model_->about.channels, name, "channel")];
 }
 
+SIVID_DECL void effect_scope::begin(effect const& e, std::size_t first_parameter) {
+    effect_ = &e;
+    first_parameter_ = first_parameter;
+}
+
+SIVID_DECL void effect_scope::acts_everywhere(char const* what) const {
+    if (effect_ == nullptr || effect_->only_in.empty()) return;
+    throw std::invalid_argument("effect '" + effect_->name +
+                                "' acts in some experiments only and " + "cannot have " + what);
+}
+
 SIVID_DECL void effect_scope::delay_input(std::string const& name, std::size_t k) {
+    acts_everywhere("a delay");
     model_->input_delays.push_back(
         {index_of(model_->about.inputs, name, "input"), first_parameter_ + k});
 }
 
 SIVID_DECL void effect_scope::delay_channel(std::string const& name, std::size_t k) {
+    acts_everywhere("a delay");
     model_->channel_delays.push_back(
         {index_of(model_->about.channels, name, "channel"), first_parameter_ + k});
 }
 
 SIVID_DECL expression effect_scope::add_state(std::string const& name, std::string const& unit,
                                               double limit, expression const& at_begin) {
+    acts_everywhere("a state of its own");
     auto const k = model_->about.states.size();
     for (auto const& s : model_->about.states) {
         if (s.name == name) {
@@ -126,11 +170,22 @@ SIVID_DECL recorded_model with(recorded_model const& base, std::vector<effect> e
             }
             constants.push_back({name, p.unit, literal{enclose(p.neutral), nearest(p.neutral)}});
         }
+        if (!e.only_in.empty()) result.about.inputs.push_back({e.name, "1"});
     }
     effect_scope scope(result);
+    // Where its switch is 0 an effect sees its neutral values.
+    for (std::size_t k = 0; k < effects.size(); ++k) {
+        auto const& e = effects[k];
+        if (e.only_in.empty()) continue;
+        auto const& on = scope.input(e.name);
+        for (std::size_t j = first[k]; j < first[k] + e.parameters.size(); ++j) {
+            expression const neutral(result.g, result.g.constant(constants[j].nominal));
+            scope.constants_[j] = neutral + on * (scope.constants_[j] - neutral);
+        }
+    }
     auto const apply_all = [&](effect::edit effect::*stage) {
         for (std::size_t k = 0; k < effects.size(); ++k) {
-            scope.first_parameter_ = first[k];
+            scope.begin(effects[k], first[k]);
             if (effects[k].*stage) (effects[k].*stage)(scope);
         }
     };

@@ -69,6 +69,7 @@ SIVID_DECL table summary_table(diagnosis_view const& v) {
     };
     add("Gap", gap_clause(v));
     if (!v.places.empty()) add("Where", place_clause(v.places.front()));
+    if (!v.confined.empty()) add("Data", confined_clause(v.confined.front()));
     std::size_t const tried = effects_tried(v);
     std::size_t excluded = 0;
     for (candidate_view const& c : v.candidates) {
