@@ -120,6 +120,7 @@ inline bool may_include_approximate(std::string_view other, std::string_view inc
         {"sivid/diagnosis/screening.hpp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/holdout_judgement.hpp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/claim_review.hpp", {"fit/campaign.hpp"}},
+        {"sivid/diagnosis/impl/confined_gap.ipp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/impl/manoeuvre.ipp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/impl/diagnose.ipp", {"place/place_estimate.hpp"}},
         {"sivid/report/scenario_report.hpp", {"simulate/simulate.hpp"}},
