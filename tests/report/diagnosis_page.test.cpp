@@ -174,14 +174,14 @@ TEST_CASE("diagnosis page: a gap that nothing explains") {
             c.tube.clear();
         }
     }
-    v.confined = {{"", {"S4", "S7"}, {3.1, 3.3}}, {"v", {}, {0, 4.2}}};
+    v.confined = {{"", {"S4", "S7"}, {3.1, 3.3}}, {"v", {}, {0, 4.25}}};
     std::string const page = written(v, "diagnosis_page_unexplained.html");
     check_contained(page);
     CHECK_THAT(page, ContainsSubstring("Gap (proved); no candidate explains it"));
     CHECK_THAT(page, ContainsSubstring("all but S4 and S7 is explained (proved)"));
     CHECK_THAT(page, ContainsSubstring("Which measurements stand alone"));
     CHECK_THAT(page,
-               ContainsSubstring("those of v, whose bounds must grow by a factor of at most 4.20"));
+               ContainsSubstring("those of v, whose bounds must grow by a factor of at most 4.25"));
     CHECK_THAT(page, ContainsSubstring("12 are excluded (proved)"));
     CHECK(page.find("with the closest candidate, best fit") == std::string::npos);
     CHECK(page.find("of the gap (proved)") == std::string::npos);
