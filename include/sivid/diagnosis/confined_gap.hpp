@@ -66,7 +66,8 @@ find_unexplained_parts(identification_problem const& p, approximate_fit const& f
 /// Which measurements alone stand against a model: parts without which one parameter of the prior
 /// explains all the others, and the factor by which the bounds of the part must then grow. Tried
 /// are every channel, every experiment, a channel in one experiment and, where none of them is
-/// enough, experiments left out one after the other; a part that holds another one is not given.
+/// enough, two or three experiments of which at least two stay; a part that holds another one is
+/// not given.
 /// @param fit    of the problem
 /// @param whole  what is proved about its inflation
 /// @guarantee  each factor contains the least one; its upper end is finite, the witness attains it

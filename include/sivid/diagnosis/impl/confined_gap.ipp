@@ -121,11 +121,10 @@ private:
         return best;
     }
 
-    /// Experiments are left out one after the other, from those on that leave the least, until the
-    /// rest is explained.
+    /// Two or three experiments are left out, from those on that leave the least.
     [[nodiscard]] std::vector<found> several_experiments(std::vector<found> one_less) const {
         auto const n = p_->experiments.size();
-        for (std::size_t size = 2; size + 2 <= n && !one_less.empty(); ++size) {
+        for (std::size_t size = 2; size <= 3 && size + 2 <= n && !one_less.empty(); ++size) {
             keep_closest(one_less);
             std::set<std::vector<std::size_t>> sets;
             for (auto const& f : one_less) {

@@ -190,9 +190,11 @@ private:
         return tried.candidates().size() > before;
     }
     [[nodiscard]] static bool can_stand_in_a_name(std::vector<std::string> const& scenarios) {
-        return std::all_of(scenarios.begin(), scenarios.end(), [](std::string const& s) {
-            return s.find_first_of("@+,") == std::string::npos;
-        });
+        constexpr std::size_t most = 8;
+        return scenarios.size() <= most &&
+               std::all_of(scenarios.begin(), scenarios.end(), [](std::string const& s) {
+                   return s.find_first_of("@+,") == std::string::npos;
+               });
     }
     [[nodiscard]] std::vector<std::size_t> closest_singles(std::size_t most) const {
         std::vector<std::size_t> result;
