@@ -399,8 +399,9 @@ TEST_CASE("an effect that is larger than its prior allows is followed beyond it,
         CHECK(contains(*c.parameters[0].prior, size));
         if (c.parameters[0].hull) CHECK(contains(*c.parameters[0].hull, size));
         // Within its prior it explains nothing, and that is not a contradiction.
-        CHECK(std::any_of(d.causes.begin(), d.causes.end(), [&](cause const& other) {
-            return other.effects == names{name} && other.verdict != cause_verdict::explains;
+        names const plain{name};
+        CHECK(std::any_of(d.causes.begin(), d.causes.end(), [&plain](cause const& other) {
+            return other.effects == plain && other.verdict != cause_verdict::explains;
         }));
         CHECK(d.tried.complete());
     }
