@@ -114,9 +114,9 @@ TEST_CASE("effects of sensors") {
 }
 
 TEST_CASE("priors are widened where an effect may go further, and nowhere else") {
-    auto const wide = [](effects::range const& prior, decimal neutral) {
+    auto const wide = [](effects::range const& stated, decimal neutral) {
         auto const e =
-            widened({.name = "e", .parameters = {{"k", "1", prior.lower, prior.upper, neutral}}});
+            widened({.name = "e", .parameters = {{"k", "1", stated.lower, stated.upper, neutral}}});
         CHECK(e.name == "e_wider");
         return e.parameters[0].prior();
     };
