@@ -499,7 +499,7 @@ TEST_CASE("parts that stand alone against the truth") {
     auto const found = [&](std::string const& name, double lo, double hi, json const& scenarios) {
         json const part{
             {"channel", name}, {"scenarios", scenarios}, {"factor", {lo, hi}}, {"witness", truth}};
-        json const d{{"gap", {{"verdict", "certified"}, {"confined", {part}}}}};
+        json const d{{"gap", {{"verdict", "certified"}, {"confined", json::array({part})}}}};
         judgement j;
         check_claims(l, data, d, j);
         check_witnesses(data, d, j);
@@ -520,7 +520,7 @@ TEST_CASE("parts that stand alone against the truth") {
     auto d = good();
     d["causes"] = json::array();
     auto const contradicted = [&](json const& part) {
-        d["gap"]["confined"] = {part};
+        d["gap"]["confined"] = json::array({part});
         d["answer"] = {{"kind", "open"}, {"effects", all}};
         d["shrink"] = {{"fit", nullptr}, {"holdout", nullptr}};
         auto kinds = contradictions(d);
