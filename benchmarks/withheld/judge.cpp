@@ -34,9 +34,12 @@ bool may_be_unexplained(label const& l) { return !l.attainable() || l.effects.si
 
 bool right_answer(label const& l, json const& answer, bool absorbed) {
     auto const kind = answer.at("kind").get<std::string>();
-    auto const plain = [](json const& effects) { // beyond its prior, or not everywhere: it is right
+    // Beyond its prior the name is right, and with scenarios where the effect acts in some only.
+    bool const partial = !l.values("onsets").empty();
+    auto const plain = [partial](json const& effects) {
         names result;
-        for (auto const& n : names_in(effects)) result.insert(plain_name(n));
+        for (auto const& n : names_in(effects))
+            result.insert(partial || n.find('@') == n.npos ? plain_name(n) : n);
         return result;
     };
     auto const said = plain(member(answer, "effects"));

@@ -241,6 +241,14 @@ TEST_CASE("an effect that acts in some experiments only is found with them") {
         CHECK((!hull || contains(*hull, value)));
         CHECK_FALSE(d.next);
     }
+    // One that acts everywhere is not tried with a switch, though the others are explained
+    // without one experiment.
+    auto const everywhere = in({0, 1, 2, 3, 4}, small_campaign::with_scale(0.25));
+    CHECK(everywhere.effects == names{"scale"});
+    CHECK_FALSE(everywhere.confined.empty()); // the channel p
+    for (auto const& c : everywhere.causes) {
+        for (auto const& e : c.effects) CHECK(e.find('@') == std::string::npos);
+    }
     // A delay has no switch.
     auto const late = in({1, 3}, small_campaign::with_delay(0.3));
     for (auto const& c : find_contradictions(late)) FAIL_CHECK(c.claim + ": " + c.reason);

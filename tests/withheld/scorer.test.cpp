@@ -480,6 +480,8 @@ TEST_CASE("an effect in some scenarios is named with them, and held to them") {
     d["causes"][0]["effects"] = {"quadratic_yaw_damping@S1"};
     CHECK(false_proofs(l, d).empty());
     CHECK_FALSE(judge(l, answering({"wind@S1+S3"})).right);
+    l.more.erase("onsets"); // it acts everywhere
+    CHECK_FALSE(judge(l, answering({"quadratic_yaw_damping@S1+S3"})).right);
 }
 
 TEST_CASE("parts that stand alone against the truth") {

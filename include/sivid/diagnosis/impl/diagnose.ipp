@@ -147,8 +147,14 @@ private:
         auto order = try_candidates(tried, options_.verdict_share);
         bool going = candidate_verdicts(run_, order, effort_, options_).verify();
         bool const proved = answer_by_proof(d);
-        bool const more = !proved && going && try_confined(tried);
-        if (!proved && going && (more || !d.tried.complete())) { // what is left is for these
+        if (!proved && going && !d.tried.complete()) { // what is left is for the next ones
+            order =
+                try_candidates(tried, 0.2 * options_.verdict_share + options_.confinement.share);
+            going = candidate_verdicts(run_, order, effort_, options_).verify();
+            (void)answer_by_proof(d);
+        }
+        bool const alone = going && unanswered(d.answer);
+        if (alone && try_confined(tried)) {
             order = try_candidates(tried, 0.2 * options_.verdict_share);
             going = candidate_verdicts(run_, order, effort_, options_).verify();
             (void)answer_by_proof(d);
@@ -156,7 +162,7 @@ private:
         if (going) candidate_verdicts(run_, order, effort_, options_).refute();
         describe_remainder();
         propose(order);
-        if (proved) confine();
+        if (!alone) confine();
         measure_parts();
     }
 
