@@ -207,3 +207,18 @@ TEST_CASE("bounds of a part grow about their middles") {
         }
     }
 }
+
+TEST_CASE("how far bounds grew is rounded up, whatever their middles are") {
+    auto p = small_campaign::problem();
+    auto const wider = loosened(p, {}, 3);
+    CHECK(growth_of(p, p) == 1);
+    CHECK(growth_of(p, wider) >= 3);
+    CHECK(growth_of(p, wider) <= 3 * (1 + 1e-9));
+    // Beside a large middle a double says little of a small bound.
+    auto& m = p.experiments[0].measurements[0].bound;
+    double const x = 1e9, step = std::ldexp(1.0, -23);
+    m = interval(x, x + step);
+    CHECK(growth_of(p, loosened(p, {0, {0}}, 3)) >= 3);
+    m = interval(x);
+    CHECK(growth_of(p, wider) == detail::infinity);
+}

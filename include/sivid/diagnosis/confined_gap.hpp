@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,6 +47,33 @@ struct data_part {
         }
     }
     return p;
+}
+
+/// By which factor bounds grew at most, about their exact middles: the least number, rounded up,
+/// that widens each of `was` to hold its own of `is`. Bounds of no width that grew: infinite.
+[[nodiscard]] inline double growth_of(identification_problem const& was,
+                                      identification_problem const& is) {
+    using traits = interval_traits<interval>;
+    double most = 1;
+    for (std::size_t e = 0; e < was.experiments.size(); ++e) {
+        for (std::size_t k = 0; k < was.experiments[e].measurements.size(); ++k) {
+            auto const &a = was.experiments[e].measurements[k].bound,
+                       &b = is.experiments[e].measurements[k].bound;
+            auto const ends = [](double x, double y) {
+                return traits::sub(traits::point(x), traits::point(y));
+            };
+            double const grown =
+                std::max(ends(a.lower(), b.lower()).upper(), ends(b.upper(), a.upper()).upper());
+            if (!(grown > 0)) continue;
+            bool undefined = false;
+            auto const more = traits::div(traits::mul(traits::point(2.0), traits::point(grown)),
+                                          ends(a.upper(), a.lower()), undefined);
+            double const factor = traits::add(traits::point(1.0), more).upper();
+            if (undefined) return std::numeric_limits<double>::infinity();
+            most = std::max(most, factor);
+        }
+    }
+    return most;
 }
 
 struct confinement_options {

@@ -191,14 +191,15 @@ private:
         auto const problem = loosened(*p_, part, upper);
         auto const proved = verify_at(problem, at, options_->lower.test);
         if (!(proved.range.upper() <= 1) || !proved.witness) return std::nullopt;
-        // Bounds were rounded outward.
-        double const lower = std::min(lower_end(part, at, upper), upper);
+        double const proved_upper = growth_of(*p_, problem); // bounds were rounded outward
+        if (!(proved_upper < detail::infinity)) return std::nullopt;
+        double const lower = std::min(lower_end(part, at, upper), proved_upper);
         confined_gap result;
         if (part.channel) result.channel = p_->model.about.channels[*part.channel].name;
         for (auto const e : part.experiments) {
             result.scenarios.push_back(p_->experiments[e].name);
         }
-        result.factor = interval_traits<interval>::bounds(lower, upper * (1 + 1e-9));
+        result.factor = interval_traits<interval>::bounds(lower, proved_upper);
         result.witness = named(*p_, proved.witness->parameters, proved.witness->starts);
         result.assumptions = proved.assumptions;
         return result;
