@@ -220,8 +220,14 @@ auto implicit_stages<T>::prove(double t, vector const& x, T const& step,
             }
             return result;
         }
-        // Only where it was too small: else all grow together, and none ever holds its image.
-        radius = (inside.array() < radius.array()).select(radius, 1.2 * inside);
+        // Only where it was too small: else all grow together, and none ever holds its image. What
+        // acts through a chain of states arrives one state further each time.
+        for (std::size_t state = 0; state < flow_->states(); ++state) {
+            if ((inside.array() < radius.array()).all()) break;
+            radius = (inside.array() < radius.array()).select(radius, 1.2 * inside);
+            inside = (distance + result.contraction * radius) * up;
+            inside.array() += tiny;
+        }
     }
     return std::nullopt;
 }

@@ -90,7 +90,8 @@ bool parametric_runge_kutta<Model>::bound_flow(double h, Eigen::MatrixXd const& 
         return (base + last * (one + x)) * up;
     };
     Eigen::MatrixXd guess = base + last;
-    for (int round = 0; round < 8; ++round) {
+    // What acts through a chain of states takes a round for each of them to arrive.
+    for (Eigen::Index round = 0; round < 8 + base.rows(); ++round) {
         guess = 1.1 * image(guess);
         guess.array() += 1e-300;
         if (!guess.allFinite()) return false;

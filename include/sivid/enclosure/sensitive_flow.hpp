@@ -192,7 +192,8 @@ private:
             return result;
         };
         auto guess = base;
-        for (int round = 0; round < 12; ++round) {
+        // What acts through a chain of states takes a round for each of them to arrive.
+        for (std::size_t round = 0; round < 12 + n; ++round) {
             guess = image(guess);
             for (auto& x : guess) x = x * 1.1 + 1e-300;
             auto const next = image(guess);

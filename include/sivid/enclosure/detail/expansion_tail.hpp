@@ -5,6 +5,7 @@
 #include <sivid/enclosure/expansion.hpp>
 #include <sivid/model/series_tail.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -26,7 +27,11 @@ public:
           series_(e.program(), e.max_order()),
           rho_(f.states()),
           states_(f.states()),
-          variations_(f.states() * columns_) {}
+          variations_(f.states() * columns_),
+          row_(f.states() + 1) {
+        for (std::size_t k = 0; k < f.state_entries(); ++k) row_[f.entries()[k].row + 1] = k + 1;
+        for (std::size_t i = 0; i < f.states(); ++i) row_[i + 1] = std::max(row_[i + 1], row_[i]);
+    }
 
     /// Whether this can be tried at all: see `series_tail::covers`.
     [[nodiscard]] bool covers() const { return series_.covers(); }
@@ -47,7 +52,9 @@ public:
             rho_[i] = first[i] * 1.05;
         }
         mask proved{};
-        for (int round = 0; round < 4; ++round) {
+        // What acts through a chain of states arrives one state further in each round.
+        std::size_t const rounds = std::max<std::size_t>(4, n);
+        for (std::size_t round = 1;; ++round) {
             series_.propagate(rho_,
                               [&](std::size_t i) -> Entry const& { return e.input_slope(i); });
             proved = mask(true);
@@ -56,7 +63,7 @@ public:
                 scalar const image = (first[i] + states_[i]) * up;
                 proved = proved & (image < rho_[i]);
             }
-            if (side_by_side::all(proved) || round == 3) break;
+            if (side_by_side::all(proved) || round == rounds) break;
             for (std::size_t i = 0; i < n; ++i) {
                 rho_[i] = side_by_side::select(proved, rho_[i], (first[i] + states_[i]) * 1.1);
             }
@@ -125,23 +132,22 @@ public:
             variations_[k] = own[k];
         }
         mask proved{};
-        for (int round = 0; round < 8; ++round) {
-            image = own;
-            for (std::size_t i = 0; i < n; ++i) {
-                for (std::size_t l = 0; l < n; ++l) {
-                    for (std::size_t c = 0; c < m; ++c) {
-                        image[i * m + c] += ends[i * n + l] * variations_[l * m + c];
-                    }
-                }
-            }
+        for (std::size_t round = 1;; ++round) {
+            for (std::size_t i = 0; i < n; ++i) map_row(i, own, ends, image);
             proved = mask(true);
             for (std::size_t k = 0; k < n * m; ++k) {
-                image[k] *= up;
                 proved = proved & (image[k] < variations_[k]);
             }
-            if (side_by_side::all(proved) || round == 7) break;
-            for (std::size_t k = 0; k < n * m; ++k) {
-                variations_[k] = side_by_side::select(proved, variations_[k], image[k] * 1.1);
+            if (side_by_side::all(proved) || round == 16 + n) break;
+            for (std::size_t row = 0; row < n; ++row) {
+                // What acts through a chain of states arrives one state further in each round, or
+                // at the chain's end where new rows enter at once, whichever way the chain runs.
+                std::size_t const i = round % 2 == 0 ? n - 1 - row : row;
+                if (round >= 8) map_row(i, own, ends, image);
+                for (std::size_t c = 0; c < m; ++c) {
+                    auto& v = variations_[i * m + c];
+                    v = side_by_side::select(proved, v, image[i * m + c] * 1.1);
+                }
             }
         }
         return exist & proved;
@@ -155,6 +161,21 @@ public:
     }
 
 private:
+    /// Row i of own + ends |V|, rounded up, with the present bounds of |V|.
+    void map_row(std::size_t i, std::vector<scalar> const& own, std::vector<scalar> const& ends,
+                 std::vector<scalar>& image) const {
+        auto const n = flow_->states();
+        auto const m = columns_;
+        std::copy_n(own.begin() + static_cast<std::ptrdiff_t>(i * m), m,
+                    image.begin() + static_cast<std::ptrdiff_t>(i * m));
+        for (std::size_t k = row_[i]; k < row_[i + 1]; ++k) {
+            auto const l = flow_->entries()[k].column;
+            auto const& e = ends[i * n + l];
+            for (std::size_t c = 0; c < m; ++c) image[i * m + c] += e * variations_[l * m + c];
+        }
+        for (std::size_t c = 0; c < m; ++c) image[i * m + c] *= up;
+    }
+
     /// Makes computed sums of a few dozen non-negative numbers upper bounds.
     static constexpr double up = 1 + 1e-12;
 
@@ -162,6 +183,7 @@ private:
     std::size_t columns_;
     series_tail<Entry> series_;
     std::vector<scalar> rho_, states_, variations_;
+    std::vector<std::size_t> row_; ///< where the Jacobian's rows begin among the flow's entries
 };
 
 } // namespace sivid
