@@ -10,6 +10,7 @@
 #include <sivid/model/impl/graph.ipp>
 #include <sivid/model/impl/graph_listing.ipp>
 #include <sivid/model/impl/model.ipp>
+#include <sivid/model/impl/slower_inputs.ipp>
 #include <sivid/model/impl/to_dot.ipp>
 #include <sivid/model/impl/unit.ipp>
 
