@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Records of machines, as long and as dense as their loggers write them, each identified from a
 // cold start:
-//     sivid_benchmark_robots [--seconds S] [--no-windows] [--growth] [NAME...]
+//     sivid_benchmark_robots [--seconds S] [--no-windows] [--as-recorded] [--growth] [NAME...]
 // Beside the hulls, in shares of the prior, stands a plain least-squares fit of the same record
-// (not proved). --growth: how the cost grows with samples, constants, states, experiments.
+// (not proved). --as-recorded: no search with slower inputs first. --growth: how the cost grows
+// with samples, constants, states, experiments.
 #include "machines.hpp"
 #include "model.hpp"
 #include "recording.hpp"
@@ -91,27 +92,20 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-identification identified(identification_problem const& problem, double budget, bool windows) {
-    identify_options options;
-    options.search.seconds = budget;
-    options.only_hulls = true;
-    options.windows = windows;
-    return identify(problem, options);
-}
-
-void show(machine const& m, double budget, bool windows) {
+void show(machine const& m, identify_options const& options) {
     auto const problem = record_of(m.make(), m.how);
     auto const begin = std::chrono::steady_clock::now();
     auto const fitted = fit(problem, fit_norm::squares);
     double const fit_seconds = seconds_since(begin);
-    auto const found = identified(problem, budget, windows);
+    auto const found = identify(problem, options);
     std::printf("%s: %s, %s, %.1f s, %zu boxes", m.how.what.c_str(),
                 std::string{to_string(found.verdict)}.c_str(),
                 std::string{to_string(found.reason)}.c_str(), found.seconds, found.boxes);
     if (found.windows) {
-        std::printf("; %zu windows, at most %.2f s, left %.3g of the volume in %.1f s",
-                    found.windows->windows, found.windows->longest, found.windows->left,
-                    found.windows->seconds);
+        auto const& w = *found.windows;
+        if (w.longest > 0) std::printf("; %zu windows, at most %.2f s", w.windows, w.longest);
+        if (w.input_period > 0) std::printf("; inputs as lines of %.3g s", w.input_period);
+        std::printf(", left %.3g of the volume in %.1f s", w.left, w.seconds);
     }
     std::printf("\n  hulls, %% of the prior:");
     bool contains_truth = true;
@@ -136,13 +130,13 @@ struct family {
     std::function<machine(std::size_t)> make;
 };
 
-void show_growth(family const& f, double budget) {
+void show_growth(family const& f, identify_options const& options) {
     std::printf("%s:", f.what.c_str());
     double last_seconds = 0, last_size = 0;
     for (auto const size : f.sizes) {
         auto const m = f.make(size);
         auto const problem = record_of(m.make(), m.how);
-        auto const found = identified(problem, budget, true);
+        auto const found = identify(problem, options);
         double widest = 0;
         for (std::size_t j = 0; j < found.hull.size(); ++j) {
             widest = std::max(widest, 100 * width(found.hull[j]) / width(problem.prior[j]));
@@ -197,6 +191,8 @@ int main(int argc, char** argv) {
         {{"arm, 10 s, torque at 100 Hz, +-15 %", 10, 100, 0.01, 0.002, 0.15}, moving_arm<false>},
         {{"arm, 10 s, torque at 100 Hz, +-10 %, start +-0.1", 10, 100, 0.01, 0.002, 0.1, 0.1},
          moving_arm<false>},
+        {{"arm, 10 s, torque at 1 kHz, +-10 %, start +-0.1", 10, 100, 0.001, 0.002, 0.1, 0.1},
+         moving_arm<false>},
         {{"arm, 10 s, torque at 1 kHz, +-20 %", 10, 100, 0.001, 0.002, 0.2}, moving_arm<false>},
         {{"arm with dry friction, 10 s, torque at 1 kHz, +-10 %", 10, 100, 0.001},
          moving_arm<true>},
@@ -234,15 +230,19 @@ int main(int argc, char** argv) {
         {"records of an oscillator, starts known", {1, 10, 100}, [](std::size_t n) {
              return machine{{"", 5, 10, 0.1, 0.02, 0.3, 0, n}, driven_mass};
          }}};
-    double budget = 10;
-    bool windows = true, growth = false;
+    identify_options options;
+    options.search.seconds = 10;
+    options.only_hulls = true;
+    bool growth = false;
     std::vector<std::string> chosen;
     for (int k = 1; k < argc; ++k) {
         std::string_view const word = argv[k];
         if (word == "--seconds" && k + 1 < argc) {
-            budget = std::atof(argv[++k]);
+            options.search.seconds = std::atof(argv[++k]);
         } else if (word == "--no-windows") {
-            windows = false;
+            options.windows = false;
+        } else if (word == "--as-recorded") {
+            options.slower_inputs = false;
         } else if (word == "--growth") {
             growth = true;
         } else {
@@ -256,11 +256,11 @@ int main(int argc, char** argv) {
     };
     if (growth) {
         for (auto const& f : growing) {
-            if (wanted(f.what)) show_growth(f, budget);
+            if (wanted(f.what)) show_growth(f, options);
         }
         return 0;
     }
     for (auto const& m : all) {
-        if (wanted(m.how.what)) show(m, budget, windows);
+        if (wanted(m.how.what)) show(m, options);
     }
 }

@@ -84,6 +84,7 @@
 #include <sivid/model/rewrite.hpp>
 #include <sivid/model/series.hpp>
 #include <sivid/model/series_tail.hpp>
+#include <sivid/model/slower_inputs.hpp>
 #include <sivid/model/smoothed.hpp>
 #include <sivid/model/states_seen.hpp>
 #include <sivid/model/substitution.hpp>

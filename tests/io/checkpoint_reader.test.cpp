@@ -147,8 +147,14 @@ TEST_CASE("what windows left is resumed with the search") {
     auto const resumed = identify(problem, going_on);
     check_same(resumed, whole);
     CHECK(contains(whole.hull, std::vector<double>{9, 0.3, 4}));
-    // of another problem
+    // what slower inputs did
     auto other = std::make_shared<identification_state>(*state);
+    other->windows->input_period = 0.01;
+    other->windows->integrations = 7;
+    auto const again = parse_checkpoint(checkpoint_text(*other, digest), "f", digest);
+    CHECK(again.windows->input_period == 0.01);
+    CHECK(again.windows->integrations == 7);
+    // of another problem
     other->windows->starts.clear();
     going_on.resume = other;
     CHECK_THROWS_AS(identify(problem, going_on), std::invalid_argument);

@@ -30,3 +30,22 @@ TEST_CASE("volumes, counts and the hull of a subpaving") {
     CHECK(paving.outer_hull()[1].upper() == 2);
     CHECK(paving.prior()[0].upper() == 4);
 }
+
+TEST_CASE("what lies outside a box that holds all is left out, whatever waits there") {
+    subpaving paving(box{between(0, 4)});
+    paving.add(box{between(0, 1)}, box_verdict::pending);
+    paving.add(box{between(1, 2)}, box_verdict::undecided);
+    paving.add(box{between(2, 3)}, box_verdict::inside);
+    paving.add(box{between(3, 4)}, box_verdict::outside);
+    auto const left = within(paving, box{between(1.5, 3)});
+    REQUIRE(left.boxes().size() == 3);
+    CHECK(left.count(box_verdict::pending) == 0);
+    CHECK(left.count(box_verdict::inside) == 1);
+    CHECK(left.count(box_verdict::outside) == 1);
+    CHECK(left.outer_hull()[0].lower() == 1.5);
+    CHECK(left.outer_hull()[0].upper() == 3);
+    CHECK(contains(left.outer_volume(), 0.375));
+    CHECK(contains(left.inner_volume(), 0.25));
+    auto const none = within(paving, box{interval_traits<interval>::empty()});
+    CHECK(none.count(box_verdict::pending) + none.count(box_verdict::undecided) == 0);
+}

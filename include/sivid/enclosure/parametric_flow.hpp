@@ -52,7 +52,7 @@ void parametric_flow<Model>::begin(std::size_t lane, double time, box const& ini
     derivative_.set_parameters(column_parameters_);
     tube_.set_parameters(tube_parameters_);
     observe_.set_parameters(parameters_);
-    if (perturbed_) perturbed_->set_parameters(tube_parameters_);
+    if (perturbed_) perturbed_->set_parameters(column_parameters_);
     for (auto& x : disturbed_) {
         if (alone) x = 0.0;
         side_by_side::put(x, lane, 0.0);

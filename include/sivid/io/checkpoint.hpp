@@ -66,6 +66,7 @@ inline void put(checkpoint_lines& line, approximate_fit const& fit) {
 
 inline void put(checkpoint_lines& line, window_contraction const& w) {
     line("windows", w.starts.size(), w.empty() ? 1 : 0, w.rounds, w.windows, w.longest, w.seconds);
+    line("slower_inputs", w.input_period, w.integrations);
     for (auto const& x : w.starts) line("from", x);
     if (!w.empty()) line("rest", w.rest);
 }

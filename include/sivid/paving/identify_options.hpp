@@ -30,6 +30,10 @@ struct identify_options {
     /// of the time, where starts are not known exactly and trajectories over the prior reach less
     /// than a quarter of the measurements. Where starts are known halving the prior does as well.
     bool windows = true;
+    /// Search with slower inputs first (`with_slower_inputs`, ten samples to a line), in at most
+    /// half of the time, where an input has a thousand samples or more, trajectories over the prior
+    /// reach less than a quarter of the measurements, and slower ones reach as far near the fit.
+    bool slower_inputs = true;
     /// Boxes tested to draw the paving of the prior, when the search ran in products of parameters.
     std::size_t drawn_boxes = 1500;
     /// What may be added to `search.seconds`, at most, to complete a result: the box about the

@@ -120,6 +120,18 @@ private:
     return result;
 }
 
+/// The same paving, where all outside a box is proved outside.
+/// @given  `rest` holds all that can be inside; the volumes are those of the boxes
+[[nodiscard]] inline subpaving within(subpaving const& paving, box const& rest) {
+    subpaving result(paving.prior());
+    for (auto const& b : paving.boxes()) {
+        bool const open = b.verdict == box_verdict::undecided || b.verdict == box_verdict::pending;
+        auto left = open ? intersect(b.set, rest) : b.set;
+        if (!is_empty(left)) result.add(std::move(left), b.verdict);
+    }
+    return result;
+}
+
 /// The same paving, where outside boxes were not kept.
 /// @given  the volumes are those of the boxes
 [[nodiscard]] inline subpaving without_outside(subpaving const& paving) {

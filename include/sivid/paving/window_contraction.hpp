@@ -32,7 +32,7 @@ struct window_options {
     double gain = 0.02;
 };
 
-/// What windows leave of the prior.
+/// What windows, or slower inputs, leave of the prior.
 struct window_contraction {
     box rest;                ///< contains every feasible parameter; empty: proved, there is none
     std::vector<box> starts; ///< of each experiment, contain every start that explains it
@@ -40,6 +40,10 @@ struct window_contraction {
     std::size_t windows = 0; ///< that were carried, all together
     double longest = 0;      ///< of them [s]
     double seconds = 0;
+    /// What contracted saw the inputs as lines with knots so far apart (`with_slower_inputs`), and
+    /// searched the prior as well; 0: it saw them as they are. [s]
+    double input_period = 0;
+    std::size_t integrations = 0; ///< beside those of windows
 
     [[nodiscard]] bool empty() const { return is_empty(rest); }
 };

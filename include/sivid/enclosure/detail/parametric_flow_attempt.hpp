@@ -286,10 +286,13 @@ parametric_flow<Model>::attempt(mask trying, C const& to, std::size_t order, std
 
 template <class Model>
 typename parametric_flow<Model>::mask parametric_flow<Model>::perturb(mask moved, C const& to) {
+    // What an input may add is small: ranges of the rates' derivatives need no polynomial in time.
     C const half = (to - set_.time) * (0.5 * (1 + 4 * polynomial::unit));
-    auto const times = tube_entry::constant(set_.time) +
-                       tube_entry::variable(*tube_shape_, tube_shape_->variables - 1, half, half);
-    mask const bounded = perturbed_->prove(set_.time, to, times, tube_box_, moved);
+    auto const times =
+        column_entry::constant(set_.time) + widened(column_entry::constant(half), half);
+    std::vector<column_entry> tube;
+    for (auto const& x : tube_box_) tube.push_back(without_last_variable(x, *column_shape_));
+    mask const bounded = perturbed_->prove(set_.time, to, times, tube, moved);
     reject(moved & !bounded, failure_reason::minimum_step, C(0.5));
     return bounded;
 }

@@ -96,7 +96,7 @@ public:
           truncation_(f.states()) {
         if (options.order < 1)
             throw std::invalid_argument("enclosure_options: order must be at least 1");
-        if (f.uncertain()) perturbed_.emplace(f, *tube_shape_);
+        if (f.uncertain()) perturbed_.emplace(f, *column_shape_);
         disturbed_.resize(f.states());
     }
 
@@ -254,7 +254,7 @@ private:
     expansion_tail<polynomial> centre_tail_;
     expansion_tail<column_entry> derivative_tail_;
     series<polynomial> observe_;
-    std::optional<perturbed_step<tube_entry>> perturbed_; ///< where inputs are uncertain
+    std::optional<perturbed_step<column_entry>> perturbed_; ///< where inputs are uncertain
     /// About how much of the reach they cause; a preference, no proof rests on it.
     std::vector<C> disturbed_;
     std::optional<expansion<twofold>> sharp_; ///< of a point, where it was needed

@@ -153,6 +153,10 @@ inline window_contraction take_windows(checkpoint_parser& in) {
     w.longest = in.number();
     w.seconds = in.number();
     in.close();
+    in.open("slower_inputs");
+    w.input_period = in.number();
+    w.integrations = in.count();
+    in.close();
     for (std::size_t e = 0; e < experiments; ++e) w.starts.push_back(in.open("from").sides());
     if (!empty) w.rest = in.open("rest").sides();
     return w;

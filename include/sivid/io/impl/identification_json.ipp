@@ -39,7 +39,9 @@ SIVID_DECL std::string identification_json(identification_problem const& problem
         auto const& w = *found.windows;
         json.key("windows").begin_object(layout::one_line).key("carried").integer(w.windows);
         json.key("longest").nearest(w.longest).key("seconds").nearest(w.seconds);
-        json.key("left").nearest(w.left).end_object();
+        json.key("left").nearest(w.left);
+        if (w.input_period > 0) json.key("input_period").nearest(w.input_period);
+        json.end_object();
     }
     write_reach(json, found.reach);
     if (found.effort) { // what the reason follows from

@@ -10,6 +10,7 @@
 #include <sivid/paving/data_test.hpp>
 #include <sivid/paving/dependence.hpp>
 #include <sivid/paving/detail/drawing.hpp>
+#include <sivid/paving/detail/prior_contraction.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/identify_options.hpp>
 #include <sivid/paving/invert.hpp>
@@ -31,28 +32,6 @@
 namespace sivid {
 
 namespace paving_detail {
-
-/// Whether trajectories over the prior end early, from starts that nobody knows.
-inline bool starts_hinder(data_test& test, identification_problem const& problem) {
-    bool const known = std::all_of(
-        problem.experiments.begin(), problem.experiments.end(),
-        [](experiment const& e) { return normalised_unknowns(e.initial, {}).variables == 0; });
-    return !known && test.reached(problem.prior) < 0.25;
-}
-
-/// The problem from the starts that windows have left.
-/// @throws std::invalid_argument  when they are of another problem
-inline identification_problem narrowed_by(window_contraction const& windows,
-                                          identification_problem problem) {
-    if (windows.rest.size() != problem.prior.size() ||
-        windows.starts.size() != problem.experiments.size())
-        throw std::invalid_argument("identification state: its windows are of another problem");
-    for (std::size_t e = 0; e < problem.experiments.size() && !windows.empty(); ++e) {
-        problem.experiments[e].initial = windows.starts[e];
-    }
-    problem.require_valid();
-    return problem;
-}
 
 /// Measurements that fail for every parameter that is left.
 inline std::vector<forced_outlier>
@@ -116,15 +95,14 @@ SIVID_DECL identification identify(identification_problem const& problem,
     auto const& posed = map ? map->problem() : working;
     std::optional<data_test> reduced;
     if (map) reduced.emplace(posed, options.test);
+    auto const fitted = !result.guess ? posed.prior
+                        : map         ? map->forward(point_box(result.guess->parameters))
+                                      : point_box(result.guess->parameters);
     auto windows = options.resume ? options.resume->windows : std::nullopt;
     auto& unhindered = reduced ? *reduced : test;
     auto const before = unhindered.integrations();
-    if (options.windows && !options.resume && options.algorithm == algorithm::contracting &&
-        limit() && paving_detail::starts_hinder(unhindered, posed)) {
-        windows = contract_by_windows(posed, {.run = options.test.run,
-                                              .seconds = 0.8 * limit.seconds(),
-                                              .keep_going = limit,
-                                              .workers = options.search.workers});
+    if (!options.resume && options.algorithm == algorithm::contracting && limit()) {
+        windows = paving_detail::contract_prior(unhindered, posed, fitted, options, limit);
     }
     auto const asking = unhindered.integrations() - before; // the search finds what was answered
     std::optional<identification_problem> narrowed;         // whose starts windows have contracted
@@ -135,7 +113,8 @@ SIVID_DECL identification identify(identification_problem const& problem,
         further->set_rest(windows->rest);
         result.windows =
             window_effort{windows->windows, windows->longest, windows->seconds,
-                          std::min(1.0, relative_volume(windows->rest, posed.prior).upper())};
+                          std::min(1.0, relative_volume(windows->rest, posed.prior).upper()),
+                          windows->input_period};
     }
     auto const& asked = narrowed ? *narrowed : posed;
     auto& searching = further ? *further : unhindered;
@@ -163,6 +142,7 @@ SIVID_DECL identification identify(identification_problem const& problem,
     auto found = invert(searching, posed.prior, search);
     // Not what was integrated but what the result stands on: resuming repeats some.
     result.integrations = found.cost + integrated - searching.integrations();
+    if (windows) found.paving = within(found.paving, windows->rest); // boxes that still wait, too
     auto const left = found.paving.outer_hull();
     limit.allow(options.completing_seconds);
     if (result.witness && !options.only_hulls && found.reason != stop_reason::cancelled &&
@@ -229,7 +209,9 @@ SIVID_DECL identification identify(identification_problem const& problem,
         }
     }
     if (reduced) result.integrations += reduced->integrations();
-    if (further) result.integrations += further->integrations() + windows->windows;
+    if (further) {
+        result.integrations += further->integrations() + windows->windows + windows->integrations;
+    }
     result.integrations += test.integrations() - asking;
     result.seconds = since_begin();
     if (options.resume) result.seconds += options.resume->seconds + options.resume->search.seconds;

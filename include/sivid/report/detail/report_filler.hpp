@@ -105,15 +105,22 @@ private:
                             {}};
         if (found_.windows) {
             auto const& w = *found_.windows;
+            std::string const what = w.longest > 0 ? count_text(w.windows) +
+                                                         " windows of the records, the longest " +
+                                                         given_text(w.longest) + " s"
+                                                   : "";
+            std::string const lines = w.input_period > 0 ? "runs that see the inputs as lines of " +
+                                                               given_text(w.input_period) +
+                                                               " s, and a bound of what these leave"
+                                                         : "";
             view_.statistics.before =
-                w.longest > 0
-                    ? count_text(w.windows) + " windows of the records, the longest " +
-                          given_text(w.longest) +
-                          " s, contracted the prior before the search: they leave " +
+                what.empty() && lines.empty()
+                    ? "no window of the records can be carried from starts so wide: state them "
+                      "more narrowly, or give samples nearer to them"
+                    : what + (what.empty() || lines.empty() ? "" : ", and ") + lines +
+                          ", contracted the prior before the search: they leave " +
                           at_most_percent(w.left) + " of its volume (" + duration_text(w.seconds) +
-                          ")"
-                    : "no window of the records can be carried from starts so wide: state them "
-                      "more narrowly, or give samples nearer to them";
+                          ")";
         }
         view_.statistics.why = reach_words(problem_, found_);
         view_.version = std::string{"sivid "} + std::string{version};
