@@ -21,7 +21,7 @@ namespace sivid {
 
 namespace io_detail {
 
-inline constexpr std::string_view checkpoint_format = "sivid-checkpoint-4";
+inline constexpr std::string_view checkpoint_format = "sivid-checkpoint-5";
 
 /// One letter a verdict, in the order of box_verdict.
 inline constexpr std::string_view verdict_letters = "ioup";
