@@ -290,6 +290,13 @@ TEST_CASE("what is not affine in fast exact inputs stays as it is") {
         asked<5>(analytic_signal::from([](auto const& t) { return sin(t); })), 0.02));
     // A square of lines is no line.
     CHECK_FALSE(with_slower_inputs(asked<3>(logged(wave, 0.001, 1, interpolation::linear)), 0.02));
+    // Beyond the largest double.
+    auto const huge = logged([](double) { return 1e200; }, 0.001, 1, interpolation::hold);
+    CHECK_FALSE(with_slower_inputs(posed({huge, huge, huge}, 1), 0.02));
+    auto const swinging =
+        logged([](double t) { return std::fmod(t, 0.002) < 0.001 ? 1e308 : -1e308; }, 0.001, 1,
+               interpolation::linear);
+    CHECK_FALSE(with_slower_inputs(asked<5>(swinging), 0.02));
     auto delayed = asked<5>(fast);
     delayed.model.input_delays.push_back({0, 0});
     CHECK_FALSE(with_slower_inputs(delayed, 0.02));

@@ -39,7 +39,6 @@ inline std::optional<driven_model> driven_by(recorded_model const& model,
                                              std::vector<bool> const& held) {
     auto const& from = model.g;
     driven_model result;
-    result.replaced.assign(fast.size(), false);
     auto outputs = model.rate;
     outputs.insert(outputs.end(), model.observe.begin(), model.observe.end());
     for (auto const& a : model.added_states) outputs.push_back(a.at_begin);

@@ -188,8 +188,12 @@ with_slower_inputs(identification_problem const& problem, double period) {
         std::vector<signal> integrals;
         for (auto& function : w) {
             function.times = times;
-            sampled_signal const line(knots, lines_through(function, knots), interpolation::linear);
+            auto const finite = [](double x) { return std::isfinite(x); };
+            auto const values = lines_through(function, knots);
+            if (!std::all_of(values.begin(), values.end(), finite)) return std::nullopt;
+            sampled_signal const line(knots, values, interpolation::linear);
             auto const bounds = integral_bounds(function, line);
+            if (!std::all_of(bounds.begin(), bounds.end(), finite)) return std::nullopt;
             integrals.emplace_back(sampled_signal(knots, std::vector<double>(knots.size(), 0.0),
                                                   interpolation::hold, bounds));
             e.inputs.emplace_back(line);
