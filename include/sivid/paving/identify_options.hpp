@@ -32,7 +32,8 @@ struct identify_options {
     bool windows = true;
     /// Search with slower inputs first (`with_slower_inputs`, ten samples to a line), in at most
     /// half of the time, where an input has a thousand samples or more, trajectories over the prior
-    /// reach less than a quarter of the measurements, and slower ones reach as far near the fit.
+    /// reach less than a quarter of the measurements, and with slower inputs a run at the fit tells
+    /// at least a quarter of them to half their bounds.
     bool slower_inputs = true;
     /// Boxes tested to draw the paving of the prior, when the search ran in products of parameters.
     std::size_t drawn_boxes = 1500;

@@ -22,6 +22,7 @@
 #include <stdexcept>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace sivid::paving_detail {
 
@@ -77,27 +78,39 @@ inline double sample_period(identification_problem const& problem) {
     return std::isfinite(least) ? least : 0;
 }
 
+/// The share of the measurements that a run at the fit tells to half their bounds.
+inline double seen_sharply(data_test& test, identification_problem const& problem,
+                           box const& fitted, std::vector<box> const& starts) {
+    auto const point = point_box(mid(fitted));
+    std::size_t sharp = 0, all = 0;
+    for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
+        auto const from =
+            e < starts.size() ? starts[e] : point_box(mid(problem.experiments[e].initial));
+        auto const answer = test.run(e, from, point);
+        auto const values = output_ranges(*answer, point);
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            sharp += width(values[i]) <= 0.5 * width(answer->bounds[i]) ? 1 : 0;
+        }
+        all += answer->measurements;
+    }
+    return static_cast<double>(sharp) / static_cast<double>(std::max<std::size_t>(all, 1));
+}
+
 /// What a search with slower inputs leaves of the prior, where that pays: see `identify_options`.
-/// @param fitted  near which trajectories are compared
+/// @param fitted  where they are tried, from `starts`
 inline std::optional<window_contraction>
 contract_by_slower_inputs(data_test& exact, identification_problem const& posed, box const& fitted,
-                          identify_options const& options, work_limit const& limit) {
+                          std::vector<box> const& starts, identify_options const& options,
+                          work_limit const& limit) {
     using clock = std::chrono::steady_clock;
     auto const begin = clock::now();
     double const period = 10 * sample_period(posed);
     if (!(period > 0)) return std::nullopt;
-    auto near = posed.prior;
-    for (std::size_t j = 0; j < near.size(); ++j) {
-        double const middle = mid(fitted[j]), w = 0.005 * width(near[j]);
-        near[j] = intersect(near[j], interval(middle - w, middle + w));
-    }
-    if (is_empty(near)) return std::nullopt;
-    double const known = exact.reached(near);
     if (!(exact.reached(posed.prior) < 0.25)) return std::nullopt;
     auto slow = with_slower_inputs(posed, period);
     if (!slow) return std::nullopt;
     data_test test(*slow, options.test);
-    if (!limit() || test.reached(near) < known) return std::nullopt;
+    if (!limit() || seen_sharply(test, *slow, fitted, starts) < 0.25) return std::nullopt;
     double const most = 0.5 * limit.seconds();
     auto const spent = [begin] {
         return std::chrono::duration<double>(clock::now() - begin).count();
@@ -119,16 +132,11 @@ contract_by_slower_inputs(data_test& exact, identification_problem const& posed,
     search.proof_bytes = 0;
     search.checkpoint = nullptr;
     search.resume = nullptr;
-    // A short search says whether a longer one will pay.
-    for (double const until : {0.3 * most, most}) {
-        search.seconds = until - spent();
-        if (result.empty() || !(search.seconds > 0)) break;
+    search.seconds = most - spent();
+    if (!result.empty() && search.seconds > 0) {
         further.set_rest(result.rest);
-        auto const before = relative_volume(result.rest, posed.prior).upper();
         auto const found = invert(further, posed.prior, search);
         result.rest = intersect(result.rest, found.paving.outer_hull());
-        bool const shrunk = relative_volume(result.rest, posed.prior).upper() < 0.9 * before;
-        if (!shrunk || found.reason != stop_reason::time_budget) break;
     }
     bool const shrunk = relative_volume(result.rest, posed.prior).upper() < 1;
     if (!shrunk && result.windows == 0) return std::nullopt;
@@ -142,12 +150,14 @@ contract_by_slower_inputs(data_test& exact, identification_problem const& posed,
 /// where the search does as well.
 /// @param test    of `posed`
 /// @param fitted  parameters that explain the data best, or the prior
+/// @param starts  of each experiment, with them; or none
 inline std::optional<window_contraction>
 contract_prior(data_test& test, identification_problem const& posed, box const& fitted,
-               identify_options const& options, work_limit const& limit) {
+               std::vector<box> const& starts, identify_options const& options,
+               work_limit const& limit) {
     std::optional<window_contraction> result;
     if (options.slower_inputs) {
-        result = contract_by_slower_inputs(test, posed, fitted, options, limit);
+        result = contract_by_slower_inputs(test, posed, fitted, starts, options, limit);
     }
     if (!options.windows || !limit() || (result && result->empty())) return result;
     auto hindered = posed;

@@ -102,7 +102,7 @@ SIVID_DECL identification identify(identification_problem const& problem,
     auto& unhindered = reduced ? *reduced : test;
     auto const before = unhindered.integrations();
     if (!options.resume && options.algorithm == algorithm::contracting && limit()) {
-        windows = paving_detail::contract_prior(unhindered, posed, fitted, options, limit);
+        windows = paving_detail::contract_prior(unhindered, posed, fitted, starts, options, limit);
     }
     auto const asking = unhindered.integrations() - before; // the search finds what was answered
     std::optional<identification_problem> narrowed;         // whose starts windows have contracted
