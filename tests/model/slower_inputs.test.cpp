@@ -251,6 +251,12 @@ struct refused {
             return {x[1], sin(t) * u[0] - c[0]}; // the gain moves by itself
         case 3:
             return {x[1], u[0] * u[0] * x[0] + abs(u[0] + x[0])};
+        case 6:
+            return {x[1], abs(c[0] * u[0])}; // of both signs of the input
+        case 7:
+            return {x[1], min(c[0] * u[0], T(1)) + u[0]}; // an actuator that saturates
+        case 8:
+            return {x[1], sign(c[0] * u[0]) + u[0]};
         default:
             return {x[1], u[0] - c[0] * x[1]};
         }
@@ -281,6 +287,10 @@ TEST_CASE("what is not affine in fast exact inputs stays as it is") {
     CHECK_FALSE(with_slower_inputs(asked<2>(fast), 0.02));
     CHECK_FALSE(with_slower_inputs(asked<3>(fast), 0.02));
     CHECK_FALSE(with_slower_inputs(asked<4>(fast), 0.02));
+    // Affine on either side of a kink, or without a slope beside a jump, is not affine.
+    CHECK_FALSE(with_slower_inputs(asked<6>(fast), 0.02));
+    CHECK_FALSE(with_slower_inputs(asked<7>(fast), 0.02));
+    CHECK_FALSE(with_slower_inputs(asked<8>(fast), 0.02));
     CHECK_FALSE(with_slower_inputs(asked<5>(fast), 0.002)); // not slower
     CHECK_FALSE(with_slower_inputs(asked<5>(logged(wave, 0.1, 1, interpolation::hold)), 0.02));
     sampled_signal const unsure(fast.times(), fast.values(), interpolation::hold,

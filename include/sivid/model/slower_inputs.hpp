@@ -23,7 +23,7 @@ namespace sivid {
 /// @param period  between two knots [s], > 0; inputs with fewer than four knots in one, on the
 ///                average over an experiment, stay as they are
 /// @returns nothing where no input is that fast, or one is not exact, enters a channel or the rates
-///          otherwise than said, or is delayed
+///          otherwise than said (by a kink or a jump, too), or is delayed
 /// @guarantee  a parameter, and a start, that explains the experiments here explains those of the
 ///             result; not the other way round: the result knows less of the inputs
 /// @cost  some operations for each sample

@@ -116,6 +116,21 @@ inline std::optional<integrated_model> in_integrals(recorded_model const& model,
     for (std::size_t k = 0; k < g.size(); ++k) {
         if (later[k] && is_function(g.nodes()[k])) return std::nullopt;
     }
+    // A derivative does not tell affine from affine on either side of a kink, nor from constant on
+    // either side of a jump.
+    auto const used = operands_of(g, d.rate);
+    std::vector<bool> of_function(g.size(), false);
+    for (std::size_t k = 0; k < g.size(); ++k) {
+        auto const& n = g.nodes()[k];
+        if (is_leaf(n.op)) {
+            of_function[k] = is_function(n);
+            continue;
+        }
+        of_function[k] = of_function[n.a] || (is_binary(n.op) && of_function[n.b]);
+        bool const kinked = n.op == operation::abs || n.op == operation::min ||
+                            n.op == operation::max || n.op == operation::sign;
+        if (used[k] && kinked && of_function[k]) return std::nullopt;
+    }
     std::vector<node_id> w;
     for (std::size_t j = 0; j < functions; ++j) w.push_back(g.leaf(operation::input, inputs + j));
     auto const first = differentiate(g, d.rate, w);
