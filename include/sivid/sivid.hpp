@@ -24,6 +24,7 @@
 #include <sivid/number/lanes.hpp>
 #include <sivid/number/monomial_space.hpp>
 #include <sivid/number/monomials.hpp>
+#include <sivid/number/near_minimax.hpp>
 #include <sivid/number/nearest_text.hpp>
 #include <sivid/number/pack.hpp>
 #include <sivid/number/pack_functions.hpp>

@@ -20,10 +20,10 @@ namespace {
 constexpr std::size_t order = 9;
 
 using table = std::vector<std::pair<univariate, std::string>>;
-table const functions = {{univariate::exp, "exp"},  {univariate::log, "log"},
-                         {univariate::sin, "sin"},  {univariate::cos, "cos"},
-                         {univariate::tan, "tan"},  {univariate::atan, "atan"},
-                         {univariate::tanh, "tanh"}};
+table const functions = {{univariate::exp, "exp"},   {univariate::log, "log"},
+                         {univariate::sin, "sin"},   {univariate::cos, "cos"},
+                         {univariate::tan, "tan"},   {univariate::atan, "atan"},
+                         {univariate::tanh, "tanh"}, {univariate::sech_squared, "1 - tanh^2"}};
 
 /// \f$ f^{(k)}(x)/k! \f$, k = 0 .. order, each by a formula of its own (not a recurrence in k).
 std::vector<mp> exact_coefficients(univariate f, mp const& x) {
@@ -32,6 +32,7 @@ std::vector<mp> exact_coefficients(univariate f, mp const& x) {
     mp factorial = 1;
     // tan^{(k)} = p_k(tan) with p_{k+1} = (1 + y^2) p_k'; the same for tanh with 1 - y^2.
     std::vector<mp> p{0, 1};
+    if (f == univariate::sech_squared) p = {1, 0, -1}; // tanh' = 1 - tanh^2
     for (std::size_t k = 0; k <= order; ++k) {
         if (k > 0) factorial *= static_cast<unsigned>(k);
         switch (f) {
@@ -51,7 +52,8 @@ std::vector<mp> exact_coefficients(univariate f, mp const& x) {
             break;
         }
         case univariate::tan:
-        case univariate::tanh: {
+        case univariate::tanh:
+        case univariate::sech_squared: {
             mp const v = f == univariate::tan ? mp(tan(x)) : mp(tanh(x));
             mp sum = 0;
             for (std::size_t j = p.size(); j-- > 0;) sum = sum * v + p[j];
@@ -93,7 +95,8 @@ interval somewhere(draws& d, univariate f, double radius) {
         double const r = std::fmin(radius, 1.57 - std::abs(c)) * d.uniform(0, 1);
         return interval_traits<interval>::bounds(c - r, c + r);
     }
-    if (f == univariate::exp || f == univariate::tanh) return d.interval(-20, 20, radius);
+    if (f == univariate::exp || f == univariate::tanh || f == univariate::sech_squared)
+        return d.interval(-20, 20, radius);
     return d.interval(-200, 200, radius);
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace sivid {
@@ -21,6 +22,8 @@ struct instruction {
     bool b_varies = false;
     /// Of a sum: its terms in the tape; empty for everything else.
     std::size_t first_term = 0, last_term = 0;
+    /// It is the slope of a hyperbolic tangent: 1 - tanh^2 of this slot.
+    std::optional<std::size_t> tanh_slope_at{};
 
     [[nodiscard]] bool is_sum() const { return first_term != last_term; }
 };
@@ -67,11 +70,17 @@ public:
                 terms_.push_back({slot[n.a], slot[n.b], true, minus, varies(n.a), varies(n.b)});
             }
         };
+        std::vector<std::optional<std::size_t>> tanh_slope_at(g.size());
+        for (std::size_t k = 0; k < g.size(); ++k) {
+            auto const& n = g[static_cast<node_id>(k)];
+            if (needed[k] && n.op == operation::tanh) tanh_slope_at[n.companion] = slot[n.a];
+        }
         for (std::size_t k = 0; k < g.size(); ++k) {
             if (!needed[k] || gathered[k]) continue;
             auto const i = static_cast<node_id>(k);
             auto const& n = g[i];
             instruction c;
+            c.tanh_slope_at = tanh_slope_at[k];
             c.op = n.op;
             c.target = slot[k];
             c.index = n.index;

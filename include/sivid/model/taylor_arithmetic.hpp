@@ -128,6 +128,9 @@ struct taylor_arithmetic {
     }
     static value_type atan(value_type const& a) { return everywhere(univariate::atan, a); }
     static value_type tanh(value_type const& a) { return everywhere(univariate::tanh, a); }
+    static value_type tanh_slope(value_type const& a) {
+        return everywhere(univariate::sech_squared, a);
+    }
 
     static decided_sign<mask> sign_of(value_type const& a) {
         auto values = rough_bounds(a); // decides as often as not, and costs nothing

@@ -3,6 +3,7 @@
 #define SIVID_NUMBER_TAYLOR_MODEL_FUNCTIONS_HPP
 
 #include <sivid/number/bernstein.hpp>
+#include <sivid/number/near_minimax.hpp>
 #include <sivid/number/univariate_taylor.hpp>
 
 #include <array>
@@ -51,6 +52,58 @@ taylor_model<C> relative_deviation(taylor_model<C> const& s, C const& factor) {
     taylor_model<C> t(s.shape());
     for (std::size_t i = 1; i < s.terms(); ++i) t.c(i) = s.c(i) * factor;
     return t;
+}
+
+/// f(s) as a near-minimax polynomial of s, of the degree that leaves least unknown, or as its
+/// range, in lanes where that is less than what a Taylor polynomial leaves and a tenth of what f(s)
+/// spans: over wide ranges of functions that saturate it is by far.
+/// @param usual  encloses f(s)
+/// @param good   the lanes where f is smooth
+template <class C, class Mask>
+taylor_model<C> sharper(univariate f, taylor_model<C> const& s, taylor_model<C> usual,
+                        Mask const& good) {
+    using model = taylor_model<C>;
+    using side_by_side = lane_traits<C>;
+    if (s.is_constant()) return usual;
+    // The share of s that is lost is lost of f(s) in any case.
+    auto const poor =
+        good & (usual.r() * s.spread() > usual.spread() * (s.spread() * 0.1 + s.r() * 1.5));
+    if (!side_by_side::any(poor)) return usual;
+    auto const values = bounds(s);
+    C const none(std::numeric_limits<double>::infinity());
+    C middle{}, half = none; // of the range of f
+    scratch<interval> range(side_by_side::count);
+    for (std::size_t l = 0; l < side_by_side::count; ++l) {
+        if (!side_by_side::test(poor, l)) continue;
+        range[l] = interval(side_by_side::get(values.lower, l), side_by_side::get(values.upper, l));
+        bool undefined = false;
+        interval y;
+        taylor_coefficients(f, range[l], 0, &y, undefined);
+        if (undefined || !std::isfinite(mag(y))) continue;
+        side_by_side::put(middle, l, mid(y));
+        side_by_side::put(half, l, rad(y));
+    }
+    auto t = s;
+    t.c(0) = 0.0;
+    t.norms()[0] = 0.0;
+    auto best = std::move(usual);
+    for (auto d = std::min<std::size_t>(s.degree(), most_near_minimax_degree); d > 0; --d) {
+        scratch<C> coefficient(d + 1);
+        std::fill_n(coefficient.data(), d + 1, C(0.0));
+        C off = none;
+        for (std::size_t l = 0; l < side_by_side::count; ++l) {
+            if (!side_by_side::test(poor, l)) continue;
+            near_minimax const p(f, side_by_side::get(s.c(0), l), range[l], d);
+            if (!std::isfinite(p.error())) continue;
+            for (std::size_t k = 0; k <= d; ++k) side_by_side::put(coefficient[k], l, p[k]);
+            side_by_side::put(off, l, p.error());
+        }
+        auto sum = model::constant(coefficient[d]);
+        for (std::size_t k = d; k-- > 0;) sum = sum * t + model::constant(coefficient[k]);
+        sum = widened(std::move(sum), off);
+        best = select(sum.r() < best.r(), std::move(sum), best);
+    }
+    return select(half < best.r(), widened(model::constant(middle), half), best);
 }
 
 } // namespace number_detail
@@ -154,7 +207,8 @@ template <class C>
 }
 
 /// An elementary function by its Taylor polynomial about the centre of s and Lagrange's remainder:
-///   \f$ f(s) \in \sum_{k \le D} f^{[k]}(s_0) \tilde s^k + f^{[D+1]}(range) \tilde s^{D+1} \f$.
+///   \f$ f(s) \in \sum_{k \le D} f^{[k]}(s_0) \tilde s^k + f^{[D+1]}(range) \tilde s^{D+1} \f$;
+///   over wide ranges by `near_minimax`.
 /// @param undefined  gets the lanes where f is not smooth on all of s
 template <class C>
 [[nodiscard]] taylor_model<C> apply(univariate f, taylor_model<C> const& s,
@@ -214,6 +268,7 @@ template <class C>
         C rest = last;
         for (std::size_t k = 0; k <= D; ++k) rest *= size * s.shape().up;
         result = widened(std::move(result), rest * s.shape().up + model::tiny);
+        result = number_detail::sharper(f, s, std::move(result), good);
     }
     number_detail::forget(!good, result);
     undefined |= !good;

@@ -21,7 +21,7 @@ inline constexpr double inverse_factorial = [] {
 } // namespace number_detail
 
 /// Functions of one variable whose Taylor coefficients are known here.
-enum class univariate { exp, log, sin, cos, tan, atan, tanh };
+enum class univariate { exp, log, sin, cos, tan, atan, tanh, sech_squared };
 
 /// Encloses \f$ f^{(k)}(x)/k! \f$ for k = 0 .. order at every x in the interval.
 /// @param y          gets the order + 1 enclosures
@@ -68,6 +68,13 @@ inline void taylor_coefficients(univariate f, interval const& x, std::size_t ord
             y[k + 1] = over(k == 0 ? T::add(T::point(1.0), s) : s, k + 1);
         }
         break;
+    case univariate::sech_squared: { // 1 - tanh^2; each square needs the tangents before it alone
+        taylor_coefficients(univariate::tanh, x, order, y, undefined);
+        auto const first = T::sub(T::point(1.0), T::sqr(y[0]));
+        for (std::size_t k = order; k > 0; --k) y[k] = T::neg(square(k));
+        y[0] = first;
+        break;
+    }
     case univariate::atan: { // y' (1 + x^2) = 1, with (1 + (x+s)^2) = w0 + 2 x s + s^2
         y[0] = T::atan(x);
         auto const w0 = T::add(T::point(1.0), T::sqr(x));
