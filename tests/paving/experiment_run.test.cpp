@@ -38,7 +38,7 @@ struct problem {
 
     [[nodiscard]] std::vector<extended_state> exact(extended_state const& x0,
                                                     extended_state const& p) const {
-        return support::reference_states(rate, x0, p, 0, times, inputs);
+        return support::reference_states(rate, x0, p, run.begin, times, inputs);
     }
 };
 
@@ -278,6 +278,43 @@ TEST_CASE("first-order sets contain the outputs and agree with Taylor models") {
             }
         }
     }
+}
+
+TEST_CASE("parts of a record side by side contain their outputs, each from its own begin") {
+    draws d(6);
+    auto p = some_models()[8]; // with inputs that change
+    REQUIRE(p.name == "6: sampled input");
+    std::vector<experiment> parts;
+    std::vector<problem> own;
+    for (int k = 0; k < 11; ++k) { // more than there are lanes
+        auto q = p;
+        q.run.begin = 0.15 * k;
+        q.run.initial = k == 4 ? part_of(d, p.run.initial, 0.0) : part_of(d, p.run.initial, 0.5);
+        q.run.measurements.clear();
+        q.times.clear();
+        for (int i = 1; i <= 1 + k % 4; ++i) {
+            q.times.push_back(q.run.begin + 0.2 * i);
+            for (std::size_t y = 0; y < 2; ++y) {
+                q.run.measurements.push_back({q.times.back(), y, between(-1e3, 1e3)});
+            }
+        }
+        parts.push_back(q.run);
+        own.push_back(q);
+    }
+    auto const answers = run_parts(*p.equations, parts, p.prior, {});
+    REQUIRE(answers.size() == parts.size());
+    for (std::size_t k = 0; k < parts.size(); ++k) check_containment(d, own[k], *answers[k], 8);
+    // One by one they say about the same.
+    for (std::size_t const k : {0U, 4U, 7U}) {
+        auto const alone = run_parts(*p.equations, {parts[k]}, p.prior, {});
+        check_containment(d, own[k], *alone[0], 8);
+        auto const a = output_ranges(*alone[0], p.prior), b = output_ranges(*answers[k], p.prior);
+        for (std::size_t y = 0; y < a.size(); ++y) {
+            CHECK(width(b[y]) < 1.01 * width(a[y]) + 1e-9);
+            CHECK(width(a[y]) < 1.01 * width(b[y]) + 1e-9);
+        }
+    }
+    CHECK(run_parts(*p.equations, {}, p.prior, {}).empty());
 }
 
 TEST_CASE("a part of a box: the response of the whole stays valid for it") {

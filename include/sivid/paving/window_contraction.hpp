@@ -22,8 +22,9 @@ struct window_options {
     std::function<bool()> keep_going = nullptr; ///< asked now and then by any thread; may be empty
     executor workers{};                         ///< runs windows and programs at once
     double longest = std::numeric_limits<double>::infinity(); ///< no window is longer [s]
-    std::size_t windows = 12;                                 ///< in one program
-    std::size_t chained = 60; ///< windows of a record that follow each other
+    /// In one program: they are run side by side, and a program's cost grows with their cube.
+    std::size_t windows = 8;
+    std::size_t chained = 24; ///< windows of a record that follow each other
     /// Products of two unknowns that move no measurement by more than this share of its bound are
     /// errors, no unknowns.
     double share = 0.02;
@@ -58,7 +59,8 @@ struct window_contraction {
 /// experiment.
 ///   Experiments with outliers, models with delays and with states of effects take no part, and
 ///   nothing is done where `run` asks for other enclosures than Taylor models by Taylor series.
-/// @cost  runs over windows, by Taylor models of degree 3, and a linear program for each side
+/// @cost  runs over windows, eight side by side, by Taylor models of degree 3, and a linear program
+///   for each side
 [[nodiscard]] SIVID_DECL window_contraction
 contract_by_windows(identification_problem const& problem, window_options const& options = {});
 

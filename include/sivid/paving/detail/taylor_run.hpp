@@ -21,34 +21,39 @@ namespace sivid {
 
 namespace paving_detail {
 
-/// Taylor models, in lanes or one by one: a lane that is done takes the next box.
+/// One family to carry: an experiment over a box of parameters, from a box of starts.
+struct carried_family {
+    experiment const* of;
+    record const* samples; ///< of the experiment
+    box const* initial;
+    box const* parameters;
+};
+
+/// Taylor models, in lanes or one by one: a lane that is done takes the next family. Each lane is
+/// at its own time; the inputs are those of the flow.
 /// @tparam Flow  what carries the sets
 template <class C, class Flow = parametric_flow<taylor_model<C>>>
-class taylor_run final : public experiment_run {
+class taylor_lanes {
 public:
-    /// @param unknowns, degree  of the polynomials
-    taylor_run(flow const& f, experiment const& e, record const& samples,
-               run_options const& options, std::size_t unknowns, std::size_t degree)
-        : experiment_(&e),
-          samples_(&samples),
-          options_(options),
-          flow_(f, options.enclosure, unknowns, degree) {}
+    static constexpr std::size_t width = lane_traits<C>::count;
 
-    using experiment_run::operator();
-    [[nodiscard]] std::size_t at_once() const override { return width; }
+    /// @param unknowns, degree  of the polynomials
+    taylor_lanes(flow const& f, run_options const& options, std::size_t unknowns,
+                 std::size_t degree)
+        : options_(options), flow_(f, options.enclosure, unknowns, degree) {}
 
     std::vector<std::shared_ptr<response const>>
-    operator()(box const& initial, std::vector<box> const& parameters) override {
-        std::vector<std::shared_ptr<response const>> answers(parameters.size());
+    operator()(std::vector<carried_family> const& families) {
+        std::vector<std::shared_ptr<response const>> answers(families.size());
         std::array<std::optional<lane>, width> lanes;
         for (std::size_t l = 0; l < width; ++l) flow_.end(l);
         std::size_t next = 0;
         std::size_t in_work = 0;
-        while (next < parameters.size() || in_work > 0) {
-            C limit(experiment_->begin);
+        while (next < families.size() || in_work > 0) {
+            C limit(families.front().of->begin);
             for (std::size_t l = 0; l < width; ++l) {
-                while (!lanes[l] && next < parameters.size()) {
-                    lanes[l] = begin(l, next, initial, parameters[next]);
+                while (!lanes[l] && next < families.size()) {
+                    lanes[l] = begin(l, next, families[next]);
                     ++next;
                     ++in_work;
                     if (!lanes[l]->walk.done()) continue;
@@ -71,7 +76,7 @@ public:
                     });
                 }
                 if (!over && !mine.walk.done()) continue;
-                auto const index = mine.box;
+                auto const index = mine.family;
                 answers[index] = std::move(mine).finish();
                 lanes[l].reset();
                 flow_.end(l);
@@ -82,11 +87,9 @@ public:
     }
 
 private:
-    static constexpr std::size_t width = lane_traits<C>::count;
-
-    /// What is known of the box in one lane.
+    /// What is known of the family in one lane.
     struct lane {
-        std::size_t box = 0;
+        std::size_t family = 0;
         measurement_walk walk;
         std::shared_ptr<response> answer;
         std::vector<std::size_t> const* place; ///< of the used monomials among all
@@ -107,9 +110,9 @@ private:
         }
     };
 
-    lane begin(std::size_t l, std::size_t index, box const& initial, box const& parameters) {
-        auto answer = start_response(*experiment_, *samples_, initial, parameters);
-        flow_.begin(l, experiment_->begin, initial, parameters);
+    lane begin(std::size_t l, std::size_t index, carried_family const& mine) {
+        auto answer = start_response(*mine.of, *mine.samples, *mine.initial, *mine.parameters);
+        flow_.begin(l, mine.of->begin, *mine.initial, *mine.parameters);
         auto& [table, place] = tables_[answer->unknowns.variables];
         if (!table) {
             table = std::make_shared<monomial_table const>(
@@ -117,18 +120,43 @@ private:
         }
         answer->table = table;
         auto const allowed = answer->allowed;
-        return {index, measurement_walk(*samples_, allowed), std::move(answer), &place,
+        return {index, measurement_walk(*mine.samples, allowed), std::move(answer), &place,
                 response_builder(place.size())};
     }
 
-    experiment const* experiment_;
-    record const* samples_;
     run_options options_;
     Flow flow_;
     /// For each number of unknowns, and where their monomials are among those of the flow.
     std::map<std::size_t,
              std::pair<std::shared_ptr<monomial_table const>, std::vector<std::size_t>>>
         tables_;
+};
+
+/// One experiment over boxes of parameters.
+template <class C, class Flow = parametric_flow<taylor_model<C>>>
+class taylor_run final : public experiment_run {
+public:
+    /// @param unknowns, degree  of the polynomials
+    taylor_run(flow const& f, experiment const& e, record const& samples,
+               run_options const& options, std::size_t unknowns, std::size_t degree)
+        : experiment_(&e), samples_(&samples), lanes_(f, options, unknowns, degree) {}
+
+    using experiment_run::operator();
+    [[nodiscard]] std::size_t at_once() const override { return lanes_.width; }
+
+    std::vector<std::shared_ptr<response const>>
+    operator()(box const& initial, std::vector<box> const& parameters) override {
+        std::vector<carried_family> families;
+        for (auto const& p : parameters) {
+            families.push_back({experiment_, samples_, &initial, &p});
+        }
+        return lanes_(families);
+    }
+
+private:
+    experiment const* experiment_;
+    record const* samples_;
+    taylor_lanes<C, Flow> lanes_;
 };
 
 } // namespace paving_detail

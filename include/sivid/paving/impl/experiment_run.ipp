@@ -5,13 +5,16 @@
 #include <sivid/paving/experiment_run.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/measurement/record.hpp>
 #include <sivid/paving/detail/doubleton_run.hpp>
 #include <sivid/paving/detail/taylor_run.hpp>
 #include <sivid/paving/scalar_run.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <stdexcept>
+#include <vector>
 
 namespace sivid {
 
@@ -38,6 +41,28 @@ SIVID_DECL std::unique_ptr<experiment_run> make_run(flow const& f, experiment co
         return std::make_unique<taylor_run<lanes<8>>>(f, e, samples, options, unknowns, degree);
     }
     return std::make_unique<doubleton_run>(f, e, samples, options);
+}
+
+SIVID_DECL std::vector<std::shared_ptr<response const>>
+run_parts(flow const& f, std::vector<experiment> const& parts, box const& parameters,
+          run_options options) {
+    using namespace paving_detail;
+    if (f.uncertain()) options.hopeless = 1e300;
+    std::vector<record> samples;
+    std::vector<carried_family> families;
+    std::size_t unknowns = 0;
+    for (auto const& part : parts) {
+        unknowns = std::max(unknowns, unknown_count(part.initial, parameters));
+        options.enclosure.minimum_step = minimum_step_for(part, options.enclosure.minimum_step);
+        samples.push_back(sorted(part.measurements));
+    }
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        families.push_back({&parts[k], &samples[k], &parts[k].initial, &parameters});
+    }
+    if (families.empty()) return {};
+    auto const degree = degree_for(options, unknowns);
+    if (families.size() == 1) return taylor_lanes<double>(f, options, unknowns, degree)(families);
+    return taylor_lanes<lanes<8>>(f, options, unknowns, degree)(families);
 }
 
 } // namespace sivid

@@ -8,9 +8,9 @@
 #include <sivid/enclosure/flow.hpp>
 #include <sivid/measurement/record.hpp>
 #include <sivid/model/states_seen.hpp>
+#include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/lifted_program.hpp>
 #include <sivid/paving/local_response.hpp>
-#include <sivid/paving/scalar_run.hpp>
 #include <sivid/paving/work_limit.hpp>
 
 #include <algorithm>
@@ -90,24 +90,32 @@ private:
         }
         return part;
     }
-    /// Carries a window over the parameters that are left; with the states at its end as outputs.
-    void run(window& w) const {
+    /// A window as an experiment, with the states at its end as outputs.
+    [[nodiscard]] experiment part_of(window const& w) const {
         auto const& whole = problem_->experiments[w.experiment];
         experiment part{whole.name, {}, w.from, w.start, measured_in(w), 0};
         for (std::size_t i = 0; i < states(); ++i) {
             part.measurements.push_back(
                 {w.to, problem_->model.about.channels.size() + i, traits::entire()});
         }
-        auto const samples = sorted(part.measurements);
+        return part;
+    }
+    /// Carries windows of one experiment over the parameters that are left.
+    void run(std::vector<window*> const& windows) const {
+        auto const e = windows.front()->experiment;
         auto options = options_.run;
         options.degree = degree_;
         auto& shortest = options.enclosure.minimum_step;
-        shortest = minimum_step_for(whole, shortest);
-        auto const run =
-            make_scalar_run(*flows_[w.experiment], part, samples, w.start, result_.rest, options);
-        w.answer = (*run)(w.start, result_.rest);
-        w.blur = w.answer->blur();
+        shortest = minimum_step_for(problem_->experiments[e], shortest);
+        std::vector<experiment> parts;
+        for (auto const* w : windows) parts.push_back(part_of(*w));
+        auto const answers = run_parts(*flows_[e], parts, result_.rest, options);
+        for (std::size_t k = 0; k < windows.size(); ++k) {
+            windows[k]->answer = answers[k];
+            windows[k]->blur = answers[k]->blur();
+        }
     }
+    void run(window& w) const { run({&w}); }
     /// Contracts a window's start by its own measurements. @returns false when nothing is left
     [[nodiscard]] bool contract_start(window& w) const {
         response_list const alone{w.answer};
@@ -186,7 +194,8 @@ private:
             start = std::move(*end);
             if (k == 0) result_.starts[e] = w.start;
             at = w.to;
-            length = std::min((w.to - w.from) * (w.blur < 0.3 ? 1.3 : 1.0), options_.longest);
+            // Not from where it ended: samples may be further apart than it grows by.
+            length = w.blur < 0.3 ? std::min(1.3 * length, options_.longest) : w.to - w.from;
             chain.push_back(std::move(w));
             ++k;
         }
@@ -215,17 +224,20 @@ private:
         return time;
     }
 
-    /// So many that one program takes them: of each part of the chain the sharpest.
+    /// So many that one program takes them: of each part of the chain the longest that is sharp.
     [[nodiscard]] std::vector<window> some_of(std::vector<window> chain) const {
         auto const most = std::max<std::size_t>(options_.windows, 1);
         if (chain.size() <= most) return chain;
+        auto const less = [](window const& a, window const& b) {
+            auto const worth = [](window const& w) { return (w.to - w.from) / (1 + w.blur); };
+            return worth(a) < worth(b);
+        };
         std::vector<window> chosen;
         for (std::size_t k = 0; k < most; ++k) {
             auto const at = [&](std::size_t part) {
                 return chain.begin() + static_cast<std::ptrdiff_t>(part * chain.size() / most);
             };
-            chosen.push_back(*std::min_element(
-                at(k), at(k + 1), [](auto const& a, auto const& b) { return a.blur < b.blur; }));
+            chosen.push_back(*std::max_element(at(k), at(k + 1), less));
         }
         return chosen;
     }
@@ -238,11 +250,16 @@ private:
         while (!windows.empty() && limit_()) {
             auto const before = result_.rest;
             auto const count = windows.size();
-            options_.workers(count, [&](std::size_t k) {
-                windows[k].to =
-                    end_before(records_[windows[k].experiment], windows[k].from, lengths[k]);
-                run(windows[k]);
-            });
+            std::vector<std::vector<window*>> together; // eight of one experiment at a time
+            for (std::size_t k = 0; k < count; ++k) {
+                auto& w = windows[k];
+                w.to = end_before(records_[w.experiment], w.from, lengths[k]);
+                bool const joins = !together.empty() && together.back().size() < 8 &&
+                                   together.back().front()->experiment == w.experiment;
+                if (!joins) together.emplace_back();
+                together.back().push_back(&w);
+            }
+            options_.workers(together.size(), [&](std::size_t k) { run(together[k]); });
             result_.windows += count;
             if (!limit_()) return; // what was carried may be cut short
             response_list known;
