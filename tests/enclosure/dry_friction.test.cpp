@@ -38,7 +38,7 @@ TEST_CASE("starts on both sides of dry friction are carried until they have come
         [](auto const& t, auto const& x, auto const& p, auto const&) { return slide(t, x, p); }));
     box const start{between(-0.1, 0.1)}, friction{between(9.8, 10.2), between(0.25, 0.35)};
     auto const motion = enclose(f, start, friction, 0, 0.5);
-    REQUIRE(motion.complete()); // Taylor polynomials alone end after 2 ms
+    REQUIRE(motion.complete());
     draws d(3);
     std::vector<double> const times{0.001, 0.004, 0.01, 0.03, 0.1, 0.3, 0.5};
     for (int sample = 0; sample < 40; ++sample) {
