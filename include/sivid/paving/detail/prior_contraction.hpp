@@ -119,8 +119,9 @@ contract_by_slower_inputs(data_test& exact, identification_problem const& posed,
     result.rest = posed.prior;
     for (auto const& e : posed.experiments) result.starts.push_back(e.initial);
     if (options.windows && starts_hinder(test, *slow)) {
+        // They are cheaper here than over the recorded inputs, and end by themselves.
         result = contract_by_windows(*slow, {.run = options.test.run,
-                                             .seconds = 0.8 * most,
+                                             .seconds = 0.6 * limit.seconds(),
                                              .keep_going = limit,
                                              .workers = options.search.workers});
         *slow = narrowed_by(result, *std::move(slow));
