@@ -26,14 +26,14 @@ struct identify_options {
     data_test_options test;
     /// Stop when the hulls no longer shrink; the paving stays coarse.
     bool only_hulls = false;
-    /// Contract the prior by windows of the records first (`contract_by_windows`), in at most half
+    /// Contract the prior by windows of the records first (`contract_by_windows`), in at most 0.8
     /// of the time, where starts are not known exactly and trajectories over the prior reach less
     /// than a quarter of the measurements. Where starts are known halving the prior does as well.
     bool windows = true;
     /// Search with slower inputs first (`with_slower_inputs`, ten samples to a line), in at most
-    /// half of the time, where an input has a thousand samples or more, trajectories over the prior
-    /// reach less than a quarter of the measurements, and with slower inputs a run at the fit tells
-    /// at least a quarter of them to half their bounds.
+    /// half of the time (windows of theirs: 0.6), where an input has a thousand samples or more,
+    /// trajectories over the prior reach less than a quarter of the measurements, and with slower
+    /// inputs a run at the fit tells at least a quarter of them to half their bounds.
     bool slower_inputs = true;
     /// Boxes tested to draw the paving of the prior, when the search ran in products of parameters.
     std::size_t drawn_boxes = 1500;
