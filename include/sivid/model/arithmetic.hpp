@@ -153,6 +153,18 @@ template <>
 struct arithmetic_for<double> {
     using type = approximate_arithmetic;
 };
+
+/// 1 - tanh^2 of a, where the arithmetic knows it by itself: the square would count twice what tanh
+/// has lost over a wide range.
+/// @returns  false where it does not
+template <class A, class T>
+bool find_tanh_slope(T const& a, T& result) {
+    if constexpr (requires { A::tanh_slope(a); }) {
+        result = A::tanh_slope(a);
+        return true;
+    }
+    return false;
+}
 } // namespace model_detail
 
 /// The arithmetic of a scalar type: proven for interval types, approximate for `double`.

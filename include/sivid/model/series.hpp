@@ -141,9 +141,11 @@ private:
                 result = input(static_cast<std::size_t>(i.index), k);
                 break;
             default:
-                if (k == 0 && i.tanh_slope_at && has_tanh_slope) {
-                    result = tanh_slope(get(*i.tanh_slope_at, 0));
-                } else if (i.is_sum()) {
+                if (k == 0 && i.tanh_slope_at &&
+                    model_detail::find_tanh_slope<arithmetic>(get(*i.tanh_slope_at, 0), result)) {
+                    break;
+                }
+                if (i.is_sum()) {
                     sum(i, k, result);
                 } else if (k > 0 && i.op == operation::mul && i.a_varies && i.b_varies) {
                     accumulator total(result);
@@ -160,17 +162,6 @@ private:
             if constexpr (arithmetic::keeps_rows) {
                 if (row_[i.target] != no_row) rows_.put(row_[i.target], k, result);
             }
-        }
-    }
-
-    /// Whether the arithmetic knows the function itself: over wide ranges, 1 - tanh^2 would count
-    /// twice what tanh has lost.
-    static constexpr bool has_tanh_slope = requires(T const& a) { arithmetic::tanh_slope(a); };
-    [[nodiscard]] static T tanh_slope(T const& a) {
-        if constexpr (has_tanh_slope) {
-            return arithmetic::tanh_slope(a);
-        } else {
-            return a;
         }
     }
 

@@ -6,6 +6,7 @@
 #include <sivid/number/near_minimax.hpp>
 #include <sivid/number/univariate_taylor.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>

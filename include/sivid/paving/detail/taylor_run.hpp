@@ -22,7 +22,7 @@ namespace sivid {
 namespace paving_detail {
 
 /// One family to carry: an experiment over a box of parameters, from a box of starts.
-struct carried_family {
+struct lane_task {
     experiment const* of;
     record const* samples; ///< of the experiment
     box const* initial;
@@ -43,7 +43,7 @@ public:
         : options_(options), flow_(f, options.enclosure, unknowns, degree) {}
 
     std::vector<std::shared_ptr<response const>>
-    operator()(std::vector<carried_family> const& families) {
+    operator()(std::vector<lane_task> const& families) {
         std::vector<std::shared_ptr<response const>> answers(families.size());
         std::array<std::optional<lane>, width> lanes;
         for (std::size_t l = 0; l < width; ++l) flow_.end(l);
@@ -110,7 +110,7 @@ private:
         }
     };
 
-    lane begin(std::size_t l, std::size_t index, carried_family const& mine) {
+    lane begin(std::size_t l, std::size_t index, lane_task const& mine) {
         auto answer = start_response(*mine.of, *mine.samples, *mine.initial, *mine.parameters);
         flow_.begin(l, mine.of->begin, *mine.initial, *mine.parameters);
         auto& [table, place] = tables_[answer->unknowns.variables];
@@ -146,7 +146,7 @@ public:
 
     std::vector<std::shared_ptr<response const>>
     operator()(box const& initial, std::vector<box> const& parameters) override {
-        std::vector<carried_family> families;
+        std::vector<lane_task> families;
         for (auto const& p : parameters) {
             families.push_back({experiment_, samples_, &initial, &p});
         }

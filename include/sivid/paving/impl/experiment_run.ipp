@@ -49,7 +49,7 @@ run_parts(flow const& f, std::vector<experiment> const& parts, box const& parame
     using namespace paving_detail;
     if (f.uncertain()) options.hopeless = 1e300;
     std::vector<record> samples;
-    std::vector<carried_family> families;
+    std::vector<lane_task> families;
     std::size_t unknowns = 0;
     for (auto const& part : parts) {
         unknowns = std::max(unknowns, unknown_count(part.initial, parameters));
