@@ -3,10 +3,12 @@
 #include "support/formulas.hpp"
 #include "support/taylor_models.hpp"
 
+#include <sivid/model/expression.hpp>
 #include <sivid/model/series.hpp>
 #include <sivid/model/tape.hpp>
 #include <sivid/model/taylor_arithmetic.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -117,6 +119,42 @@ TEST_CASE("series of Taylor models contain the series at each value of the unkno
     for (int trial = 0; trial < 250; ++trial) compared += check_formula(d, 0.02);
     for (int trial = 0; trial < 250; ++trial) compared += check_formula(d, 0.4);
     REQUIRE(compared > 200);
+}
+
+TEST_CASE("over wide ranges tanh and its slope contain theirs, order by order") {
+    graph g;
+    expression const x(g, g.leaf(operation::state, 0));
+    auto const y = tanh(x).in(g);
+    tape const program(g, {y, g[y].companion}); // the slope is found from x, not from tanh
+    series<value> s(program, order, model::size());
+    draws d(107);
+    double narrowest = HUGE_VAL;
+    for (int trial = 0; trial < 60; ++trial) {
+        inputs const in(d, trial % 2 == 0 ? 1.5 : 0.5);
+        s.start(in.t);
+        for (std::size_t k = 0; k <= order; ++k) {
+            s.advance(
+                k, [&](std::size_t i, std::size_t j) { return value(in.x[i][j]); },
+                [](std::size_t, std::size_t) { return value{}; });
+        }
+        CHECK(s.output(1, 0).r() <= 0.501); // it lies in [0, 1]
+        narrowest = std::min(narrowest, s.output(1, 0).r());
+        for (int sample = 0; sample < 10; ++sample) {
+            auto const q = support::short_point(d, variables);
+            reference at;
+            for (std::size_t k = 0; k <= order; ++k) {
+                at.c[k] = support::member<mp>(d, in.x[0][k], q);
+            }
+            auto const exact = tanh(at);
+            auto const slope = reference(1) - exact * exact;
+            for (std::size_t k = 0; k <= order; ++k) {
+                CAPTURE(trial, k);
+                REQUIRE(support::holds(s.output(0, k), q, exact.c[k], 1e-30));
+                REQUIRE(support::holds(s.output(1, k), q, slope.c[k], 1e-30));
+            }
+        }
+    }
+    CHECK(narrowest < 0.3);
 }
 
 TEST_CASE("kinks and jumps of Taylor models are sets") {

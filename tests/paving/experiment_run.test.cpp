@@ -315,6 +315,10 @@ TEST_CASE("parts of a record side by side contain their outputs, each from its o
         }
     }
     CHECK(run_parts(*p.equations, {}, p.prior, {}).empty());
+    // Where nothing is unknown they are points.
+    auto const point = part_of(d, p.prior, 0.0);
+    auto const known = run_parts(*p.equations, {parts[4], parts[4]}, point, {});
+    for (auto const& answer : known) check_containment(d, own[4], *answer, 1);
 }
 
 TEST_CASE("a part of a box: the response of the whole stays valid for it") {

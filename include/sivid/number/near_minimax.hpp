@@ -53,7 +53,8 @@ public:
     [[nodiscard]] std::size_t degree() const { return degree_; }
     /// Coefficient k.
     [[nodiscard]] double operator[](std::size_t k) const { return p_[k]; }
-    /// |f - p| is nowhere more; infinite where f is not smooth, or not finite, on all of the range.
+    /// |f - p| is nowhere more; infinite where f is not smooth, or not finite, on all of the range,
+    /// or the range is a point.
     [[nodiscard]] double error() const { return error_; }
 
 private:

@@ -25,10 +25,10 @@ make_run(flow const& f, experiment const& e, record const& samples, box const& i
 
 /// Parts of one record side by side, each from its own begin and box of starts, over one box of
 /// parameters: by Taylor models in lanes.
-/// @param f      under the inputs of the record, whatever the parts say
-/// @param parts  without outliers
+/// @param f  under the inputs of the record, whatever the parts say
+/// @param options  its smallest step is taken as it is: the caller knows the inputs
 /// @returns  for each part what `experiment_run` returns
-/// @cost  eight parts take not much longer than one of the same length
+/// @cost  one integration in lanes for eight parts; a single part in scalars
 [[nodiscard]] SIVID_DECL std::vector<std::shared_ptr<response const>>
 run_parts(flow const& f, std::vector<experiment> const& parts, box const& parameters,
           run_options options);

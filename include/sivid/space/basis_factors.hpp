@@ -51,6 +51,7 @@ public:
     [[nodiscard]] bool replace(std::size_t k, std::vector<double> const& solved) {
         double largest = 0;
         for (double const v : solved) largest = std::max(largest, std::abs(v));
+        // Each replacement may lose as many digits; ends of programs are solved anew, and proved.
         if (!(std::abs(solved[k]) > 1e-5 * largest)) return false;
         replaced_.push_back({k, solved});
         return true;

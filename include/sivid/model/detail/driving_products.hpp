@@ -127,9 +127,7 @@ inline std::optional<integrated_model> in_integrals(recorded_model const& model,
             continue;
         }
         of_function[k] = of_function[n.a] || (is_binary(n.op) && of_function[n.b]);
-        bool const kinked = n.op == operation::abs || n.op == operation::min ||
-                            n.op == operation::max || n.op == operation::sign;
-        if (used[k] && kinked && of_function[k]) return std::nullopt;
+        if (used[k] && has_kink(n.op) && of_function[k]) return std::nullopt;
     }
     std::vector<node_id> w;
     for (std::size_t j = 0; j < functions; ++j) w.push_back(g.leaf(operation::input, inputs + j));

@@ -53,7 +53,6 @@ run_parts(flow const& f, std::vector<experiment> const& parts, box const& parame
     std::size_t unknowns = 0;
     for (auto const& part : parts) {
         unknowns = std::max(unknowns, unknown_count(part.initial, parameters));
-        options.enclosure.minimum_step = minimum_step_for(part, options.enclosure.minimum_step);
         samples.push_back(sorted(part.measurements));
     }
     for (std::size_t k = 0; k < parts.size(); ++k) {
