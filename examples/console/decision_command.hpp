@@ -8,13 +8,18 @@
 
 namespace console {
 
-/// What `predict` and `verify` are told.
+enum class decision { predict, verify, control };
+
+/// What `predict`, `verify` and `control` are told.
 struct decision_command {
     std::filesystem::path result, dataset, out;
-    std::string scenario;         ///< a name or a file; data:NAME is one of the data set
-    std::vector<std::string> set; ///< Ff=0.5 or Ff=0.3:0.7
-    std::string requirement;      ///< of `verify`
-    double budget = 10;           ///< [s]
+    std::string scenario;            ///< a name or a file; data:NAME is one of the data set
+    std::vector<std::string> set;    ///< Ff=0.5 or Ff=0.3:0.7
+    std::string requirement;         ///< of `verify` and `control`
+    std::string law;                 ///< "W = clamp(K * (2 - u), 0, 250)"; may be empty
+    std::vector<std::string> gain;   ///< of the law: K=3 or K=0:50
+    std::vector<std::string> sensor; ///< error bounds of what the law reads: u=0.02
+    double budget = 10;              ///< [s]
     bool quiet = false;
     std::string command_line;
 };

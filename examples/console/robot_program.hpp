@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The whole program around a model and its effects: PROGRAM FOLDER --out DIR, and then
-// PROGRAM predict | verify DIR/model --scenario FILE; beside it PROGRAM rank FOLDER --out DIR.
+// PROGRAM predict | verify | control DIR/model --scenario FILE; beside it PROGRAM rank FOLDER --out
+// DIR.
 #ifndef EXAMPLES_CONSOLE_ROBOT_PROGRAM_HPP
 #define EXAMPLES_CONSOLE_ROBOT_PROGRAM_HPP
 
 #include "decision_commands.hpp"
+#include "decision_options.hpp"
 #include "diagnosis_output.hpp"
 #include "number_range.hpp"
 #include "program.hpp"
@@ -37,7 +39,7 @@
 namespace console {
 
 /// The ranges of all parameters of a model that explains the data, on the terminal, and as
-/// model.html and model.json; with its boxes in the folder model, for predict and verify.
+/// model.html and model.json; with its boxes in the folder model, for predict, verify, control.
 /// @param effects  joined to the data set's model, by name
 /// @param data     what it was identified from
 /// @throws sivid::output_error
@@ -100,7 +102,7 @@ inline void write_identified_model(sivid::identification_problem const& problem,
                                            .source_digest = sivid::dataset_digest(folder)}));
     result.commit();
     std::cout << "  written: " << (out / "model.html").string() << " and model.json; "
-              << (out / "model").string() << " for predict and verify\n";
+              << (out / "model").string() << " for predict, verify, control\n";
 }
 
 /// Reads a data set of `model`, says whether the model explains it and what is missing if not, and
@@ -151,33 +153,15 @@ inline int diagnose_folder(sivid::recorded_model const& model,
     return exit_code_of(run.result);
 }
 
-/// PROGRAM predict | verify RESULT ...
-/// @param verify  which of the two
+/// PROGRAM predict | verify | control RESULT ...
 inline int decide_by_result(std::string const& name, sivid::recorded_model const& model,
-                            std::vector<sivid::effect> const& catalogue, bool verify, int argc,
+                            std::vector<sivid::effect> const& catalogue, decision what, int argc,
                             char** argv) {
     decision_command c;
     c.command_line = command_line(name, argc, argv);
-    CLI::App app{verify ? "Does a requirement hold for all parameters that a result leaves?"
-                        : "Tubes of a scenario over all parameters that a result leaves"};
-    app.add_option("result", c.result, "folder with result.json and boxes.csv, such as OUT/model")
-        ->required();
-    app.add_option("--dataset", c.dataset, "its data set, if it is not where the result says");
-    app.add_option("--scenario", c.scenario,
-                   "a JSON file (sivid-scenario-1), or data:NAME for one of the data set")
-        ->required();
-    app.add_option("--set", c.set, "constants of the scenario, such as a=9.8, or ranges, a=9:11");
-    app.add_option("--budget", c.budget, "seconds")
-        ->check(number_between(0.0, 1e9))
-        ->capture_default_str();
-    auto* const out = app.add_option("--out", c.out, "folder for the report and the JSON file")
-                          ->check(folder_name());
-    app.add_flag("--quiet", c.quiet, "no progress");
-    if (verify) {
-        app.add_option("--require", c.requirement, "such as \"always(abs(w) < 20)\"")->required();
-    } else {
-        out->required();
-    }
+    CLI::App app{about(what)};
+    add_options(app, what, c,
+                "a JSON file (sivid-scenario-1), or data:NAME for one of the data set");
     try {
         app.parse(argc - 1, argv + 1);
     } catch (CLI::ParseError const& e) {
@@ -185,7 +169,7 @@ inline int decide_by_result(std::string const& name, sivid::recorded_model const
     }
     auto const names = sivid::names_of(model.about);
     auto const find = [&](std::string const& file) { return sivid::read_scenario(file, names); };
-    return verify ? run_verify(model, catalogue, c, find) : run_predict(model, catalogue, c, find);
+    return run_decision(what, model, catalogue, c, find);
 }
 
 /// PROGRAM rank FOLDER ...: how far each parameter can move the measurements.
@@ -220,15 +204,19 @@ int robot_program(std::string const& name, std::string const& about, Model const
                   std::vector<sivid::effect> const& catalogue, int argc, char** argv) {
     return guarded(name, [&] {
         std::string const first = argc > 1 ? argv[1] : "";
-        if (first == "predict" || first == "verify")
-            return decide_by_result(name, sivid::record_model(model), catalogue, first == "verify",
-                                    argc, argv);
+        for (auto const& [word, what] :
+             {std::pair("predict", decision::predict), std::pair("verify", decision::verify),
+              std::pair("control", decision::control)}) {
+            if (first == word)
+                return decide_by_result(name, sivid::record_model(model), catalogue, what, argc,
+                                        argv);
+        }
         if (first == "rank") return rank_folder(name, sivid::record_model(model), argc, argv);
         std::filesystem::path folder, out;
         double budget = 60;
         bool quiet = false;
-        CLI::App app{about + "\n\nThen: predict OUT/model ..., verify OUT/model ...; and: rank "
-                             "FOLDER ... (--help)"};
+        CLI::App app{about + "\n\nThen: predict OUT/model ..., verify OUT/model ..., control "
+                             "OUT/model ...; and: rank FOLDER ... (--help)"};
         app.add_option("folder", folder, "folder with dataset.json")->required();
         app.add_option("--out", out, "folder for report.html, model.html and JSON files")
             ->required();

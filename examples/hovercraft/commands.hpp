@@ -93,8 +93,8 @@ struct simulate_command {
 [[nodiscard]] int run(simulate_command const& command);
 
 /// What a stored identification says of a scenario: tubes, or whether a requirement holds.
-[[nodiscard]] int run_predict(hovercraft const& craft, console::decision_command const& command);
-[[nodiscard]] int run_verify(hovercraft const& craft, console::decision_command const& command);
+[[nodiscard]] int run_decision(console::decision what, hovercraft const& craft,
+                               console::decision_command const& command);
 
 struct rank_command {
     hovercraft craft;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// predict and verify: what a stored identification says of a scenario.
+// predict, verify and control: what a stored identification says of a scenario.
 #include "commands.hpp"
 #include "console/decision_commands.hpp"
 #include "effects.hpp"
@@ -18,15 +18,12 @@ sivid::scenario_description find_one(sivid::recorded_model const& model, std::st
 
 } // namespace
 
-int run_predict(hovercraft const& craft, console::decision_command const& c) {
-    auto const model = sivid::record_model(craft);
-    return console::run_predict(model, catalogue(), c,
-                                [&](std::string const& name) { return find_one(model, name); });
-}
-int run_verify(hovercraft const& craft, console::decision_command const& c) {
-    auto const model = sivid::record_model(craft);
-    return console::run_verify(model, catalogue(), c,
-                               [&](std::string const& name) { return find_one(model, name); });
+int run_decision(console::decision what, hovercraft const& craft,
+                 console::decision_command const& c) {
+    auto const find = [&craft](std::string const& name) {
+        return find_one(sivid::record_model(craft), name);
+    };
+    return console::run_decision(what, sivid::record_model(craft), catalogue(), c, find);
 }
 
 } // namespace hovercraft_example

@@ -2,6 +2,7 @@
 // hovercraft identify | check | predict | verify | diagnose | generate | simulate | rank |
 // describe: the reference example on the command line.
 #include "commands.hpp"
+#include "console/decision_options.hpp"
 #include "console/number_range.hpp"
 #include "console/parameter_ranges.hpp"
 #include "console/program.hpp"
@@ -146,8 +147,9 @@ public:
         app_.require_subcommand(1);
         add_identify();
         add_check();
-        add_predict();
-        add_verify();
+        add_decision("predict", console::decision::predict);
+        add_decision("verify", console::decision::verify);
+        add_decision("control", console::decision::control);
         add_diagnose();
         add_generate();
         add_simulate();
@@ -278,50 +280,16 @@ private:
         });
     }
 
-    void add_decision(CLI::App& s, bool needs_out) {
-        auto& c = decision_;
-        s.add_option("result", c.result, "folder of an `identify` result")->required();
-        s.add_option("--dataset", c.dataset, "its data set, if it is not where the result says");
+    void add_decision(char const* name, console::decision what) {
+        auto* const s = app_.add_subcommand(name, about(what));
         std::string names = "a JSON file, data:NAME for one of the data set, or one of:";
         for (auto const& b : built_in_scenarios()) names += std::string{" "} + std::string{b.name};
-        s.add_option("--scenario", c.scenario, names)->required();
-        s.add_option("--set", c.set,
-                     "constants of the scenario, such as Ff=0.5, or ranges, such as Ff=0.3:0.7");
-        s.add_option("--budget", c.budget, "seconds")
-            ->check(console::number_between(0.0, 1e9))
-            ->capture_default_str();
-        auto* const out = s.add_option("--out", c.out, "folder for the report and the JSON file")
-                              ->check(console::folder_name());
-        if (needs_out) out->required();
-        s.add_flag("--quiet", c.quiet, "no progress");
-        add_variants(s, shared_);
-    }
-
-    void add_predict() {
-        auto* const s = app_.add_subcommand(
-            "predict", "tubes of a scenario over all parameters that an identification leaves");
-        add_decision(*s, true);
-        s->callback([this] {
-            action_ = [this] {
+        console::add_options(*s, what, decision_, names);
+        add_variants(*s, shared_);
+        s->callback([this, what] {
+            action_ = [this, what] {
                 decision_.command_line = line_;
-                return run_predict(shared_.craft(), decision_);
-            };
-        });
-    }
-
-    void add_verify() {
-        auto* const s = app_.add_subcommand(
-            "verify", "does a requirement hold for all parameters that an identification leaves?");
-        add_decision(*s, false);
-        s->add_option("--require", decision_.requirement,
-                      "such as \"eventually(abs(u) < 0.01) and x at end in [3, 7]\"")
-            ->required();
-        s->footer("Exit codes: 0 proved for all parameters, 2 bad input, 3 open, 5 refuted by a "
-                  "parameter that is proved to explain the data.");
-        s->callback([this] {
-            action_ = [this] {
-                decision_.command_line = line_;
-                return run_verify(shared_.craft(), decision_);
+                return run_decision(what, shared_.craft(), decision_);
             };
         });
     }

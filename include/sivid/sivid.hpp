@@ -63,6 +63,7 @@
 #include <sivid/measurement/signal.hpp>
 #include <sivid/model/arithmetic.hpp>
 #include <sivid/model/bound_model.hpp>
+#include <sivid/model/closed_loop.hpp>
 #include <sivid/model/combination.hpp>
 #include <sivid/model/describe.hpp>
 #include <sivid/model/differentiate.hpp>
@@ -241,6 +242,8 @@
 #include <sivid/paving/witness.hpp>
 #include <sivid/paving/work_limit.hpp>
 #include <sivid/decision/cell_bounds.hpp>
+#include <sivid/decision/control_law.hpp>
+#include <sivid/decision/gain_search.hpp>
 #include <sivid/decision/measurement_group.hpp>
 #include <sivid/decision/measurement_ranking.hpp>
 #include <sivid/decision/motion_cover.hpp>

@@ -140,3 +140,32 @@ TEST_CASE("a ranking writes what measurements are worth, where it was asked") {
     auto const silent = sivid::parse_json("ranking.json", sivid::ranking_json(problem, found, {}));
     CHECK(silent.find("measurements") == nullptr);
 }
+
+TEST_CASE("gains are written with their shares, their proof and what speaks against others") {
+    decided const d("x at 1 in [1.15, 1.3]");
+    // The second product's range stands in for a gain.
+    auto& p = d.about->problem;
+    auto& q = d.about->direct;
+    for (auto* const each : {&p, &q}) {
+        each->model.about.constants.push_back({"K", "1", {}});
+        each->choice.unknown.push_back("K");
+        for (auto& set : each->sets) {
+            std::vector<sivid::interval> sides(set.begin(), set.end());
+            sides.push_back(sivid::interval_traits<sivid::interval>::bounds(0, 2));
+            set = sivid::box(std::move(sides));
+        }
+    }
+    d.about->sides.push_back("K");
+    auto const found = sivid::find_gains(p, {"K"}, d.what, {}, {{.seconds = 2}, 0.1});
+    auto const json = sivid::parse_json(
+        "control.json",
+        sivid::control_json(*d.about, d.what, found, nullptr,
+                            {.scenario = "S", .law = "W = K", .sensors = {{"x", 0.5}}}));
+    CHECK(json.at("format").string() == "sivid-control-1");
+    CHECK(json.at("law").string() == "W = K");
+    CHECK(number(json.at("sensors").at("x")) == 0.5);
+    CHECK(json.at("gains").elements()[0].string() == "K");
+    CHECK(number(json.at("proved_share")) >= 0);
+    CHECK(number(json.at("left_share")) <= 1);
+    CHECK(sivid::gains_csv(found).starts_with("verdict,K_lower,K_upper\n"));
+}

@@ -76,7 +76,8 @@ public:
 
     /// Integrates over each of the parts, those with the same starts side by side.
     void learn(std::vector<part*> const& parts);
-    [[nodiscard]] view look(part const& p) const;
+    /// @param roughly  over the part's own box instead of its sets: wider, and cheap
+    [[nodiscard]] view look(part const& p, bool roughly = false) const;
     /// Bounds of one output on all segments (see `margin_bounds`): infinite where nothing is known.
     void segments(part const& p, view const& v, std::size_t output, std::vector<double>& low,
                   std::vector<double>& high) const;
@@ -87,10 +88,18 @@ public:
     }
     /// The variable of a side in what is known of a part; nothing for a side without width.
     [[nodiscard]] std::size_t variable_of(part const& p, std::size_t side) const;
-    /// The side that moves the states most at the last instant that was reached, against their own
-    /// ranges: what to halve where a part gets no further. Nothing when none is known to.
-    [[nodiscard]] std::size_t telling_side(part const& p, view const& v) const;
+    /// How far each side moves the states at the last instant that was reached, against their own
+    /// ranges: what to halve where a part gets no further. Empty when nothing was reached.
+    [[nodiscard]] std::vector<double> moved_by_sides(part const& p, view const& v) const;
+    /// The side of the greatest score above 0, or none.
+    [[nodiscard]] static std::size_t most(std::vector<double> const& scores);
     static constexpr std::size_t none = ~std::size_t{0};
+    /// The width of a side against the whole; 0 where it cannot be cut.
+    [[nodiscard]] double share(part const& p, std::size_t side) const;
+    /// What of a part has its parameters in a box; without sets where no parameter is left.
+    [[nodiscard]] part within(part const& p, box const& parameters) const {
+        return with_sets(p.initial, intersect(p.parameters, parameters), p.sets, p.known);
+    }
     /// The halves of a part along a side that has a variable; a half that meets no set is left out.
     /// Nothing when the side cannot be cut.
     [[nodiscard]] std::vector<part> split(part const& p, std::size_t side) const;

@@ -3,6 +3,7 @@
 #define SIVID_DECISION_VERIFICATION_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/decision/detail/verification_types.hpp>
 #include <sivid/decision/prediction_options.hpp>
 #include <sivid/decision/prediction_problem.hpp>
 #include <sivid/decision/requirement.hpp>
@@ -40,30 +41,12 @@ enum class open_reason {
                                             : "violated, and no parameter in it is proved feasible";
 }
 
-/// A single motion that violates a requirement, with a parameter that is proved feasible.
-struct violating_motion {
-    std::vector<double> parameters; ///< sides of `feasible_points::direct`
-    std::vector<double> start;
-    truth found;     ///< of this motion, enclosed anew
-    double time = 0; ///< an instant at which the robustness is decided [s]
-};
-
 /// A box of parameters and starts that is neither proved nor refuted.
 struct open_box {
     box parameters, initial;
     truth found;
     open_reason why = open_reason::undecided;
     double reached = 0; ///< its motions are enclosed up to here [s]
-};
-
-/// Where parameters come from that are proved to be possible: what a refutation needs.
-struct feasible_points {
-    /// The same prediction, with the user's parameters as sides.
-    prediction_problem const* direct = nullptr;
-    /// Points of `direct` to be tried for a point of the problem, most promising first.
-    std::function<std::vector<std::vector<double>>(std::vector<double> const&)> candidates{};
-    /// Whether a point of `direct` is proved feasible; false says nothing.
-    std::function<bool(std::vector<double> const&)> proved{};
 };
 
 /// A requirement over a set of parameters and starts.

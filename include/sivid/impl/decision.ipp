@@ -2,6 +2,8 @@
 #ifndef SIVID_IMPL_DECISION_IPP
 #define SIVID_IMPL_DECISION_IPP
 
+#include <sivid/decision/impl/control_law.ipp>
+#include <sivid/decision/impl/gain_search.ipp>
 #include <sivid/decision/impl/measurement_ranking.ipp>
 #include <sivid/decision/impl/motion_cover.ipp>
 #include <sivid/decision/impl/prediction.ipp>

@@ -3,6 +3,7 @@
 #define SIVID_IMPL_MODEL_IPP
 
 #include <sivid/model/impl/bound_model.ipp>
+#include <sivid/model/impl/closed_loop.ipp>
 #include <sivid/model/impl/describe.ipp>
 #include <sivid/model/impl/effect.ipp>
 #include <sivid/model/impl/effects.ipp>

@@ -6,6 +6,7 @@
 #include <sivid/report/impl/candidate_chart.ipp>
 #include <sivid/report/impl/channel_series.ipp>
 #include <sivid/report/impl/comparison_plot.ipp>
+#include <sivid/report/impl/control_page.ipp>
 #include <sivid/report/impl/decision_page.ipp>
 #include <sivid/report/impl/diagnosis_figures.ipp>
 #include <sivid/report/impl/diagnosis_page.ipp>

@@ -3,6 +3,7 @@
 #define SIVID_IO_DECISION_JSON_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/decision/gain_search.hpp>
 #include <sivid/decision/measurement_ranking.hpp>
 #include <sivid/decision/prediction.hpp>
 #include <sivid/decision/rank.hpp>
@@ -20,7 +21,9 @@ struct decision_json_options {
     std::string source_folder{}; ///< of the identification, seen from the file's folder
     std::string source_digest{}; ///< SHA-256 of its result.json
     std::string scenario{};
-    std::map<std::string, interval> set{}; ///< constants of the scenario
+    std::map<std::string, interval> set{};   ///< constants of the scenario, gains of the law
+    std::string law{};                       ///< "" for none
+    std::map<std::string, double> sensors{}; ///< error bounds of what the law reads
 };
 
 /// `prediction.json` in the format sivid-prediction-1: tubes, outward.
@@ -37,6 +40,18 @@ struct decision_json_options {
                                                        requirement const& asked,
                                                        verification const& found,
                                                        decision_json_options const& options);
+
+/// `control.json` in the format sivid-control-1: how much of the ranges of the gains is proved and
+/// excluded, what excludes them, and the suggested gains. The boxes are in `gains.csv`.
+/// @param about  of all gains
+/// @param proof  of the suggested gains; null for none
+[[nodiscard]] SIVID_DECL std::string control_json(stored_prediction const& about,
+                                                  requirement const& asked, gain_set const& found,
+                                                  verification const* proof,
+                                                  decision_json_options const& options);
+
+/// `gains.csv`: one row for each box of gains that is not excluded, as in `boxes.csv`.
+[[nodiscard]] SIVID_DECL std::string gains_csv(gain_set const& found);
 
 /// `ranking.json` in the format sivid-ranking-1: effects in error bounds, outward; of each measured
 /// channel the strongest first.

@@ -25,6 +25,7 @@ struct simulated_line {
 /// What pages of decisions say besides.
 struct decision_page_options {
     std::string dataset{}, scenario{}, about{};
+    std::string law{};              ///< "" for none
     std::vector<std::string> set{}; ///< "Ff in [0.286, 0.777] N"
     simulated_line least_squares{}, single{};
     std::string single_is = "witness, not validated";

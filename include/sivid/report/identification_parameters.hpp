@@ -20,7 +20,8 @@ SIVID_DECL void add_parameters(page& out, identification_view const& v);
 
 /// The projections, each with a closer look where one is worth it.
 [[nodiscard]] SIVID_DECL figure paving_figure(std::vector<paving_projection> const& pavings,
-                                              std::string title, std::string caption);
+                                              std::string title, std::string caption,
+                                              paving_words const& words = {});
 
 SIVID_DECL void add_pavings(page& out, identification_view const& v);
 

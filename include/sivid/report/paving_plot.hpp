@@ -56,9 +56,17 @@ paving_attributes(std::vector<paving_projection> const& all, std::size_t most = 
 [[nodiscard]] SIVID_DECL std::optional<plane_window> zoom_window(paving_projection const& p,
                                                                  double most_share = 0.55);
 
+/// What the regions of a paving mean.
+struct paving_words {
+    std::string inside = "inside: proved to explain the data";
+    std::string outside = "outside: proved impossible";
+    std::string point = "witness";
+    std::string whole = "whole prior";
+};
+
 /// The legend of paving plots, with the regions that occur.
 [[nodiscard]] SIVID_DECL std::vector<legend_entry>
-paving_plot_legend(std::vector<paving_projection> const& all);
+paving_plot_legend(std::vector<paving_projection> const& all, paving_words const& words = {});
 
 /// The projection of a paving within a window. However many boxes come in, the text stays within
 /// `most_bytes` and a small constant: cells of one region are joined, and coarser cells are taken

@@ -3,16 +3,27 @@
 #define SIVID_DECISION_DETAIL_JUDGED_MOTIONS_HPP
 
 #include <sivid/decision/motion_cover.hpp>
+#include <sivid/decision/prediction_problem.hpp>
 #include <sivid/decision/requirement.hpp>
 #include <sivid/decision/robustness.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
 namespace sivid::decision_detail {
+
+/// @throws std::invalid_argument  when a requirement cannot be asked of a prediction
+inline void require_asked(prediction_problem const& p, requirement const& what) {
+    p.require_valid();
+    for (auto const m : what.margins) {
+        if (m >= p.model.g.size())
+            throw std::invalid_argument("verify: the requirement was read for another model");
+    }
+}
 
 /// The motions of a prediction, judged by a requirement.
 class judged_motions {
@@ -23,7 +34,7 @@ public:
         bool coarse = false;             ///< the instants decide, what lies between them does not
         std::vector<std::size_t> hiding; ///< cells on which it hangs then
         bool worn = false;               ///< remainders weigh: integrate anew
-        std::size_t side = motion_cover::none; ///< that promises most when it is halved
+        std::vector<double> score{};     ///< what halving each side promises; may be empty
     };
 
     judged_motions(prediction_problem const& problem, requirement const& what,
@@ -31,26 +42,26 @@ public:
         : what_(what),
           outputs_(problem.model, what.margins),
           cover_(problem, outputs_, times, options),
-          whole_(cover_.whole()) {}
+          whole_(cover_.whole()),
+          differ_(cover_.sides(), false) {
+        for (auto const& s : problem.sets) {
+            for (std::size_t j = 0; j < s.size(); ++j) {
+                auto const& all = whole_.parameters[j];
+                if (s[j].lower() != all.lower() || s[j].upper() != all.upper())
+                    differ_[problem.initial.size() + j] = true;
+            }
+        }
+    }
 
     [[nodiscard]] motion_cover& cover() { return cover_; }
 
+    /// Over the hull of the part's sets where they hardly count, else over each.
     /// @given  something is known of the part
     [[nodiscard]] judgement judge(motion_cover::part const& p) const {
-        judgement result;
-        auto const v = cover_.look(p);
-        result.reached = v.reached == 0 ? 0 : cover_.times()[v.reached - 1];
-        margin_bounds bounds{cover_.times(), {}, {}};
-        bounds.low.resize(what_.margins.size());
-        bounds.high.resize(what_.margins.size());
-        for (std::size_t c = 0; c < what_.margins.size(); ++c)
-            cover_.segments(p, v, outputs_.margins[c], bounds.low[c], bounds.high[c]);
-        result.found = evaluate(what_, bounds);
-        if (result.found.proved()) return result;
-        if (p.known->reached == cover_.times().size() && !result.found.refuted())
-            find_hiding(bounds, result);
-        weigh(p, v, result);
-        return result;
+        auto const rough = judge(p, cover_.look(p, true));
+        bool const decided = rough.found.proved() || rough.found.refuted();
+        if (decided || p.sets.size() < 2 || !sets_count(rough)) return rough;
+        return judge(p, cover_.look(p));
     }
 
     [[nodiscard]] bool is_tiny(motion_cover::part const& p) const {
@@ -95,6 +106,31 @@ public:
     }
 
 private:
+    [[nodiscard]] judgement judge(motion_cover::part const& p, motion_cover::view const& v) const {
+        judgement result;
+        result.reached = v.reached == 0 ? 0 : cover_.times()[v.reached - 1];
+        margin_bounds bounds{cover_.times(), {}, {}};
+        bounds.low.resize(what_.margins.size());
+        bounds.high.resize(what_.margins.size());
+        for (std::size_t c = 0; c < what_.margins.size(); ++c)
+            cover_.segments(p, v, outputs_.margins[c], bounds.low[c], bounds.high[c]);
+        result.found = evaluate(what_, bounds);
+        if (result.found.proved()) return result;
+        if (p.known->reached == cover_.times().size() && !result.found.refuted())
+            find_hiding(bounds, result);
+        weigh(p, v, result);
+        return result;
+    }
+    /// Whether sides in which the sets differ have a share in what is open.
+    [[nodiscard]] bool sets_count(judgement const& j) const {
+        double all = 0, own = 0;
+        for (std::size_t side = 0; side < j.score.size(); ++side) {
+            all += j.score[side];
+            if (differ_[side]) own += j.score[side];
+        }
+        return !(own <= 0.05 * all);
+    }
+
     /// Whether a finer grid would decide, and between which instants something may hide: the
     /// formula on grids 8, 64 and 512 times as fine, as if all margins went straight between the
     /// instants.
@@ -171,7 +207,7 @@ private:
     void weigh(motion_cover::part const& p, motion_cover::view const& v, judgement& result) const {
         if (v.reached < cover_.times().size()) {
             result.worn = true;
-            result.side = cover_.telling_side(p, v);
+            result.score = cover_.moved_by_sides(p, v);
             return;
         }
         auto const m = cover_.outputs();
@@ -197,12 +233,10 @@ private:
             }
         }
         result.worn = lost > 0.25 * reach || (lost > 0.5 * rest && lost > 0.05 * reach);
-        double most = 0;
+        result.score.assign(cover_.sides(), 0.0);
         for (std::size_t side = 0; side < cover_.sides(); ++side) {
             auto const q = cover_.variable_of(p, side);
-            if (q == motion_cover::none || q >= score.size() || !(score[q] > most)) continue;
-            most = score[q];
-            result.side = side;
+            if (q < score.size()) result.score[side] = score[q];
         }
     }
 
@@ -210,6 +244,7 @@ private:
     followed_outputs outputs_;
     motion_cover cover_;
     motion_cover::part whole_;
+    std::vector<bool> differ_; ///< sides in which the sets differ
 };
 
 } // namespace sivid::decision_detail

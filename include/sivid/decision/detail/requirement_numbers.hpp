@@ -20,11 +20,12 @@
 
 namespace sivid::decision_detail {
 
-/// Reads the expressions of a requirement into the graph of a model.
+/// Reads the expressions of a requirement, or of a control law, into the graph of a model.
 class requirement_numbers {
 protected:
-    requirement_numbers(std::string_view text, recorded_model& model)
-        : words_(text), model_(model) {}
+    /// @param what  the text is, for messages; a literal
+    requirement_numbers(std::string_view what, std::string_view text, recorded_model& model)
+        : words_(what, text), model_(model) {}
     ~requirement_numbers() = default;
 
     /// What was read: a number at each instant, or a formula.
@@ -56,6 +57,12 @@ protected:
 
     /// What stands in brackets may be a formula.
     virtual operand in_brackets() = 0;
+    /// A further function, its bracket open; nothing where there is none of this name.
+    virtual std::optional<operand> further_call(std::string const&, std::size_t) {
+        return std::nullopt;
+    }
+    /// Names of further functions, for messages.
+    [[nodiscard]] virtual std::string further_functions() const { return ""; }
 
     /// Operations of the graph; what folds to no number is refused.
     template <class Operation>
@@ -153,18 +160,21 @@ protected:
         return quantity_of(*name, position);
     }
 
+    /// The channel that a bracket names, and the bracket's end.
+    std::size_t channel_in_bracket() {
+        auto const channel = words_.take_name();
+        auto const& all = model_.about.channels;
+        auto const found = std::find_if(
+            all.begin(), all.end(), [&](auto const& c) { return channel && c.name == *channel; });
+        if (found == all.end())
+            words_.fail("no channel of the model", "the model has: " + names_of_list(all));
+        words_.need(")", "close the bracket");
+        return static_cast<std::size_t>(found - all.begin());
+    }
+
     operand call(std::string const& name, std::size_t position) {
-        if (name == "measured") {
-            auto const channel = words_.take_name();
-            auto const& all = model_.about.channels;
-            auto const found = std::find_if(all.begin(), all.end(), [&](auto const& c) {
-                return channel && c.name == *channel;
-            });
-            if (found == all.end())
-                words_.fail("no channel of the model", "the model has: " + names_of_list(all));
-            words_.need(")", "close the bracket");
-            return number(position, model_.observe[static_cast<std::size_t>(found - all.begin())]);
-        }
+        if (auto const own = further_call(name, position)) return *own;
+        if (name == "measured") return number(position, model_.observe[channel_in_bracket()]);
         static constexpr std::array<operation, 12> known{
             operation::sqrt, operation::exp,  operation::log,  operation::sin,
             operation::cos,  operation::tan,  operation::atan, operation::tanh,
@@ -174,7 +184,8 @@ protected:
         if (found == known.end())
             words_.fail_at(position, "unknown function '" + name + "'",
                            "known: sqrt, exp, log, sin, cos, tan, atan, tanh, abs, sign, min, max, "
-                           "measured");
+                           "measured" +
+                               further_functions());
         auto of = sum();
         need_plain(of);
         if (is_binary(*found)) {
@@ -217,6 +228,18 @@ protected:
                      names_of_list(about.channels) + "; inputs " + names_of_list(about.inputs) +
                      "; constants " + names_of_list(about.constants) + "; t for the time";
         words_.fail_at(position, "unknown name '" + name + "'", "known: " + known);
+    }
+
+    /// A time in s, or `end`.
+    double instant(double end) {
+        if (words_.take("end")) return end;
+        auto const position = words_.position();
+        auto const text = words_.take_number();
+        auto const time = text ? parse_nearest(*text) : std::nullopt;
+        if (!time || !std::isfinite(*time) || *time < 0)
+            words_.fail_at(position, "a time in seconds is needed here",
+                           "write a number of 0 or more, such as 0.5, or end");
+        return *time;
     }
 
     void need_number(operand const& x) {

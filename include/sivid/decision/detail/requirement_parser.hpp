@@ -26,7 +26,7 @@ namespace sivid::decision_detail {
 class requirement_parser : requirement_numbers {
 public:
     requirement_parser(std::string_view text, recorded_model& model, double end)
-        : requirement_numbers(text, model), end_(end) {
+        : requirement_numbers("requirement", text, model), end_(end) {
         result_.text = std::string(text);
     }
 
@@ -152,7 +152,7 @@ private:
         auto of = sum();
         auto const position = words_.position();
         if (!words_.take("at")) return of;
-        double const time = instant();
+        double const time = instant(end_);
         if (time > end_)
             words_.fail_at(position, "this time is beyond the end, " + words(end_) + " s",
                            "choose an earlier one, or a scenario that lasts longer");
@@ -250,29 +250,17 @@ private:
         p.to = std::numeric_limits<double>::infinity();
         if (!words_.take("[")) return;
         auto const position = words_.position();
-        p.from = instant();
+        p.from = instant(end_);
         words_.need(",", "write the window as [from, to] in seconds");
         if (words_.peek("end")) {
             static_cast<void>(words_.take("end"));
         } else {
-            p.to = instant();
+            p.to = instant(end_);
         }
         words_.need("]", "write the window as [from, to] in seconds");
         if (p.to < p.from)
             words_.fail_at(position, "the window ends before it begins", "write [from, to]");
     }
-    /// A time in s, or `end`.
-    double instant() {
-        if (words_.take("end")) return end_;
-        auto const position = words_.position();
-        auto const text = words_.take_number();
-        auto const time = text ? parse_nearest(*text) : std::nullopt;
-        if (!time || !std::isfinite(*time) || *time < 0)
-            words_.fail_at(position, "a time in seconds is needed here",
-                           "write a number of 0 or more, such as 0.5, or end");
-        return *time;
-    }
-
     /// Notes that a part is asked at the times [from, to], and its operands at theirs.
     void ask(std::size_t index, double from, double to) {
         struct question {

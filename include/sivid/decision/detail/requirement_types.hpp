@@ -65,11 +65,12 @@ struct requirement {
     std::vector<double> times;       ///< at which the verdict may hang: begin and end among them
 };
 
-/// What is wrong with a requirement, where, and what to do.
+/// What is wrong with a requirement, or a control law, where, and what to do.
 class requirement_error : public std::invalid_argument {
 public:
-    requirement_error(std::string_view text, std::size_t position, std::string const& problem,
-                      std::string const& remedy);
+    /// @param what  the text is: "requirement"
+    requirement_error(std::string_view what, std::string_view text, std::size_t position,
+                      std::string const& problem, std::string const& remedy);
     /// In the text, from 0.
     [[nodiscard]] std::size_t position() const { return position_; }
 

@@ -16,9 +16,10 @@ namespace sivid::decision_detail {
 /// A text as words, numbers and signs, taken one after the other.
 class requirement_words {
 public:
-    explicit requirement_words(std::string_view text) : text_(text) {
+    /// @param what  the text is, for messages; a literal
+    requirement_words(std::string_view what, std::string_view text) : what_(what), text_(text) {
         if (text.size() > 10'000)
-            throw requirement_error(text, 10'000, "the text is too long",
+            throw requirement_error(what_, text, 10'000, "the text is too long",
                                     "use at most 10000 characters");
         skip();
     }
@@ -104,7 +105,7 @@ public:
     }
     [[noreturn]] void fail_at(std::size_t position, std::string const& problem,
                               std::string const& remedy) const {
-        throw requirement_error(text_, position, problem, remedy);
+        throw requirement_error(what_, text_, position, problem, remedy);
     }
 
 private:
@@ -118,7 +119,7 @@ private:
         while (at_ < text_.size() && is_space(text_[at_])) ++at_;
     }
 
-    std::string_view text_;
+    std::string_view what_, text_;
     std::size_t at_ = 0;
 };
 

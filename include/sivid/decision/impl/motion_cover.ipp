@@ -31,6 +31,13 @@ inline interval normalised(normalised_unknowns::side const& s, interval const& x
     return undefined || is_empty(inside) ? traits::bounds(-1.0, 1.0) : inside;
 }
 
+/// Whether a side is more than the rounding of a decimal.
+inline bool can_be_cut(interval const& x) {
+    double const at = mid(x);
+    return x.lower() < at && at < x.upper() &&
+           width(x) > 4 * normalised_unknowns::negligible * std::abs(at);
+}
+
 } // namespace decision_detail
 
 SIVID_DECL motion_cover::motion_cover(prediction_problem const& problem,
@@ -125,7 +132,7 @@ SIVID_DECL void motion_cover::follow(knowledge& k) {
     }
 }
 
-SIVID_DECL motion_cover::view motion_cover::look(part const& p) const {
+SIVID_DECL motion_cover::view motion_cover::look(part const& p, bool roughly) const {
     using traits = interval_traits<interval>;
     view v;
     if (!p.known) return v;
@@ -190,8 +197,8 @@ SIVID_DECL motion_cover::view motion_cover::look(part const& p) const {
             v.high[y] = std::max(v.high[y], std::isfinite(up) ? up : infinity);
         }
     };
-    if (p.sets.empty()) over(nullptr);
-    for (auto const s : p.sets) over(&problem_->sets[s]);
+    if (p.sets.empty() || roughly) over(nullptr);
+    for (std::size_t k = 0; k < p.sets.size() && !roughly; ++k) over(&problem_->sets[p.sets[k]]);
     for (std::size_t y = 0; y < count; ++y) {
         if (local.rest[y] > 0)
             v.radius_share = std::max(v.radius_share, known.radius[y] / local.rest[y]);
@@ -245,24 +252,25 @@ SIVID_DECL std::size_t motion_cover::variable_of(part const& p, std::size_t side
     return s.radius > 0 ? s.variable : none;
 }
 
-SIVID_DECL std::size_t motion_cover::telling_side(part const& p, view const& v) const {
-    if (v.reached == 0) return none;
+SIVID_DECL std::vector<double> motion_cover::moved_by_sides(part const& p, view const& v) const {
+    if (v.reached == 0) return {};
     auto const count = v.low.size();
     auto const at = (v.reached - 1) * flow_.channels();
-    std::size_t best = none;
-    double most = 0;
+    std::vector<double> moved(sides(), 0.0);
     for (std::size_t side = 0; side < sides(); ++side) {
         auto const q = variable_of(p, side);
-        if (q == none) continue;
-        double moved = 0; // slopes are in widths of the part: what was halved moves less
+        if (q == none) continue; // slopes are in widths of the part: what was halved moves less
         for (std::size_t i = 0; i < flow_.states(); ++i)
-            moved += std::abs(v.slope[q * count + at + i]) / flow_.model().about.states[i].limit;
-        if (moved > most) {
-            most = moved;
-            best = side;
-        }
+            moved[side] +=
+                std::abs(v.slope[q * count + at + i]) / flow_.model().about.states[i].limit;
     }
-    return best;
+    return moved;
+}
+
+SIVID_DECL std::size_t motion_cover::most(std::vector<double> const& scores) {
+    auto const best = std::max_element(scores.begin(), scores.end());
+    return best != scores.end() && *best > 0 ? static_cast<std::size_t>(best - scores.begin())
+                                             : none;
 }
 
 SIVID_DECL motion_cover::part
@@ -285,9 +293,8 @@ SIVID_DECL std::vector<motion_cover::part> motion_cover::split(part const& p,
     auto const n = problem_->initial.size();
     bool const start = side < n;
     auto const& x = start ? p.initial[side] : p.parameters[side - n];
+    if (!decision_detail::can_be_cut(x)) return {};
     double const at = mid(x);
-    if (!(x.lower() < at && at < x.upper())) return {};
-    if (width(x) <= 4 * normalised_unknowns::negligible * std::abs(at)) return {};
     std::vector<part> result;
     if (start) {
         auto const [below, above] = bisect(p.initial, side, at);
@@ -303,19 +310,18 @@ SIVID_DECL std::vector<motion_cover::part> motion_cover::split(part const& p,
     return result;
 }
 
-SIVID_DECL std::vector<motion_cover::part> motion_cover::split(part const& p) const {
+SIVID_DECL double motion_cover::share(part const& p, std::size_t side) const {
     auto const n = problem_->initial.size();
-    std::size_t widest = 0;
-    double most = 0;
-    for (std::size_t side = 0; side < sides(); ++side) {
-        auto const& x = side < n ? p.initial[side] : p.parameters[side - n];
-        double const whole = width(side < n ? problem_->initial[side] : around_[side - n]);
-        if (whole > 0 && width(x) / whole > most) {
-            most = width(x) / whole;
-            widest = side;
-        }
-    }
-    return most > 0 ? split(p, widest) : std::vector<part>{};
+    auto const& x = side < n ? p.initial[side] : p.parameters[side - n];
+    if (!decision_detail::can_be_cut(x)) return 0;
+    return width(x) / width(side < n ? problem_->initial[side] : around_[side - n]);
+}
+
+SIVID_DECL std::vector<motion_cover::part> motion_cover::split(part const& p) const {
+    std::vector<double> shares(sides());
+    for (std::size_t side = 0; side < sides(); ++side) shares[side] = share(p, side);
+    auto const widest = most(shares);
+    return widest == none ? std::vector<part>{} : split(p, widest);
 }
 
 } // namespace sivid

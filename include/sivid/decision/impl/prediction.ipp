@@ -109,7 +109,7 @@ private:
             for (auto* i : short_of) {
                 // A hundred-thousandth of the whole that gets no further will not by halving.
                 bool const tiny = relative_width(i->what) < 1e-5;
-                auto const side = cover_->telling_side(i->what, i->seen);
+                auto const side = motion_cover::most(cover_->moved_by_sides(i->what, i->seen));
                 auto const halves =
                     replace(i, tiny                         ? std::vector<motion_cover::part>{}
                                : side == motion_cover::none ? cover_->split(i->what)

@@ -28,10 +28,10 @@ inline std::string shown_text(std::string_view text, std::size_t most = 60) {
     return text.size() > most ? result + "..." : result;
 }
 
-inline std::string located(std::string_view text, std::size_t position, std::string const& problem,
-                           std::string const& remedy) {
+inline std::string located(std::string_view what, std::string_view text, std::size_t position,
+                           std::string const& problem, std::string const& remedy) {
     std::size_t const from = position > 20 ? position - 20 : 0;
-    auto message = "requirement: character " + std::to_string(position + 1);
+    auto message = std::string(what) + ": character " + std::to_string(position + 1);
     if (position < text.size()) {
         message += ", at '" + shown_text(text.substr(position), 20) + "'";
         if (from > 0 || position > 0)
@@ -44,10 +44,10 @@ inline std::string located(std::string_view text, std::size_t position, std::str
 
 } // namespace decision_detail
 
-SIVID_DECL requirement_error::requirement_error(std::string_view text, std::size_t position,
-                                                std::string const& problem,
+SIVID_DECL requirement_error::requirement_error(std::string_view what, std::string_view text,
+                                                std::size_t position, std::string const& problem,
                                                 std::string const& remedy)
-    : std::invalid_argument(decision_detail::located(text, position, problem, remedy)),
+    : std::invalid_argument(decision_detail::located(what, text, position, problem, remedy)),
       position_(position) {}
 
 SIVID_DECL requirement parse_requirement(std::string_view text, recorded_model& model, double end) {

@@ -5,8 +5,10 @@
 #include <sivid/io/decision_json.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/io/identification_csv.hpp>
 #include <sivid/io/json_writer.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -28,6 +30,11 @@ inline void write_head(json_writer& json, char const* format, stored_prediction 
     json.key("set").begin_object();
     for (auto const& [name, range] : options.set) json.key(name).bounds(range);
     json.end_object();
+    if (!options.law.empty()) {
+        json.key("law").string(options.law).key("sensors").begin_object();
+        for (auto const& [channel, bound] : options.sensors) json.key(channel).upper_bound(bound);
+        json.end_object();
+    }
     json.key("coordinates").begin_array(json_writer::layout::one_line);
     for (auto const& side : about.sides) json.string(side);
     json.end_array();
@@ -52,6 +59,27 @@ inline std::vector<std::string> names_of_states(model_description const& about) 
     std::vector<std::string> names;
     for (auto const& s : about.states) names.push_back(s.name);
     return names;
+}
+
+/// A motion that violates, with its parameters.
+inline void write_motion(json_writer& json, stored_prediction const& about,
+                         violating_motion const& w) {
+    auto const states = names_of_states(about.direct.model.about);
+    json.begin_object();
+    json.key("parameters").begin_object(json_writer::layout::one_line);
+    for (std::size_t j = 0; j < w.parameters.size(); ++j)
+        json.key(about.direct.choice.unknown[j]).nearest(w.parameters[j]);
+    json.end_object();
+    json.key("initial").begin_object(json_writer::layout::one_line);
+    for (std::size_t i = 0; i < w.start.size(); ++i) json.key(states[i]).nearest(w.start[i]);
+    json.end_object();
+    json.key("robustness");
+    io_detail::write_bounds(json, w.found.low, w.found.high);
+    json.key("time").nearest(w.time);
+    json.key("feasible")
+        .string("proved by validated runs through the data" +
+                (about.feasible_with.empty() ? "" : ", of which " + about.feasible_with));
+    json.end_object();
 }
 
 inline void write_worth(json_writer& json, identification_problem const& about,
@@ -142,22 +170,7 @@ SIVID_DECL std::string verification_json(stored_prediction const& about, require
     auto const states = io_detail::names_of_states(about.direct.model.about);
     json.key("witness");
     if (found.witness) {
-        auto const& w = *found.witness;
-        json.begin_object();
-        json.key("parameters").begin_object(json_writer::layout::one_line);
-        for (std::size_t j = 0; j < w.parameters.size(); ++j)
-            json.key(about.direct.choice.unknown[j]).nearest(w.parameters[j]);
-        json.end_object();
-        json.key("initial").begin_object(json_writer::layout::one_line);
-        for (std::size_t i = 0; i < w.start.size(); ++i) json.key(states[i]).nearest(w.start[i]);
-        json.end_object();
-        json.key("robustness");
-        io_detail::write_bounds(json, w.found.low, w.found.high);
-        json.key("time").nearest(w.time);
-        json.key("feasible")
-            .string("proved by validated runs through the data" +
-                    (about.feasible_with.empty() ? "" : ", of which " + about.feasible_with));
-        json.end_object();
+        io_detail::write_motion(json, about, *found.witness);
     } else {
         json.null();
     }
@@ -181,6 +194,63 @@ SIVID_DECL std::string verification_json(stored_prediction const& about, require
     json.key("instants").integer(found.times.size());
     json.key("seconds").nearest(found.seconds).end_object();
     return json.text();
+}
+
+SIVID_DECL std::string control_json(stored_prediction const& about, requirement const& asked,
+                                    gain_set const& found, verification const* proof,
+                                    decision_json_options const& options) {
+    json_writer json;
+    json.begin_object();
+    io_detail::write_head(json, "sivid-control-1", about, options);
+    json.key("requirement").string(asked.text);
+    json.key("gains").begin_array(json_writer::layout::one_line);
+    for (auto const& name : found.names) json.string(name);
+    json.end_array();
+    auto const& paving = found.paving.paving;
+    json.key("answer").string(found.some_proved()   ? "proved"
+                              : found.none_exists() ? "none"
+                                                    : "open");
+    json.key("reason").string(to_string(found.paving.reason));
+    json.key("proved_share").lower_bound(std::max(0.0, paving.inner_volume().lower()));
+    json.key("left_share").upper_bound(std::min(1.0, paving.outer_volume().upper()));
+    json.key("boxes_file").string("gains.csv");
+    json.key("suggested");
+    if (found.suggested) {
+        json.begin_object(json_writer::layout::one_line);
+        for (std::size_t k = 0; k < found.names.size(); ++k)
+            json.key(found.names[k]).nearest((*found.suggested)[k]);
+        json.end_object();
+    } else {
+        json.null();
+    }
+    json.key("tolerance");
+    if (found.tolerance.size() > 0) {
+        json.begin_object(json_writer::layout::one_line);
+        for (std::size_t k = 0; k < found.names.size(); ++k) {
+            json.key(found.names[k]).begin_array(json_writer::layout::one_line);
+            json.nearest(found.tolerance[k].lower()).nearest(found.tolerance[k].upper());
+            json.end_array();
+        }
+        json.end_object();
+    } else {
+        json.null();
+    }
+    if (proof != nullptr) {
+        json.key("answer_for_suggested").string(to_string(proof->answer));
+        json.key("robustness");
+        io_detail::write_bounds(json, proof->found.low, proof->found.high);
+    }
+    json.key("against").begin_array();
+    for (auto const& w : found.against) io_detail::write_motion(json, about, w);
+    json.end_array();
+    json.key("parts").integer(found.parts);
+    json.key("integrations").integer(found.integrations);
+    json.key("seconds").nearest(found.seconds).end_object();
+    return json.text();
+}
+
+SIVID_DECL std::string gains_csv(gain_set const& found) {
+    return io_detail::paving_csv(found.names, found.paving.paving);
 }
 
 SIVID_DECL std::string ranking_json(identification_problem const& about, ranking const& found,

@@ -5,6 +5,7 @@
 #include <sivid/report/decision_page.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/report/detail/decision_figures.hpp>
 #include <sivid/report/identification_words.hpp>
 #include <sivid/report/number_text.hpp>
 #include <sivid/report/table.hpp>
@@ -17,127 +18,6 @@
 #include <vector>
 
 namespace sivid::report {
-
-namespace detail {
-
-inline range range_of(interval const& x) { return {x.lower(), x.upper()}; }
-
-/// The tube in pieces for a drawing: each cell with its instants.
-inline motion_series series_of(std::vector<double> const& times, predicted_tube const& tube) {
-    motion_series m;
-    m.tube.name = tube.name;
-    m.tube.unit = tube.unit;
-    for (std::size_t s = 1; s < tube.low.size(); s += 2) {
-        range const value{std::min({tube.low[s - 1], tube.low[s], tube.low[s + 1]}),
-                          std::max({tube.high[s - 1], tube.high[s], tube.high[s + 1]})};
-        if (is_finite(value)) m.tube.tube.push_back({times[s / 2], times[s / 2 + 1], value});
-    }
-    return m;
-}
-
-inline std::vector<point> line_of(simulated_line const& l,
-                                  std::vector<std::vector<double>> const& values, std::size_t k) {
-    std::vector<point> line;
-    for (std::size_t n = 0; n < values.size() && n < l.times.size(); ++n) {
-        if (k < values[n].size()) line.push_back({l.times[n], values[n][k]});
-    }
-    return line;
-}
-
-inline std::string text_of(interval const& x) { return outward_text(range_of(x)); }
-
-inline std::string named(std::vector<std::string> const& names, std::vector<double> const& x) {
-    std::string text;
-    for (std::size_t i = 0; i < x.size() && i < names.size(); ++i)
-        text += (text.empty() ? "" : ", ") + names[i] + " = " + exact_text(x[i]);
-    return text;
-}
-
-/// The states of a start that the scenario leaves open.
-inline std::string start_of(prediction_problem const& p, std::vector<double> const& start) {
-    std::vector<std::string> names;
-    std::vector<double> values;
-    for (std::size_t i = 0; i < start.size(); ++i) {
-        auto const& side = p.initial[i];
-        if (!(std::nextafter(side.lower(), HUGE_VAL) < side.upper())) continue; // one decimal
-        names.push_back(p.model.about.states[i].name);
-        values.push_back(start[i]);
-    }
-    return named(names, values);
-}
-
-inline void add_motions(page& out, prediction const& found, decision_page_options const& o) {
-    std::vector<motion_series> all;
-    for (std::size_t c = 0; c < found.channels.size(); ++c) {
-        auto m = series_of(found.times, found.channels[c]);
-        m.tube.reference = line_of(o.least_squares, o.least_squares.channels, c);
-        m.single = line_of(o.single, o.single.channels, c);
-        all.push_back(std::move(m));
-    }
-    for (std::size_t i = 0; i < found.states.size(); ++i) {
-        bool const shown =
-            std::any_of(found.channels.begin(), found.channels.end(),
-                        [&](auto const& c) { return c.name == found.states[i].name; });
-        if (shown) continue;
-        auto m = series_of(found.times, found.states[i]);
-        m.tube.reference = line_of(o.least_squares, o.least_squares.states, i);
-        m.single = line_of(o.single, o.single.states, i);
-        all.push_back(std::move(m));
-    }
-    motion_plot_options options;
-    options.full = o.single_is;
-    figure f{.panels = {},
-             .legend = motion_plot_legend(all, options),
-             .title = "The motion, for all parameters and starts.",
-             .caption = "The band is proved: every motion of the model, for every parameter that "
-                        "the identification leaves and every start of the scenario, runs within it "
-                        "at every instant. The lines are simulated in floating point and prove "
-                        "nothing."};
-    for (auto const& m : all) {
-        options.title = m.tube.name;
-        f.panels.push_back(draw_motion_plot(m, options));
-    }
-    out.add(f);
-}
-
-/// The comparison's text, with a number where it has several sides: |x| < 1 has two.
-inline std::string margin_title(std::vector<std::string> const& labels, std::size_t c) {
-    if (c >= labels.size()) return "comparison";
-    auto const place = labels.begin() + static_cast<std::ptrdiff_t>(c);
-    auto const all = std::count(labels.begin(), labels.end(), *place);
-    if (all == 1) return *place;
-    return *place + " (" + std::to_string(1 + std::count(labels.begin(), place, *place)) + " of " +
-           std::to_string(all) + ")";
-}
-
-inline void add_parameters(page& out, stored_prediction const& about,
-                           decision_page_options const& o) {
-    out.section("For which parameters");
-    auto const around = about.problem.around();
-    table t{.columns = {{"quantity", column_kind::symbol}, {"range", column_kind::number}},
-            .rows = {}};
-    for (std::size_t j = 0; j < around.size(); ++j)
-        t.rows.push_back({formula_text(about.sides[j]), text_of(around[j])});
-    t.caption = "The smallest ranges around the union of " + count_text(about.problem.sets.size()) +
-                (about.in_products ? " boxes, in the products that the data fix."
-                                   : " boxes of parameters.");
-    out.add(t);
-    if (!o.set.empty()) out.bullets(o.set);
-    table starts{
-        .columns = {{"state", column_kind::symbol}, {"start", column_kind::number}, {"unit"}},
-        .rows = {}};
-    auto const& states = about.problem.model.about.states;
-    for (std::size_t i = 0; i < states.size(); ++i) {
-        range const start = range_of(about.problem.initial[i]);
-        auto const low = given_text(start.lo);
-        starts.rows.push_back({states[i].name,
-                               low == given_text(start.hi) ? low : given_text(start),
-                               unit_text(states[i].unit)});
-    }
-    out.add(starts);
-}
-
-} // namespace detail
 
 SIVID_DECL std::string answer_sentence(stored_prediction const& about, verification const& found) {
     range const r{found.found.low, found.found.high};
@@ -260,28 +140,7 @@ SIVID_DECL page verification_page(stored_prediction const& about, requirement co
     cards.push_back({"parts", count_text(found.parts), ""});
     cards.push_back({"integrations", count_text(found.integrations), "validated"});
     out.cards(cards);
-    std::vector<motion_series> margins;
-    for (std::size_t c = 0; c < tubes.further.size(); ++c) {
-        auto m = detail::series_of(tubes.times, tubes.further[c]);
-        m.tube.name = "margin";
-        m.zero = true;
-        m.tube.reference = detail::line_of(o.least_squares, o.least_squares.further, c);
-        m.single = detail::line_of(o.single, o.single.further, c);
-        margins.push_back(std::move(m));
-    }
-    motion_plot_options options;
-    options.full = o.single_is;
-    figure f{.panels = {},
-             .legend = motion_plot_legend(margins, options),
-             .title = "The margins of the comparisons, for all parameters and starts.",
-             .caption = "A comparison holds where its margin is above 0, each of its margins if it "
-                        "has several sides. The requirement's text says when it has to."};
-    for (std::size_t c = 0; c < margins.size(); ++c) {
-        options.title = detail::margin_title(asked.labels, c);
-        f.panels.push_back(draw_motion_plot(margins[c], options));
-    }
-    out.section("The requirement against the tube");
-    out.add(f);
+    detail::add_margins(out, asked, tubes, o);
     if (!found.open.empty()) {
         out.section("Where it is open");
         table t{.columns = {}, .rows = {}};

@@ -71,10 +71,10 @@ SIVID_DECL void add_parameters(page& out, identification_view const& v) {
 }
 
 SIVID_DECL figure paving_figure(std::vector<paving_projection> const& pavings, std::string title,
-                                std::string caption) {
+                                std::string caption, paving_words const& words) {
     // The zoom stands beside or below its whole view in the same order, so panels go in pairs.
     figure f{.panels = {},
-             .legend = paving_plot_legend(pavings),
+             .legend = paving_plot_legend(pavings, words),
              .title = std::move(title),
              .caption = std::move(caption),
              .layout = panel_layout::pair,
@@ -83,7 +83,8 @@ SIVID_DECL figure paving_figure(std::vector<paving_projection> const& pavings, s
         std::string const name = p.y.label + " against " + p.x.label;
         auto const zoom = zoom_window(p);
         f.panels.push_back(draw_paving_plot(
-            p, {.width = 440, .height = 310, .title = name + ": whole prior", .mark_zoom = true}));
+            p,
+            {.width = 440, .height = 310, .title = name + ": " + words.whole, .mark_zoom = true}));
         if (zoom) {
             f.panels.push_back(draw_paving_plot(p, {.width = 440,
                                                     .height = 310,

@@ -89,7 +89,8 @@ SIVID_DECL std::vector<attribute_text> paving_attributes(std::vector<paving_proj
             {"left-out", std::to_string(order.size() - listed)}};
 }
 
-SIVID_DECL std::vector<legend_entry> paving_plot_legend(std::vector<paving_projection> const& all) {
+SIVID_DECL std::vector<legend_entry> paving_plot_legend(std::vector<paving_projection> const& all,
+                                                        paving_words const& words) {
     bool used[4] = {true, false, false, false};
     bool witness = false, zoom = false;
     for (paving_projection const& p : all) {
@@ -100,16 +101,16 @@ SIVID_DECL std::vector<legend_entry> paving_plot_legend(std::vector<paving_proje
         zoom = zoom || zoom_window(p).has_value();
     }
     std::vector<legend_entry> out;
-    auto const add = [&](bool wanted, symbol mark, char const* label) {
+    auto const add = [&](bool wanted, symbol mark, std::string const& label) {
         if (wanted) {
             out.push_back({mark, label});
         }
     };
-    add(used[3], symbol::inside, "inside: proved to explain the data");
+    add(used[3], symbol::inside, words.inside);
     add(used[2], symbol::undecided, "undecided");
     add(used[1], symbol::pending, "pending: not looked at closely");
-    add(true, symbol::outside, "outside: proved impossible");
-    add(witness, symbol::witness, "witness");
+    add(true, symbol::outside, words.outside);
+    add(witness, symbol::witness, words.point);
     add(zoom, symbol::window, "what the closer look shows");
     return out;
 }

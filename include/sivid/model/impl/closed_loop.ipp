@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_MODEL_IMPL_CLOSED_LOOP_IPP
+#define SIVID_MODEL_IMPL_CLOSED_LOOP_IPP
+
+#include <sivid/model/closed_loop.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/model/program.hpp>
+#include <sivid/model/rewrite.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace sivid {
+
+SIVID_DECL std::vector<signal> closed_model::inputs(std::vector<signal> const& open) const {
+    std::vector<signal> result;
+    for (auto const i : kept_inputs) {
+        if (i >= open.size())
+            throw std::invalid_argument("closed_model: one signal per input is needed");
+        result.push_back(open[i]);
+    }
+    result.insert(result.end(), own_inputs.begin(), own_inputs.end());
+    return result;
+}
+
+SIVID_DECL box closed_model::initial(box const& open, std::vector<signal> const& inputs,
+                                     std::vector<interval> const& constants) const {
+    using traits = interval_traits<interval>;
+    auto const states = model.about.states.size();
+    if (open.size() + own_states != states)
+        throw std::invalid_argument("closed_model: the start needs one side per state");
+    box result(states);
+    for (std::size_t i = 0; i < states; ++i)
+        result[i] = i < open.size() ? open[i] : traits::point(0.0);
+    for (auto const& a : commanded_starts) result[a.state] = traits::entire(); // not known yet
+    for (auto const& a : commanded_starts) {
+        program const at_begin(model.g, {a.at_begin});
+        auto value = at_begin.memory<proven_arithmetic<interval>>();
+        at_begin.read(value, [&](operation op, std::size_t i) {
+            if (op == operation::state) return result[i];
+            if (op == operation::constant) return constants[i];
+            auto const* u =
+                op == operation::input ? std::get_if<sampled_signal>(&inputs[i]) : nullptr;
+            if (u == nullptr) return op == operation::time ? traits::point(0.0) : traits::entire();
+            double const e = u->error_bound(u->piece(0), 0);
+            return traits::add(u->value(u->piece(0), traits::point(0.0)), traits::bounds(-e, e));
+        });
+        bool const undefined = at_begin.run<proven_arithmetic<interval>>(value);
+        auto const x = value[a.at_begin];
+        if (undefined || !std::isfinite(mag(x)))
+            throw std::invalid_argument("control law: the value at which '" +
+                                        model.about.states[a.state].name +
+                                        "' begins is not bounded");
+        result[a.state] = x;
+    }
+    return result;
+}
+
+SIVID_DECL closed_loop::closed_loop(recorded_model open)
+    : open_(std::move(open)),
+      states_(open_.about.states.size()),
+      inputs_(open_.about.inputs.size()) {}
+
+SIVID_DECL closed_loop::~closed_loop() = default;
+
+SIVID_DECL expression closed_loop::time() { return leaf(operation::time, 0); }
+
+SIVID_DECL expression closed_loop::state(std::string_view name) {
+    return leaf(operation::state, index_of(open_.about.states, std::string(name), "state"));
+}
+
+SIVID_DECL expression closed_loop::constant(std::string_view name) {
+    return leaf(operation::constant,
+                index_of(open_.about.constants, std::string(name), "constant"));
+}
+
+SIVID_DECL expression closed_loop::input(std::string_view name) {
+    return leaf(operation::input, index_of(open_.about.inputs, std::string(name), "input"));
+}
+
+SIVID_DECL void closed_loop::sensor(std::string_view channel, double bound) {
+    auto const c = index_of(open_.about.channels, std::string(channel), "channel");
+    if (!(bound >= 0) || !std::isfinite(bound))
+        throw std::invalid_argument("the error bound of the sensor '" + std::string(channel) +
+                                    "' must be 0 or more and finite");
+    if (shown_.count(c) != 0)
+        throw std::invalid_argument("the sensor '" + std::string(channel) +
+                                    "' was read before its error bound was said");
+    bounds_[c] = bound;
+}
+
+SIVID_DECL expression closed_loop::measured(std::string_view channel) {
+    auto const c = index_of(open_.about.channels, std::string(channel), "channel");
+    auto const known = shown_.find(c);
+    if (known != shown_.end()) return known->second;
+    expression value(open_.g, open_.observe[c]);
+    auto const bound = bounds_.find(c);
+    if (bound != bounds_.end() && bound->second > 0)
+        value = value + add_input(std::string(channel) + ".error", open_.about.channels[c].unit,
+                                  sampled_signal({0}, {0}, interpolation::hold, {bound->second}));
+    shown_.emplace(c, value);
+    return value;
+}
+
+SIVID_DECL expression closed_loop::gain(std::string const& name, std::string const& unit,
+                                        decimal nominal) {
+    auto const taken = [&](auto const& items) {
+        return std::any_of(items.begin(), items.end(),
+                           [&](auto const& i) { return i.name == name; });
+    };
+    auto const& about = open_.about;
+    if (taken(about.constants) || taken(about.states) || taken(about.inputs) ||
+        taken(about.channels) || name == "t")
+        throw std::invalid_argument("the gain '" + name +
+                                    "' has a name that the model uses; choose another one");
+    open_.about.constants.push_back({name, unit, literal{enclose(nominal), nearest(nominal)}});
+    return leaf(operation::constant, open_.about.constants.size() - 1);
+}
+
+SIVID_DECL expression closed_loop::integral(expression const& x, std::string const& name,
+                                            std::string const& unit, double limit) {
+    for (auto const& s : open_.about.states) {
+        if (s.name == name)
+            throw std::invalid_argument("control law: the model has a state '" + name + "'");
+    }
+    if (!(limit > 0) || !std::isfinite(limit))
+        throw std::invalid_argument("control law: the integral '" + name +
+                                    "' needs a finite range above 0");
+    open_.rate.push_back(x.in(open_.g));
+    open_.about.states.push_back({name, unit, limit, {}});
+    return leaf(operation::state, open_.about.states.size() - 1);
+}
+
+SIVID_DECL expression closed_loop::during(double from, double to) {
+    if (!(from >= 0) || !(from < to) || !std::isfinite(to))
+        throw std::invalid_argument("control law: during needs 0 <= from < to");
+    std::vector<double> times, values;
+    if (from > 0) {
+        times.push_back(0);
+        values.push_back(0);
+    }
+    times.insert(times.end(), {from, to});
+    values.insert(values.end(), {1, 0});
+    return add_input("switch " + std::to_string(own_inputs_.size() + 1), "1",
+                     sampled_signal(std::move(times), std::move(values), interpolation::hold));
+}
+
+SIVID_DECL expression closed_loop::add_input(std::string name, std::string unit, signal u) {
+    open_.about.inputs.push_back({std::move(name), std::move(unit)});
+    own_inputs_.push_back(std::move(u));
+    return leaf(operation::input, open_.about.inputs.size() - 1);
+}
+
+SIVID_DECL void closed_loop::command(std::string_view input, expression const& value) {
+    auto const i = index_of(open_.about.inputs, std::string(input), "input");
+    if (i >= inputs_)
+        throw std::invalid_argument("control law: '" + std::string(input) +
+                                    "' is no input of the model");
+    if (!commands_.emplace(i, value.in(open_.g)).second)
+        throw std::invalid_argument("control law: '" + std::string(input) + "' is commanded twice");
+}
+
+SIVID_DECL closed_model closed_loop::finish() const {
+    if (commands_.empty()) throw std::invalid_argument("control law: it commands no input");
+    if (open_.has_delays())
+        throw std::invalid_argument("control law: the model has a delay by an unknown time, which "
+                                    "cannot be enclosed; fix it at 0 or leave the effect out");
+    auto const& from = open_;
+    closed_model result;
+    auto& to = result.model;
+    to.about = from.about;
+    to.about.inputs.clear();
+    result.own_inputs = own_inputs_;
+    result.own_states = from.about.states.size() - states_;
+    std::vector<std::size_t> place(from.about.inputs.size());
+    for (std::size_t i = 0; i < place.size(); ++i) {
+        if (commands_.count(i) != 0) continue;
+        place[i] = to.about.inputs.size();
+        to.about.inputs.push_back(from.about.inputs[i]);
+        if (i < inputs_) result.kept_inputs.push_back(i);
+    }
+    std::vector<node_id> commands;
+    for (auto const& [input, value] : commands_) commands.push_back(value);
+    auto const kept = [&](node const& n, graph& g) {
+        auto const k = static_cast<std::size_t>(n.index);
+        if (n.op != operation::input) return g.leaf(n.op, k);
+        if (commands_.count(k) != 0)
+            throw std::invalid_argument("control law: it depends on what it commands itself, '" +
+                                        from.about.inputs[k].name +
+                                        "': an algebraic loop; command it by states, or by what "
+                                        "sensors show that do not see it at once");
+        return g.leaf(n.op, place[k]);
+    };
+    auto const images = copy_into(to.g, from.g, commands, kept);
+    std::map<std::size_t, node_id> image_of;
+    for (auto const& [input, value] : commands_) {
+        auto const k = image_of.size();
+        image_of.emplace(input, images[k]);
+    }
+    auto outputs = from.rate;
+    outputs.insert(outputs.end(), from.observe.begin(), from.observe.end());
+    for (auto const& a : from.added_states) outputs.push_back(a.at_begin);
+    for (auto const& d : from.derived) outputs.push_back(d.value);
+    auto const copied = copy_into(to.g, from.g, outputs, [&](node const& n, graph& g) {
+        auto const k = static_cast<std::size_t>(n.index);
+        if (n.op != operation::input) return g.leaf(n.op, k);
+        auto const own = image_of.find(k);
+        return own == image_of.end() ? g.leaf(n.op, place[k]) : own->second;
+    });
+    auto next = copied.begin();
+    for (std::size_t i = 0; i < from.rate.size(); ++i) to.rate.push_back(*next++);
+    for (std::size_t y = 0; y < from.observe.size(); ++y) to.observe.push_back(*next++);
+    for (auto const& a : from.added_states) {
+        auto const seen = operands_of(from.g, {a.at_begin});
+        bool commanded = false;
+        for (std::size_t k = 0; k < seen.size(); ++k) {
+            auto const& n = from.g.nodes()[k];
+            commanded = commanded || (seen[k] && n.op == operation::input &&
+                                      commands_.count(static_cast<std::size_t>(n.index)) != 0);
+        }
+        if (commanded) result.commanded_starts.push_back({a.state, *next});
+        ++next;
+    }
+    for (auto const& d : from.derived) to.derived.push_back({d.constant, *next++, d.always});
+    for (auto const& [input, image] : image_of) {
+        auto const& own = from.about.inputs[input];
+        auto name = own.name;
+        for (auto const& c : from.about.channels) {
+            if (c.name == own.name) name += ".command";
+        }
+        to.about.channels.push_back({name, own.unit});
+        to.observe.push_back(image);
+    }
+    return result;
+}
+
+} // namespace sivid
+
+#endif
