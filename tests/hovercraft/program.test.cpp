@@ -706,6 +706,80 @@ TEST_CASE("predict and verify answer from a stored result") {
     refused({"--scenario", "S2", "--require", "u > 0"}, "contradicts itself");
 }
 
+TEST_CASE("control finds the gains of a law that are proved for all that the data leave") {
+    temporary_folder const folder;
+    auto const result = (folder.path() / "h3").string();
+    REQUIRE(run({"identify", h3, "--out", result, "--quiet"}).code == 0);
+    auto const out = folder.path() / "out";
+    std::string const law = "W = W1 * during(0, 0.5) + W2 * during(0.5, end); delta = 0";
+    auto const asked = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"control", result, "--quiet", "--budget", "3"});
+        return run(more);
+    };
+    auto const found =
+        asked({"--scenario", "S1", "--law", law, "--gain", "W1=100:160", "--gain", "W2=100:160",
+               "--require", "u at end in [1.9, 2.1]", "--out", out.string()});
+    CHECK(found.code == 0);
+    CHECK_THAT(found.out,
+               ContainsSubstring("gains are proved") && ContainsSubstring("acts at every instant"));
+    auto const json = json_of(out / "control.json");
+    CHECK(json["format"] == "sivid-control-1");
+    CHECK(json["answer"] == "proved");
+    CHECK(json["answer_for_suggested"] == "proved");
+    CHECK(json["proved_share"] > 0.05);
+    CHECK(rows(out / "gains.csv") > 3);
+    CHECK(fs::exists(out / "control.html"));
+    // What is suggested stands on its own feet, too.
+    auto const gain = [&](char const* name) {
+        return std::string{name} + "=" + std::to_string(json["suggested"][name].get<double>());
+    };
+    std::vector<std::string> const closed{"--law", law, "--gain", gain("W1"), "--gain", gain("W2")};
+    auto const with_law = [&](std::vector<std::string> all) {
+        all.insert(all.end(), closed.begin(), closed.end());
+        return run(all);
+    };
+    CHECK(with_law({"verify", result, "--scenario", "S1", "--require", "u at end in [1.9, 2.1]"})
+              .code == 0);
+    auto const tubes = with_law({"predict", result, "--scenario", "S1", "--quiet", "--out",
+                                 (folder.path() / "p").string()});
+    CHECK(tubes.code == 0);
+    CHECK_THAT(tubes.out, ContainsSubstring("W at the end in"));
+
+    auto const none = asked({"--scenario", "S1", "--law", law, "--gain", "W1=0:20", "--gain",
+                             "W2=0:20", "--require", "u at end > 3"});
+    CHECK(none.code == 5);
+    CHECK_THAT(none.out, ContainsSubstring("no gain will do"));
+    auto const sensed = asked({"--scenario", "S3", "--law",
+                               "W = 83; delta = P * (measured(psi) - 0.5) + Q * measured(r)",
+                               "--sensor", "psi=0.01", "--sensor", "r=0.01", "--gain", "P=0.9:1.1",
+                               "--gain", "Q=0.5", "--require", "psi at end in [0.3, 0.7]"});
+    CHECK(sensed.code == 0);
+    CHECK_THAT(sensed.out, ContainsSubstring("sees psi with an error of at most 0.01"));
+
+    auto const refused = [&](std::vector<std::string> more, char const* words) {
+        auto const nowhere = (folder.path() / "none").string();
+        more.insert(more.end(), {"--scenario", "S1", "--require", "u > 0", "--out", nowhere});
+        auto const r = asked(more);
+        CHECK(r.code == 2);
+        CHECK_THAT(r.err, ContainsSubstring(words));
+        CHECK_FALSE(fs::exists(nowhere));
+    };
+    refused({"--law", "W = K; delta = 0", "--gain", "K=3"}, "give one a range");
+    refused({"--law", "W = K; delta = 0", "--gain", "K=0:1", "--gain", "Q=0:1"},
+            "the law does not use it");
+    refused({"--law", "W = Sv; delta = 0", "--gain", "Sv=0:1"}, "name that the model uses");
+    refused({"--law", "W = K *; delta = 0", "--gain", "K=0:1"}, "law: character 8");
+    refused({"--law", "W = K * W; delta = 0", "--gain", "K=0:1"}, "algebraic loop");
+    refused({"--law", "W = K; delta = 0", "--gain", "K=0:1", "--sensor", "z=1"}, "z");
+    refused({"--law", "W = K; delta = 0", "--gain", "K=0:1", "--sensor", "u=0:1"},
+            "one error bound");
+    refused({"--law", "W = K; delta = 0", "--gain", "K=nan"}, "not a decimal number");
+    auto const stray =
+        run({"verify", result, "--scenario", "S1", "--require", "u > 0", "--gain", "K=1"});
+    CHECK(stray.code == 2);
+    CHECK_THAT(stray.err, ContainsSubstring("give --law"));
+}
+
 TEST_CASE("verify joins the effects that a result names, in whatever order") {
     temporary_folder const folder;
     auto const result = (folder.path() / "h3").string();

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,7 @@ namespace {
 /// x0' = K - p0 x0 from 0: the page of the gains K (and of Q, which does nothing, if wanted).
 struct asked {
     std::unique_ptr<sivid::stored_prediction> about = std::make_unique<sivid::stored_prediction>();
-    sivid::gain_set found;
+    std::optional<sivid::gain_set> result{};
 
     std::string page(std::string const& text, std::size_t gains, double seconds) {
         sivid::prediction_problem p;
@@ -40,7 +41,8 @@ struct asked {
         p.end = 1;
         auto const what = sivid::parse_requirement(text, p.model, p.end);
         std::vector<std::string> const names(p.choice.unknown.begin() + 1, p.choice.unknown.end());
-        found = sivid::find_gains(p, names, what, all_feasible(p), {{.seconds = seconds}, 0.02});
+        result = sivid::find_gains(p, names, what, all_feasible(p), {{.seconds = seconds}, 0.02});
+        auto const& found = *result;
         about->problem = p;
         about->direct = p;
         about->sides = p.choice.unknown;
@@ -89,5 +91,5 @@ TEST_CASE("pages without gains say why") {
     CHECK_THAT(early, ContainsSubstring("No gain is proved") &&
                           ContainsSubstring("time budget spent") &&
                           ContainsSubstring("No parameter is known that violates it"));
-    CHECK_THAT(gain_sentence(open.found), !ContainsSubstring("Proved"));
+    CHECK_THAT(gain_sentence(*open.result), !ContainsSubstring("Proved"));
 }

@@ -58,13 +58,15 @@ TEST_CASE("paving plot: the boxes behind several projections, for the page's scr
         {"c", "", {0, 1}},
         {{{0, 4}, {0, 0.5}, inside}, {{1, 2}, {0.5, 1}, pending}, {{3, 4}, {0, 1}, outside}}};
     auto const all = paving_attributes({ab, ac});
-    REQUIRE(all.size() == 4);
+    REQUIRE(all.size() == 6);
     CHECK(all[0].value == "a\nm\nb\ns\nc\n\n");
     CHECK(all[1].value == "0 4 0 2 0 1 ");
     // The largest first; what is outside is not listed.
     CHECK(all[2].value == "3 0 10000 5000 10000 0 5000;1 2500 5000 0 5000 5000 10000;");
-    CHECK(all[3].value == "0");
-    CHECK(paving_attributes({ab, ac}, 1)[3].value == "1");
+    CHECK_THAT(all[3].value, ContainsSubstring("explain the data"));
+    CHECK_THAT(all[4].value, ContainsSubstring("impossible"));
+    CHECK(all[5].value == "0");
+    CHECK(paving_attributes({ab, ac}, 1)[5].value == "1");
     CHECK(paving_attributes({}).empty());
     auto fewer = ac;
     fewer.boxes.pop_back();

@@ -13,7 +13,7 @@ namespace sivid::report {
 inline constexpr std::string_view page_script = R"js(
 "use strict";
 addEventListener("DOMContentLoaded", () => {
-const regions = ["outside", "pending: not looked at closely", "undecided", "inside: proved to explain the data"];
+const regions = ["outside", "pending: not looked at closely", "undecided"];
 const make = (name, attributes, parent) => {
   const e = document.createElementNS(parent.namespaceURI, name);
   for (const key in attributes) e.setAttribute(key, attributes[key]);
@@ -41,7 +41,7 @@ const paving = (figure) => {
     const [what, ...ends] = numbers(text);
     return { what, sides: new Map(sides.map((s, k) => [s.name, { ...s, low: s.lo + s.step * ends[2 * k], high: s.lo + s.step * ends[2 * k + 1] }])) };
   });
-  return { boxes, leftOut: Number(figure.dataset.leftOut) };
+  return { boxes, inside: figure.dataset.inside, outside: figure.dataset.outside, leftOut: Number(figure.dataset.leftOut) };
 };
 const pavings = new Map();
 for (const f of document.querySelectorAll("figure[data-boxes]")) pavings.set(f, paving(f));
@@ -118,10 +118,10 @@ const read = (plot, px, py) => {
       if (over && (!box || b.what > box.what)) box = b;
     }
     if (box) {
-      lines.push("box, " + regions[box.what] + "; its sides, about:");
+      lines.push("box, " + (regions[box.what] ?? plot.paving.inside) + "; its sides, about:");
       for (const s of box.sides.values()) lines.push(`${s.name} ${about(s.low, s.step)} \u2026 ${about(s.high, s.step)}${s.unit ? "\u00a0" + s.unit : ""}`);
     } else if (plot.paving.leftOut) lines.push(`no box here among the largest ${plot.paving.boxes.length}; ${plot.paving.leftOut} smaller ones are not listed`);
-    else lines.push("outside: proved impossible");
+    else lines.push(plot.paving.outside);
   }
   return { lines, box };
 };

@@ -43,19 +43,6 @@ struct plane_window {
     range y{};
 };
 
-/// The boxes behind the projections of one paving, for the page's script: attributes of the figure
-/// that shows them. Ends are rounded to the nearest of 10^4 steps over all boxes: enough to show
-/// where a box lies, no bound.
-/// @given  box i of each projection belongs to the same box of the paving; else nothing comes back
-/// @param most  of so many boxes, the largest; how many are left out is said
-[[nodiscard]] SIVID_DECL std::vector<attribute_text>
-paving_attributes(std::vector<paving_projection> const& all, std::size_t most = 3000);
-
-/// What is worth a closer look: the hull of inside and undecided boxes, or of the inside boxes
-/// when that is nearly all of the prior. Nothing when the whole view shows it well.
-[[nodiscard]] SIVID_DECL std::optional<plane_window> zoom_window(paving_projection const& p,
-                                                                 double most_share = 0.55);
-
 /// What the regions of a paving mean.
 struct paving_words {
     std::string inside = "inside: proved to explain the data";
@@ -63,6 +50,20 @@ struct paving_words {
     std::string point = "witness";
     std::string whole = "whole prior";
 };
+
+/// The boxes behind the projections of one paving, for the page's script: attributes of the figure
+/// that shows them. Ends are rounded to the nearest of 10^4 steps over all boxes: enough to show
+/// where a box lies, no bound.
+/// @given  box i of each projection belongs to the same box of the paving; else nothing comes back
+/// @param most  of so many boxes, the largest; how many are left out is said
+[[nodiscard]] SIVID_DECL std::vector<attribute_text>
+paving_attributes(std::vector<paving_projection> const& all, std::size_t most = 3000,
+                  paving_words const& words = {});
+
+/// What is worth a closer look: the hull of inside and undecided boxes, or of the inside boxes
+/// when that is nearly all of the prior. Nothing when the whole view shows it well.
+[[nodiscard]] SIVID_DECL std::optional<plane_window> zoom_window(paving_projection const& p,
+                                                                 double most_share = 0.55);
 
 /// The legend of paving plots, with the regions that occur.
 [[nodiscard]] SIVID_DECL std::vector<legend_entry>

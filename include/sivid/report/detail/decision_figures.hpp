@@ -42,7 +42,11 @@ inline std::vector<point> line_of(simulated_line const& l,
     return line;
 }
 
-inline std::string text_of(interval const& x) { return outward_text(range_of(x)); }
+/// One value as it was given; a range outward.
+inline std::string text_of(interval const& x) {
+    return std::nextafter(x.lower(), HUGE_VAL) < x.upper() ? outward_text(range_of(x))
+                                                           : given_text(mid(x));
+}
 
 inline std::string named(std::vector<std::string> const& names, std::vector<double> const& x) {
     std::string text;

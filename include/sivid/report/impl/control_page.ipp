@@ -43,8 +43,8 @@ inline void add_gains(page& out, gain_set const& found) {
                               std::string{projection_rule} +
                                   " Proved means for every parameter that the identification "
                                   "leaves, every start, every instant.",
-                              {"proved for every parameter",
-                               "violated by a parameter that the data allow", "suggested",
+                              {"inside: proved for every parameter",
+                               "outside: violated by a parameter that the data allow", "suggested",
                                "whole range"}));
         return;
     }

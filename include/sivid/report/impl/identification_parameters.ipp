@@ -78,7 +78,7 @@ SIVID_DECL figure paving_figure(std::vector<paving_projection> const& pavings, s
              .title = std::move(title),
              .caption = std::move(caption),
              .layout = panel_layout::pair,
-             .data = paving_attributes(pavings)};
+             .data = paving_attributes(pavings, 3000, words)};
     for (paving_projection const& p : pavings) {
         std::string const name = p.y.label + " against " + p.x.label;
         auto const zoom = zoom_window(p);

@@ -31,7 +31,8 @@ SIVID_DECL std::optional<plane_window> zoom_window(paving_projection const& p, d
 }
 
 SIVID_DECL std::vector<attribute_text> paving_attributes(std::vector<paving_projection> const& all,
-                                                         std::size_t most) {
+                                                         std::size_t most,
+                                                         paving_words const& words) {
     constexpr double steps = 10'000;
     struct side {
         axis const* what;
@@ -86,6 +87,8 @@ SIVID_DECL std::vector<attribute_text> paving_attributes(std::vector<paving_proj
     return {{"sides", names},
             {"scales", scales},
             {"boxes", boxes},
+            {"inside", words.inside},
+            {"outside", words.outside},
             {"left-out", std::to_string(order.size() - listed)}};
 }
 
