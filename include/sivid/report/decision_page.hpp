@@ -6,31 +6,13 @@
 #include <sivid/decision/prediction.hpp>
 #include <sivid/decision/verification.hpp>
 #include <sivid/io/stored_prediction.hpp>
-#include <sivid/report/motion_plot.hpp>
+#include <sivid/report/detail/decision_page_options.hpp>
 #include <sivid/report/page.hpp>
 
 #include <string>
 #include <vector>
 
 namespace sivid::report {
-
-/// One simulated motion, not validated: what it is, and its values over time.
-struct simulated_line {
-    std::vector<double> times{};
-    std::vector<std::vector<double>> states{};   ///< [time][state]
-    std::vector<std::vector<double>> channels{}; ///< [time][channel]
-    std::vector<std::vector<double>> further{};  ///< [time][expression]
-};
-
-/// What pages of decisions say besides.
-struct decision_page_options {
-    std::string dataset{}, scenario{}, about{};
-    std::string law{};              ///< "" for none
-    std::vector<std::string> set{}; ///< "Ff in [0.286, 0.777] N"
-    simulated_line least_squares{}, single{};
-    std::string single_is = "witness, not validated";
-    std::vector<std::string> footer{};
-};
 
 /// The answer in a sentence.
 [[nodiscard]] SIVID_DECL std::string answer_sentence(stored_prediction const& about,

@@ -2,9 +2,14 @@
 #ifndef SIVID_REPORT_DETAIL_DECISION_FIGURES_HPP
 #define SIVID_REPORT_DETAIL_DECISION_FIGURES_HPP
 
-#include <sivid/report/decision_page.hpp>
+#include <sivid/decision/prediction.hpp>
+#include <sivid/decision/requirement.hpp>
+#include <sivid/io/stored_prediction.hpp>
+#include <sivid/report/detail/decision_page_options.hpp>
 #include <sivid/report/identification_words.hpp>
+#include <sivid/report/motion_plot.hpp>
 #include <sivid/report/number_text.hpp>
+#include <sivid/report/page.hpp>
 #include <sivid/report/table.hpp>
 
 #include <algorithm>
