@@ -33,7 +33,7 @@ inline int run_control(sivid::recorded_model const& model,
     namespace report = sivid::report;
     detail::decision_task task(model, catalogue, c, find);
     auto asked_model = task.model();
-    auto const asked = sivid::parse_requirement(c.requirement, asked_model, task.end());
+    auto const asked = sivid::parse_requirement(task.requirement(), asked_model, task.end());
     auto const about = task.prediction_for(asked_model, asked.margins);
     auto const gains = task.open_gains();
     if (gains.empty())
@@ -43,9 +43,9 @@ inline int run_control(sivid::recorded_model const& model,
     progress_line progress(c.quiet);
     progress.note("gains for " + task.scenario() + ", for all that " + task.dataset() + " leaves");
     sivid::gain_options options;
-    options.seconds = 0.7 * c.budget;
-    options.keep_going = [] { return !console::interrupted(); };
-    options.cells = 60;
+    options.motions.seconds = 0.7 * c.budget;
+    options.motions.keep_going = [] { return !console::interrupted(); };
+    options.motions.cells = 60;
     auto const found = sivid::find_gains(about->problem, gains, asked, about->feasible, options);
     auto const left = [&] { return std::max(0.2, c.budget - progress.elapsed()); };
     std::optional<sivid::verification> proof;

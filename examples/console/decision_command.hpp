@@ -19,6 +19,8 @@ struct decision_command {
     std::string law;                 ///< "W = clamp(K * (2 - u), 0, 250)"; may be empty
     std::vector<std::string> gain;   ///< of the law: K=3 or K=0:50
     std::vector<std::string> sensor; ///< error bounds of what the law reads: u=0.02
+    double sampled = 0, delay = 0;   ///< of the law [s]; 0: it acts at every instant
+    std::vector<std::string> slew;   ///< limits of a sampled law: delta=2
     double budget = 10;              ///< [s]
     bool quiet = false;
     std::string command_line;

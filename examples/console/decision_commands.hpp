@@ -36,6 +36,13 @@ inline int run_predict(sivid::recorded_model const& model,
     progress.note("predicting " + task.scenario() + " for all that " + task.dataset() + " leaves");
     auto found = sivid::predict(about->problem, detail::options_for(c.budget));
     if (about->starts_follow) found.excess = HUGE_VAL; // not all of these motions are possible
+    if (!task.keeps_slews(found)) { // then the law may act later than was taken into account
+        found.complete = false;
+        found.reached = 0;
+        about->assumptions.push_back(
+            "the sampled law keeps the limits of its slew: NOT proved, "
+            "the tubes pass them or end before, so that nothing is proved here");
+    }
     auto options = task.page_options();
     detail::add_lines(options, task, *about, {}, std::max(0.2, c.budget - progress.elapsed()));
     progress.finish();
@@ -75,7 +82,7 @@ inline int run_verify(sivid::recorded_model const& model,
     namespace report = sivid::report;
     detail::decision_task task(model, catalogue, c, find);
     auto asked_model = task.model();
-    auto const asked = sivid::parse_requirement(c.requirement, asked_model, task.end());
+    auto const asked = sivid::parse_requirement(task.requirement(), asked_model, task.end());
     auto const about = task.prediction_for(asked_model, asked.margins);
     if (!c.out.empty()) prepare_folder(c.out);
     watch_interrupts();

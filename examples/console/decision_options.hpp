@@ -41,6 +41,17 @@ inline void add_options(CLI::App& s, decision d, decision_command& c,
                      "inputs are parted by ;");
     auto* const gain = s.add_option("--gain", c.gain, "of the law: K=3, or a range, K=0:50");
     s.add_option("--sensor", c.sensor, "error bounds of measured(...) in the law, such as u=0.02");
+    s.add_option(
+         "--sampled", c.sampled,
+         "the law is computed from samples at most so far apart [s], and held; not given: it "
+         "acts at every instant")
+        ->check(number_between(0.0, 1e9));
+    s.add_option("--delay", c.delay, "samples act at most so long after they were taken [s]")
+        ->check(number_between(0.0, 1e9));
+    s.add_option(
+        "--slew", c.slew,
+        "how fast a sampled law may change an input, such as delta=2 [unit/s]; proved with "
+        "the rest");
     s.add_option("--budget", c.budget, "seconds")
         ->check(number_between(0.0, 1e9))
         ->capture_default_str();

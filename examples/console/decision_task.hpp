@@ -12,6 +12,7 @@
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/approximate/simulate/simulate.hpp>
 #include <sivid/decision/control_law.hpp>
+#include <sivid/decision/prediction.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/enclosure/parametric_set.hpp>
 #include <sivid/io/dataset.hpp>
@@ -102,6 +103,23 @@ public:
     }
 
     [[nodiscard]] double end() const { return request_.end; }
+    /// What was asked, and what has to hold for a sampled law.
+    [[nodiscard]] std::string requirement() const {
+        return closed_ ? closed_->with_slews(command_.requirement) : command_.requirement;
+    }
+    /// Whether tubes show that a sampled law keeps the limits of its slew, as far as they go.
+    [[nodiscard]] bool keeps_slews(sivid::prediction const& tubes) const {
+        auto const within = [&](sivid::closed_model::slew const& s) {
+            auto const tube = std::find_if(tubes.channels.begin(), tubes.channels.end(),
+                                           [&](auto const& c) { return c.name == s.channel; });
+            return tube != tubes.channels.end() &&
+                   std::all_of(tube->high.begin(), tube->high.end(),
+                               [&](double x) { return x < s.limit; }) &&
+                   std::all_of(tube->low.begin(), tube->low.end(),
+                               [&](double x) { return x > -s.limit; });
+        };
+        return !closed_ || std::all_of(closed_->slews.begin(), closed_->slews.end(), within);
+    }
     /// Names of the gains that have a range.
     [[nodiscard]] std::vector<std::string> open_gains() const {
         std::vector<std::string> names;
@@ -123,9 +141,7 @@ public:
                 made->assumptions.push_back(in_words(name, range) +
                                             " in this scenario, whatever it was in the data");
         }
-        if (closed_)
-            made->assumptions.push_back("the law " + command_.law +
-                                        " acts at every instant, without a delay");
+        if (closed_) made->assumptions.push_back("the law " + command_.law + " acts " + when());
         for (auto const& [channel, bound] : sensors_)
             made->assumptions.push_back("the law sees " + channel + " with an error of at most " +
                                         report::given_text(bound) +
@@ -142,6 +158,8 @@ public:
         o.set = request_.set;
         o.law = command_.law;
         o.sensors = sensors_;
+        o.sampled = command_.sampled;
+        o.delay = command_.delay;
         return o;
     }
     [[nodiscard]] report::decision_page_options page_options() const {
@@ -209,6 +227,12 @@ public:
     }
 
 private:
+    [[nodiscard]] std::string when() const {
+        if (command_.sampled == 0) return "at every instant, without a delay";
+        return "on samples at most " + report::given_text(command_.sampled) +
+               " s apart, each at most " + report::given_text(command_.delay) +
+               " s after it was taken, and is held";
+    }
     /// The point, and the middle of what else is open.
     [[nodiscard]] static std::vector<double> with_others(std::vector<double> point,
                                                          sivid::stored_prediction const& about) {
@@ -242,17 +266,22 @@ private:
         auto const& c = command_;
         gains_ = ranges_from(c.gain, "--gain");
         if (c.law.empty()) {
-            if (!c.gain.empty() || !c.sensor.empty())
-                throw std::invalid_argument("--gain and --sensor belong to a law: give --law");
+            if (!c.gain.empty() || !c.sensor.empty() || c.sampled > 0 || c.delay > 0 ||
+                !c.slew.empty())
+                throw std::invalid_argument(
+                    "--gain, --sensor, --sampled, --delay and --slew belong to a law: give --law");
             return;
         }
         sivid::closed_loop loop(problem_.model);
         for (auto const& [name, bound] : ranges_from(c.sensor, "--sensor")) {
-            if (!is_one_value(bound))
-                throw std::invalid_argument("--sensor " + name + ": one error bound is needed");
-            sensors_[name] = bound.upper();
-            loop.sensor(name, bound.upper());
+            sensors_[name] = one_value("--sensor " + name, bound);
+            loop.sensor(name, sensors_[name]);
         }
+        if (c.sampled > 0) loop.sampled(c.sampled, c.delay);
+        if (c.sampled == 0 && (c.delay > 0 || !c.slew.empty()))
+            throw std::invalid_argument("--delay and --slew are of a sampled law: give --sampled");
+        for (auto const& [name, limit] : ranges_from(c.slew, "--slew"))
+            loop.slew(name, one_value("--slew " + name, limit));
         for (auto const& [name, range] : gains_) {
             if (request_.set.count(name) != 0)
                 throw std::invalid_argument("--gain " + name + " is given by --set, too");
@@ -284,6 +313,10 @@ private:
             }
             if (!used) throw std::invalid_argument("--gain " + name + ": the law does not use it");
         }
+    }
+    [[nodiscard]] static double one_value(std::string const& what, sivid::interval const& range) {
+        if (!is_one_value(range)) throw std::invalid_argument(what + ": one number is needed");
+        return range.upper();
     }
     [[nodiscard]] static bool is_one_value(sivid::interval const& x) {
         return width(x) <= sivid::normalised_unknowns::negligible * mag(x);

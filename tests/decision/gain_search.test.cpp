@@ -163,7 +163,7 @@ TEST_CASE("errors of sensors count at every instant") {
 TEST_CASE("what happens between two instants only decides gains too") {
     servo const s({between(0.5, 0.55)}, between(2, 10), "eventually(abs(x0 - 0.5) < 0.05)");
     sivid::gain_options few{.accuracy = 1e-2};
-    few.cells = 4;
+    few.motions.cells = 4;
     CHECK(decided_share(s.found(few), 2, 10, [](double) { return true; }) > 0.9);
 }
 
@@ -199,8 +199,8 @@ TEST_CASE("a pair of gains") {
     p.end = 3;
     auto const what =
         sivid::parse_requirement("always(x0 < 1.1) and x0 at end > 0.9", p.model, p.end);
-    auto const g = sivid::find_gains(p, {"K", "D"}, what, all_feasible(p),
-                                     sivid::gain_options{{.seconds = 4}, 1.0 / 64});
+    auto const g =
+        sivid::find_gains(p, {"K", "D"}, what, all_feasible(p), {{.seconds = 4}, 1.0 / 64});
     REQUIRE(g.suggested);
     std::size_t inside = 0, outside = 0;
     auto const holds = [](double gain, double damping, double force) {
@@ -239,7 +239,7 @@ TEST_CASE("a search for gains keeps its budget and proves nothing without time")
     CHECK_FALSE(g.none_exists());
     CHECK(g.seconds < 0.5);
     sivid::gain_options stopped;
-    stopped.keep_going = [] { return false; };
+    stopped.motions.keep_going = [] { return false; };
     CHECK_FALSE(s.found(stopped).some_proved());
 }
 

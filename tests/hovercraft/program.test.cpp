@@ -756,6 +756,24 @@ TEST_CASE("control finds the gains of a law that are proved for all that the dat
     CHECK(sensed.code == 0);
     CHECK_THAT(sensed.out, ContainsSubstring("sees psi with an error of at most 0.01"));
 
+    std::vector<std::string> const sampled{
+        "--law", "W = 83; delta = 0.8 * (psi - 0.5) + 0.4 * r", "--sampled", "0.01", "--delay",
+        "0.005"};
+    auto const on_samples = [&](char const* slew) {
+        std::vector<std::string> all{"verify",   result,      "--scenario",
+                                     "S3",       "--require", "psi at end in [0.3, 0.7]",
+                                     "--budget", "3"};
+        all.insert(all.end(), sampled.begin(), sampled.end());
+        if (*slew != 0) all.insert(all.end(), {"--slew", slew});
+        return run(all);
+    };
+    auto const kept = on_samples("delta=0.9");
+    CHECK(kept.code == 0);
+    CHECK_THAT(kept.out, ContainsSubstring("delta.slew") &&
+                             ContainsSubstring("on samples at most 0.01 s apart"));
+    CHECK(on_samples("delta=0.3").code == 5);
+    CHECK_THAT(on_samples("").err, ContainsSubstring("'delta' is not limited"));
+
     auto const refused = [&](std::vector<std::string> more, char const* words) {
         auto const nowhere = (folder.path() / "none").string();
         more.insert(more.end(), {"--scenario", "S1", "--require", "u > 0", "--out", nowhere});
@@ -772,7 +790,7 @@ TEST_CASE("control finds the gains of a law that are proved for all that the dat
     refused({"--law", "W = K * W; delta = 0", "--gain", "K=0:1"}, "algebraic loop");
     refused({"--law", "W = K; delta = 0", "--gain", "K=0:1", "--sensor", "z=1"}, "z");
     refused({"--law", "W = K; delta = 0", "--gain", "K=0:1", "--sensor", "u=0:1"},
-            "one error bound");
+            "one number is needed");
     refused({"--law", "W = K; delta = 0", "--gain", "K=nan"}, "not a decimal number");
     auto const stray =
         run({"verify", result, "--scenario", "S1", "--require", "u > 0", "--gain", "K=1"});

@@ -16,7 +16,8 @@
 
 namespace sivid {
 
-struct gain_options : prediction_options {
+struct gain_options {
+    prediction_options motions{}; ///< `parts`: boxes of gains; `seconds`: of all
     /// A box of gains is left undecided when no side is wider than this share of its range.
     double accuracy = 1.0 / 256;
 };

@@ -27,6 +27,16 @@ struct closed_model {
     /// States of effects that begin at what is commanded then, such as lags of an actuator: their
     /// values at the begin, in the time, states, inputs and constants.
     std::vector<added_state> commanded_starts;
+    /// What has to hold for a sampled law, or nothing is said of it: the channel's value, the rate
+    /// at which a law changes its command, is always below the limit in absolute value.
+    struct slew {
+        std::string channel; ///< "W.slew"
+        double limit = 0;    ///< [unit/s]
+    };
+    std::vector<slew> slews;
+
+    /// A requirement, and besides what has to hold for a sampled law.
+    [[nodiscard]] std::string with_slews(std::string const& requirement) const;
 
     /// @param open  the signals of all inputs of the open model; those of commanded ones are unused
     [[nodiscard]] std::vector<signal> inputs(std::vector<signal> const& open) const;
@@ -74,6 +84,19 @@ public:
     /// 1 in [from, to), else 0; exact, and no kink for an integrator.
     expression during(double from, double to);
 
+    /// The law is computed from samples that are at most `period` apart, each of which acts at most
+    /// `delay` after it was taken, and is held until the next one does; before the first the
+    /// command is what the law says at the begin. [s]
+    ///   With |d/dt law(x(t))| <= s along the motion what acts differs from what the law says at
+    ///   the
+    /// same instant by at most (period + delay) s: an error of the input, of which the closed model
+    /// has all. That its motions keep the limit s is to be proved with what is wanted of them
+    /// (`with_slews`): then the sampled loop, whose error is 0 at each sample that acts at once and
+    /// grows continuously from there, never gets beyond it, and moves as one of them.
+    void sampled(double period, double delay);
+    /// The limit s of an input's command, for a sampled law [unit/s].
+    void slew(std::string_view input, double limit);
+
     /// What the input is, at every instant.
     /// @throws std::invalid_argument where it is commanded already
     void command(std::string_view input, expression const& value);
@@ -83,18 +106,23 @@ public:
 
     /// @throws std::invalid_argument  when nothing is commanded; when a command depends on a
     ///         commanded input, itself or by a channel that shows it (an algebraic loop); for
-    ///         models with delays
+    ///         models with delays; for sampled laws with switches in time, integrals, jumps, other
+    ///         inputs, or without a limit of their slew
     [[nodiscard]] closed_model finish() const;
 
 private:
     expression leaf(operation op, std::size_t index) { return {open_.g, open_.g.leaf(op, index)}; }
     expression add_input(std::string name, std::string unit, signal u);
+    /// Whether what is commanded changes. @throws where it cannot be sampled
+    [[nodiscard]] bool needs_hold(std::size_t input, node_id command) const;
 
     recorded_model open_;
     std::size_t states_, inputs_; ///< of the open model
     std::vector<signal> own_inputs_;
     std::map<std::size_t, node_id> commands_; ///< by input
     std::map<std::size_t, double> bounds_;    ///< of sensors, by channel
+    std::map<std::size_t, double> slews_;     ///< limits, by input
+    double age_ = 0;                          ///< of a sample that acts, at most [s]
     std::map<std::size_t, expression> shown_; ///< by channel
 };
 

@@ -181,13 +181,13 @@ SIVID_DECL gain_set find_gains(prediction_problem const& problem,
     auto const ranges = decision_detail::ranges_of(problem, sides);
     std::vector<double> smallest;
     for (auto const& r : ranges) smallest.push_back(options.accuracy * width(r));
-    work_limit const limit(options.seconds, options.keep_going);
-    decision_detail::gain_test test(problem, sides, direct_sides, what, feasible, options, smallest,
-                                    limit);
+    work_limit const limit(options.motions.seconds, options.motions.keep_going);
+    decision_detail::gain_test test(problem, sides, direct_sides, what, feasible, options.motions,
+                                    smallest, limit);
     inversion_options inverting;
     inverting.accuracy = options.accuracy;
     inverting.sufficient_ratio = 1;
-    inverting.boxes = options.parts;
+    inverting.boxes = options.motions.parts;
     inverting.keep_going = limit;
     decision_detail::best_gain best(test, ranges, limit);
     best.search();

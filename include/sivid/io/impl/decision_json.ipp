@@ -34,6 +34,8 @@ inline void write_head(json_writer& json, char const* format, stored_prediction 
         json.key("law").string(options.law).key("sensors").begin_object();
         for (auto const& [channel, bound] : options.sensors) json.key(channel).upper_bound(bound);
         json.end_object();
+        if (options.sampled > 0)
+            json.key("sampled").nearest(options.sampled).key("delay").nearest(options.delay);
     }
     json.key("coordinates").begin_array(json_writer::layout::one_line);
     for (auto const& side : about.sides) json.string(side);

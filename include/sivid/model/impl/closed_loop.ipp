@@ -5,10 +5,13 @@
 #include <sivid/model/closed_loop.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/model/differentiate.hpp>
 #include <sivid/model/program.hpp>
 #include <sivid/model/rewrite.hpp>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -20,6 +23,33 @@
 #include <vector>
 
 namespace sivid {
+
+namespace model_detail {
+
+/// The derivative in time of a function of states, constants and the time along the motion; its
+/// inputs are errors that do not change.
+inline node_id rate_of(recorded_model& m, node_id value,
+                       std::map<std::size_t, double> const& errors) {
+    using traits = interval_traits<interval>;
+    std::vector<node_id> wrt;
+    for (std::size_t i = 0; i < m.rate.size(); ++i) wrt.push_back(m.g.leaf(operation::state, i));
+    wrt.push_back(m.g.leaf(operation::time, 0));
+    auto const along = differentiate(m.g, {value}, wrt).front();
+    // A sample's error need not be the one of the sample that acts now.
+    graph const before = m.g;
+    auto const slope = copy_into(m.g, before, along, [&](node const& n, graph& g) {
+        auto const k = static_cast<std::size_t>(n.index);
+        if (n.op != operation::input) return g.leaf(n.op, k);
+        double const e = errors.at(k);
+        return g.constant(literal{traits::bounds(-e, e), 0.0});
+    });
+    auto sum = slope.back();
+    for (std::size_t i = 0; i < m.rate.size(); ++i)
+        sum = m.g.add(sum, m.g.mul(slope[i], m.rate[i]));
+    return sum;
+}
+
+} // namespace model_detail
 
 SIVID_DECL std::vector<signal> closed_model::inputs(std::vector<signal> const& open) const {
     std::vector<signal> result;
@@ -160,6 +190,63 @@ SIVID_DECL expression closed_loop::add_input(std::string name, std::string unit,
     return leaf(operation::input, open_.about.inputs.size() - 1);
 }
 
+SIVID_DECL void closed_loop::sampled(double period, double delay) {
+    if (!(period > 0) || !std::isfinite(period) || !(delay >= 0) || !std::isfinite(delay))
+        throw std::invalid_argument("control law: it needs a sampling period above 0 and a delay "
+                                    "of 0 or more, both finite");
+    age_ = std::nextafter(period + delay, HUGE_VAL);
+}
+
+SIVID_DECL void closed_loop::slew(std::string_view input, double limit) {
+    auto const i = index_of(open_.about.inputs, std::string(input), "input");
+    if (!(limit > 0) || !std::isfinite(limit))
+        throw std::invalid_argument("control law: the limit of the slew of '" + std::string(input) +
+                                    "' must be above 0 and finite");
+    slews_[i] = limit;
+}
+
+SIVID_DECL bool closed_loop::needs_hold(std::size_t input, node_id command) const {
+    if (age_ == 0) return false;
+    auto const fail = [](std::string const& what, std::string const& remedy) {
+        throw std::invalid_argument("control law: it is sampled and " + what + "; " + remedy);
+    };
+    auto const& g = open_.g;
+    auto const seen = operands_of(g, {command});
+    bool changes = false;
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+        auto const& n = g.nodes()[k];
+        auto const index = static_cast<std::size_t>(n.index);
+        if (!seen[k]) continue;
+        changes = changes || n.op == operation::state || n.op == operation::time;
+        if (n.op == operation::sign)
+            fail("jumps where a sign changes", "use tanh instead, or clamp");
+        if (n.op == operation::state && index >= states_)
+            fail("has an integral, which would be a sum", "leave one of them out");
+        if (n.op != operation::input) continue;
+        if (index < inputs_)
+            fail("depends on the input '" + open_.about.inputs[index].name +
+                     "', whose rate of change is not known",
+                 "command it as well, or leave it out");
+        if (!is_uncertain(own_inputs_[index - inputs_]))
+            fail("switches in time", "leave during(...) out of what is sampled");
+    }
+    if (changes && slews_.count(input) == 0)
+        fail("how fast it changes '" + open_.about.inputs[input].name + "' is not limited",
+             "give a limit of its slew");
+    return changes;
+}
+
+SIVID_DECL std::string closed_model::with_slews(std::string const& requirement) const {
+    auto text = slews.empty() ? requirement : "(" + requirement + ")";
+    for (auto const& s : slews) {
+        auto digits = std::array<char, 32>{};
+        auto const end = std::to_chars(digits.data(), digits.data() + digits.size(), s.limit).ptr;
+        text += " and always(abs(measured(" + s.channel + ")) < " +
+                std::string(digits.data(), end) + ")";
+    }
+    return text;
+}
+
 SIVID_DECL void closed_loop::command(std::string_view input, expression const& value) {
     auto const i = index_of(open_.about.inputs, std::string(input), "input");
     if (i >= inputs_)
@@ -201,10 +288,19 @@ SIVID_DECL closed_model closed_loop::finish() const {
         return g.leaf(n.op, place[k]);
     };
     auto const images = copy_into(to.g, from.g, commands, kept);
-    std::map<std::size_t, node_id> image_of;
+    std::map<std::size_t, node_id> image_of, held;
     for (auto const& [input, value] : commands_) {
-        auto const k = image_of.size();
-        image_of.emplace(input, images[k]);
+        auto image = images[image_of.size()];
+        if (needs_hold(input, value)) {
+            auto const& own = from.about.inputs[input];
+            // A little more than the limit times the age: what is proved is proved in decimals.
+            double const error = slews_.at(input) * age_ * (1 + 1e-12);
+            held.emplace(input, image);
+            image = to.g.add(image, to.g.leaf(operation::input, to.about.inputs.size()));
+            to.about.inputs.push_back({own.name + ".hold", own.unit});
+            result.own_inputs.push_back(sampled_signal({0}, {0}, interpolation::hold, {error}));
+        }
+        image_of.emplace(input, image);
     }
     auto outputs = from.rate;
     outputs.insert(outputs.end(), from.observe.begin(), from.observe.end());
@@ -239,6 +335,18 @@ SIVID_DECL closed_model closed_loop::finish() const {
         }
         to.about.channels.push_back({name, own.unit});
         to.observe.push_back(image);
+    }
+    std::map<std::size_t, double> errors; // of sensors, by input of the closed model
+    for (std::size_t k = 0; k < own_inputs_.size(); ++k) {
+        auto const* u = std::get_if<sampled_signal>(&own_inputs_[k]);
+        if (u != nullptr && !u->exact())
+            errors[place[inputs_ + k]] = u->error_bound(u->piece(0), 0);
+    }
+    for (auto const& [input, law] : held) {
+        auto const& own = from.about.inputs[input];
+        result.slews.push_back({own.name + ".slew", slews_.at(input)});
+        to.about.channels.push_back({own.name + ".slew", own.unit + "/s"});
+        to.observe.push_back(model_detail::rate_of(to, law, errors));
     }
     return result;
 }
