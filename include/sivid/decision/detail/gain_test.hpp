@@ -141,7 +141,8 @@ public:
                        data_.refute(i.what);
             };
             if (worst.says.found.refuted() && !leaves(worst)) break;
-            if (!limit_() || !any || round == (is_smallest(gains) ? 8 : 3)) break;
+            bool const lost = worst.says.reached < motions_->cover().times().back();
+            if (!limit_() || !any || round == (is_smallest(gains) ? 8 : lost ? 1 : 3)) break;
             // What a gain decides is left to the search, but for what is integrated side by side.
             if (!worst.says.worn && problem_.is_gain(motion_cover::most(worst.says.score))) break;
             open.halve(leaves);
