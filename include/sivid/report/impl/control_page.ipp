@@ -142,13 +142,13 @@ SIVID_DECL page control_page(stored_prediction const& about, requirement const& 
         t.columns.push_back({"robustness", column_kind::number});
         for (auto const& w : found.against) {
             std::vector<std::string> row;
-            for (double const x : w.parameters) row.push_back(given_text(x));
+            for (double const x : w.parameters) row.push_back(rounded_text(x, rounding::nearest));
             row.push_back("\xE2\x89\xA4 " + rounded_text(w.found.high, rounding::up));
             t.rows.push_back(std::move(row));
         }
         t.caption = "Parameters that the data allow (proved by validated runs), each with a gain "
                     "under which it violates the requirement. Every excluded box of gains "
-                    "violates it for one of them.";
+                    "violates it for one of them. Rounded; control.json has them in full.";
         out.add(t);
     }
     detail::add_parameters(out, about, o);
