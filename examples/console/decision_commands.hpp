@@ -4,22 +4,27 @@
 #define EXAMPLES_CONSOLE_DECISION_COMMANDS_HPP
 
 #include "console.hpp"
-#include "control_command.hpp"
 #include "decision_task.hpp"
 #include "program.hpp"
 #include "result_files.hpp"
 
+#include <sivid/decision/gain_search.hpp>
 #include <sivid/decision/prediction.hpp>
 #include <sivid/decision/requirement.hpp>
 #include <sivid/decision/verification.hpp>
 #include <sivid/io/decision_json.hpp>
 #include <sivid/io/file_set.hpp>
+#include <sivid/report/control_page.hpp>
 #include <sivid/report/decision_page.hpp>
 #include <sivid/report/number_text.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace console {
 
@@ -34,15 +39,7 @@ inline int run_predict(sivid::recorded_model const& model,
     watch_interrupts();
     progress_line progress(c.quiet);
     progress.note("predicting " + task.scenario() + " for all that " + task.dataset() + " leaves");
-    auto found = sivid::predict(about->problem, detail::options_for(c.budget));
-    if (about->starts_follow) found.excess = HUGE_VAL; // not all of these motions are possible
-    if (!task.keeps_slews(found)) { // then the law may act later than was taken into account
-        found.complete = false;
-        found.reached = 0;
-        about->assumptions.push_back(
-            "the sampled law keeps the limits of its slew: NOT proved, "
-            "the tubes pass them or end before, so that nothing is proved here");
-    }
+    auto const found = task.predicted(*about, detail::options_for(c.budget), {});
     auto options = task.page_options();
     detail::add_lines(options, task, *about, {}, std::max(0.2, c.budget - progress.elapsed()));
     progress.finish();
@@ -74,29 +71,38 @@ inline int run_predict(sivid::recorded_model const& model,
     return found.complete ? done : undecided;
 }
 
+namespace detail {
+
+/// What an answer rests on, what it took, and what was written.
+inline void print_end(sivid::stored_prediction const& about, std::string const& effort,
+                      decision_command const& c, std::string const& files) {
+    for (auto const& line : report::decision_assumptions(about))
+        std::cout << "  - " << line << "\n";
+    std::cout << "  " << effort << " validated integrations\n";
+    if (!c.out.empty()) std::cout << "  written: " << files << "\n";
+}
+
+} // namespace detail
+
 /// `verify`: prints the answer; with `out`, writes verification.html and verification.json.
 /// @returns done when proved, refuted, or undecided
 inline int run_verify(sivid::recorded_model const& model,
                       std::vector<sivid::effect> const& catalogue, decision_command const& c,
                       scenario_finder const& find) {
     namespace report = sivid::report;
-    detail::decision_task task(model, catalogue, c, find);
-    auto asked_model = task.model();
-    auto const asked = sivid::parse_requirement(task.requirement(), asked_model, task.end());
-    auto const about = task.prediction_for(asked_model, asked.margins);
+    detail::question const q(model, catalogue, c, find);
+    auto const& [task, with_margins, asked, about] = q;
     if (!c.out.empty()) prepare_folder(c.out);
     watch_interrupts();
     progress_line progress(c.quiet);
     progress.note("verifying " + task.scenario() + " for all that " + task.dataset() + " leaves");
-    auto options = detail::options_for(c.budget);
-    options.cells = 60; // refined where a verdict hangs on it
-    auto const found = sivid::verify(about->problem, asked, about->feasible, options);
+    auto const found =
+        sivid::verify(about->problem, asked, about->feasible, detail::options_for(c.budget, 60));
     progress.finish();
     if (!c.out.empty()) {
         auto page = task.page_options();
         double const left = std::max(0.2, c.budget - progress.elapsed());
-        auto const tubes =
-            sivid::predict(about->problem, detail::options_for(0.5 * left), asked.margins);
+        auto const tubes = task.predicted(*about, detail::options_for(0.5 * left), asked.margins);
         detail::add_lines(page, task, *about, asked.margins, 0.3 * left);
         if (found.witness) {
             page.single = task.simulated(*about, asked.margins, found.witness->parameters,
@@ -112,16 +118,73 @@ inline int run_verify(sivid::recorded_model const& model,
     }
     std::cout << task.scenario() << ", " << task.dataset() << ": " << to_string(found.answer)
               << "\n  " << asked.text << "\n  " << report::answer_sentence(*about, found) << "\n";
-    for (auto const& line : report::decision_assumptions(*about))
-        std::cout << "  - " << line << "\n";
-    std::cout << "  " << report::duration_text(found.seconds) << ", " << found.parts << " parts, "
-              << found.integrations << " validated integrations\n";
-    if (!c.out.empty())
-        std::cout << "  written: " << (c.out / "verification.html").string()
-                  << " and verification.json\n";
+    detail::print_end(*about,
+                      report::duration_text(found.seconds) + ", " + std::to_string(found.parts) +
+                          " parts, " + std::to_string(found.integrations),
+                      c, (c.out / "verification.html").string() + " and verification.json");
     return found.answer == sivid::requirement_answer::proved    ? done
            : found.answer == sivid::requirement_answer::refuted ? refuted
                                                                 : undecided;
+}
+
+/// `control`: prints what is known of the gains; with `out`, writes control.html, control.json and
+/// gains.csv. @returns done when some are proved, refuted when none exists, or undecided
+inline int run_control(sivid::recorded_model const& model,
+                       std::vector<sivid::effect> const& catalogue, decision_command const& c,
+                       scenario_finder const& find) {
+    namespace report = sivid::report;
+    detail::question q(model, catalogue, c, find);
+    auto& [task, with_margins, asked, about] = q;
+    auto const gains = task.open_gains();
+    if (gains.empty())
+        throw std::invalid_argument("--gain: give one a range to be searched, such as K=0:50");
+    if (!c.out.empty()) prepare_folder(c.out);
+    watch_interrupts();
+    progress_line progress(c.quiet);
+    progress.note("gains for " + task.scenario() + ", for all that " + task.dataset() + " leaves");
+    sivid::gain_options options;
+    options.motions = detail::options_for(0.7 * c.budget, 60);
+    auto const found = sivid::find_gains(about->problem, gains, asked, about->feasible, options);
+    auto const left = [&] { return std::max(0.2, c.budget - progress.elapsed()); };
+    std::optional<sivid::verification> proof;
+    std::optional<sivid::prediction> tubes;
+    auto page = task.page_options();
+    if (found.suggested) {
+        about->problem = sivid::with_gains(about->problem, gains, *found.suggested);
+        about->direct = sivid::with_gains(about->direct, gains, *found.suggested);
+        proof = sivid::verify(about->problem, asked, about->feasible,
+                              detail::options_for(0.5 * left(), 60));
+        if (!c.out.empty()) {
+            tubes = task.predicted(*about, detail::options_for(0.5 * left()), asked.margins);
+            detail::add_lines(page, task, *about, asked.margins, 0.5 * left());
+        }
+    }
+    progress.finish();
+    auto const* const proved = proof ? &*proof : nullptr;
+    if (!c.out.empty()) {
+        sivid::file_set files(c.out);
+        files.add("gains.csv", sivid::gains_csv(found));
+        files.add("control.html", report::control_page(*about, asked, found, proved,
+                                                       tubes ? &*tubes : nullptr, page)
+                                      .str());
+        files.add("control.json",
+                  sivid::control_json(*about, asked, found, proved, task.json_options()));
+        files.commit();
+    }
+    std::cout << task.scenario() << ", " << task.dataset() << ": "
+              << (found.some_proved()   ? "gains are proved"
+                  : found.none_exists() ? "no gain will do"
+                                        : "no gain is proved")
+              << "\n  " << c.law << "\n  " << asked.text << "\n  " << report::gain_sentence(found)
+              << "\n";
+    if (proof) std::cout << "  with these: " << report::answer_sentence(*about, *proof) << "\n";
+    detail::print_end(*about,
+                      report::duration_text(found.seconds) + ", " +
+                          std::to_string(found.paving.paving.boxes().size()) + " boxes, " +
+                          std::to_string(found.parts) + " parts, " +
+                          std::to_string(found.integrations),
+                      c, (c.out / "control.html").string() + " and control.json, gains.csv");
+    return found.some_proved() ? done : found.none_exists() ? refuted : undecided;
 }
 
 /// @returns an exit code

@@ -13,6 +13,7 @@
 #include <sivid/approximate/simulate/simulate.hpp>
 #include <sivid/decision/control_law.hpp>
 #include <sivid/decision/prediction.hpp>
+#include <sivid/decision/requirement.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/enclosure/parametric_set.hpp>
 #include <sivid/io/dataset.hpp>
@@ -107,18 +108,15 @@ public:
     [[nodiscard]] std::string requirement() const {
         return closed_ ? closed_->with_slews(command_.requirement) : command_.requirement;
     }
-    /// Whether tubes show that a sampled law keeps the limits of its slew, as far as they go.
-    [[nodiscard]] bool keeps_slews(sivid::prediction const& tubes) const {
-        auto const within = [&](sivid::closed_model::slew const& s) {
-            auto const tube = std::find_if(tubes.channels.begin(), tubes.channels.end(),
-                                           [&](auto const& c) { return c.name == s.channel; });
-            return tube != tubes.channels.end() &&
-                   std::all_of(tube->high.begin(), tube->high.end(),
-                               [&](double x) { return x < s.limit; }) &&
-                   std::all_of(tube->low.begin(), tube->low.end(),
-                               [&](double x) { return x > -s.limit; });
-        };
-        return !closed_ || std::all_of(closed_->slews.begin(), closed_->slews.end(), within);
+    /// Tubes, as long as a sampled law keeps the limits of its slew: they hold no longer.
+    [[nodiscard]] sivid::prediction predicted(sivid::stored_prediction const& about,
+                                              sivid::prediction_options const& options,
+                                              std::vector<sivid::node_id> const& margins) const {
+        auto found = sivid::predict(about.problem, options, margins);
+        if (about.starts_follow) found.excess = HUGE_VAL; // not all of these motions are possible
+        if (!closed_) return found;
+        for (auto const& s : closed_->slews) sivid::end_where_reached(found, s.channel, s.limit);
+        return found;
     }
     /// Names of the gains that have a range.
     [[nodiscard]] std::vector<std::string> open_gains() const {
@@ -348,12 +346,31 @@ private:
     std::map<std::string, double> sensors_;
 };
 
-inline sivid::prediction_options options_for(double seconds) {
+/// @param cells  of the grid in time, at least; `verify` refines it where a verdict hangs on it
+inline sivid::prediction_options options_for(double seconds, std::size_t cells = 120) {
     sivid::prediction_options o;
     o.seconds = seconds;
+    o.cells = cells;
     o.keep_going = [] { return !console::interrupted(); };
     return o;
 }
+
+/// A task with what is asked of it. The folder is prepared once all of the input is good.
+struct question {
+    decision_task task;
+    sivid::recorded_model model;
+    sivid::requirement asked;
+    std::unique_ptr<sivid::stored_prediction> about;
+
+    question(sivid::recorded_model const& open, std::vector<sivid::effect> const& catalogue,
+             decision_command const& c, scenario_finder const& find)
+        : task(open, catalogue, c, find), model(task.model()) {
+        asked = sivid::parse_requirement(task.requirement(), model, task.end());
+        about = task.prediction_for(model, asked.margins);
+    }
+    question(question const&) = delete;
+    question& operator=(question const&) = delete;
+};
 
 /// The lines of a page: least squares, and a single motion.
 inline void add_lines(report::decision_page_options& o, decision_task const& task,

@@ -4,9 +4,9 @@
 
 #include "model.hpp"
 
-#include <sivid/diagnosis/graph_range.hpp>
 #include <sivid/enclosure/expansion.hpp>
 #include <sivid/enclosure/flow.hpp>
+#include <sivid/model/graph_range.hpp>
 #include <sivid/model/rewrite.hpp>
 #include <sivid/model/unit.hpp>
 #include <sivid/number/decimal.hpp>

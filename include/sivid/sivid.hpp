@@ -61,10 +61,12 @@
 #include <sivid/measurement/quantisation.hpp>
 #include <sivid/measurement/record.hpp>
 #include <sivid/measurement/signal.hpp>
+#include <sivid/model/added_start.hpp>
 #include <sivid/model/arithmetic.hpp>
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/closed_loop.hpp>
 #include <sivid/model/combination.hpp>
+#include <sivid/model/copy_equations.hpp>
 #include <sivid/model/describe.hpp>
 #include <sivid/model/differentiate.hpp>
 #include <sivid/model/effect.hpp>
@@ -74,6 +76,7 @@
 #include <sivid/model/formula_text.hpp>
 #include <sivid/model/graph.hpp>
 #include <sivid/model/graph_listing.hpp>
+#include <sivid/model/graph_range.hpp>
 #include <sivid/model/homogeneity.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/model/normal_form.hpp>
@@ -272,7 +275,6 @@
 #include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/diagnosis/effect_hulls.hpp>
 #include <sivid/diagnosis/gap_proof.hpp>
-#include <sivid/diagnosis/graph_range.hpp>
 #include <sivid/diagnosis/hardest_experiments.hpp>
 #include <sivid/diagnosis/holdout.hpp>
 #include <sivid/diagnosis/holdout_judgement.hpp>

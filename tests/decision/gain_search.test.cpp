@@ -18,7 +18,7 @@ namespace {
 
 /// Bounded by boxes, not by time: the same on a slow machine.
 sivid::gain_options until(double accuracy, std::size_t boxes = 20'000) {
-    return {{.seconds = 300, .parts = boxes}, accuracy};
+    return {{.seconds = 300}, boxes, accuracy};
 }
 
 /// x0' = u0 - p0 x0 under u0 = K (1 - x0) from x0(0) = 0: x0(t) = K / a (1 - exp(-a t)), a = K +
@@ -241,7 +241,7 @@ TEST_CASE("a pair of gains") {
 
 TEST_CASE("a search for gains keeps its budget and proves nothing without time") {
     servo const s({between(0.5, 1)}, between(0, 20), "x0 at end in [0.8, 0.92]");
-    auto const g = s.found({{.seconds = 0}, 1e-3});
+    auto const g = s.found({.motions = {.seconds = 0}, .accuracy = 1e-3});
     CHECK_FALSE(g.some_proved());
     CHECK_FALSE(g.none_exists());
     CHECK(g.seconds < 0.5);

@@ -102,3 +102,16 @@ TEST_CASE("a grid must go from the begin to the end") {
     CHECK_THROWS_AS(sivid::motion_cover(c.problem, c.outputs, {0.1, 1}, {}), std::invalid_argument);
     CHECK_THROWS_AS(sivid::motion_cover(c.problem, c.outputs, {0}, {}), std::invalid_argument);
 }
+
+TEST_CASE("the widest side that can be cut is cut: a start given as a decimal is none") {
+    // [0.1] as a decimal is two doubles wide: as wide as the whole, and nothing to halve.
+    auto const decimal = support::between(0.1, std::nextafter(0.1, 1.0));
+    auto const p = decay({{support::between(0.5, 1)}}, {decimal}, 1);
+    sivid::motion_cover const cover(p, {p.model, {}}, {0, 1}, {});
+    auto const halves = cover.split(cover.whole());
+    REQUIRE(halves.size() == 2);
+    CHECK(halves[0].parameters[0].upper() == 0.75);
+    CHECK(halves[1].parameters[0].lower() == 0.75);
+    CHECK(cover.share(cover.whole(), 0) == 0);
+    CHECK(cover.share(halves[0], 1) == 0.5);
+}

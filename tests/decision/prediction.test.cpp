@@ -150,3 +150,26 @@ TEST_CASE("a problem that does not fit is refused") {
     q.inputs = {sivid::sampled_signal({0}, {0}, sivid::interpolation::hold)};
     refused(q, "one signal per input");
 }
+
+TEST_CASE("a prediction ends where a channel may reach a limit") {
+    auto const p = decay({{support::between(0.5, 1)}}, {sivid::interval(2.0)}, 2);
+    auto const whole = sivid::predict(p, {.cells = 20});
+    REQUIRE(whole.complete);
+    auto kept = whole;
+    sivid::end_where_reached(kept, "y0", 2.1);
+    CHECK(kept.complete);
+    CHECK(kept.reached == whole.reached);
+    auto none = whole; // it begins at 2
+    sivid::end_where_reached(none, "y0", 2);
+    CHECK_FALSE(none.complete);
+    CHECK(none.reached == 0);
+    CHECK(none.states[0].high[0] == HUGE_VAL);
+    auto late = whole;
+    late.channels[0].high[7] = 5; // between the instants 3 and 4
+    sivid::end_where_reached(late, "y0", 4);
+    CHECK(late.reached == late.times[3]);
+    CHECK(late.states[0].high[6] == whole.states[0].high[6]);
+    CHECK(late.states[0].high[7] == HUGE_VAL);
+    CHECK(late.channels[0].low.back() == -HUGE_VAL);
+    CHECK_THROWS_AS(sivid::end_where_reached(late, "z", 1), std::invalid_argument);
+}

@@ -60,18 +60,19 @@ struct loop {
     }
 };
 
-/// The state at each of some times when the law acts on samples that are taken, late and wrong as
-/// they may be.
-std::vector<double> sampled_motion(std::function<double(double)> const& law, double rate, double x,
-                                   std::vector<double> const& times, std::mt19937& random,
-                                   bool extreme) {
+/// The state and what is commanded at each of some times, when the law acts on samples that are
+/// taken, late and wrong as they may be.
+std::vector<std::pair<double, double>> sampled_motion(std::function<double(double)> const& law,
+                                                      double rate, double x,
+                                                      std::vector<double> const& times,
+                                                      std::mt19937& random, bool extreme) {
     std::uniform_real_distribution<double> share(0, 1);
     auto const up_to = [&](double most) {
         return extreme ? (share(random) < 0.5 ? 0.0 : most) : most * share(random);
     };
     double const bias = share(random) < 0.5 ? -sensor : sensor; // an error that stays is worst
     auto const error = [&] { return extreme ? bias : sensor * (2 * share(random) - 1); };
-    std::vector<double> result;
+    std::vector<std::pair<double, double>> result;
     double t = 0, u = law(x + error()), next_sample = extreme ? period : up_to(period);
     std::deque<std::pair<double, double>> waiting; // when, what
     auto next = times.begin();
@@ -90,7 +91,7 @@ std::vector<double> sampled_motion(std::function<double(double)> const& law, dou
                 waiting.emplace_back(when, law(x + error()));
             next_sample = t + (extreme ? period : std::max(1e-4, up_to(period)));
         } else {
-            result.push_back(x);
+            result.emplace_back(x, u);
             ++next;
         }
     }
@@ -105,17 +106,22 @@ void attack(std::string const& text, double slew, std::function<double(double)> 
     auto const tubes = sivid::predict(l.problem, {.cells = 50});
     REQUIRE(tubes.complete);
     auto const& tube = tubes.states[0];
+    auto const& command = tubes.channels[1];
+    REQUIRE(command.name == "u0");
     std::mt19937 random(7);
     double reached = 0;
     for (int n = 0; n < 400; ++n) {
         double const rate = n % 3 == 0 ? 0.5 : n % 3 == 1 ? 1 : 0.75;
         double const start = n % 2 == 0 ? 0 : 0.1;
-        auto const x = sampled_motion(law, rate, start, tubes.times, random, n % 4 < 2);
-        for (std::size_t k = 0; k < x.size(); ++k) {
-            CHECK(x[k] >= tube.low[2 * k] - 1e-12);
-            CHECK(x[k] <= tube.high[2 * k] + 1e-12);
+        auto const motion = sampled_motion(law, rate, start, tubes.times, random, n % 4 < 2);
+        for (std::size_t k = 0; k < motion.size(); ++k) {
+            auto const [x, u] = motion[k];
+            CHECK(x >= tube.low[2 * k] - 1e-12);
+            CHECK(x <= tube.high[2 * k] + 1e-12);
+            CHECK(u >= command.low[2 * k] - 1e-12);
+            CHECK(u <= command.high[2 * k] + 1e-12);
         }
-        reached = std::max(reached, x.back());
+        reached = std::max(reached, motion.back().first);
     }
     CHECK(tube.high.back() - reached < 0.2); // and not by far
 }

@@ -37,8 +37,8 @@ TEST_CASE("effects are switched on in the experiments in which they act") {
     for (std::size_t e = 0; e < 2; ++e) {
         auto const& inputs = p.experiments[e].inputs;
         REQUIRE(inputs.size() == 3);
-        CHECK(diagnosis_detail::input_at(inputs[1], 0).lower() == (e == 1 ? 1 : 0));
-        CHECK(diagnosis_detail::input_at(inputs[2], 0).lower() == 1);
+        CHECK(input_at(inputs[1], 0).lower() == (e == 1 ? 1 : 0));
+        CHECK(input_at(inputs[2], 0).lower() == 1);
     }
     // With the effect everywhere, and with one that acts in all experiments, runs are the same.
     auto const at = [&base](effect const& e) {

@@ -156,7 +156,8 @@ TEST_CASE("gains are written with their shares, their proof and what speaks agai
         }
     }
     d.about->sides.push_back("K");
-    auto const found = sivid::find_gains(p, {"K"}, d.what, {}, {{.seconds = 2}, 0.1});
+    auto const found =
+        sivid::find_gains(p, {"K"}, d.what, {}, {.motions = {.seconds = 2}, .accuracy = 0.1});
     auto const json = sivid::parse_json(
         "control.json",
         sivid::control_json(*d.about, d.what, found, nullptr,

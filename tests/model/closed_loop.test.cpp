@@ -124,7 +124,7 @@ TEST_CASE("a lag behind a command begins at what is commanded") {
     sivid::closed_loop law(sivid::with(cart(), std::vector<sivid::effect>{lag}));
     law.command("u0", law.gain("K", "1") * (1.0 - law.state("x0")));
     auto const closed = law.finish();
-    REQUIRE(closed.commanded_starts.size() == 1);
+    REQUIRE(closed.starts.size() == 1);
     auto const states = closed.model.about.states.size();
     sivid::box open(states);
     for (std::size_t i = 0; i < states; ++i) open[i] = sivid::interval(0.0);
@@ -132,7 +132,7 @@ TEST_CASE("a lag behind a command begins at what is commanded") {
     std::vector<sivid::interval> constants(closed.model.about.constants.size(),
                                            sivid::interval(4.0));
     auto const start = closed.initial(open, {held(0)}, constants);
-    auto const& own = start[closed.commanded_starts[0].state];
+    auto const& own = start[closed.starts[0].state];
     CHECK(contains(own, 2.0)); // 4 (1 - 0.5)
     CHECK(contains(own, 3.0));
     CHECK(own.lower() > 1.999);

@@ -41,7 +41,8 @@ struct asked {
         p.end = 1;
         auto const what = sivid::parse_requirement(text, p.model, p.end);
         std::vector<std::string> const names(p.choice.unknown.begin() + 1, p.choice.unknown.end());
-        result = sivid::find_gains(p, names, what, all_feasible(p), {{.seconds = seconds}, 0.02});
+        result = sivid::find_gains(p, names, what, all_feasible(p),
+                                   {.motions = {.seconds = seconds}, .accuracy = 0.02});
         auto const& found = *result;
         about->problem = p;
         about->direct = p;

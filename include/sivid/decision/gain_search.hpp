@@ -17,7 +17,8 @@
 namespace sivid {
 
 struct gain_options {
-    prediction_options motions{}; ///< `parts`: boxes of gains; `seconds`: of all
+    prediction_options motions{}; ///< `seconds`: of all
+    std::size_t boxes = 20'000;   ///< of gains, at most
     /// A box of gains is left undecided when no side is wider than this share of its range.
     double accuracy = 1.0 / 256;
 };

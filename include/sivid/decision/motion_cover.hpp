@@ -96,6 +96,8 @@ public:
     static constexpr std::size_t none = ~std::size_t{0};
     /// The width of a side against the whole; 0 where it cannot be cut.
     [[nodiscard]] double share(part const& p, std::size_t side) const;
+    /// The greatest of these.
+    [[nodiscard]] double widest_share(part const& p) const;
     /// What of a part has its parameters in a box; without sets where no parameter is left.
     [[nodiscard]] part within(part const& p, box const& parameters) const {
         return with_sets(p.initial, intersect(p.parameters, parameters), p.sets, p.known);

@@ -48,6 +48,11 @@ struct prediction {
                                             prediction_options const& options = {},
                                             std::vector<node_id> const& further = {});
 
+/// Withdraws all that is said from the first segment on in which a channel may reach +-limit: for
+/// predictions that hold as long as it does not.
+/// @throws std::invalid_argument for a name that is no channel
+SIVID_DECL void end_where_reached(prediction& found, std::string const& channel, double limit);
+
 } // namespace sivid
 
 #ifndef SIVID_COMPILED

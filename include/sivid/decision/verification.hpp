@@ -11,7 +11,6 @@
 #include <sivid/space/box.hpp>
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string_view>
 #include <vector>

@@ -3,10 +3,10 @@
 #define SIVID_DIAGNOSIS_DECLARED_VARIATION_HPP
 
 #include <sivid/diagnosis/channel_tube.hpp>
-#include <sivid/diagnosis/graph_range.hpp>
 #include <sivid/diagnosis/input_range.hpp>
 #include <sivid/diagnosis/model_variation.hpp>
 #include <sivid/diagnosis/state_samples.hpp>
+#include <sivid/model/graph_range.hpp>
 #include <sivid/number/nearest_text.hpp>
 
 #include <algorithm>

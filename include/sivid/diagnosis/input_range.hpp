@@ -2,8 +2,8 @@
 #ifndef SIVID_DIAGNOSIS_INPUT_RANGE_HPP
 #define SIVID_DIAGNOSIS_INPUT_RANGE_HPP
 
-#include <sivid/diagnosis/graph_range.hpp>
 #include <sivid/model/bound_model.hpp>
+#include <sivid/model/graph_range.hpp>
 #include <sivid/number/interval_traits.hpp>
 
 #include <algorithm>

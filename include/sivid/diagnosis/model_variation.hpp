@@ -3,13 +3,13 @@
 #define SIVID_DIAGNOSIS_MODEL_VARIATION_HPP
 
 #include <sivid/diagnosis/channel_tube.hpp>
-#include <sivid/diagnosis/graph_range.hpp>
 #include <sivid/diagnosis/input_range.hpp>
 #include <sivid/diagnosis/integrand_set.hpp>
 #include <sivid/diagnosis/rate_stretch.hpp>
 #include <sivid/diagnosis/state_samples.hpp>
 #include <sivid/diagnosis/time_grid.hpp>
 #include <sivid/model/bound_model.hpp>
+#include <sivid/model/graph_range.hpp>
 #include <sivid/model/problem.hpp>
 
 #include <algorithm>

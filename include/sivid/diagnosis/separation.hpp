@@ -2,8 +2,8 @@
 #ifndef SIVID_DIAGNOSIS_SEPARATION_HPP
 #define SIVID_DIAGNOSIS_SEPARATION_HPP
 
-#include <sivid/diagnosis/graph_range.hpp>
 #include <sivid/model/graph.hpp>
+#include <sivid/model/graph_range.hpp>
 #include <sivid/model/normal_form.hpp>
 
 #include <cstddef>

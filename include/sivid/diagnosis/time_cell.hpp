@@ -2,7 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_TIME_CELL_HPP
 #define SIVID_DIAGNOSIS_TIME_CELL_HPP
 
-#include <sivid/diagnosis/graph_range.hpp>
+#include <sivid/model/graph_range.hpp>
 #include <sivid/number/interval_traits.hpp>
 
 #include <vector>

@@ -2,9 +2,9 @@
 #ifndef SIVID_DIAGNOSIS_WINDOW_INTEGRALS_HPP
 #define SIVID_DIAGNOSIS_WINDOW_INTEGRALS_HPP
 
-#include <sivid/diagnosis/graph_range.hpp>
 #include <sivid/diagnosis/integrand_set.hpp>
 #include <sivid/diagnosis/time_cell.hpp>
+#include <sivid/model/graph_range.hpp>
 
 #include <algorithm>
 #include <cmath>

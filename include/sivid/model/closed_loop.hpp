@@ -24,9 +24,9 @@ struct closed_model {
     std::vector<std::size_t> kept_inputs;
     std::vector<signal> own_inputs; ///< what the law adds: switches in time, errors of sensors
     std::size_t own_states = 0;     ///< integrals, behind the model's states; they begin at 0
-    /// States of effects that begin at what is commanded then, such as lags of an actuator: their
-    /// values at the begin, in the time, states, inputs and constants.
-    std::vector<added_state> commanded_starts;
+    /// States that effects added, such as lags of an actuator: their values at the begin, in the
+    /// time, states, inputs and constants.
+    std::vector<added_state> starts;
     /// What has to hold for a sampled law, or nothing is said of it: the channel's value, the rate
     /// at which a law changes its command, is always below the limit in absolute value.
     struct slew {
@@ -43,7 +43,7 @@ struct closed_model {
     /// A box that holds the starts of all motions.
     /// @param open       starts of the open model
     /// @param constants  enclosures of all constants of `model`
-    /// @throws std::invalid_argument  where a commanded start is not defined for all of them
+    /// @throws std::domain_error  where the start of an added state is not bounded for all of them
     [[nodiscard]] box initial(box const& open, std::vector<signal> const& inputs,
                               std::vector<interval> const& constants) const;
 };

@@ -3,6 +3,7 @@
 #define SIVID_MODEL_SUBSTITUTION_HPP
 
 #include <sivid/model/bound_model.hpp>
+#include <sivid/model/copy_equations.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/model/recorded_map.hpp>
 #include <sivid/model/rewrite.hpp>
@@ -56,24 +57,17 @@ substituted(recorded_model const& model, std::vector<std::string> const& replace
         constants.push_back(c);
     }
     auto const images = values.in(g, arguments);
-    auto outputs = model.rate;
-    outputs.insert(outputs.end(), model.observe.begin(), model.observe.end());
-    for (auto const& a : model.added_states) outputs.push_back(a.at_begin);
-    for (auto const& d : model.derived) outputs.push_back(d.value);
-    auto const copied = copy_into(g, model.g, outputs, [&](node const& n, graph& to) {
+    auto const leaf = [&](node const& n, graph& to) {
         auto const k = static_cast<std::size_t>(n.index);
         if (n.op != operation::constant) return to.leaf(n.op, k);
         auto const at = std::find(gone.begin(), gone.end(), k);
         if (at == gone.end()) return to.leaf(n.op, position[k]);
         return images[static_cast<std::size_t>(at - gone.begin())];
-    });
-    auto next = copied.begin();
-    for (std::size_t i = 0; i < model.rate.size(); ++i) result.rate.push_back(*next++);
-    for (std::size_t y = 0; y < model.observe.size(); ++y) result.observe.push_back(*next++);
-    for (auto const& a : model.added_states) result.added_states.push_back({a.state, *next++});
+    };
+    copy_equations(result, model, leaf);
     for (auto const& d : model.derived) {
-        auto const value = *next++;
         if (position[d.constant] >= constants.size()) continue; // replaced itself
+        auto const value = copy_into(g, model.g, {d.value}, leaf).front();
         auto const needed = operands_of(model.g, {d.value});
         auto const follows_replaced = std::any_of(gone.begin(), gone.end(), [&](std::size_t k) {
             for (std::size_t i = 0; i < needed.size(); ++i) {

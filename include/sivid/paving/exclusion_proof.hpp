@@ -120,7 +120,7 @@ public:
             auto cell = std::move(waiting.back());
             waiting.pop_back();
             for (bool over = false; !over;) {
-                auto const of = key(cell);
+                auto const of = ends_of(cell);
                 auto const found = steps_.find(of);
                 for (std::size_t k = 0; found != steps_.end() && k < found->second.size(); ++k) {
                     auto const& s = found->second[k];
@@ -133,7 +133,7 @@ public:
                         waiting.push_back(std::move(low));
                     }
                 }
-                if (over || key(cell) != of)
+                if (over || ends_of(cell) != of)
                     continue; // what is left of it may be known under its own name
                 proof.push_back({});
                 over = true;
@@ -174,17 +174,8 @@ private:
         for (auto const& s : steps) bytes += s.bytes();
         if (steps.empty() || bytes_ + bytes > most_) return;
         bytes_ += bytes;
-        steps_[key(of)] = std::move(steps);
+        steps_[ends_of(of)] = std::move(steps);
     }
-    static std::vector<double> key(box const& x) {
-        std::vector<double> ends;
-        for (auto const& side : x) {
-            ends.push_back(side.lower());
-            ends.push_back(side.upper());
-        }
-        return ends;
-    }
-
     std::size_t most_, bytes_ = 0;
     std::map<std::vector<double>, exclusion_proof> steps_;
 };

@@ -241,6 +241,17 @@ template <single_interval I>
     return result;
 }
 
+/// The ends of all sides in order: equal for equal boxes, and a key in maps.
+[[nodiscard]] inline std::vector<double> ends_of(basic_box<interval> const& x) {
+    std::vector<double> ends;
+    ends.reserve(2 * x.size());
+    for (auto const& side : x) {
+        ends.push_back(side.lower());
+        ends.push_back(side.upper());
+    }
+    return ends;
+}
+
 } // namespace sivid
 
 #endif

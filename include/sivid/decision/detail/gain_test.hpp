@@ -113,7 +113,7 @@ public:
         auto next = std::make_shared<knowledge>();
         bool const same = known && known->by == motions_;
         if (same) next->points = known->points;
-        open_parts open(*motions_);
+        open_parts open(*motions_, open_parts::aim::proof, true);
         auto const before = known ? known->open : std::vector{motions_->cover().whole()};
         for (auto const& p : before) {
             auto own = motions_->cover().within(p, problem_.parameters(gains));
@@ -304,12 +304,8 @@ private:
         for (auto const g : direct_sides_) set[g] = around[g];
         auto const start = point_within(original.initial, found.start);
         for (auto const& p : points_) {
-            auto const same = [](box const& a, box const& b) {
-                return std::equal(a.begin(), a.end(), b.begin(), [](auto const& x, auto const& y) {
-                    return x.lower() == y.lower() && x.upper() == y.upper();
-                });
-            };
-            if (same(p->original.sets.front(), set) && same(p->original.initial, start))
+            if (ends_of(p->original.sets.front()) == ends_of(set) &&
+                ends_of(p->original.initial) == ends_of(start))
                 return false;
         }
         original.sets = {set};

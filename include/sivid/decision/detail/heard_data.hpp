@@ -38,11 +38,7 @@ public:
         for (std::size_t j = 0; j < all.size(); ++j) {
             if (slim_->idle[j] || unmeasured_[j]) all[j] = around_[j];
         }
-        std::vector<double> key;
-        for (auto const& side : all) {
-            key.push_back(side.lower());
-            key.push_back(side.upper());
-        }
+        auto key = ends_of(all);
         auto const said = said_.find(key);
         if (said != said_.end()) return said->second;
         auto const asked = clock::now();

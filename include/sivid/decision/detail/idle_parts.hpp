@@ -179,19 +179,11 @@ private:
             auto const one = interval(mid(around[j]));
             for (auto& s : problem.sets) s[j] = one;
         }
-        auto const key = [](box const& s) {
-            std::vector<double> k;
-            for (auto const& side : s) {
-                k.push_back(side.lower());
-                k.push_back(side.upper());
-            }
-            return k;
-        };
         std::sort(problem.sets.begin(), problem.sets.end(),
-                  [&](box const& a, box const& b) { return key(a) < key(b); });
+                  [](box const& a, box const& b) { return ends_of(a) < ends_of(b); });
         problem.sets.erase(
             std::unique(problem.sets.begin(), problem.sets.end(),
-                        [&](box const& a, box const& b) { return key(a) == key(b); }),
+                        [](box const& a, box const& b) { return ends_of(a) == ends_of(b); }),
             problem.sets.end());
     }
 

@@ -55,9 +55,10 @@ public:
 
     [[nodiscard]] motion_cover& cover() { return cover_; }
 
-    /// Over the hull of the part's sets where they hardly count, else over each.
+    /// @param roughly  over the hull of the part's sets where they hardly count, instead of each
     /// @given  something is known of the part
-    [[nodiscard]] judgement judge(motion_cover::part const& p) const {
+    [[nodiscard]] judgement judge(motion_cover::part const& p, bool roughly = false) const {
+        if (!roughly) return judge(p, cover_.look(p));
         auto const rough = judge(p, cover_.look(p, true));
         bool const decided = rough.found.proved() || rough.found.refuted();
         if (decided || p.sets.size() < 2 || !sets_count(rough)) return rough;
@@ -65,13 +66,7 @@ public:
     }
 
     [[nodiscard]] bool is_tiny(motion_cover::part const& p) const {
-        auto const below = [](box const& a, box const& whole) {
-            for (std::size_t i = 0; i < a.size(); ++i) {
-                if (width(whole[i]) > 0 && width(a[i]) > 1e-7 * width(whole[i])) return false;
-            }
-            return true;
-        };
-        return below(p.initial, whole_.initial) && below(p.parameters, whole_.parameters);
+        return cover_.widest_share(p) <= 1e-7;
     }
 
     /// Starts and parameters at which the bounds of a part may be attained, most promising first.

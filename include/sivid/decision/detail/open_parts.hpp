@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -29,8 +30,9 @@ public:
         double before = -1;   ///< how far what it is a half of was carried [s]
     };
 
-    explicit open_parts(judged_motions& motions, aim wanted = aim::proof)
-        : motions_(&motions), aim_(wanted) {}
+    /// @param roughly  see `judged_motions::judge`
+    explicit open_parts(judged_motions& motions, aim wanted = aim::proof, bool roughly = false)
+        : motions_(&motions), aim_(wanted), roughly_(roughly) {}
 
     void add(motion_cover::part p) { items_.push_back({std::move(p)}); }
     [[nodiscard]] std::vector<item>& items() { return items_; }
@@ -52,7 +54,7 @@ public:
         if (next.empty()) return false;
         if (!fresh.empty()) cover.learn(fresh);
         for (auto* i : next) {
-            i->says = motions_->judge(i->what);
+            i->says = motions_->judge(i->what, roughly_);
             i->judged = true;
             ++judged_;
         }
@@ -175,13 +177,14 @@ private:
 
     judged_motions* motions_;
     aim aim_;
+    bool roughly_;
     std::vector<item> items_;
     std::size_t judged_ = 0;
 };
 
 /// A grid in which some cells are cut in four.
-template <class Cells>
-[[nodiscard]] std::vector<double> finer_grid(std::vector<double> const& times, Cells const& cells) {
+[[nodiscard]] inline std::vector<double> finer_grid(std::vector<double> const& times,
+                                                    std::set<std::size_t> const& cells) {
     std::vector<double> finer;
     for (std::size_t k = 0; k + 1 < times.size(); ++k) {
         finer.push_back(times[k]);

@@ -5,11 +5,10 @@
 #include <sivid/decision/detail/requirement_numbers.hpp>
 #include <sivid/decision/detail/requirement_types.hpp>
 #include <sivid/number/decimal.hpp>
+#include <sivid/number/nearest_text.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -154,7 +153,7 @@ private:
         if (!words_.take("at")) return of;
         double const time = instant(end_);
         if (time > end_)
-            words_.fail_at(position, "this time is beyond the end, " + words(end_) + " s",
+            words_.fail_at(position, "this time is beyond the end, " + nearest_text(end_, 6) + " s",
                            "choose an earlier one, or a scenario that lasts longer");
         if (of.is_formula) {
             return formula({.what = kind::at,
@@ -296,8 +295,8 @@ private:
                 if (last > end_ || q.to + p.from > end_)
                     words_.fail_at(
                         p.position,
-                        "its window reaches to " + words(std::max(last, q.to + p.from)) +
-                            " s, and the motion ends at " + words(end_) + " s",
+                        "its window reaches to " + nearest_text(std::max(last, q.to + p.from), 6) +
+                            " s, and the motion ends at " + nearest_text(end_, 6) + " s",
                         "shorten the window, or that of the formula around it; or take a scenario "
                         "that lasts longer");
                 bool const begins_now = p.what == kind::until;
@@ -307,12 +306,6 @@ private:
             }
             }
         }
-    }
-    static std::string words(double x) {
-        std::array<char, 32> text{};
-        auto const end =
-            std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::general, 6);
-        return {text.data(), end.ptr};
     }
 
     double end_;

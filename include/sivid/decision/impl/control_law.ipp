@@ -6,7 +6,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/decision/detail/requirement_numbers.hpp>
-#include <sivid/model/program.hpp>
+#include <sivid/model/graph_range.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +16,8 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace sivid {
 
@@ -100,18 +102,22 @@ private:
     /// How large x may become while states are in their own ranges: a scale, no bound.
     [[nodiscard]] double largest(node_id x) {
         using traits = interval_traits<interval>;
-        program const p(g(), {x});
-        auto value = p.memory<proven_arithmetic<interval>>();
-        p.read(value, [&](operation op, std::size_t i) {
-            auto const& about = model_.about;
-            if (op == operation::state)
-                return traits::bounds(-about.states[i].limit, about.states[i].limit);
-            if (op == operation::constant) return about.constants[i].nominal.enclosure;
-            return op == operation::time ? traits::bounds(0, end_) : traits::bounds(-1, 1);
-        });
-        bool const undefined = p.run<proven_arithmetic<interval>>(value);
-        double const most = mag(value[x]);
-        return undefined || !std::isfinite(most * end_) || !(most > 0) ? 1e3 : most;
+        auto const& about = model_.about;
+        leaf_ranges at{traits::bounds(0, end_), {}, {}, {}};
+        auto const box_of = [](auto const& items, auto const& side) {
+            std::vector<interval> sides;
+            for (auto const& i : items) sides.push_back(side(i));
+            return box(std::move(sides));
+        };
+        at.states =
+            box_of(about.states, [](auto const& s) { return traits::bounds(-s.limit, s.limit); });
+        at.constants = box_of(about.constants, [](auto const& c) { return c.nominal.enclosure; });
+        at.inputs = box_of(about.inputs, [](auto const&) { return traits::bounds(-1, 1); });
+        graph_range range(g(), {x});
+        range.evaluate(at);
+        double const most = mag(range.value(x));
+        bool const usable = !range.undefined(x) && std::isfinite(most * end_) && most > 0;
+        return usable ? most : 1e3;
     }
 
     closed_loop& loop_;

@@ -6,6 +6,8 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/decision/detail/gain_test.hpp>
+#include <sivid/number/decimal.hpp>
+#include <sivid/number/nearest_text.hpp>
 #include <sivid/paving/invert.hpp>
 
 #include <algorithm>
@@ -13,8 +15,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
-#include <cstdlib>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -55,9 +55,7 @@ inline box ranges_of(prediction_problem const& p, std::vector<std::size_t> const
 /// A number of few digits in a range, within `tolerance` of a point of it.
 inline double few_digits(interval const& x, double at, double tolerance) {
     for (int digits = 1; digits < 17; ++digits) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%.*e", digits - 1, at);
-        double const value = std::strtod(text, nullptr);
+        double const value = parse_nearest(nearest_text(at, digits)).value_or(at);
         bool const near = std::abs(value - at) <= tolerance;
         if (near && x.lower() <= value && value <= x.upper()) return value;
     }
@@ -74,7 +72,9 @@ public:
     void search() {
         try_around(centre(), 1, 4 * test_->at_once());
         double reach = 0.25;
-        for (int round = 0; round < 12 && limit_() && !(best_ && found_.proved()); ++round) {
+        double const until = 0.7 * limit_.seconds(); // the rest is the paving's
+        for (int round = 0; round < 12 && limit_.seconds() > until && !(best_ && found_.proved());
+             ++round) {
             try_around(best_ ? *best_ : centre(), reach, test_->at_once());
             reach *= 0.7;
         }
@@ -187,7 +187,7 @@ SIVID_DECL gain_set find_gains(prediction_problem const& problem,
     inversion_options inverting;
     inverting.accuracy = options.accuracy;
     inverting.sufficient_ratio = 1;
-    inverting.boxes = options.motions.parts;
+    inverting.boxes = options.boxes;
     inverting.keep_going = limit;
     decision_detail::best_gain best(test, ranges, limit);
     best.search();

@@ -78,13 +78,7 @@ SIVID_DECL void motion_cover::learn(std::vector<part*> const& parts) {
         std::vector<part*> group;
         std::vector<box> parameters;
         for (std::size_t k = first; k < parts.size(); ++k) {
-            auto const& own = parts[k]->initial;
-            bool const same =
-                std::equal(own.begin(), own.end(), initial.begin(), initial.end(),
-                           [](interval const& a, interval const& b) {
-                               return a.lower() == b.lower() && a.upper() == b.upper();
-                           });
-            if (done[k] || !same) continue;
+            if (done[k] || ends_of(parts[k]->initial) != ends_of(initial)) continue;
             done[k] = true;
             group.push_back(parts[k]);
             parameters.push_back(parts[k]->parameters);
@@ -315,6 +309,12 @@ SIVID_DECL double motion_cover::share(part const& p, std::size_t side) const {
     auto const& x = side < n ? p.initial[side] : p.parameters[side - n];
     if (!decision_detail::can_be_cut(x)) return 0;
     return width(x) / width(side < n ? problem_->initial[side] : around_[side - n]);
+}
+
+SIVID_DECL double motion_cover::widest_share(part const& p) const {
+    double widest = 0;
+    for (std::size_t side = 0; side < sides(); ++side) widest = std::max(widest, share(p, side));
+    return widest;
 }
 
 SIVID_DECL std::vector<motion_cover::part> motion_cover::split(part const& p) const {

@@ -108,7 +108,7 @@ private:
             std::vector<item*> next;
             for (auto* i : short_of) {
                 // A hundred-thousandth of the whole that gets no further will not by halving.
-                bool const tiny = relative_width(i->what) < 1e-5;
+                bool const tiny = cover_->widest_share(i->what) < 1e-5;
                 auto const side = motion_cover::most(cover_->moved_by_sides(i->what, i->seen));
                 auto const halves =
                     replace(i, tiny                         ? std::vector<motion_cover::part>{}
@@ -119,19 +119,6 @@ private:
             }
             if (!next.empty()) learn(next);
         }
-    }
-    [[nodiscard]] double relative_width(motion_cover::part const& p) const {
-        double most = 0;
-        auto const whole = cover_->whole();
-        for (std::size_t i = 0; i < p.initial.size(); ++i) {
-            if (width(whole.initial[i]) > 0)
-                most = std::max(most, width(p.initial[i]) / width(whole.initial[i]));
-        }
-        for (std::size_t j = 0; j < p.parameters.size(); ++j) {
-            if (width(whole.parameters[j]) > 0)
-                most = std::max(most, width(p.parameters[j]) / width(whole.parameters[j]));
-        }
-        return most;
     }
 
     [[nodiscard]] excess_found excess() {
@@ -357,6 +344,24 @@ SIVID_DECL prediction predict(prediction_problem const& problem, prediction_opti
                               std::vector<node_id> const& further) {
     problem.require_valid();
     return decision_detail::prediction_search(problem, options, further)();
+}
+
+SIVID_DECL void end_where_reached(prediction& found, std::string const& channel, double limit) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    auto const& tube = found.channels[index_of(found.channels, channel, "channel")];
+    std::size_t first = 0;
+    while (first < tube.low.size() && tube.low[first] > -limit && tube.high[first] < limit) ++first;
+    if (first == tube.low.size()) return;
+    auto const from = static_cast<std::ptrdiff_t>(first);
+    for (auto* tubes : {&found.states, &found.channels, &found.further}) {
+        for (auto& t : *tubes) {
+            std::fill(t.low.begin() + from, t.low.end(), -infinity);
+            std::fill(t.high.begin() + from, t.high.end(), infinity);
+        }
+    }
+    found.complete = false;
+    found.reached = std::min(found.reached, first == 0 ? 0 : found.times[(first - 1) / 2]);
+    found.excess = infinity;
 }
 
 } // namespace sivid

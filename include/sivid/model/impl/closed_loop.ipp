@@ -5,13 +5,13 @@
 #include <sivid/model/closed_loop.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/model/added_start.hpp>
+#include <sivid/model/copy_equations.hpp>
 #include <sivid/model/differentiate.hpp>
-#include <sivid/model/program.hpp>
 #include <sivid/model/rewrite.hpp>
+#include <sivid/number/nearest_text.hpp>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -71,27 +71,8 @@ SIVID_DECL box closed_model::initial(box const& open, std::vector<signal> const&
     box result(states);
     for (std::size_t i = 0; i < states; ++i)
         result[i] = i < open.size() ? open[i] : traits::point(0.0);
-    for (auto const& a : commanded_starts) result[a.state] = traits::entire(); // not known yet
-    for (auto const& a : commanded_starts) {
-        program const at_begin(model.g, {a.at_begin});
-        auto value = at_begin.memory<proven_arithmetic<interval>>();
-        at_begin.read(value, [&](operation op, std::size_t i) {
-            if (op == operation::state) return result[i];
-            if (op == operation::constant) return constants[i];
-            auto const* u =
-                op == operation::input ? std::get_if<sampled_signal>(&inputs[i]) : nullptr;
-            if (u == nullptr) return op == operation::time ? traits::point(0.0) : traits::entire();
-            double const e = u->error_bound(u->piece(0), 0);
-            return traits::add(u->value(u->piece(0), traits::point(0.0)), traits::bounds(-e, e));
-        });
-        bool const undefined = at_begin.run<proven_arithmetic<interval>>(value);
-        auto const x = value[a.at_begin];
-        if (undefined || !std::isfinite(mag(x)))
-            throw std::invalid_argument("control law: the value at which '" +
-                                        model.about.states[a.state].name +
-                                        "' begins is not bounded");
-        result[a.state] = x;
-    }
+    for (auto const& a : starts) result[a.state] = traits::entire(); // not known yet
+    for (auto const& a : starts) result[a.state] = start_of(model, a, constants, inputs, 0, result);
     return result;
 }
 
@@ -239,10 +220,7 @@ SIVID_DECL bool closed_loop::needs_hold(std::size_t input, node_id command) cons
 SIVID_DECL std::string closed_model::with_slews(std::string const& requirement) const {
     auto text = slews.empty() ? requirement : "(" + requirement + ")";
     for (auto const& s : slews) {
-        auto digits = std::array<char, 32>{};
-        auto const end = std::to_chars(digits.data(), digits.data() + digits.size(), s.limit).ptr;
-        text += " and always(abs(measured(" + s.channel + ")) < " +
-                std::string(digits.data(), end) + ")";
+        text += " and always(abs(measured(" + s.channel + ")) < " + nearest_text(s.limit) + ")";
     }
     return text;
 }
@@ -302,31 +280,18 @@ SIVID_DECL closed_model closed_loop::finish() const {
         }
         image_of.emplace(input, image);
     }
-    auto outputs = from.rate;
-    outputs.insert(outputs.end(), from.observe.begin(), from.observe.end());
-    for (auto const& a : from.added_states) outputs.push_back(a.at_begin);
-    for (auto const& d : from.derived) outputs.push_back(d.value);
-    auto const copied = copy_into(to.g, from.g, outputs, [&](node const& n, graph& g) {
+    copy_equations(to, from, [&](node const& n, graph& g) {
         auto const k = static_cast<std::size_t>(n.index);
         if (n.op != operation::input) return g.leaf(n.op, k);
         auto const own = image_of.find(k);
         return own == image_of.end() ? g.leaf(n.op, place[k]) : own->second;
     });
-    auto next = copied.begin();
-    for (std::size_t i = 0; i < from.rate.size(); ++i) to.rate.push_back(*next++);
-    for (std::size_t y = 0; y < from.observe.size(); ++y) to.observe.push_back(*next++);
-    for (auto const& a : from.added_states) {
-        auto const seen = operands_of(from.g, {a.at_begin});
-        bool commanded = false;
-        for (std::size_t k = 0; k < seen.size(); ++k) {
-            auto const& n = from.g.nodes()[k];
-            commanded = commanded || (seen[k] && n.op == operation::input &&
-                                      commands_.count(static_cast<std::size_t>(n.index)) != 0);
-        }
-        if (commanded) result.commanded_starts.push_back({a.state, *next});
-        ++next;
+    result.starts = std::move(to.added_states); // they may depend on states now
+    to.added_states.clear();
+    for (auto const& d : from.derived) { // of constants alone
+        to.derived.push_back(
+            {d.constant, copy_into(to.g, from.g, {d.value}, kept).front(), d.always});
     }
-    for (auto const& d : from.derived) to.derived.push_back({d.constant, *next++, d.always});
     for (auto const& [input, image] : image_of) {
         auto const& own = from.about.inputs[input];
         auto name = own.name;

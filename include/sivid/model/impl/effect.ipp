@@ -2,6 +2,7 @@
 #ifndef SIVID_MODEL_IMPL_EFFECT_IPP
 #define SIVID_MODEL_IMPL_EFFECT_IPP
 
+#include <sivid/model/copy_equations.hpp>
 #include <sivid/model/effect.hpp>
 
 #include <string_view>
@@ -193,23 +194,17 @@ SIVID_DECL recorded_model with(recorded_model const& base, std::vector<effect> e
 
     // The model itself, on the inputs and constants that the effects left.
     auto& g = result.g;
-    auto outputs = base.rate;
-    outputs.insert(outputs.end(), base.observe.begin(), base.observe.end());
-    for (auto const& a : base.added_states) outputs.push_back(a.at_begin);
-    auto const images = copy_into(g, base.g, outputs, [&](node const& n, graph& to) {
+    auto const own = std::move(result.added_states); // of effects
+    copy_equations(result, base, [&](node const& n, graph& to) {
         auto const k = static_cast<std::size_t>(n.index);
         if (n.op == operation::constant) return scope.constants_[k].in(to);
         if (n.op == operation::input) return scope.inputs_[k].in(to);
         return to.leaf(n.op, k);
     });
-    auto image = images.begin();
-    for (std::size_t i = 0; i < base.rate.size(); ++i) {
-        scope.rates_[i] = expression(g, *image++);
-    }
-    for (std::size_t i = 0; i < base.observe.size(); ++i) {
-        scope.channels_.emplace_back(g, *image++);
-    }
-    for (auto const& a : base.added_states) result.added_states.push_back({a.state, *image++});
+    for (std::size_t i = 0; i < base.rate.size(); ++i)
+        scope.rates_[i] = expression(g, result.rate[i]);
+    for (auto const y : result.observe) scope.channels_.emplace_back(g, y);
+    result.added_states.insert(result.added_states.begin(), own.begin(), own.end());
     // Relations between constants stay as they are: an effect that alters D alters what the
     // equations see of D, and A = pi D^2/4 only if it says so.
     auto const itself = [](node const& n, graph& to) {
@@ -221,6 +216,8 @@ SIVID_DECL recorded_model with(recorded_model const& base, std::vector<effect> e
     }
     apply_all(&effect::on_rates);
     apply_all(&effect::on_channels);
+    result.rate.clear();
+    result.observe.clear();
     for (auto const& e : scope.rates_) result.rate.push_back(e.in(g));
     for (auto const& e : scope.channels_) result.observe.push_back(e.in(g));
     for (auto const& a : result.added_states) {

@@ -73,23 +73,30 @@ inline std::string start_of(prediction_problem const& p, std::vector<double> con
     return named(names, values);
 }
 
+/// A tube with the simulated lines of its values in it.
+inline motion_series series_with_lines(std::vector<double> const& times, predicted_tube const& tube,
+                                       decision_page_options const& o,
+                                       std::vector<std::vector<double>> simulated_line::*values,
+                                       std::size_t k) {
+    auto m = series_of(times, tube);
+    m.tube.reference = line_of(o.least_squares, o.least_squares.*values, k);
+    m.single = line_of(o.single, o.single.*values, k);
+    return m;
+}
+
 inline void add_motions(page& out, prediction const& found, decision_page_options const& o) {
     std::vector<motion_series> all;
     for (std::size_t c = 0; c < found.channels.size(); ++c) {
-        auto m = series_of(found.times, found.channels[c]);
-        m.tube.reference = line_of(o.least_squares, o.least_squares.channels, c);
-        m.single = line_of(o.single, o.single.channels, c);
-        all.push_back(std::move(m));
+        all.push_back(
+            series_with_lines(found.times, found.channels[c], o, &simulated_line::channels, c));
     }
     for (std::size_t i = 0; i < found.states.size(); ++i) {
         bool const shown =
             std::any_of(found.channels.begin(), found.channels.end(),
                         [&](auto const& c) { return c.name == found.states[i].name; });
         if (shown) continue;
-        auto m = series_of(found.times, found.states[i]);
-        m.tube.reference = line_of(o.least_squares, o.least_squares.states, i);
-        m.single = line_of(o.single, o.single.states, i);
-        all.push_back(std::move(m));
+        all.push_back(
+            series_with_lines(found.times, found.states[i], o, &simulated_line::states, i));
     }
     motion_plot_options options;
     options.full = o.single_is;
@@ -122,11 +129,9 @@ inline void add_margins(page& out, requirement const& asked, prediction const& t
                         decision_page_options const& o) {
     std::vector<motion_series> margins;
     for (std::size_t c = 0; c < tubes.further.size(); ++c) {
-        auto m = series_of(tubes.times, tubes.further[c]);
+        auto m = series_with_lines(tubes.times, tubes.further[c], o, &simulated_line::further, c);
         m.tube.name = "margin";
         m.zero = true;
-        m.tube.reference = line_of(o.least_squares, o.least_squares.further, c);
-        m.single = line_of(o.single, o.single.further, c);
         margins.push_back(std::move(m));
     }
     motion_plot_options options;

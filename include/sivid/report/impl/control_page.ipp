@@ -22,9 +22,10 @@ namespace sivid::report {
 
 namespace detail {
 
-inline std::string least_share(double x) {
-    return rounded_text(std::clamp(x, 0.0, 1.0), rounding::down, {.significant = 3, .shift = 2}) +
-           " %";
+inline std::string excluded_percent(subpaving const& paving) {
+    using traits = interval_traits<interval>;
+    auto const rest = traits::sub(traits::point(1.0), paving.outer_volume());
+    return at_least_percent(std::clamp(rest.lower(), 0.0, 1.0));
 }
 
 /// The set of gains: pictures of pairs, or the ranges of a single one.
@@ -76,7 +77,7 @@ SIVID_DECL std::string gain_sentence(gain_set const& found) {
     if (found.none_exists())
         return "Every gain in the ranges violates the requirement for some parameter that the data "
                "allow: no law of this form meets it for all.";
-    auto const excluded = detail::least_share(1 - paving.outer_volume().upper());
+    auto const excluded = detail::excluded_percent(paving);
     if (!found.some_proved())
         return "No gain is proved, and not all are excluded (" + why + "): at least " + excluded +
                " of the ranges are." +
@@ -93,7 +94,7 @@ SIVID_DECL std::string gain_sentence(gain_set const& found) {
     text += around;
     double const inner = paving.inner_volume().lower();
     if (inner > 0)
-        text += (found.suggested ? ", at least " : "at least ") + detail::least_share(inner) +
+        text += (found.suggested ? ", at least " : "at least ") + at_least_percent(inner) +
                 " of the ranges";
     if (paving.outer_volume().upper() < 1) text += "; at least " + excluded + " are excluded";
     return text + ".";
@@ -114,9 +115,9 @@ SIVID_DECL page control_page(stored_prediction const& about, requirement const& 
                gain_sentence(found));
     std::vector<card> cards;
     auto const& paving = found.paving.paving;
-    cards.push_back({"proved", detail::least_share(paving.inner_volume().lower()),
-                     "of the ranges of the gains"});
-    cards.push_back({"excluded", detail::least_share(1 - paving.outer_volume().upper()),
+    cards.push_back(
+        {"proved", at_least_percent(paving.inner_volume().lower()), "of the ranges of the gains"});
+    cards.push_back({"excluded", detail::excluded_percent(paving),
                      "each violates it for a parameter that the data allow"});
     if (proof != nullptr)
         cards.push_back({"robustness",

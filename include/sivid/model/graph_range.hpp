@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_DIAGNOSIS_GRAPH_RANGE_HPP
-#define SIVID_DIAGNOSIS_GRAPH_RANGE_HPP
+#ifndef SIVID_MODEL_GRAPH_RANGE_HPP
+#define SIVID_MODEL_GRAPH_RANGE_HPP
 
 #include <sivid/model/arithmetic.hpp>
 #include <sivid/model/graph.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/diagnosis/graph_range.hpp>
+#include <sivid/model/graph_range.hpp>
 
 #include "diagnosis/planted_motion.hpp"
 #include "support/catch.hpp"
