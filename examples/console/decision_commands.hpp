@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// predict, verify and control, for any model: what a stored identification says of a scenario.
+// predict, verify and control, for any model: what a stored identification says of a
+// scenario.
 #ifndef EXAMPLES_CONSOLE_DECISION_COMMANDS_HPP
 #define EXAMPLES_CONSOLE_DECISION_COMMANDS_HPP
 
@@ -185,21 +186,6 @@ inline int run_control(sivid::recorded_model const& model,
                           std::to_string(found.integrations),
                       c, (c.out / "control.html").string() + " and control.json, gains.csv");
     return found.some_proved() ? done : found.none_exists() ? refuted : undecided;
-}
-
-/// @returns an exit code
-inline int run_decision(decision what, sivid::recorded_model const& model,
-                        std::vector<sivid::effect> const& catalogue, decision_command const& c,
-                        scenario_finder const& find) {
-    switch (what) {
-    case decision::predict:
-        return run_predict(model, catalogue, c, find);
-    case decision::verify:
-        return run_verify(model, catalogue, c, find);
-    case decision::control:
-        break;
-    }
-    return run_control(model, catalogue, c, find);
 }
 
 } // namespace console

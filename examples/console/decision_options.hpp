@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The command line of predict, verify and control.
+// The command line of predict, verify, control and design.
 #ifndef EXAMPLES_CONSOLE_DECISION_OPTIONS_HPP
 #define EXAMPLES_CONSOLE_DECISION_OPTIONS_HPP
 
@@ -20,21 +20,19 @@ namespace console {
     case decision::verify:
         return "does a requirement hold for all parameters that an identification leaves?";
     case decision::control:
+        return "the gains of a control law that meet a requirement for all parameters that an "
+               "identification leaves";
+    case decision::design:
         break;
     }
-    return "the gains of a control law that meet a requirement for all parameters that an "
-           "identification leaves";
+    return "the experiment whose data narrow down a parameter most, whatever the truth among those "
+           "that an identification leaves";
 }
 
-/// @param scenarios  what may be given for one
-inline void add_options(CLI::App& s, decision d, decision_command& c,
-                        std::string const& scenarios) {
-    s.add_option("result", c.result, "folder with result.json and boxes.csv, of an identification")
-        ->required();
-    s.add_option("--dataset", c.dataset, "its data set, if it is not where the result says");
-    s.add_option("--scenario", c.scenario, scenarios)->required();
-    s.add_option("--set", c.set,
-                 "constants of the scenario, such as Ff=0.5, or ranges, such as Ff=0.3:0.7");
+namespace detail {
+
+/// What `predict`, `verify` and `control` are told of a control law.
+inline void add_law(CLI::App& s, decision d, decision_command& c) {
     auto* const law =
         s.add_option("--law", c.law,
                      "what commands inputs, such as \"W = clamp(K * (2 - u), 0, 250)\"; several "
@@ -52,12 +50,61 @@ inline void add_options(CLI::App& s, decision d, decision_command& c,
         "--slew", c.slew,
         "how fast a sampled law may change an input, such as delta=2 [unit/s]; proved with "
         "the rest");
+    if (d != decision::control) return;
+    law->required();
+    gain->required();
+}
+
+/// What `design` is told.
+inline void add_design(CLI::App& s, decision_command& c) {
+    s.add_option("--halve", c.goal,
+                 "what is to become known better: a parameter, or an expression of parameters such "
+                 "as \"L * Sg\"; several: each of them")
+        ->required();
+    s.add_option("--share", c.target, "the share of its width that each may keep")
+        ->check(number_between(0.0, 1.0))
+        ->capture_default_str();
+    s.add_option("--vary", c.vary, "inputs that may be chosen, and their limits, such as W=0:100")
+        ->required();
+    s.add_option("--within", c.requirement,
+                 "what has to hold of the motion for all parameters, such as \"always(abs(psi) < "
+                 "1)\"");
+    s.add_option("--measure", c.measure,
+                 "what is measured and with which error at most, such as psi=0.01; not given: the "
+                 "channels of the data, with their largest error");
+    s.add_option("--duration", c.duration,
+                 "of the experiment [s]; not given: the scenario's, which also gives the start and "
+                 "the inputs that are not varied")
+        ->check(number_between(0.0, 1e9));
+    s.add_option("--period", c.period, "of the measurements [s]; not given: as in the data")
+        ->check(number_between(0.0, 1e9));
+    s.footer(
+        "Exit codes: 0 an experiment with that promise is found, 2 bad input, 3 none is found, "
+        "or one that promises less, 5 no experiment can (proved).");
+}
+
+} // namespace detail
+
+/// @param scenarios  what may be given for one
+inline void add_options(CLI::App& s, decision d, decision_command& c,
+                        std::string const& scenarios) {
+    s.add_option("result", c.result, "folder with result.json and boxes.csv, of an identification")
+        ->required();
+    s.add_option("--dataset", c.dataset, "its data set, if it is not where the result says");
+    s.add_option("--scenario", c.scenario, scenarios)->required();
+    s.add_option("--set", c.set,
+                 "constants of the scenario, such as Ff=0.5, or ranges, such as Ff=0.3:0.7");
     s.add_option("--budget", c.budget, "seconds")
         ->check(number_between(0.0, 1e9))
         ->capture_default_str();
     auto* const out = s.add_option("--out", c.out, "folder for the report and the JSON file")
                           ->check(folder_name());
     s.add_flag("--quiet", c.quiet, "no progress");
+    if (d == decision::design) {
+        detail::add_design(s, c);
+        return;
+    }
+    detail::add_law(s, d, c);
     if (d == decision::predict) {
         out->required();
         return;
@@ -66,8 +113,6 @@ inline void add_options(CLI::App& s, decision d, decision_command& c,
                  "such as \"eventually(abs(u) < 0.01) and x at end in [3, 7]\"")
         ->required();
     if (d == decision::control) {
-        law->required();
-        gain->required();
         s.footer("Exit codes: 0 some gains are proved, 2 bad input, 3 none is known, 5 none exist "
                  "in the ranges that were given (proved).");
     } else {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What predict, verify and control work on: a stored identification and a scenario, perhaps under a
-// control law.
+// What predict, verify, control and design work on: a stored identification and a scenario, perhaps
+// under a control law.
 #ifndef EXAMPLES_CONSOLE_DECISION_TASK_HPP
 #define EXAMPLES_CONSOLE_DECISION_TASK_HPP
 
 #include "console.hpp"
 #include "decision_command.hpp"
 #include "parameter_ranges.hpp"
+#include "planned_experiment.hpp"
 #include "result_files.hpp"
 
 #include <sivid/approximate/fit/fit.hpp>
@@ -27,6 +28,7 @@
 #include <sivid/io/stored_prediction.hpp>
 #include <sivid/io/text_file.hpp>
 #include <sivid/model/closed_loop.hpp>
+#include <sivid/model/manoeuvre.hpp>
 #include <sivid/model/rewrite.hpp>
 #include <sivid/paving/work_limit.hpp>
 #include <sivid/report/decision_page.hpp>
@@ -84,7 +86,9 @@ public:
         if (c.scenario.starts_with("data:")) {
             use_recorded(c.scenario.substr(5));
         } else {
-            auto const s = find(c.scenario);
+            auto s = find(c.scenario);
+            if (c.duration > 0) s.duration = c.duration;
+            described_ = s;
             scenario_ = s.name;
             about_ = s.about;
             request_.end = s.duration;
@@ -96,6 +100,7 @@ public:
         }
         if (!effects.empty()) add_effects(effects);
         close_the_loop();
+        vary_inputs();
     }
 
     /// The model, with the effects that the result speaks of, under the law.
@@ -128,6 +133,14 @@ public:
     }
     [[nodiscard]] std::string const& scenario() const { return scenario_; }
     [[nodiscard]] std::string const& dataset() const { return dataset_; }
+
+    /// The data, with the model and effects that the result speaks of.
+    [[nodiscard]] sivid::identification_problem const& data() const { return problem_; }
+    /// Unless the scenario is one of the data.
+    [[nodiscard]] std::optional<sivid::scenario_description> const& described() const {
+        return described_;
+    }
+    [[nodiscard]] std::vector<sivid::varied_input> const& varied() const { return varied_; }
 
     /// @param model  that of the task, with further nodes
     [[nodiscard]] std::unique_ptr<sivid::stored_prediction>
@@ -296,6 +309,17 @@ private:
             closed_->initial(request_.initial, request_.inputs,
                              sivid::constant_ranges(closed_->model, choice, problem_.prior));
     }
+    /// Inputs to be chosen are signals that take no term of the equations with them, so that what
+    /// is proved of products holds for each of them.
+    void vary_inputs() {
+        varied_ = varied_inputs(command_.vary, problem_.model.about.inputs);
+        for (auto const& u : varied_) {
+            request_.inputs[u.index] = sivid::sampled_signal(
+                {0, request_.end},
+                {std::lerp(u.lower, u.upper, 0.3), std::lerp(u.lower, u.upper, 0.7)},
+                sivid::interpolation::linear);
+        }
+    }
     void require_used_gains() const {
         auto const& m = closed_->model;
         auto outputs = m.rate;
@@ -311,13 +335,6 @@ private:
             }
             if (!used) throw std::invalid_argument("--gain " + name + ": the law does not use it");
         }
-    }
-    [[nodiscard]] static double one_value(std::string const& what, sivid::interval const& range) {
-        if (!is_one_value(range)) throw std::invalid_argument(what + ": one number is needed");
-        return range.upper();
-    }
-    [[nodiscard]] static bool is_one_value(sivid::interval const& x) {
-        return width(x) <= sivid::normalised_unknowns::negligible * mag(x);
     }
     void use_recorded(std::string const& name) {
         auto const found = std::find_if(problem_.experiments.begin(), problem_.experiments.end(),
@@ -341,6 +358,8 @@ private:
     sivid::identification_problem problem_;
     sivid::prediction_request request_;
     std::string dataset_, scenario_, about_;
+    std::optional<sivid::scenario_description> described_; ///< unless it is one of the data
+    std::vector<sivid::varied_input> varied_;
     std::optional<sivid::closed_model> closed_; ///< with a law
     std::map<std::string, sivid::interval> gains_;
     std::map<std::string, double> sensors_;

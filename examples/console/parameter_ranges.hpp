@@ -3,6 +3,7 @@
 #ifndef EXAMPLES_CONSOLE_PARAMETER_RANGES_HPP
 #define EXAMPLES_CONSOLE_PARAMETER_RANGES_HPP
 
+#include <sivid/enclosure/normalised_unknowns.hpp>
 #include <sivid/io/exact_decimal.hpp>
 #include <sivid/io/input_error.hpp>
 
@@ -40,6 +41,16 @@ inline std::map<std::string, sivid::interval> ranges_from(std::vector<std::strin
             throw std::invalid_argument(what + " " + name + " is given twice");
     }
     return result;
+}
+
+/// Whether a range is no more than the rounding of a decimal.
+[[nodiscard]] inline bool is_one_value(sivid::interval const& x) {
+    return width(x) <= sivid::normalised_unknowns::negligible * mag(x);
+}
+/// @throws std::invalid_argument
+[[nodiscard]] inline double one_value(std::string const& what, sivid::interval const& range) {
+    if (!is_one_value(range)) throw std::invalid_argument(what + ": one number is needed");
+    return range.upper();
 }
 
 } // namespace console

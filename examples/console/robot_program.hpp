@@ -5,8 +5,8 @@
 #ifndef EXAMPLES_CONSOLE_ROBOT_PROGRAM_HPP
 #define EXAMPLES_CONSOLE_ROBOT_PROGRAM_HPP
 
-#include "decision_commands.hpp"
 #include "decision_options.hpp"
+#include "design_command.hpp"
 #include "diagnosis_output.hpp"
 #include "number_range.hpp"
 #include "program.hpp"
@@ -206,7 +206,7 @@ int robot_program(std::string const& name, std::string const& about, Model const
         std::string const first = argc > 1 ? argv[1] : "";
         for (auto const& [word, what] :
              {std::pair("predict", decision::predict), std::pair("verify", decision::verify),
-              std::pair("control", decision::control)}) {
+              std::pair("control", decision::control), std::pair("design", decision::design)}) {
             if (first == word)
                 return decide_by_result(name, sivid::record_model(model), catalogue, what, argc,
                                         argv);
@@ -216,7 +216,7 @@ int robot_program(std::string const& name, std::string const& about, Model const
         double budget = 60;
         bool quiet = false;
         CLI::App app{about + "\n\nThen: predict OUT/model ..., verify OUT/model ..., control "
-                             "OUT/model ...; and: rank FOLDER ... (--help)"};
+                             "OUT/model ..., design OUT/model ...; and: rank FOLDER ... (--help)"};
         app.add_option("folder", folder, "folder with dataset.json")->required();
         app.add_option("--out", out, "folder for report.html, model.html and JSON files")
             ->required();

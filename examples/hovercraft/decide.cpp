@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // predict, verify and control: what a stored identification says of a scenario.
 #include "commands.hpp"
-#include "console/decision_commands.hpp"
+#include "console/design_command.hpp"
 #include "effects.hpp"
 #include "scenario.hpp"
 

@@ -150,6 +150,7 @@ public:
         add_decision("predict", console::decision::predict);
         add_decision("verify", console::decision::verify);
         add_decision("control", console::decision::control);
+        add_decision("design", console::decision::design);
         add_diagnose();
         add_generate();
         add_simulate();

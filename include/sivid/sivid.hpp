@@ -15,6 +15,7 @@
 #include <sivid/number/elementary.hpp>
 #include <sivid/number/excess.hpp>
 #include <sivid/number/exponential.hpp>
+#include <sivid/number/few_digits.hpp>
 #include <sivid/number/guard.hpp>
 #include <sivid/number/hyperbolic.hpp>
 #include <sivid/number/interval.hpp>
@@ -63,6 +64,7 @@
 #include <sivid/measurement/signal.hpp>
 #include <sivid/model/added_start.hpp>
 #include <sivid/model/arithmetic.hpp>
+#include <sivid/model/best_settings.hpp>
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/closed_loop.hpp>
 #include <sivid/model/combination.hpp>
@@ -78,6 +80,7 @@
 #include <sivid/model/graph_listing.hpp>
 #include <sivid/model/graph_range.hpp>
 #include <sivid/model/homogeneity.hpp>
+#include <sivid/model/manoeuvre.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/model/normal_form.hpp>
 #include <sivid/model/operation.hpp>
@@ -179,6 +182,7 @@
 #include <sivid/paving/data_test.hpp>
 #include <sivid/paving/data_test_options.hpp>
 #include <sivid/paving/dependence.hpp>
+#include <sivid/paving/difference_response.hpp>
 #include <sivid/paving/exclusion_check.hpp>
 #include <sivid/paving/exclusion_proof.hpp>
 #include <sivid/paving/experiment_run.hpp>
@@ -246,6 +250,8 @@
 #include <sivid/paving/work_limit.hpp>
 #include <sivid/decision/cell_bounds.hpp>
 #include <sivid/decision/control_law.hpp>
+#include <sivid/decision/design_goal.hpp>
+#include <sivid/decision/experiment_design.hpp>
 #include <sivid/decision/gain_search.hpp>
 #include <sivid/decision/measurement_group.hpp>
 #include <sivid/decision/measurement_ranking.hpp>
@@ -253,6 +259,7 @@
 #include <sivid/decision/prediction.hpp>
 #include <sivid/decision/prediction_options.hpp>
 #include <sivid/decision/prediction_problem.hpp>
+#include <sivid/decision/promised_width.hpp>
 #include <sivid/decision/rank.hpp>
 #include <sivid/decision/requirement.hpp>
 #include <sivid/decision/robustness.hpp>

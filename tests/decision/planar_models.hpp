@@ -76,6 +76,24 @@ inline sivid::verification verified(sivid::prediction_problem p, std::string con
     return sivid::verify(p, what, all_feasible(p), options);
 }
 
+/// x' = -p0 x + p1 p2 u, y = x: a cart with drag and a drive.
+inline sivid::prediction_problem driven_cart(double end) {
+    sivid::prediction_problem p;
+    p.model = support::model_of(
+        {.states = 1, .constants = 3, .inputs = 1},
+        [](auto const&, auto const& x, auto const& c, auto const& u) {
+            return std::vector{c[1] * c[2] * u[0] - c[0] * x[0]};
+        },
+        [](auto const&, auto const& x, auto const&, auto const&) { return x; });
+    p.choice.unknown = {"p0", "p1"};
+    p.choice.fixed["p2"] = sivid::interval(1.0);
+    p.sets = {{between(0.3, 0.7), between(0.8, 1.2)}};
+    p.inputs = {sivid::sampled_signal({0.0}, {0.0}, sivid::interpolation::hold)};
+    p.initial = {sivid::interval(0.0)};
+    p.end = end;
+    return p;
+}
+
 } // namespace decision_support
 
 #endif

@@ -706,6 +706,57 @@ TEST_CASE("predict and verify answer from a stored result") {
     refused({"--scenario", "S2", "--require", "u > 0"}, "contradicts itself");
 }
 
+TEST_CASE("design finds an experiment that keeps its promise, or says that none can") {
+    temporary_folder const folder;
+    auto const result = (folder.path() / "h3").string();
+    REQUIRE(run({"identify", h3, "--out", result, "--quiet"}).code == 0);
+    auto const asked = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"design", result, "--quiet", "--scenario", "S3", "--budget",
+                                   "60", "--vary", "delta=-0.5:0.5"});
+        return run(more);
+    };
+    auto const out = folder.path() / "out";
+    auto const found = asked({"--vary", "W=0:200", "--duration", "6", "--halve", "Sv", "--within",
+                              "always(abs(psi) < 2)", "--out", out.string(), "--budget", "4"});
+    CHECK(found.code == 0);
+    CHECK_THAT(found.out, ContainsSubstring("an experiment for Sv is found"));
+    auto const json = json_of(out / "design.json");
+    CHECK(json["format"] == "sivid-design-1");
+    CHECK(json["answer"] == "met");
+    CHECK(json["goals"][0]["share"] <= 0.5);
+    CHECK(json["tried"][0]["limits"] == "proved");
+    CHECK(json["errors"]["psi"] == 0.03);
+    CHECK(fs::exists(out / "design.html"));
+    auto const scenario = (out / "scenario.json").string();
+    auto const kept =
+        run({"verify", result, "--scenario", scenario, "--require", "always(abs(psi) < 2)"});
+    CHECK(kept.code == 0);
+
+    auto const none = asked({"--halve", "L"});
+    CHECK(none.code == 5);
+    CHECK_THAT(none.out, ContainsSubstring("no experiment tells L") && ContainsSubstring("Sg*L"));
+    auto const product = asked({"--halve", "Sg * L", "--share", "1", "--budget", "2"});
+    CHECK(product.code == 0);
+
+    auto const refused = [&](std::vector<std::string> more, char const* words) {
+        auto const nowhere = (folder.path() / "none").string();
+        more.insert(more.end(), {"--out", nowhere});
+        auto const r = asked(more);
+        CHECK(r.code == 2);
+        CHECK_THAT(r.err, ContainsSubstring(words));
+        CHECK_FALSE(fs::exists(nowhere));
+    };
+    refused({"--halve", "Sv + u"}, "depends on states");
+    refused({"--halve", "nothing"}, "nothing");
+    refused({"--halve", "Sv", "--vary", "Q=0:1"}, "Q");
+    refused({"--halve", "Sv", "--vary", "W=5"}, "give limits");
+    refused({"--halve", "Sv", "--vary", "W=5:1"}, "lower is above upper");
+    refused({"--halve", "Sv", "--measure", "psi=0"}, "above 0");
+    refused({"--halve", "Sv", "--measure", "chi=1"}, "chi");
+    refused({"--halve", "Sv", "--within", "psi"}, "requirement");
+    refused({"--halve", "Sv", "--period", "1e-9"}, "million");
+}
+
 TEST_CASE("control finds the gains of a law that are proved for all that the data leave") {
     temporary_folder const folder;
     auto const result = (folder.path() / "h3").string();

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -169,4 +170,39 @@ TEST_CASE("gains are written with their shares, their proof and what speaks agai
     CHECK(number(json.at("proved_share")) >= 0);
     CHECK(number(json.at("left_share")) <= 1);
     CHECK(sivid::gains_csv(found).starts_with("verdict,K_lower,K_upper\n"));
+}
+
+TEST_CASE("an experiment is written with what it promises, or with what hides it") {
+    sivid::design_answer answer;
+    decided d("x > 0");
+    answer.goals = {{"a * b", 0}};
+    answer.plan = {{0.5, 1}, std::vector<double>(d.model.about.channels.size(), 0.1)};
+    answer.limits = "x > 0";
+    sivid::tried_manoeuvre m;
+    m.name = "ramp";
+    m.about = {{"begin of u", "N", 0, 2}};
+    m.settings = {0.5};
+    m.estimate = 0.3;
+    answer.found.tried = {m};
+    auto const read = [&] {
+        return sivid::parse_json("design.json", sivid::design_json(*d.about, answer, {}));
+    };
+    CHECK(read().at("answer").string() == "open");
+    CHECK(read().at("tried").elements()[0].at("share").type() == sivid::json_value::kind::null);
+
+    answer.found.tried[0].promised = sivid::promise{{{0.5, 0.5, 0.1}}};
+    CHECK(read().at("answer").string() == "met");
+    auto const goal = read().at("goals").elements()[0];
+    CHECK(goal.at("goal").string() == "a * b");
+    CHECK(number(goal.at("after")) >= 0.1);
+    CHECK(number(goal.at("share")) >= 0.2);
+    CHECK(number(read().at("tried").elements()[0].at("settings").at("begin of u")) == 0.5);
+    answer.target = 0.1;
+    CHECK(read().at("answer").string() == "less");
+    answer.found.tried[0].limits = sivid::requirement_answer::open;
+    CHECK(read().at("answer").string() == "open");
+    answer.hidden = "a";
+    answer.instead = {"a*b"};
+    CHECK(read().at("answer").string() == "hidden");
+    CHECK(read().at("instead").elements()[0].string() == "a*b");
 }

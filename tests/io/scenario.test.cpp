@@ -8,6 +8,7 @@
 #include <sivid/io/input_error.hpp>
 
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <variant>
 
@@ -27,6 +28,35 @@ TEST_CASE("a scenario of any model is read") {
     CHECK(s.initial[0].enclosure.lower() <= 0.9);
     CHECK(s.initial[0].enclosure.upper() >= 1.1);
     CHECK(s.inputs.empty());
+}
+
+TEST_CASE("a scenario that is written reads back as the same") {
+    sivid::model_names names;
+    names.states = {{"x", "m"}, {"y", "m"}};
+    names.inputs = {{"a", "1"}, {"b", "1"}, {"c", "1"}, {"d", "1"}};
+    std::string const text =
+        R"({"format": "sivid-scenario-1", "name": "S", "about": "all \"shapes\"",
+        "duration": 2.5, "initial": {"x": [0.9, 1.1], "y": 0.1}, "inputs": {
+        "a": {"shape": "constant", "value": 0.1},
+        "b": {"shape": "sine", "offset": 1, "amplitude": 2, "frequency": 0.3, "phase": -1},
+        "c": {"shape": "ramp", "from": 0, "to": 0.7, "begin": 0.1, "end": 1},
+        "d": {"shape": "samples", "t": [0, 0.1, 2], "values": [1, 0.3333333333333333, -1e-300]}}})";
+    auto const first = sivid::parse_scenario("s.json", text, names);
+    auto const again = sivid::parse_scenario("t.json", sivid::scenario_json(first, names), names);
+    CHECK(again.name == first.name);
+    CHECK(again.about == first.about);
+    CHECK(again.duration == first.duration);
+    for (std::size_t i = 0; i < 2; ++i) {
+        CHECK(again.initial[i].enclosure.lower() == first.initial[i].enclosure.lower());
+        CHECK(again.initial[i].enclosure.upper() == first.initial[i].enclosure.upper());
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+        CHECK(again.inputs[i].shape == first.inputs[i].shape);
+        CHECK(again.inputs[i].times == first.inputs[i].times);
+        CHECK(again.inputs[i].values == first.inputs[i].values);
+        for (double const t : {0.0, 0.05, 0.7, 1.3, 2.5})
+            CHECK(again.inputs[i](t) == first.inputs[i](t));
+    }
 }
 
 TEST_CASE("what is wrong with a scenario is said") {

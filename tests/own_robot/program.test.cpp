@@ -53,6 +53,15 @@ TEST_CASE("from a robot's log to gains that are proved for all that it leaves", 
     CHECK(asked("control", {"--law", "u = K", "--gain", "K=1:12", "--require", "theta at end > 99"})
               .code == 5);
     CHECK(asked("control", {"--require", "theta > 0"}).code == 2);
+    auto const next = (folder.path() / "next").string();
+    auto const experiment =
+        asked("design", {"--halve", "a", "--share", "1", "--vary", "u=-12:12", "--out", next});
+    CHECK(experiment.code == 0);
+    CHECK_THAT(experiment.out, ContainsSubstring("an experiment for a is found"));
+    CHECK(fs::exists(next + "/design.html"));
+    CHECK(run({"verify", result, "--scenario", next + "/scenario.json", "--require",
+               "theta at end in [-99, 99]", "--quiet"})
+              .code == 0);
     CHECK(
         run({"rank", data, "--out", (folder.path() / "rank").string(), "--budget", "2", "--quiet"})
             .code != 2);

@@ -7,7 +7,6 @@
 #include <sivid/diagnosis/candidate.hpp>
 #include <sivid/diagnosis/detail/gap_options.hpp>
 #include <sivid/diagnosis/detail/holdout_results.hpp>
-#include <sivid/diagnosis/detail/manoeuvre_settings.hpp>
 #include <sivid/diagnosis/detail/screened.hpp>
 #include <sivid/diagnosis/detail/verified_inflation.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
@@ -15,6 +14,7 @@
 #include <sivid/diagnosis/holdout.hpp>
 #include <sivid/diagnosis/relation_finding.hpp>
 #include <sivid/model/effect.hpp>
+#include <sivid/model/manoeuvre.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/data_test_options.hpp>
 

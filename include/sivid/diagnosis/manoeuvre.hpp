@@ -3,9 +3,9 @@
 #define SIVID_DIAGNOSIS_MANOEUVRE_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/diagnosis/detail/manoeuvre_settings.hpp>
 #include <sivid/diagnosis/detail/screened.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/model/manoeuvre.hpp>
 
 #include <functional>
 #include <optional>

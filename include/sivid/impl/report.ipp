@@ -8,6 +8,7 @@
 #include <sivid/report/impl/comparison_plot.ipp>
 #include <sivid/report/impl/control_page.ipp>
 #include <sivid/report/impl/decision_page.ipp>
+#include <sivid/report/impl/design_page.ipp>
 #include <sivid/report/impl/diagnosis_figures.ipp>
 #include <sivid/report/impl/diagnosis_page.ipp>
 #include <sivid/report/impl/diagnosis_plot_data.ipp>

@@ -3,6 +3,7 @@
 #define SIVID_IO_DECISION_JSON_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/decision/experiment_design.hpp>
 #include <sivid/decision/gain_search.hpp>
 #include <sivid/decision/measurement_ranking.hpp>
 #include <sivid/decision/prediction.hpp>
@@ -41,6 +42,12 @@ struct decision_json_options {
                                                        requirement const& asked,
                                                        verification const& found,
                                                        decision_json_options const& options);
+
+/// `design.json` in the format sivid-design-1: the manoeuvre, what its data promise, what else was
+/// tried. The manoeuvre is in `scenario.json`, too.
+[[nodiscard]] SIVID_DECL std::string design_json(stored_prediction const& about,
+                                                 design_answer const& found,
+                                                 decision_json_options const& options);
 
 /// `control.json` in the format sivid-control-1: how much of the ranges of the gains is proved and
 /// excluded, what excludes them, and the suggested gains. The boxes are in `gains.csv`.

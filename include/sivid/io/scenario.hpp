@@ -75,6 +75,10 @@ struct scenario_description {
                                                              std::string const& text,
                                                              model_names const& model);
 
+/// A scenario as a text that reads back as the same one.
+[[nodiscard]] SIVID_DECL std::string scenario_json(scenario_description const& s,
+                                                   model_names const& model);
+
 /// Reads a scenario file.
 /// @throws input_error
 [[nodiscard]] SIVID_DECL scenario_description read_scenario(std::filesystem::path const& file,

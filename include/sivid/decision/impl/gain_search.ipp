@@ -7,7 +7,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/decision/detail/gain_test.hpp>
 #include <sivid/number/decimal.hpp>
-#include <sivid/number/nearest_text.hpp>
+#include <sivid/number/few_digits.hpp>
 #include <sivid/paving/invert.hpp>
 
 #include <algorithm>
@@ -52,16 +52,6 @@ inline box ranges_of(prediction_problem const& p, std::vector<std::size_t> const
     return box(std::move(ranges));
 }
 
-/// A number of few digits in a range, within `tolerance` of a point of it.
-inline double few_digits(interval const& x, double at, double tolerance) {
-    for (int digits = 1; digits < 17; ++digits) {
-        double const value = parse_nearest(nearest_text(at, digits)).value_or(at);
-        bool const near = std::abs(value - at) <= tolerance;
-        if (near && x.lower() <= value && value <= x.upper()) return value;
-    }
-    return std::clamp(at, x.lower(), x.upper());
-}
-
 /// The best of single gains, by what is proved of each for all parameters taken together.
 class best_gain {
 public:
@@ -92,7 +82,8 @@ public:
         std::vector<std::vector<double>> gains;
         for (auto const& [volume, set] : inside) {
             auto& g = gains.emplace_back();
-            for (auto const& side : *set) g.push_back(few_digits(side, mid(side), width(side)));
+            for (auto const& side : *set)
+                g.push_back(few_digits(side.lower(), side.upper(), mid(side), width(side)));
         }
         judge(gains);
     }
@@ -117,7 +108,7 @@ private:
                 double const reach = share * width(range);
                 double const at =
                     std::clamp(point[j] + (x - 0.5) * reach, range.lower(), range.upper());
-                g.push_back(few_digits(range, at, 0.02 * reach));
+                g.push_back(few_digits(range.lower(), range.upper(), at, 0.02 * reach));
             }
         }
         judge(gains);

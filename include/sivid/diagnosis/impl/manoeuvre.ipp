@@ -6,9 +6,10 @@
 
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>
-#include <sivid/diagnosis/detail/manoeuvre_settings.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/screening.hpp>
+#include <sivid/model/best_settings.hpp>
+#include <sivid/model/manoeuvre.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -91,43 +92,6 @@ private:
     std::function<bool()> go_on_;
 };
 
-/// Compass search from the best of a few spread points: the settings are few and a run is cheap.
-inline std::pair<std::vector<double>, double> best_settings(separation const& parts,
-                                                            manoeuvre const& m) {
-    auto const n = m.settings.size();
-    std::vector<double> best;
-    double value = -1;
-    auto const consider = [&](std::vector<double> const& s) {
-        double const v = parts(m, s);
-        if (!(v > value)) return false;
-        best = s;
-        value = v;
-        return true;
-    };
-    std::size_t const tries = n == 0 ? 1 : 12;
-    for (std::size_t k = 0; k < tries; ++k) {
-        std::vector<double> s;
-        for (std::size_t i = 0; i < n; ++i) {
-            double const share = std::fmod(
-                0.5 + static_cast<double>(k) * std::sqrt(static_cast<double>(2 + 3 * i)), 1.0);
-            s.push_back(m.settings[i].lower + share * (m.settings[i].upper - m.settings[i].lower));
-        }
-        (void)consider(s);
-    }
-    for (double step = 0.25; !best.empty() && n > 0 && step > 0.05; step /= 2) {
-        for (std::size_t i = 0; i < n; ++i) {
-            auto const& limits = m.settings[i];
-            for (double const way : {-1.0, 1.0}) {
-                auto s = best;
-                s[i] = std::clamp(s[i] + way * step * (limits.upper - limits.lower), limits.lower,
-                                  limits.upper);
-                (void)consider(s);
-            }
-        }
-    }
-    return {best, value};
-}
-
 } // namespace diagnosis_detail
 
 SIVID_DECL std::optional<next_experiment>
@@ -138,7 +102,8 @@ propose_experiment(std::vector<screened const*> candidates, std::vector<manoeuvr
                                              go_on);
     std::optional<next_experiment> best;
     for (auto const& m : menu) {
-        auto const [settings, value] = diagnosis_detail::best_settings(parts, m);
+        auto const [settings, value] =
+            best_settings(m.settings, [&](std::vector<double> const& s) { return parts(m, s); });
         if (!(value > 0) || (best && value <= best->separation)) continue;
         best = next_experiment{m.name, {}, value, m.settings.empty()};
         for (std::size_t i = 0; i < m.settings.size(); ++i) {

@@ -251,6 +251,78 @@ SIVID_DECL std::string control_json(stored_prediction const& about, requirement 
     return json.text();
 }
 
+namespace io_detail {
+
+inline void write_manoeuvre(json_writer& json, tried_manoeuvre const& m) {
+    json.begin_object();
+    json.key("shape").string(m.name).key("settings").begin_object();
+    for (std::size_t k = 0; k < m.about.size(); ++k)
+        json.key(m.about[k].name).nearest(m.settings[k]);
+    json.end_object();
+    json.key("estimate").nearest(m.estimate);
+    json.key("share");
+    if (m.promised) {
+        json.upper_bound(m.factor());
+    } else {
+        json.null();
+    }
+    json.key("limits");
+    if (m.limits) {
+        json.string(to_string(*m.limits));
+    } else {
+        json.null();
+    }
+    json.end_object();
+}
+
+} // namespace io_detail
+
+SIVID_DECL std::string design_json(stored_prediction const& about, design_answer const& found,
+                                   decision_json_options const& options) {
+    json_writer json;
+    json.begin_object();
+    io_detail::write_head(json, "sivid-design-1", about, options);
+    auto const* const best = found.found.best();
+    json.key("answer").string(!found.hidden.empty() ? "hidden"
+                              : found.met()         ? "met"
+                              : best != nullptr     ? "less"
+                                                    : "open");
+    json.key("target").nearest(found.target).key("limits").string(found.limits);
+    json.key("hidden").string(found.hidden).key("instead").begin_array();
+    for (auto const& text : found.instead) json.string(text);
+    json.end_array();
+    json.key("goals").begin_array();
+    for (std::size_t g = 0; g < found.goals.size(); ++g) {
+        json.begin_object(json_writer::layout::one_line).key("goal").string(found.goals[g].text);
+        if (best != nullptr) {
+            auto const& w = best->promised->goals[g];
+            json.key("before").lower_bound(w.before).key("after").upper_bound(w.after);
+            json.key("share").upper_bound(w.factor());
+        }
+        json.end_object();
+    }
+    json.end_array();
+    json.key("errors").begin_object(json_writer::layout::one_line);
+    auto const& channels = about.problem.model.about.channels;
+    for (std::size_t c = 0; c < channels.size() && c < found.plan.errors.size(); ++c) {
+        if (found.plan.errors[c] > 0) json.key(channels[c].name).nearest(found.plan.errors[c]);
+    }
+    json.end_object().key("times").begin_array(json_writer::layout::one_line);
+    for (double const t : found.plan.times) json.nearest(t);
+    json.end_array().key("varied").begin_object();
+    for (auto const& u : found.varied) {
+        json.key(u.name).begin_array(json_writer::layout::one_line);
+        json.nearest(u.lower).nearest(u.upper).end_array();
+    }
+    json.end_object().key("tried").begin_array();
+    for (auto const& m : found.found.tried) io_detail::write_manoeuvre(json, m);
+    json.end_array();
+    json.key("looked_at").integer(found.found.simulated);
+    json.key("integrations").integer(found.found.integrations);
+    json.key("seconds").nearest(found.found.seconds).end_object();
+    return json.text();
+}
+
 SIVID_DECL std::string gains_csv(gain_set const& found) {
     return io_detail::paving_csv(found.names, found.paving.paving);
 }

@@ -6,9 +6,11 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/io/json_document.hpp>
+#include <sivid/io/json_writer.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <type_traits>
@@ -152,6 +154,56 @@ private:
 SIVID_DECL scenario_description parse_scenario(std::string const& name, std::string const& text,
                                                model_names const& model) {
     return io_detail::scenario_reader(model).read(parse_json(name, text));
+}
+
+SIVID_DECL std::string scenario_json(scenario_description const& s, model_names const& model) {
+    using kind = input_shape::kind;
+    json_writer json;
+    json.begin_object().key("format").string("sivid-scenario-1").key("name").string(s.name);
+    json.key("about").string(s.about).key("duration").nearest(s.duration);
+    json.key("initial").begin_object();
+    for (std::size_t i = 0; i < model.states.size(); ++i) {
+        auto const& start = s.initial[i];
+        json.key(model.states[i].name);
+        if (start.lower == start.upper) {
+            json.decimal(start.lower);
+        } else {
+            json.begin_array(json_writer::layout::one_line);
+            json.decimal(start.lower).decimal(start.upper).end_array();
+        }
+    }
+    json.end_object().key("inputs").begin_object();
+    auto const list = [&](char const* name, std::vector<double> const& values) {
+        json.key(name).begin_array(json_writer::layout::one_line);
+        for (double const v : values) json.nearest(v);
+        json.end_array();
+    };
+    for (std::size_t i = 0; i < model.inputs.size(); ++i) {
+        auto const& u = s.inputs[i];
+        json.key(model.inputs[i].name).begin_object().key("shape");
+        switch (u.shape) {
+        case kind::constant:
+            json.string("constant").key("value").nearest(u.offset);
+            break;
+        case kind::sine:
+            json.string("sine").key("offset").nearest(u.offset);
+            json.key("amplitude").nearest(u.amplitude).key("frequency").nearest(u.frequency);
+            json.key("phase").nearest(u.phase);
+            break;
+        case kind::ramp:
+            json.string("ramp").key("from").nearest(u.from).key("to").nearest(u.to);
+            json.key("begin").nearest(u.begin).key("end").nearest(u.end);
+            break;
+        case kind::samples:
+            json.string("samples");
+            list("t", u.times);
+            list("values", u.values);
+            break;
+        }
+        json.end_object();
+    }
+    json.end_object().end_object();
+    return json.text();
 }
 
 SIVID_DECL scenario_description read_scenario(std::filesystem::path const& file,

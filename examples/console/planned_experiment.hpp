@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// What a command line says of an experiment that is to be designed.
+#ifndef EXAMPLES_CONSOLE_PLANNED_EXPERIMENT_HPP
+#define EXAMPLES_CONSOLE_PLANNED_EXPERIMENT_HPP
+
+#include "parameter_ranges.hpp"
+
+#include <sivid/decision/promised_width.hpp>
+#include <sivid/io/scenario.hpp>
+#include <sivid/model/manoeuvre.hpp>
+#include <sivid/model/problem.hpp>
+#include <sivid/number/few_digits.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace console {
+
+/// Inputs that may be chosen, with their limits as they were written, as near as doubles are.
+/// @throws std::invalid_argument
+[[nodiscard]] inline std::vector<sivid::varied_input>
+varied_inputs(std::vector<std::string> const& told,
+              std::vector<sivid::model_description::item> const& inputs) {
+    std::vector<sivid::varied_input> result;
+    for (auto const& [name, range] : ranges_from(told, "--vary")) {
+        auto const index = sivid::index_of(inputs, name, "input");
+        if (is_one_value(range))
+            throw std::invalid_argument("--vary " + name + ": give limits, such as " + name +
+                                        "=0:100");
+        auto const written = [](double end) {
+            return sivid::few_digits(-HUGE_VAL, HUGE_VAL, end, 1e-15 * std::abs(end));
+        };
+        result.push_back(
+            {index, name, inputs[index].unit, written(range.lower()), written(range.upper())});
+    }
+    return result;
+}
+
+/// What is measured, when, with which errors: as it is told, or as in the data.
+/// @param errors  such as psi=0.01; none: the largest of each channel
+/// @param period  [s]; 0: that of the first experiment
+/// @throws std::invalid_argument
+[[nodiscard]] inline sivid::planned_measurements
+planned_from(std::vector<std::string> const& errors, double period, double end,
+             sivid::identification_problem const& data) {
+    auto const& channels = data.model.about.channels;
+    std::vector<double> bounds(channels.size(), 0.0);
+    auto const told = ranges_from(errors, "--measure");
+    for (auto const& [name, bound] : told) {
+        double const error = one_value("--measure " + name, bound);
+        if (!(error > 0))
+            throw std::invalid_argument("--measure " + name + ": the error must be above 0");
+        bounds[sivid::index_of(channels, name, "channel")] = error;
+    }
+    std::set<double> times;
+    for (auto const& e : data.experiments) {
+        for (auto const& m : e.measurements) {
+            double const half = 0.5 * width(m.bound);
+            if (told.empty() && std::isfinite(half))
+                bounds[m.channel] = std::max(bounds[m.channel], half);
+            if (&e == &data.experiments.front()) times.insert(m.time);
+        }
+    }
+    // Half the width of a rounded interval is no decimal any more.
+    auto const readable = [](double x) {
+        return sivid::few_digits(0, HUGE_VAL, x, 1e-9 * std::abs(x));
+    };
+    for (auto& b : bounds) b = readable(b);
+    if (period == 0)
+        period = times.size() < 2 ? end / 30
+                                  : readable((*times.rbegin() - *times.begin()) /
+                                             static_cast<double>(times.size() - 1));
+    return sivid::planned_measurements::every(period, end, std::move(bounds));
+}
+
+/// A scenario with other inputs, as a file.
+/// @param inputs  lines between samples, where they vary
+[[nodiscard]] inline std::string scenario_with(sivid::scenario_description s,
+                                               std::string const& about,
+                                               std::vector<sivid::varied_input> const& varied,
+                                               std::vector<sivid::signal> const& inputs,
+                                               sivid::model_names const& names) {
+    s.name += "-design";
+    s.about = about;
+    for (auto const& u : varied) {
+        auto const& samples = std::get<sivid::sampled_signal>(inputs[u.index]);
+        auto& shape = s.inputs[u.index];
+        shape = {};
+        shape.shape = sivid::input_shape::kind::samples;
+        shape.times = samples.times();
+        shape.values = samples.values();
+    }
+    return sivid::scenario_json(s, names);
+}
+
+} // namespace console
+
+#endif

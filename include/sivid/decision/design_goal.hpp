@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DECISION_DESIGN_GOAL_HPP
+#define SIVID_DECISION_DESIGN_GOAL_HPP
+
+#include <sivid/compiled.hpp>
+#include <sivid/model/bound_model.hpp>
+#include <sivid/model/graph.hpp>
+#include <sivid/model/model.hpp>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sivid {
+
+/// A quantity that an experiment is to narrow down.
+struct design_goal {
+    std::string text;
+    node_id value = 0; ///< in the model's graph
+};
+
+/// Reads an expression of the model's constants, such as "Sv", "L * Sg" or "m + dm", and enters it
+/// into the graph.
+/// @throws requirement_error  also for what depends on states, inputs or time
+[[nodiscard]] SIVID_DECL design_goal parse_goal(std::string_view text, recorded_model& model);
+
+/// What no experiment can tell of a goal, by the model's equations.
+///   The parameters that enter only in products can be scaled with all products fixed, and no
+///   output
+/// changes. A goal that is itself a product of parameters changes along, unless it is made of those
+/// products.
+/// @param unknown  the constants that count as parameters
+/// @returns the products that can be told instead; nothing when the equations do not forbid it, or
+///          the goal is no product of powers
+/// @guarantee  proved from the structure of the equations, for any experiment and start
+[[nodiscard]] SIVID_DECL std::optional<std::vector<std::string>>
+hidden_behind(recorded_model const& model, std::vector<std::string> const& unknown,
+              design_goal const& goal);
+
+} // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/decision/impl/design_goal.ipp>
+#endif
+
+#endif

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DECISION_IMPL_EXPERIMENT_DESIGN_IPP
+#define SIVID_DECISION_IMPL_EXPERIMENT_DESIGN_IPP
+
+#include <sivid/decision/experiment_design.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/decision/detail/design_guide.hpp>
+#include <sivid/model/best_settings.hpp>
+#include <sivid/paving/work_limit.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+SIVID_DECL double tried_manoeuvre::factor() const {
+    if (!promised) return 1;
+    double product = 1;
+    for (auto const& g : promised->goals)
+        product = upper(interval_traits<interval>::mul(interval(product), interval(g.factor())));
+    return product;
+}
+
+SIVID_DECL experiment_design design_experiment(prediction_problem const& problem,
+                                               std::vector<manoeuvre> const& menu,
+                                               planned_measurements const& plan,
+                                               std::vector<design_goal> const& goals,
+                                               requirement const* limits,
+                                               design_options const& options) {
+    problem.require_valid();
+    plan.require_valid(problem);
+    if (goals.empty()) throw std::invalid_argument("design: there is no goal");
+    auto const begun = std::chrono::steady_clock::now();
+    work_limit limit(options.seconds, options.keep_going);
+    experiment_design result;
+
+    work_limit looking(options.seconds, limit);
+    decision_detail::design_guide guide(problem, plan, goals, limits, options.run,
+                                        [&looking] { return looking(); });
+    double const until = 0.8 * options.seconds;
+    for (std::size_t k = 0; k < menu.size(); ++k) {
+        auto const& m = menu[k];
+        double const spent = options.seconds - limit.seconds();
+        looking = work_limit((until - spent) / static_cast<double>(menu.size() - k), limit);
+        auto const chosen = best_settings(
+            m.settings, [&](std::vector<double> const& s) { return guide(m.inputs(s)); });
+        if (!(chosen.value > -1e5)) continue; // cannot be run, or passes the limits
+        tried_manoeuvre t{m.name,
+                          m.settings,
+                          chosen.settings,
+                          m.inputs(chosen.settings),
+                          std::min(1.0, std::exp(-chosen.value)),
+                          std::nullopt,
+                          std::nullopt};
+        result.tried.push_back(std::move(t));
+    }
+    result.simulated = guide.looked_at();
+    std::stable_sort(result.tried.begin(), result.tried.end(),
+                     [](auto const& a, auto const& b) { return a.estimate < b.estimate; });
+
+    auto const goal_nodes = [&] {
+        std::vector<node_id> nodes;
+        for (auto const& g : goals) nodes.push_back(g.value);
+        return nodes;
+    }();
+    auto const most = std::min(options.proved, result.tried.size());
+    for (std::size_t k = 0; k < most && limit(); ++k) {
+        auto& t = result.tried[k];
+        auto own = problem;
+        own.inputs = t.inputs;
+        double const each = limit.seconds() / static_cast<double>(most - k);
+        promise_options promising;
+        promising.seconds = 0.6 * each;
+        promising.pairs = options.pairs;
+        promising.target = options.target;
+        promising.run = options.run;
+        promising.keep_going = [limit] { return limit(); };
+        t.promised = promise_widths(own, plan, goal_nodes, promising);
+        result.integrations += t.promised->integrations;
+        if (limits == nullptr) continue;
+        prediction_options checking;
+        checking.seconds = 0.4 * each;
+        checking.parts = 1000;
+        checking.run = options.run;
+        checking.keep_going = promising.keep_going;
+        // Refutations would need the same inputs; what is not proved is not allowed.
+        auto const kept = verify(own, *limits, {}, checking);
+        t.limits = kept.answer;
+        result.integrations += kept.integrations;
+    }
+    std::stable_sort(result.tried.begin(), result.tried.end(), [](auto const& a, auto const& b) {
+        if (a.allowed() != b.allowed()) return a.allowed();
+        return a.allowed() ? a.factor() < b.factor() : a.estimate < b.estimate;
+    });
+    result.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    return result;
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DECISION_IMPL_PROMISED_WIDTH_IPP
+#define SIVID_DECISION_IMPL_PROMISED_WIDTH_IPP
+
+#include <sivid/decision/promised_width.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/decision/detail/pair_search.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+SIVID_DECL planned_measurements planned_measurements::every(double period, double end,
+                                                            std::vector<double> errors) {
+    planned_measurements plan{{}, std::move(errors)};
+    if (!(period > 0) || !(end / period <= 1e6))
+        throw std::invalid_argument("planned measurements: at most a million instants, the period "
+                                    "must be above 0");
+    for (double k = 1; k * period < end * (1 - 1e-9); ++k) plan.times.push_back(k * period);
+    plan.times.push_back(end);
+    return plan;
+}
+
+SIVID_DECL void planned_measurements::require_valid(prediction_problem const& p) const {
+    auto const fail = [](std::string const& what) {
+        throw std::invalid_argument("planned measurements: " + what);
+    };
+    if (errors.size() != p.model.about.channels.size())
+        fail("one error bound per channel is needed");
+    for (double const e : errors) {
+        if (!(e >= 0) || !std::isfinite(e)) fail("error bounds must be finite, and 0 or more");
+    }
+    if (std::none_of(errors.begin(), errors.end(), [](double e) { return e > 0; }))
+        fail("no channel is measured");
+    for (double const t : times) {
+        if (!(t >= 0 && t <= p.end)) fail("times must lie within the experiment");
+    }
+    if (times.empty()) fail("there is no time to measure at");
+}
+
+SIVID_DECL double promised_width::factor() const {
+    using traits = interval_traits<interval>;
+    if (!(after < most)) return 1;
+    bool undefined = false;
+    auto const share = traits::div(traits::point(after), traits::point(before), undefined);
+    return undefined || !(before > 0) ? 1 : std::min(1.0, upper(share));
+}
+
+SIVID_DECL promise promise_widths(prediction_problem const& problem,
+                                  planned_measurements const& plan,
+                                  std::vector<node_id> const& goals,
+                                  promise_options const& options) {
+    problem.require_valid();
+    plan.require_valid(problem);
+    for (auto const g : goals) {
+        if (g >= problem.model.g.size() || (problem.model.g.depends(g) & ~on_constant) != 0)
+            throw std::invalid_argument("a goal is no function of the model's constants");
+    }
+    auto const begun = std::chrono::steady_clock::now();
+    auto result = decision_detail::pair_search(problem, plan, goals, options)();
+    result.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    return result;
+}
+
+} // namespace sivid
+
+#endif
