@@ -711,13 +711,13 @@ TEST_CASE("design finds an experiment that keeps its promise, or says that none 
     auto const result = (folder.path() / "h3").string();
     REQUIRE(run({"identify", h3, "--out", result, "--quiet"}).code == 0);
     auto const asked = [&](std::vector<std::string> more) {
-        more.insert(more.begin(), {"design", result, "--quiet", "--scenario", "S3", "--budget",
-                                   "60", "--vary", "delta=-0.5:0.5"});
+        more.insert(more.begin(), {"design", result, "--quiet", "--scenario", "S3", "--vary",
+                                   "delta=-0.5:0.5", "--budget", "4"});
         return run(more);
     };
     auto const out = folder.path() / "out";
     auto const found = asked({"--vary", "W=0:200", "--duration", "6", "--halve", "Sv", "--within",
-                              "always(abs(psi) < 2)", "--out", out.string(), "--budget", "4"});
+                              "always(abs(psi) < 2)", "--out", out.string()});
     CHECK(found.code == 0);
     CHECK_THAT(found.out, ContainsSubstring("an experiment for Sv is found"));
     auto const json = json_of(out / "design.json");
@@ -735,7 +735,7 @@ TEST_CASE("design finds an experiment that keeps its promise, or says that none 
     auto const none = asked({"--halve", "L"});
     CHECK(none.code == 5);
     CHECK_THAT(none.out, ContainsSubstring("no experiment tells L") && ContainsSubstring("Sg*L"));
-    auto const product = asked({"--halve", "Sg * L", "--share", "1", "--budget", "2"});
+    auto const product = asked({"--halve", "Sg * L", "--share", "1"});
     CHECK(product.code == 0);
 
     auto const refused = [&](std::vector<std::string> more, char const* words) {

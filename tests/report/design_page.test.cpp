@@ -65,7 +65,7 @@ TEST_CASE("a page shows the experiment, its promise and what else was tried") {
     auto const text = d.page();
     CHECK(markup_error(body_of(text)) == "");
     CHECK(d.answer.met());
-    CHECK_THAT(text, ContainsSubstring("an experiment for p0 is found"));
+    CHECK_THAT(text, ContainsSubstring("An experiment for p0 is found"));
     CHECK_THAT(text, ContainsSubstring("Whatever the truth and the errors are"));
     CHECK_THAT(text, ContainsSubstring("What was tried"));
     CHECK_THAT(text, ContainsSubstring("u&lt;"));
@@ -83,6 +83,6 @@ TEST_CASE("a page says what is not promised, or hidden") {
     hidden.answer.instead = {"p0*p1", "p0/p2"};
     auto const text = hidden.page();
     CHECK(markup_error(body_of(text)) == "");
-    CHECK_THAT(text, ContainsSubstring("no experiment tells p0"));
+    CHECK_THAT(text, ContainsSubstring("No experiment tells p0"));
     CHECK_THAT(text, ContainsSubstring("What can be told: p0*p1, p0/p2."));
 }

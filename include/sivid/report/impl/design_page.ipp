@@ -10,6 +10,7 @@
 #include <sivid/report/number_text.hpp>
 #include <sivid/report/table.hpp>
 
+#include <cctype>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -163,10 +164,12 @@ SIVID_DECL page design_page(stored_prediction const& about, design_answer const&
               .lead = o.scenario + ", from " + o.dataset +
                       (a.limits.empty() ? std::string{} : ", within " + a.limits)}};
     bool const hidden = !a.hidden.empty();
+    auto headline = design_headline(a);
+    headline.front() = static_cast<char>(std::toupper(headline.front()));
     out.banner(hidden    ? outcome::refuted
                : a.met() ? outcome::proved
                          : outcome::undecided,
-               design_headline(a), design_sentence(a));
+               headline, design_sentence(a));
     auto const* const best = a.found.best();
     if (!hidden) {
         std::vector<card> cards;
