@@ -22,6 +22,7 @@ struct decision_command {
     double sampled = 0, delay = 0;    ///< of the law [s]; 0: it acts at every instant
     std::vector<std::string> slew;    ///< limits of a sampled law: delta=2
     std::vector<std::string> goal;    ///< of `design`: expressions of constants
+    std::filesystem::path against;    ///< of `design`: a result of another model
     std::vector<std::string> vary;    ///< inputs and their limits: W=0:100
     std::vector<std::string> measure; ///< error bounds of what is measured: psi=0.01
     double duration = 0;              ///< of the experiment [s]; 0: as the scenario

@@ -57,10 +57,15 @@ inline void add_law(CLI::App& s, decision d, decision_command& c) {
 
 /// What `design` is told.
 inline void add_design(CLI::App& s, decision_command& c) {
-    s.add_option("--halve", c.goal,
-                 "what is to become known better: a parameter, or an expression of parameters such "
-                 "as \"L * Sg\"; several: each of them")
-        ->required();
+    auto* const halve = s.add_option(
+        "--halve", c.goal,
+        "what is to become known better: a parameter, or an expression of parameters such "
+        "as \"L * Sg\"; several: each of them");
+    auto* const against =
+        s.add_option("--against", c.against,
+                     "another result for the same data, with other effects: the experiment is to "
+                     "refute one of the two models, whichever it is");
+    halve->excludes(against);
     s.add_option("--share", c.target, "the share of its width that each may keep")
         ->check(number_between(0.0, 1.0))
         ->capture_default_str();

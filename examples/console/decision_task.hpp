@@ -140,6 +140,12 @@ public:
     [[nodiscard]] std::optional<sivid::scenario_description> const& described() const {
         return described_;
     }
+    /// The effects that the result speaks of.
+    [[nodiscard]] std::string effects() const {
+        std::string text;
+        for (auto const& e : stored_.effects) text += (text.empty() ? "" : ", ") + e;
+        return text.empty() ? "the model as it is" : text;
+    }
     [[nodiscard]] std::vector<sivid::varied_input> const& varied() const { return varied_; }
 
     /// @param model  that of the task, with further nodes

@@ -22,11 +22,65 @@
 #include <algorithm>
 #include <cstddef>
 #include <iostream>
+#include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace console {
+
+namespace detail {
+
+/// A result with what is asked of its motions.
+struct design_side {
+    decision_task task;
+    sivid::recorded_model model;
+    sivid::requirement limits;
+    std::vector<sivid::design_goal> goals;
+    std::unique_ptr<sivid::stored_prediction> about;
+
+    design_side(sivid::recorded_model const& open, std::vector<sivid::effect> const& catalogue,
+                decision_command const& c, scenario_finder const& find)
+        : task(open, catalogue, c, find), model(task.model()) {
+        if (!c.requirement.empty()) limits = parse_requirement(c.requirement, model, task.end());
+        auto nodes = limits.margins;
+        for (auto const& text : c.goal) {
+            goals.push_back(sivid::parse_goal(text, model));
+            nodes.push_back(goals.back().value);
+        }
+        about = task.prediction_for(model, nodes);
+    }
+    design_side(design_side const&) = delete; // the task refers to its command
+    design_side& operator=(design_side const&) = delete;
+
+    [[nodiscard]] sivid::requirement const* asked() const {
+        return limits.margins.empty() ? nullptr : &limits;
+    }
+};
+
+/// The other result that an experiment is to tell from the first; nothing where none is given.
+/// @param other  the command for it, which it refers to
+inline std::unique_ptr<design_side> rival_of(design_side const& one,
+                                             sivid::recorded_model const& open,
+                                             std::vector<sivid::effect> const& catalogue,
+                                             decision_command const& c, decision_command& other,
+                                             scenario_finder const& find) {
+    if (c.against.empty() && c.goal.empty())
+        throw std::invalid_argument("say what the experiment is for: give --halve or --against");
+    if (c.against.empty()) return nullptr;
+    other = c;
+    other.result = c.against;
+    auto two = std::make_unique<design_side>(open, catalogue, other, find);
+    if (two->task.dataset() != one.task.dataset())
+        throw std::invalid_argument("--against: the two results are of different data sets");
+    if (two->about->problem.inputs.size() != one.about->problem.inputs.size())
+        throw std::invalid_argument(
+            "--against: an effect that acts in some experiments only cannot be told from others");
+    return two;
+}
+
+} // namespace detail
 
 /// `design`: prints the experiment; with `out`, writes design.html, design.json and scenario.json.
 /// @returns done when it promises what was asked, refuted when none can, or undecided
@@ -34,21 +88,20 @@ inline int run_design(sivid::recorded_model const& open,
                       std::vector<sivid::effect> const& catalogue, decision_command const& c,
                       scenario_finder const& find) {
     namespace report = sivid::report;
-    detail::decision_task task(open, catalogue, c, find);
-    auto model = task.model();
+    detail::design_side one(open, catalogue, c, find);
+    decision_command other;
+    auto const two = detail::rival_of(one, open, catalogue, c, other, find);
+    auto const& [task, model, limits, goals, about] = one;
     sivid::design_answer answer;
     answer.target = c.target;
     answer.limits = c.requirement;
     answer.plan = planned_from(c.measure, c.period, task.end(), task.data());
     answer.varied = task.varied();
-    sivid::requirement limits;
-    if (!c.requirement.empty()) limits = parse_requirement(c.requirement, model, task.end());
-    auto margins = limits.margins;
-    for (auto const& text : c.goal) {
-        answer.goals.push_back(sivid::parse_goal(text, model));
-        margins.push_back(answer.goals.back().value);
+    answer.goals = goals;
+    if (two) {
+        answer.first = task.effects();
+        answer.second = two->task.effects();
     }
-    auto const about = task.prediction_for(model, margins);
     if (!c.out.empty()) prepare_folder(c.out);
     watch_interrupts();
     progress_line progress(c.quiet);
@@ -70,10 +123,13 @@ inline int run_design(sivid::recorded_model const& open,
         options.seconds = 0.8 * c.budget;
         options.target = c.target;
         options.keep_going = [] { return !console::interrupted(); };
-        answer.found = sivid::design_experiment(about->problem, menu, answer.plan, answer.goals,
-                                                c.requirement.empty() ? nullptr : &limits, options);
+        answer.found =
+            two ? sivid::design_separation(about->problem, two->about->problem, menu, answer.plan,
+                                           one.asked(), two->asked(), options)
+                : sivid::design_experiment(about->problem, menu, answer.plan, answer.goals,
+                                           one.asked(), options);
         auto const* const best = answer.found.best();
-        if (best != nullptr) {
+        if (best != nullptr && (answer.met() || !two)) {
             about->problem.inputs = about->direct.inputs = best->inputs;
             if (task.described())
                 scenario = scenario_with(*task.described(), report::design_sentence(answer),
@@ -96,7 +152,7 @@ inline int run_design(sivid::recorded_model const& open,
     }
     std::cout << task.scenario() << ", " << task.dataset() << ": "
               << report::design_headline(answer) << "\n";
-    if (auto const* const best = answer.found.best()) {
+    if (auto const* const best = answer.found.best(); best != nullptr && (answer.met() || !two)) {
         std::cout << "  " << best->name;
         for (std::size_t k = 0; k < best->settings.size(); ++k)
             std::cout << (k == 0 ? ": " : ", ") << best->about[k].name << " "

@@ -5,11 +5,13 @@
 #include "support/catch.hpp"
 #include "support/random.hpp"
 
+#include <sivid/approximate/simulate/simulate.hpp>
 #include <sivid/paving/identify.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -99,4 +101,97 @@ TEST_CASE("limits of a design are proved for all parameters, or it is not allowe
     auto const nothing = sivid::design_experiment(p, shapes_for(p, -1, 1), plan, {goal}, &none,
                                                   {.seconds = 100, .pairs = 10});
     CHECK(nothing.best() == nullptr);
+}
+
+namespace {
+
+/// x' = u0 - p0 x, or x' = u0 - p0 x |x|: two causes of the same loss of speed.
+sivid::prediction_problem slowed(bool square, double end) {
+    sivid::prediction_problem p;
+    p.model = support::model_of(
+        {.states = 1, .constants = 1, .inputs = 1},
+        [square](auto const&, auto const& x, auto const& c, auto const& u) {
+            return std::vector{square ? u[0] - c[0] * sqr(x[0]) : u[0] - c[0] * x[0]};
+        },
+        [](auto const&, auto const& x, auto const&, auto const&) { return x; });
+    p.choice.unknown = {"p0"};
+    p.sets = {{between(0.2, 1.5)}};
+    p.inputs = {sivid::sampled_signal({0.0}, {1.0}, sivid::interpolation::hold)};
+    p.initial = {sivid::interval(1.0)};
+    p.end = end;
+    return p;
+}
+
+/// The data of an experiment with a true parameter, errors at and within their bounds.
+sivid::identification_problem measured(sivid::prediction_problem const& truth, double p0,
+                                       sivid::planned_measurements const& plan, support::draws& d) {
+    sivid::identification_problem data;
+    data.model = truth.model;
+    data.choice = truth.choice;
+    data.prior = truth.around();
+    data.experiments.resize(1);
+    auto& e = data.experiments[0];
+    e.name = "new";
+    e.inputs = truth.inputs;
+    e.initial = truth.initial;
+    auto choice = truth.choice;
+    choice.unknown.clear();
+    choice.fixed["p0"] = sivid::interval(p0);
+    auto times = plan.times;
+    auto const motion = sivid::simulate(
+        std::make_shared<sivid::approximate_model const>(truth.model, choice, truth.inputs),
+        truth.inputs, sivid::mid(truth.initial), {}, 0, times, {1e-10});
+    for (std::size_t k = 0; k < times.size(); ++k) {
+        double const share = d.below(2) == 0 ? d.uniform(-1, 1) : (d.below(2) == 0 ? -1.0 : 1.0);
+        double const error = plan.errors[0];
+        e.measurements.push_back(
+            {times[k], 0, support::around(motion.outputs[k][0] + 0.999 * error * share, error)});
+    }
+    return data;
+}
+
+} // namespace
+
+TEST_CASE("an experiment refutes one of two causes, whichever is true") {
+    support::draws d{17};
+    sivid::identify_options quick;
+    quick.only_hulls = true;
+    quick.search.boxes = 500;
+    // At a steady speed both causes look alike.
+    auto linear = slowed(false, 3), square = slowed(true, 3);
+    auto const first = measured(linear, 0.98, {{1, 2, 3}, {0.02}}, d);
+    for (auto* p : {&linear, &square}) {
+        auto data = first;
+        data.model = p->model;
+        auto const left = sivid::identify(data, quick);
+        REQUIRE(left.verdict != sivid::verdict::inconsistent);
+        p->sets = {left.hull};
+    }
+    auto const same = sivid::tell_apart(linear, square, {{1, 2, 3}, {0.02}}, {.pairs = 100});
+    CHECK_FALSE(same.told_apart);
+
+    auto const plan = sivid::planned_measurements::every(0.25, 3, {0.02});
+    auto const menu = sivid::manoeuvre_shapes({{0, "u0", "1", 0, 4}}, linear.inputs, {1}, 3);
+    auto const of_linear = sivid::parse_requirement("always(x0 < 3)", linear.model, 3);
+    auto const of_square = sivid::parse_requirement("always(x0 < 3)", square.model, 3);
+    auto const found = sivid::design_separation(linear, square, menu, plan, &of_linear, &of_square,
+                                                {.seconds = 100, .proved = 3, .pairs = 60});
+    auto const* best = found.best();
+    REQUIRE(best != nullptr);
+    CHECK(best->promised->told_apart);
+    CHECK(best->limits == sivid::requirement_answer::proved);
+    CHECK(best->factor() == 0);
+    linear.inputs = square.inputs = best->inputs;
+    for (auto const* truth : {&linear, &square}) {
+        auto const* const other = truth == &linear ? &square : &linear;
+        for (int n = 0; n < 10; ++n) {
+            double const p0 = d.in(truth->sets[0][0]);
+            auto data = measured(*truth, p0, plan, d);
+            auto const own = sivid::identify(data, quick);
+            CHECK(sivid::contains(own.hull[0], p0));
+            data.model = other->model;
+            data.prior = other->around();
+            CHECK(sivid::identify(data, quick).verdict == sivid::verdict::inconsistent);
+        }
+    }
 }

@@ -144,3 +144,56 @@ TEST_CASE("motions that are lost promise what they show until then") {
     CHECK(found.goals[0].after > 0);
     CHECK(found.goals[0].after < 0.5);
 }
+
+namespace {
+
+/// x' = -p0 x^n from 1.
+sivid::prediction_problem power_law(int n, sivid::interval const& rate, double end) {
+    auto p = decay({{rate}}, {sivid::interval(1.0)}, end);
+    if (n == 2) {
+        p.model = support::model_of(
+            {.states = 1, .constants = 1},
+            [](auto const&, auto const& x, auto const& c, auto const&) {
+                return std::vector{-(c[0] * sqr(x[0]))};
+            },
+            [](auto const&, auto const& x, auto const&, auto const&) { return x; });
+    }
+    return p;
+}
+
+} // namespace
+
+TEST_CASE("two models are told apart where no pair of their motions is close, and not else") {
+    auto const linear = power_law(1, between(0.4, 0.8), 4);
+    auto const square = power_law(2, between(0.4, 0.8), 4);
+    auto const exp_at = [](double p, double t) { return std::exp(-p * t); };
+    auto const square_at = [](double p, double t) { return 1 / (1 + p * t); };
+    std::vector<double> const times{1, 2, 4};
+    double closest = 1; // the smallest largest difference of all pairs
+    for (int i = 0; i <= 400; ++i) {
+        for (int j = 0; j <= 400; ++j) {
+            double most = 0;
+            for (double const t : times)
+                most = std::max(
+                    most, std::abs(exp_at(0.4 + 0.001 * i, t) - square_at(0.4 + 0.001 * j, t)));
+            closest = std::min(closest, most);
+        }
+    }
+    REQUIRE(closest > 0.02);
+    for (double const share : {0.5, 0.9, 1.02, 2.0}) { // of what can just be told
+        double const error = 0.5 * share * closest;
+        auto const found = sivid::tell_apart(linear, square, {times, {error}},
+                                             {.seconds = 100, .pairs = share > 1 ? 60U : 4000U});
+        CHECK(found.told_apart == (share < 1));
+        auto const turned = sivid::tell_apart(square, linear, {times, {error}},
+                                              {.seconds = 100, .pairs = share > 1 ? 60U : 4000U});
+        CHECK(turned.told_apart == (share < 1));
+    }
+    // The same model, and the same parameters among others: never.
+    CHECK_FALSE(sivid::tell_apart(linear, power_law(1, between(0.7, 0.9), 4), {times, {1e-9}},
+                                  {.seconds = 100, .pairs = 30})
+                    .told_apart);
+    CHECK(sivid::tell_apart(linear, power_law(1, between(0.9, 1), 4), {times, {1e-3}}).told_apart);
+    CHECK_THROWS_AS(sivid::tell_apart(linear, power_law(1, between(0.7, 0.9), 3), {{1}, {0.1}}),
+                    std::invalid_argument);
+}

@@ -755,6 +755,19 @@ TEST_CASE("design finds an experiment that keeps its promise, or says that none 
     refused({"--halve", "Sv", "--measure", "chi=1"}, "chi");
     refused({"--halve", "Sv", "--within", "psi"}, "requirement");
     refused({"--halve", "Sv", "--period", "1e-9"}, "million");
+    refused({}, "--halve or --against");
+
+    // Where both models hold the one without effect, nothing tells them apart.
+    std::vector<std::string> causes;
+    for (auto const* effect : {"wind", "rudder_trim"}) {
+        causes.push_back((folder.path() / effect).string());
+        run({"identify", h3, "--with", effect, "--out", causes.back(), "--quiet", "--budget", "3"});
+    }
+    auto const same = run({"design", causes[0], "--against", causes[1], "--scenario", "S3",
+                           "--vary", "delta=-0.5:0.5", "--budget", "4", "--quiet"});
+    CHECK(same.code == 3);
+    CHECK_THAT(same.out,
+               ContainsSubstring("no proved experiment that tells wind from rudder_trim"));
 }
 
 TEST_CASE("control finds the gains of a law that are proved for all that the data leave") {

@@ -201,6 +201,13 @@ TEST_CASE("an experiment is written with what it promises, or with what hides it
     CHECK(read().at("answer").string() == "less");
     answer.found.tried[0].limits = sivid::requirement_answer::open;
     CHECK(read().at("answer").string() == "open");
+    answer.found.tried[0].limits.reset();
+    answer.goals.clear();
+    answer.first = "wind";
+    CHECK(read().at("answer").string() == "open");
+    CHECK(read().at("first").string() == "wind");
+    answer.found.tried[0].promised->told_apart = true;
+    CHECK(read().at("answer").string() == "met");
     answer.hidden = "a";
     answer.instead = {"a*b"};
     CHECK(read().at("answer").string() == "hidden");

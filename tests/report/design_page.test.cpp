@@ -86,3 +86,19 @@ TEST_CASE("a page says what is not promised, or hidden") {
     CHECK_THAT(text, ContainsSubstring("No experiment tells p0"));
     CHECK_THAT(text, ContainsSubstring("What can be told: p0*p1, p0/p2."));
 }
+
+TEST_CASE("a page says whether two models are told apart") {
+    designed d("");
+    d.answer.goals.clear();
+    d.answer.first = "wind";
+    d.answer.second = "payload & more";
+    d.answer.found.tried.resize(1);
+    d.answer.found.tried[0].promised = sivid::promise{};
+    CHECK_THAT(d.page(), ContainsSubstring("No proved experiment that tells wind from payload"));
+    d.answer.found.tried[0].promised->told_apart = true;
+    auto const text = d.page();
+    CHECK(markup_error(body_of(text)) == "");
+    CHECK_THAT(text, ContainsSubstring("An experiment that tells wind from payload &amp; more") &&
+                         ContainsSubstring("refute all of wind or all of payload") &&
+                         ContainsSubstring("told apart"));
+}

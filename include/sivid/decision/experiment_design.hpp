@@ -34,15 +34,16 @@ struct tried_manoeuvre {
     std::vector<manoeuvre_setting> about; ///< of the settings
     std::vector<double> settings;
     std::vector<signal> inputs;
-    double estimate = 1;                      ///< of the factor; not proved
-    std::optional<promise> promised;          ///< where it was proved
-    std::optional<requirement_answer> limits; ///< whether the limits are kept, where it was asked
+    double estimate = 1;                        ///< of the factor; not proved
+    std::optional<promise> promised{};          ///< where it was proved
+    std::optional<requirement_answer> limits{}; ///< whether the limits are kept, where it was asked
 
     /// All that was asked of it is proved.
     [[nodiscard]] bool allowed() const {
         return promised && (!limits || *limits == requirement_answer::proved);
     }
-    /// The product of the goals' factors; 1 where nothing is proved.
+    /// The product of the goals' factors; of two models 0 where they are told apart; 1 where
+    /// nothing is proved.
     [[nodiscard]] double factor() const;
 };
 
@@ -62,7 +63,8 @@ struct experiment_design {
 /// What was asked of a design, and what came of it.
 struct design_answer {
     std::vector<design_goal> goals;
-    double target = 0.5; ///< the share of its width that each goal is to keep
+    std::string first, second; ///< the two models, in words
+    double target = 0.5;       ///< the share of its width that each goal is to keep
     planned_measurements plan;
     std::string limits; ///< "" for none
     std::vector<varied_input> varied;
@@ -75,6 +77,7 @@ struct design_answer {
     [[nodiscard]] bool met() const {
         auto const* best = found.best();
         if (best == nullptr) return false;
+        if (goals.empty()) return best->promised->told_apart;
         for (auto const& g : best->promised->goals) {
             if (!(g.factor() <= target)) return false;
         }
@@ -96,6 +99,20 @@ struct design_answer {
                                                              planned_measurements const& plan,
                                                              std::vector<design_goal> const& goals,
                                                              requirement const* limits,
+                                                             design_options const& options = {});
+
+/// Seeks the manoeuvre of a menu whose data refute one of two models, whichever they are of: see
+/// `tell_apart`. Both have the same inputs and channels.
+/// @param limits_of_first, limits_of_second  what has to hold of the motions of each; may be null
+/// @throws std::invalid_argument
+/// @guarantee  that the models are told apart, and that the limits are kept, is proved where it is
+///             said; that no manoeuvre does is not
+[[nodiscard]] SIVID_DECL experiment_design design_separation(prediction_problem const& first,
+                                                             prediction_problem const& second,
+                                                             std::vector<manoeuvre> const& menu,
+                                                             planned_measurements const& plan,
+                                                             requirement const* limits_of_first,
+                                                             requirement const* limits_of_second,
                                                              design_options const& options = {});
 
 } // namespace sivid

@@ -2,15 +2,12 @@
 #ifndef SIVID_DECISION_DETAIL_DESIGN_GUIDE_HPP
 #define SIVID_DECISION_DETAIL_DESIGN_GUIDE_HPP
 
-#include <sivid/decision/design_goal.hpp>
 #include <sivid/decision/detail/promise_types.hpp>
-#include <sivid/decision/motion_cover.hpp>
-#include <sivid/decision/requirement.hpp>
-#include <sivid/decision/robustness.hpp>
+#include <sivid/decision/detail/small_run.hpp>
 #include <sivid/paving/cut_program.hpp>
 #include <sivid/paving/response.hpp>
-#include <sivid/space/box.hpp>
 #include <sivid/space/constraint_blocks.hpp>
+#include <sivid/space/minimax_lp.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -22,174 +19,115 @@
 
 namespace sivid::decision_detail {
 
-/// What a manoeuvre may promise, about: from one run over a small box about the middle of the
-/// parameters and starts, as if outputs were linear all over the sets.
-///   With \f$ \delta \f$ half the difference of two points, in half-widths of the sets, the pairs
-/// that data cannot tell apart are \f$ |\sum_v c_{kv} \delta_v| \le \epsilon_k \f$, \f$ |\delta|
-/// \le 1 \f$: a linear program for each goal. No proof rests on it.
+/// What a manoeuvre may promise, about, from small runs; greater is better. No proof rests on it.
+///   Goals: with \f$ \delta \f$ half the difference of two points, in half-widths of the sets, the
+/// pairs that data cannot tell apart are \f$ |\sum_v c_{kv} \delta_v| \le \epsilon_k \f$: a linear
+/// program for each goal. Two models: how far all pairs of them part, in twice the errors.
 class design_guide {
 public:
-    design_guide(prediction_problem const& problem, planned_measurements const& plan,
-                 std::vector<design_goal> const& goals, requirement const* limits, run_options run,
+    /// A model, and the limits of its motions, if any.
+    struct model {
+        prediction_problem const* problem;
+        requirement const* limits;
+    };
+
+    /// @param models  one, for goals, or two that are to be told apart
+    design_guide(std::vector<model> const& models, planned_measurements const& plan,
+                 std::vector<node_id> const& goals, run_options run,
                  std::function<bool()> keep_going)
-        : problem_(problem), plan_(plan), limits_(limits), run_(run), go_on_(keep_going) {
-        run_.enclosure.keep_going = std::move(keep_going);
-        run_.degree = 1; // slopes are all that is wanted, over a small box
-        run_.enclosure.tolerance = 1e-4;
-        run_.enclosure.relative_tolerance = 1e-2;
-        auto const around = problem.around();
-        problem_.initial = shrunk(problem.initial);
-        problem_.sets = {shrunk(around)};
-        problem_.measured = nullptr;
-        if (limits != nullptr) margins_ = limits->margins;
-        for (auto const& g : goals) margins_.push_back(g.value);
-        goals_ = goals.size();
-        if (problem.measured) use(problem.measured(problem_.sets.front(), go_on_));
+        : plan_(plan), goals_(goals.size()), go_on_(std::move(keep_going)) {
+        run.enclosure.keep_going = go_on_;
+        for (auto const& m : models) runs_.emplace_back(*m.problem, plan, goals, m.limits, run);
+        auto const& measured = models.front().problem->measured;
+        if (measured && models.size() == 1) use(measured(runs_.front().parameters(), go_on_));
     }
 
-    /// The logarithm of all factors together with the opposite sign, factors above 1 among them,
-    /// which say how far a manoeuvre is from helping; far below 0 where the limits
-    /// are passed, minus infinity where nothing can be said.
-    [[nodiscard]] double operator()(std::vector<signal> inputs) {
+    /// Far below 0 where the limits are passed, minus infinity where nothing can be said; else the
+    /// logarithm of all factors together with the opposite sign, factors above 1 among them, which
+    /// say how far a manoeuvre is from helping.
+    [[nodiscard]] double operator()(std::vector<signal> const& inputs) {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         if (go_on_ && !go_on_()) return -infinity;
         ++looked_at_;
-        problem_.inputs = std::move(inputs);
-        followed_outputs const outputs(problem_.model, margins_);
-        // Limits count between the instants, too.
-        double const longest = limits_ == nullptr ? problem_.end : problem_.end / 40;
-        motion_cover cover(problem_, outputs, time_cells(problem_, plan_.times, longest), run_);
-        auto part = cover.whole();
-        cover.learn({&part});
-        if (part.known->reached == 0) return -infinity;
-        double const room = limits_ == nullptr ? infinity : margin(cover, outputs, part);
+        double room = infinity;
+        for (auto& run : runs_) room = std::min(room, run.follow(inputs));
         if (!(room > 0)) return room == -infinity ? room : -1e6 + std::max(room, -1e6);
-        return gain(cover, outputs, part);
+        return runs_.size() == 1 ? gain() : distance();
     }
     [[nodiscard]] std::size_t looked_at() const { return looked_at_; }
 
 private:
-    /// A box about the middle.
-    [[nodiscard]] static box shrunk(box x) {
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            double const middle = mid(x[i]), radius = share * rad(x[i]);
-            if (radius > 0 && middle - radius < middle)
-                x[i] = interval_traits<interval>::bounds(std::max(x[i].lower(), middle - radius),
-                                                         std::min(x[i].upper(), middle + radius));
-        }
-        return x;
-    }
-    /// The rows of measurements in \f$ \delta \f$; starts get columns of their own.
-    [[nodiscard]] static std::vector<double> slopes(response const& r, std::size_t y,
-                                                    std::vector<std::size_t> const& column,
-                                                    std::size_t columns) {
-        std::vector<double> row(columns, 0.0);
-        for (std::size_t m = 0; m < r.table->size(); ++m) {
-            std::size_t degree = 0, v = 0;
-            for (std::size_t k = 0; k < r.table->variables; ++k) {
-                degree += r.table->exponents[m][k];
-                if (r.table->exponents[m][k] != 0) v = k;
-            }
-            if (degree == 1) row[column[v]] += r.coefficients[m * r.outputs() + y] / share;
-        }
-        return row;
-    }
-    /// The columns of a response's variables; its starts are appended.
-    [[nodiscard]] static std::vector<std::size_t> columns_of(response const& r,
-                                                             std::size_t& columns) {
-        std::vector<std::size_t> column(r.table->variables, 0);
-        for (std::size_t j = 0; j < r.unknowns.parameters.size(); ++j) {
-            auto const& side = r.unknowns.parameters[j];
-            if (side.radius > 0) column[side.variable] = j;
-        }
-        for (auto const& side : r.unknowns.initial) {
-            if (side.radius > 0) column[side.variable] = columns++;
-        }
-        return column;
-    }
-    /// Rows that bound the difference, each over its error.
+    /// A measurement: an affine function of the columns, in its error.
     struct linear_row {
+        double offset;
         std::vector<double> slope;
-        double error;
     };
     /// What is measured already says the same of every manoeuvre.
     void use(measured_responses const& data) {
-        columns_ = problem_.choice.unknown.size();
+        columns_ = runs_.front().unknowns();
         for (auto const& answer : data.known) {
-            auto const column = columns_of(*answer, columns_);
+            auto const column = small_run::columns_of(*answer, 0, columns_);
             for (std::size_t y = 0; y < answer->outputs(); ++y) {
                 double const error = 0.5 * width(answer->bounds[y]);
                 if (error > 0 && std::isfinite(error))
-                    known_.push_back({slopes(*answer, y, column, columns_), error});
+                    known_.push_back(
+                        in_errors(0, small_run::slopes(*answer, y, column, columns_), error));
             }
         }
     }
-    /// As far as the whole sets move what the small box moves.
-    static void widen(std::vector<double>& low, std::vector<double>& high) {
-        std::vector<double> more(low.size(), 0.0);
-        for (std::size_t s = 0; s < low.size(); s += 2)
-            more[s] = 0.5 * (high[s] - low[s]) * (1 / share - 1);
-        for (std::size_t s = 1; s + 1 < low.size(); s += 2)
-            more[s] = std::max(more[s - 1], more[s + 1]);
-        for (std::size_t s = 0; s < low.size(); ++s) {
-            low[s] -= more[s];
-            high[s] += more[s];
-        }
+    [[nodiscard]] static linear_row in_errors(double offset, std::vector<double> slope,
+                                              double error) {
+        for (double& x : slope) x /= error;
+        return {offset / error, std::move(slope)};
     }
-    [[nodiscard]] double margin(motion_cover const& cover, followed_outputs const& outputs,
-                                motion_cover::part const& part) const {
-        margin_bounds bounds{cover.times(), {}, {}};
-        auto const count = limits_->margins.size();
-        bounds.low.resize(count);
-        bounds.high.resize(count);
-        auto const seen = cover.look(part);
-        for (std::size_t c = 0; c < count; ++c) {
-            cover.segments(part, seen, outputs.margins[c], bounds.low[c], bounds.high[c]);
-            widen(bounds.low[c], bounds.high[c]);
-        }
-        return evaluate(*limits_, bounds).low;
-    }
-    [[nodiscard]] double gain(motion_cover const& cover, followed_outputs const& outputs,
-                              motion_cover::part const& part) const {
-        auto const& answer = *part.known->answer;
-        auto columns = std::max(columns_, problem_.choice.unknown.size());
-        auto const column = columns_of(answer, columns);
-        auto rows = known_;
-        auto const& grid = cover.times();
+    /// Calls what(time, channel, error) for each planned measurement.
+    template <class What>
+    void for_each_measurement(What const& what) const {
         for (double const t : plan_.times) {
-            auto const at = std::lower_bound(grid.begin(), grid.end(), t);
-            auto const k = static_cast<std::size_t>(at - grid.begin());
-            if (k >= part.known->reached) break;
             for (std::size_t c = 0; c < plan_.errors.size(); ++c) {
-                if (!(plan_.errors[c] > 0)) continue;
-                auto const y = k * cover.outputs() + outputs.channels[c];
-                rows.push_back({slopes(answer, y, column, columns), plan_.errors[c]});
+                if (plan_.errors[c] > 0) what(t, c, plan_.errors[c]);
             }
         }
-        // Parameters may go beyond the sets here: what does not help yet would all look the same.
-        auto const scale = [&](std::size_t v) {
-            return v < problem_.choice.unknown.size() ? beyond : 1.0;
-        };
+    }
+    [[nodiscard]] static minimax_block block_of(std::vector<linear_row> const& rows,
+                                                std::size_t columns, double margin) {
         minimax_block block;
         for (std::size_t v = 0; v < columns; ++v) block.variable.push_back(v);
         block.slope.resize(columns * rows.size());
-        block.offset.assign(rows.size(), 0.0);
-        block.margin.assign(rows.size(), 1.0);
+        block.margin.assign(rows.size(), margin);
         for (std::size_t k = 0; k < rows.size(); ++k) {
+            block.offset.push_back(rows[k].offset);
             for (std::size_t v = 0; v < rows[k].slope.size(); ++v)
-                block.slope[v * rows.size() + k] = scale(v) * rows[k].slope[v] / rows[k].error;
+                block.slope[v * rows.size() + k] = rows[k].slope[v];
         }
-        std::vector<minimax_block> const blocks{std::move(block)};
+        return block;
+    }
+
+    [[nodiscard]] double gain() const {
+        auto const& run = runs_.front();
+        auto columns = std::max(columns_, run.unknowns());
+        auto const column = small_run::columns_of(run.answer(), 0, columns);
+        auto rows = known_;
+        for_each_measurement([&](double t, std::size_t c, double error) {
+            auto const y = run.place_of(t, c);
+            if (y != small_run::none)
+                rows.push_back(
+                    in_errors(0, small_run::slopes(run.answer(), y, column, columns), error));
+        });
+        // Parameters may go beyond the sets here: what does not help yet would all look the same.
+        constexpr double beyond = 30;
+        auto const stretch = [&](std::vector<double>& slope) {
+            for (std::size_t v = 0; v < run.unknowns(); ++v) slope[v] *= beyond;
+        };
+        for (auto& r : rows) stretch(r.slope);
+        std::vector<minimax_block> const blocks{block_of(rows, columns, 1)};
         double sum = 0;
         for (std::size_t g = 0; g < goals_; ++g) {
-            auto const y = outputs.margins[outputs.margins.size() - goals_ + g];
-            auto goal = slopes(answer, y, column, columns);
+            auto goal = small_run::slopes(run.answer(), run.place_of_goal(g), column, columns);
             double before = 0, after = 0;
-            for (std::size_t v = 0; v < columns; ++v) {
-                before += std::abs(goal[v]);
-                goal[v] *= scale(v);
-            }
+            for (double const x : goal) before += std::abs(x);
             if (!(before > 0)) continue;
+            stretch(goal);
             auto const cut = cut_program(columns, blocks)(goal);
             for (std::size_t v = 0; v < columns && v < cut.point.size(); ++v)
                 after += goal[v] * cut.point[v];
@@ -197,17 +135,30 @@ private:
         }
         return sum;
     }
+    /// Of the closest pair.
+    [[nodiscard]] double distance() const {
+        auto const &a = runs_.front(), &b = runs_.back();
+        auto columns = a.unknowns() + b.unknowns();
+        auto const of_a = small_run::columns_of(a.answer(), 0, columns);
+        auto const of_b = small_run::columns_of(b.answer(), a.unknowns(), columns);
+        std::vector<linear_row> rows;
+        for_each_measurement([&](double t, std::size_t c, double error) {
+            auto const y = a.place_of(t, c), z = b.place_of(t, c);
+            if (y == small_run::none || z == small_run::none) return;
+            auto slope = small_run::slopes(a.answer(), y, of_a, columns);
+            auto const other = small_run::slopes(b.answer(), z, of_b, columns);
+            for (std::size_t v = 0; v < columns; ++v) slope[v] -= other[v];
+            double const apart = a.answer().coefficients[y] - b.answer().coefficients[z];
+            rows.push_back(in_errors(apart, std::move(slope), 2 * error));
+        });
+        std::vector<minimax_block> const blocks{block_of(rows, columns, 0)};
+        return std::log(std::max(minimax_solver(columns, blocks)().value, 1e-12));
+    }
 
-    static constexpr double share = 1.0 / 16; ///< of the box about the middle
-    static constexpr double beyond = 30;
-
-    prediction_problem problem_;
     planned_measurements plan_;
-    requirement const* limits_;
-    run_options run_;
-    std::function<bool()> go_on_;
-    std::vector<node_id> margins_;
     std::size_t goals_ = 0;
+    std::function<bool()> go_on_;
+    std::vector<small_run> runs_; ///< one for each model
     std::vector<linear_row> known_;
     std::size_t columns_ = 0; ///< of the parameters, and of the starts of what is measured
     std::size_t looked_at_ = 0;

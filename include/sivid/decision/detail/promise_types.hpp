@@ -49,6 +49,8 @@ struct promised_width {
 struct promise {
     std::vector<promised_width> goals;
     double reached = 0; ///< all motions are enclosed up to here [s]; later data promise nothing
+    /// Of two models: no parameter of the one and of the other explain the same data.
+    bool told_apart = false;
     std::size_t pairs = 0, integrations = 0;
     double seconds = 0;
 };

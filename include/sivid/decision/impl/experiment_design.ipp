@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -23,28 +24,32 @@ namespace sivid {
 
 SIVID_DECL double tried_manoeuvre::factor() const {
     if (!promised) return 1;
+    if (promised->goals.empty()) return promised->told_apart ? 0 : 1;
     double product = 1;
     for (auto const& g : promised->goals)
         product = upper(interval_traits<interval>::mul(interval(product), interval(g.factor())));
     return product;
 }
 
-SIVID_DECL experiment_design design_experiment(prediction_problem const& problem,
-                                               std::vector<manoeuvre> const& menu,
-                                               planned_measurements const& plan,
-                                               std::vector<design_goal> const& goals,
-                                               requirement const* limits,
-                                               design_options const& options) {
-    problem.require_valid();
-    plan.require_valid(problem);
-    if (goals.empty()) throw std::invalid_argument("design: there is no goal");
+namespace decision_detail {
+
+/// Chooses the settings of each manoeuvre by a guide, and proves the best.
+/// @param prove  fills in what is proved of a manoeuvre, in so many seconds
+inline experiment_design
+design_search(std::vector<manoeuvre> const& menu, std::vector<design_guide::model> const& models,
+              planned_measurements const& plan, std::vector<node_id> const& goals,
+              design_options const& options,
+              std::function<void(tried_manoeuvre&, promise_options const&)> const& prove) {
+    for (auto const& m : models) {
+        m.problem->require_valid();
+        plan.require_valid(*m.problem);
+    }
     auto const begun = std::chrono::steady_clock::now();
     work_limit limit(options.seconds, options.keep_going);
     experiment_design result;
 
     work_limit looking(options.seconds, limit);
-    decision_detail::design_guide guide(problem, plan, goals, limits, options.run,
-                                        [&looking] { return looking(); });
+    design_guide guide(models, plan, goals, options.run, [&looking] { return looking(); });
     double const until = 0.8 * options.seconds;
     for (std::size_t k = 0; k < menu.size(); ++k) {
         auto const& m = menu[k];
@@ -53,48 +58,41 @@ SIVID_DECL experiment_design design_experiment(prediction_problem const& problem
         auto const chosen = best_settings(
             m.settings, [&](std::vector<double> const& s) { return guide(m.inputs(s)); });
         if (!(chosen.value > -1e5)) continue; // cannot be run, or passes the limits
-        tried_manoeuvre t{m.name,
-                          m.settings,
-                          chosen.settings,
-                          m.inputs(chosen.settings),
-                          std::min(1.0, std::exp(-chosen.value)),
-                          std::nullopt,
-                          std::nullopt};
+        tried_manoeuvre t{m.name, m.settings, chosen.settings, m.inputs(chosen.settings)};
+        t.estimate = std::min(1.0, std::exp(-chosen.value));
         result.tried.push_back(std::move(t));
     }
     result.simulated = guide.looked_at();
     std::stable_sort(result.tried.begin(), result.tried.end(),
                      [](auto const& a, auto const& b) { return a.estimate < b.estimate; });
 
-    auto const goal_nodes = [&] {
-        std::vector<node_id> nodes;
-        for (auto const& g : goals) nodes.push_back(g.value);
-        return nodes;
-    }();
     auto const most = std::min(options.proved, result.tried.size());
     for (std::size_t k = 0; k < most && limit(); ++k) {
         auto& t = result.tried[k];
-        auto own = problem;
-        own.inputs = t.inputs;
         double const each = limit.seconds() / static_cast<double>(most - k);
         promise_options promising;
         promising.seconds = 0.6 * each;
         promising.pairs = options.pairs;
         promising.target = options.target;
         promising.run = options.run;
-        promising.keep_going = [limit] { return limit(); };
-        t.promised = promise_widths(own, plan, goal_nodes, promising);
+        promising.keep_going = limit;
+        prove(t, promising);
         result.integrations += t.promised->integrations;
-        if (limits == nullptr) continue;
         prediction_options checking;
-        checking.seconds = 0.4 * each;
+        checking.seconds = 0.4 * each / static_cast<double>(models.size());
         checking.parts = 1000;
         checking.run = options.run;
-        checking.keep_going = promising.keep_going;
-        // Refutations would need the same inputs; what is not proved is not allowed.
-        auto const kept = verify(own, *limits, {}, checking);
-        t.limits = kept.answer;
-        result.integrations += kept.integrations;
+        checking.keep_going = limit;
+        for (auto const& m : models) {
+            if (m.limits == nullptr) continue;
+            if (t.limits && *t.limits != requirement_answer::proved) continue;
+            auto own = *m.problem;
+            own.inputs = t.inputs;
+            // A refutation would be of no use: what is not proved is not allowed.
+            auto const kept = verify(own, *m.limits, {}, checking);
+            t.limits = kept.answer;
+            result.integrations += kept.integrations;
+        }
     }
     std::stable_sort(result.tried.begin(), result.tried.end(), [](auto const& a, auto const& b) {
         if (a.allowed() != b.allowed()) return a.allowed();
@@ -103,6 +101,41 @@ SIVID_DECL experiment_design design_experiment(prediction_problem const& problem
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     return result;
+}
+
+} // namespace decision_detail
+
+SIVID_DECL experiment_design design_experiment(prediction_problem const& problem,
+                                               std::vector<manoeuvre> const& menu,
+                                               planned_measurements const& plan,
+                                               std::vector<design_goal> const& goals,
+                                               requirement const* limits,
+                                               design_options const& options) {
+    if (goals.empty()) throw std::invalid_argument("design: there is no goal");
+    std::vector<node_id> nodes;
+    for (auto const& g : goals) nodes.push_back(g.value);
+    return decision_detail::design_search(menu, {{&problem, limits}}, plan, nodes, options,
+                                          [&](tried_manoeuvre& t, promise_options const& how) {
+                                              auto own = problem;
+                                              own.inputs = t.inputs;
+                                              t.promised = promise_widths(own, plan, nodes, how);
+                                          });
+}
+
+SIVID_DECL experiment_design design_separation(prediction_problem const& first,
+                                               prediction_problem const& second,
+                                               std::vector<manoeuvre> const& menu,
+                                               planned_measurements const& plan,
+                                               requirement const* limits_of_first,
+                                               requirement const* limits_of_second,
+                                               design_options const& options) {
+    return decision_detail::design_search(
+        menu, {{&first, limits_of_first}, {&second, limits_of_second}}, plan, {}, options,
+        [&](tried_manoeuvre& t, promise_options const& how) {
+            auto a = first, b = second;
+            a.inputs = b.inputs = t.inputs;
+            t.promised = tell_apart(a, b, plan, how);
+        });
 }
 
 } // namespace sivid

@@ -70,6 +70,21 @@ SIVID_DECL promise promise_widths(prediction_problem const& problem,
     return result;
 }
 
+SIVID_DECL promise tell_apart(prediction_problem const& first, prediction_problem const& second,
+                              planned_measurements const& plan, promise_options const& options) {
+    for (auto const* p : {&first, &second}) {
+        p->require_valid();
+        plan.require_valid(*p);
+    }
+    if (first.end != second.end)
+        throw std::invalid_argument("tell_apart: both models run over the same time");
+    auto const begun = std::chrono::steady_clock::now();
+    auto result = decision_detail::pair_search(first, second, plan, options)();
+    result.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    return result;
+}
+
 } // namespace sivid
 
 #endif

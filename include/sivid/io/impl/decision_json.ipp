@@ -283,10 +283,12 @@ SIVID_DECL std::string design_json(stored_prediction const& about, design_answer
     json.begin_object();
     io_detail::write_head(json, "sivid-design-1", about, options);
     auto const* const best = found.found.best();
-    json.key("answer").string(!found.hidden.empty() ? "hidden"
-                              : found.met()         ? "met"
-                              : best != nullptr     ? "less"
-                                                    : "open");
+    bool const goals = !found.goals.empty();
+    json.key("answer").string(!found.hidden.empty()      ? "hidden"
+                              : found.met()              ? "met"
+                              : best != nullptr && goals ? "less"
+                                                         : "open");
+    if (!goals) json.key("first").string(found.first).key("second").string(found.second);
     json.key("target").nearest(found.target).key("limits").string(found.limits);
     json.key("hidden").string(found.hidden).key("instead").begin_array();
     for (auto const& text : found.instead) json.string(text);

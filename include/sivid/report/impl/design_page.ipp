@@ -22,6 +22,7 @@ namespace sivid::report {
 namespace detail {
 
 inline std::string goal_texts(design_answer const& a) {
+    if (a.goals.empty()) return a.first + " or " + a.second;
     std::string text;
     for (auto const& g : a.goals) text += (text.empty() ? "" : ", ") + g.text;
     return text;
@@ -62,6 +63,7 @@ inline void add_inputs(page& out, stored_prediction const& about, tried_manoeuvr
 }
 
 inline void add_promises(page& out, design_answer const& a, promise const& p) {
+    if (a.goals.empty()) return; // the sentence says all
     table t{.columns = {{"quantity", column_kind::symbol},
                         {"width now", column_kind::number},
                         {"at most afterwards", column_kind::number},
@@ -100,12 +102,15 @@ inline void add_plan(page& out, stored_prediction const& about, design_answer co
 inline void add_tried(page& out, design_answer const& a) {
     table t{.columns = {{"shape"},
                         {"estimate", column_kind::number},
-                        {"proved share", column_kind::number},
+                        {a.goals.empty() ? "proof" : "proved share", column_kind::number},
                         {"limits"}},
             .rows = {}};
     for (auto const& m : a.found.tried)
         t.rows.push_back({m.name, rounded_text(m.estimate, rounding::nearest, {.significant = 2}),
-                          m.promised ? "\xE2\x89\xA4 " + at_most_percent(m.factor()) : "not asked",
+                          !m.promised              ? "not asked"
+                          : !a.goals.empty()       ? "\xE2\x89\xA4 " + at_most_percent(m.factor())
+                          : m.promised->told_apart ? "told apart"
+                                                   : "not proved",
                           a.limits.empty() ? "none"
                           : m.limits       ? std::string{to_string(*m.limits)}
                                            : "not asked"});
@@ -122,6 +127,9 @@ inline void add_tried(page& out, design_answer const& a) {
 SIVID_DECL std::string design_headline(design_answer const& a) {
     auto const goals = detail::goal_texts(a);
     if (!a.hidden.empty()) return "no experiment tells " + a.hidden;
+    if (a.goals.empty())
+        return (a.met() ? "an experiment that tells " : "no proved experiment that tells ") +
+               a.first + " from " + a.second + (a.met() ? " is found" : "");
     if (a.met()) return "an experiment for " + goals + " is found";
     if (a.found.best() == nullptr) return "no experiment for " + goals + " is proved";
     return "an experiment for " + goals + " is found, which promises less than was asked";
@@ -144,6 +152,12 @@ SIVID_DECL std::string design_sentence(design_answer const& a) {
                    : "No shape whose limits are kept for all parameters has a proved promise: give "
                      "wider "
                      "limits or more time.";
+    if (a.goals.empty())
+        return a.met() ? "Whatever the truth among the parameters of both and whatever the errors "
+                         "are, its data refute all of " +
+                             a.first + " or all of " + a.second + " (proved)."
+                       : "No shape in these limits is proved to: give wider limits, a longer "
+                         "experiment, smaller errors, or more time.";
     std::string text;
     for (std::size_t g = 0; g < a.goals.size(); ++g) {
         auto const& w = best->promised->goals[g];
@@ -173,14 +187,14 @@ SIVID_DECL page design_page(stored_prediction const& about, design_answer const&
     auto const* const best = a.found.best();
     if (!hidden) {
         std::vector<card> cards;
-        if (best != nullptr)
+        if (best != nullptr && !a.goals.empty())
             cards.push_back({"left", "\xE2\x89\xA4 " + at_most_percent(best->factor()),
                              a.goals.size() == 1 ? "of the width" : "of the widths' product"});
         cards.push_back({"settings looked at", count_text(a.found.simulated), ""});
         cards.push_back({"time", duration_text(a.found.seconds), ""});
         out.cards(cards);
     }
-    if (best != nullptr) {
+    if (best != nullptr && (a.met() || !a.goals.empty())) {
         detail::add_promises(out, a, *best->promised);
         detail::add_inputs(out, about, *best, a.varied);
         detail::add_plan(out, about, a);
