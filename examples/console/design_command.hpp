@@ -130,7 +130,8 @@ inline int run_design(sivid::recorded_model const& open,
                                            one.asked(), options);
         auto const* const best = answer.found.best();
         if (best != nullptr && (answer.met() || !two)) {
-            about->problem.inputs = about->direct.inputs = best->inputs;
+            about->problem = about->problem.under(best->inputs);
+            about->direct = about->direct.under(best->inputs);
             if (task.described())
                 scenario = scenario_with(*task.described(), report::design_sentence(answer),
                                          answer.varied, best->inputs, names_of(model.about));

@@ -79,6 +79,20 @@ TEST_CASE("an experiment is found whose promise every truth keeps") {
     }
 }
 
+TEST_CASE("an actuator begins each manoeuvre at what it is told") {
+    auto p = lagged_cart(1);
+    auto const goal = sivid::parse_goal("p0", p.model);
+    auto const limits = sivid::parse_requirement("always(abs(x1 - u0) < 0.001)", p.model, p.end);
+    auto const plan = sivid::planned_measurements::every(0.25, p.end, {0.02});
+    auto const menu = sivid::manoeuvre_shapes({{0, "u0", "1", 1, 2}}, p.inputs, {0, 0}, p.end);
+    auto const found = sivid::design_experiment(p, {menu.front()}, plan, {goal}, &limits,
+                                                {.seconds = 100, .pairs = 10});
+    REQUIRE(found.best() != nullptr); // a constant: from a start of 0 it would have to catch up
+    auto const direct = sivid::promise_widths(p.under(found.best()->inputs), plan, {goal.value});
+    CHECK(found.best()->promised->goals[0].after <= direct.goals[0].after * 1.01);
+    CHECK(found.best()->promised->goals[0].after >= direct.goals[0].after * 0.99);
+}
+
 TEST_CASE("limits of a design are proved for all parameters, or it is not allowed") {
     auto p = driven_cart(4);
     auto const goal = sivid::parse_goal("p0", p.model);

@@ -94,6 +94,24 @@ inline sivid::prediction_problem driven_cart(double end) {
     return p;
 }
 
+/// x0' = x1 - p0 x0 behind an actuator x1' = 10 (u0 - x1) that an effect added: it begins at u0.
+inline sivid::prediction_problem lagged_cart(double end) {
+    sivid::prediction_problem p;
+    p.model = support::model_of(
+        {.states = 2, .constants = 1, .inputs = 1},
+        [](auto const&, auto const& x, auto const& c, auto const& u) {
+            return std::vector{x[1] - c[0] * x[0], 10 * (u[0] - x[1])};
+        },
+        [](auto const&, auto const& x, auto const&, auto const&) { return std::vector{x[0]}; });
+    p.model.added_states = {{1, p.model.g.leaf(sivid::operation::input, 0)}};
+    p.choice.unknown = {"p0"};
+    p.sets = {{between(0.3, 0.7)}};
+    p.inputs = {sivid::sampled_signal({0.0}, {0.0}, sivid::interpolation::hold)};
+    p.initial = {sivid::interval(0.0), sivid::interval(0.0)};
+    p.end = end;
+    return p;
+}
+
 } // namespace decision_support
 
 #endif

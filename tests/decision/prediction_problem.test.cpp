@@ -4,6 +4,7 @@
 #include "decision/planar_models.hpp"
 #include "support/catch.hpp"
 
+#include <stdexcept>
 #include <vector>
 
 using namespace decision_support;
@@ -42,4 +43,20 @@ TEST_CASE("the smallest box around all sets") {
     auto q = p;
     q.model.input_delays.push_back({});
     CHECK_THROWS_WITH(q.require_valid(), ContainsSubstring("delay"));
+}
+
+TEST_CASE("states that effects added begin at what the inputs say") {
+    auto p = lagged_cart(2);
+    auto const other =
+        p.under({sivid::sampled_signal({0.0, 2.0}, {1.25, 3.0}, sivid::interpolation::linear)});
+    CHECK(other.initial[1].lower() <= 1.25);
+    CHECK(other.initial[1].upper() >= 1.25);
+    CHECK(other.initial[1].upper() - other.initial[1].lower() < 1e-12);
+    CHECK(other.initial[0].upper() == p.initial[0].upper());
+    CHECK(p.initial[1].upper() == 0);
+    auto& g = p.model.g;
+    p.model.added_states[0].at_begin =
+        g.binary(sivid::operation::mul, p.model.added_states[0].at_begin,
+                 g.leaf(sivid::operation::constant, 0));
+    CHECK_THROWS_AS(p.under(p.inputs), std::invalid_argument);
 }

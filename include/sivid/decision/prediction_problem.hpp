@@ -3,6 +3,7 @@
 #define SIVID_DECISION_PREDICTION_PROBLEM_HPP
 
 #include <sivid/measurement/signal.hpp>
+#include <sivid/model/added_start.hpp>
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/model/parameter_choice.hpp>
@@ -46,6 +47,23 @@ struct prediction_problem {
     [[nodiscard]] box around() const {
         auto result = sets.front();
         for (auto const& s : sets) result = hull(result, s);
+        return result;
+    }
+
+    /// The same under other inputs: states that effects added begin at what these say.
+    /// @throws std::invalid_argument  where they begin at what constants say, too
+    [[nodiscard]] prediction_problem under(std::vector<signal> others) const {
+        auto result = *this;
+        result.inputs = std::move(others);
+        std::vector<interval> const unknown(model.about.constants.size(),
+                                            interval_traits<interval>::entire());
+        for (auto const& a : model.added_states) {
+            if ((model.g.depends(a.at_begin) & on_constant) != 0)
+                throw std::invalid_argument("the state '" + model.about.states[a.state].name +
+                                            "' begins at what parameters say: inputs cannot be "
+                                            "exchanged with this effect");
+            result.initial[a.state] = start_of(model, a, unknown, result.inputs, 0);
+        }
         return result;
     }
 

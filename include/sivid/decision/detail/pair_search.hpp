@@ -41,6 +41,7 @@ public:
     pair_search(prediction_problem const& first, prediction_problem const& second,
                 planned_measurements const& plan, promise_options const& options)
         : pair_search(plan, options) {
+        options_.target = 0; // none may be left
         for (auto const* p : {&first, &second})
             motions_.push_back(
                 std::make_unique<motion_set>(*p, plan, std::vector<node_id>{}, options_.run));

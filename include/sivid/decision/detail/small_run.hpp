@@ -44,7 +44,7 @@ public:
     ///          nothing can be followed, infinity without limits
     double follow(std::vector<signal> inputs) {
         constexpr double infinity = std::numeric_limits<double>::infinity();
-        problem_.inputs = std::move(inputs);
+        problem_ = problem_.under(std::move(inputs));
         cover_ = nullptr; // refers to the outputs
         outputs_ = std::make_unique<followed_outputs>(problem_.model, margins_);
         // Limits count between the instants, too.

@@ -86,10 +86,8 @@ design_search(std::vector<manoeuvre> const& menu, std::vector<design_guide::mode
         for (auto const& m : models) {
             if (m.limits == nullptr) continue;
             if (t.limits && *t.limits != requirement_answer::proved) continue;
-            auto own = *m.problem;
-            own.inputs = t.inputs;
             // A refutation would be of no use: what is not proved is not allowed.
-            auto const kept = verify(own, *m.limits, {}, checking);
+            auto const kept = verify(m.problem->under(t.inputs), *m.limits, {}, checking);
             t.limits = kept.answer;
             result.integrations += kept.integrations;
         }
@@ -116,9 +114,8 @@ SIVID_DECL experiment_design design_experiment(prediction_problem const& problem
     for (auto const& g : goals) nodes.push_back(g.value);
     return decision_detail::design_search(menu, {{&problem, limits}}, plan, nodes, options,
                                           [&](tried_manoeuvre& t, promise_options const& how) {
-                                              auto own = problem;
-                                              own.inputs = t.inputs;
-                                              t.promised = promise_widths(own, plan, nodes, how);
+                                              t.promised = promise_widths(problem.under(t.inputs),
+                                                                          plan, nodes, how);
                                           });
 }
 
@@ -132,9 +129,7 @@ SIVID_DECL experiment_design design_separation(prediction_problem const& first,
     return decision_detail::design_search(
         menu, {{&first, limits_of_first}, {&second, limits_of_second}}, plan, {}, options,
         [&](tried_manoeuvre& t, promise_options const& how) {
-            auto a = first, b = second;
-            a.inputs = b.inputs = t.inputs;
-            t.promised = tell_apart(a, b, plan, how);
+            t.promised = tell_apart(first.under(t.inputs), second.under(t.inputs), plan, how);
         });
 }
 
