@@ -26,10 +26,8 @@ struct design_goal {
 [[nodiscard]] SIVID_DECL design_goal parse_goal(std::string_view text, recorded_model& model);
 
 /// What no experiment can tell of a goal, by the model's equations.
-///   The parameters that enter only in products can be scaled with all products fixed, and no
-///   output
-/// changes. A goal that is itself a product of parameters changes along, unless it is made of those
-/// products.
+///   Parameters that enter only in products can be scaled with all products fixed, and no output
+/// changes. A goal that is a product of parameters changes along, unless it is made of these.
 /// @param unknown  the constants that count as parameters
 /// @returns the products that can be told instead; nothing when the equations do not forbid it, or
 ///          the goal is no product of powers
