@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <functional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 using namespace decision_support;
@@ -163,6 +164,19 @@ sivid::prediction_problem power_law(int n, sivid::interval const& rate, double e
 
 } // namespace
 
+namespace {
+
+struct told_apart {
+    sivid::planned_measurements plan;
+    explicit told_apart(sivid::planned_measurements p) : plan(std::move(p)) {}
+    [[nodiscard]] bool operator()(sivid::prediction_problem const& a,
+                                  sivid::prediction_problem const& b) const {
+        return sivid::tell_apart(a, b, plan, {.seconds = 100, .pairs = 60}).told_apart;
+    }
+};
+
+} // namespace
+
 TEST_CASE("two models are told apart where no pair of their motions is close, and not else") {
     auto const linear = power_law(1, between(0.4, 0.8), 4);
     auto const square = power_law(2, between(0.4, 0.8), 4);
@@ -196,4 +210,22 @@ TEST_CASE("two models are told apart where no pair of their motions is close, an
     CHECK(sivid::tell_apart(linear, power_law(1, between(0.9, 1), 4), {times, {1e-3}}).told_apart);
     CHECK_THROWS_AS(sivid::tell_apart(linear, power_law(1, between(0.7, 0.9), 3), {{1}, {0.1}}),
                     std::invalid_argument);
+}
+
+TEST_CASE("each of two models hears its own data") {
+    auto const data = plain_problem::make(0, 0, sivid::interval(2.0));
+    sivid::data_test test(data, {});
+    auto const feasible = plain_problem::feasible();
+    auto known = decay({{between(0.3, 0.8)}}, {sivid::interval(1.0)}, 3);
+    auto const free = decay({{between(feasible.upper() + 0.03, 0.9)}}, {sivid::interval(1.0)}, 3);
+    sivid::planned_measurements const plan{{1, 2, 3}, {0.002}};
+    told_apart const told(plan);
+    CHECK_FALSE(told(known, free));
+    CHECK_FALSE(told(free, known));
+    known.measured = [&](sivid::box const& parameters, std::function<bool()> const&) {
+        auto const& run = data.experiments[0];
+        return sivid::measured_responses{{test.run(0, run.initial, parameters)}, {run.initial}};
+    };
+    CHECK(told(known, free));
+    CHECK(told(free, known));
 }

@@ -58,6 +58,14 @@ TEST_CASE("the difference of two responses holds both sets of unknowns") {
         CHECK(r.unknowns.parameters.size() == 4);
         CHECK(r.unknowns.initial.size() == 2);
         CHECK(r.outputs() == 2);
+        for (std::size_t j = 0; j < 2; ++j) {
+            CHECK(r.unknowns.parameters[j].variable == a.unknowns.parameters[j].variable);
+            CHECK(r.unknowns.parameters[2 + j].variable ==
+                  first + b.unknowns.parameters[j].variable);
+        }
+        CHECK(r.unknowns.initial[0].variable == a.unknowns.initial[0].variable);
+        CHECK(r.unknowns.initial[1].variable == first + b.unknowns.initial[0].variable);
+        CHECK(r.unknowns.variables == first + second);
         for (std::size_t m = 0; m + 1 < r.table->size(); ++m) { // graded
             auto const degree = [&](std::size_t k) {
                 int sum = 0;
