@@ -84,6 +84,8 @@ public:
         request_.set = ranges_from(c.set, "--set");
         request_.proof_seconds = std::min(request_.proof_seconds, 0.5 * c.budget);
         if (c.scenario.starts_with("data:")) {
+            if (c.duration > 0)
+                throw std::invalid_argument("--duration: a recorded scenario has its own");
             use_recorded(c.scenario.substr(5));
         } else {
             auto s = find(c.scenario);

@@ -55,7 +55,7 @@ struct design_side {
     design_side& operator=(design_side const&) = delete;
 
     [[nodiscard]] sivid::requirement const* asked() const {
-        return limits.margins.empty() ? nullptr : &limits;
+        return limits.text.empty() ? nullptr : &limits;
     }
 };
 
@@ -74,9 +74,12 @@ inline std::unique_ptr<design_side> rival_of(design_side const& one,
     auto two = std::make_unique<design_side>(open, catalogue, other, find);
     if (two->task.dataset() != one.task.dataset())
         throw std::invalid_argument("--against: the two results are of different data sets");
-    if (two->about->problem.inputs.size() != one.about->problem.inputs.size())
-        throw std::invalid_argument(
-            "--against: an effect that acts in some experiments only cannot be told from others");
+    // The answer rests on both.
+    for (auto const& text : two->about->assumptions) {
+        auto& all = one.about->assumptions;
+        if (std::find(all.begin(), all.end(), text) == all.end())
+            all.push_back(text + " (with " + two->task.effects() + ")");
+    }
     return two;
 }
 
@@ -102,17 +105,17 @@ inline int run_design(sivid::recorded_model const& open,
         answer.first = task.effects();
         answer.second = two->task.effects();
     }
-    if (!c.out.empty()) prepare_folder(c.out);
-    watch_interrupts();
-    progress_line progress(c.quiet);
-    progress.note("an experiment after " + task.dataset());
     for (auto const& g : answer.goals) {
-        auto const instead = sivid::hidden_behind(model, about->direct.choice.unknown, g);
+        auto const instead = sivid::hidden_behind(model, about->direct.choice, g);
         if (!instead) continue;
         answer.hidden = g.text;
         answer.instead = *instead;
         break;
     }
+    if (!c.out.empty()) prepare_folder(c.out);
+    watch_interrupts();
+    progress_line progress(c.quiet);
+    progress.note("an experiment after " + task.dataset());
     auto page = task.page_options();
     std::optional<sivid::prediction> tubes;
     std::optional<std::string> scenario;
@@ -147,7 +150,9 @@ inline int run_design(sivid::recorded_model const& open,
         sivid::file_set files(c.out);
         files.add("design.html",
                   report::design_page(*about, answer, tubes ? &*tubes : nullptr, page).str());
-        files.add("design.json", sivid::design_json(*about, answer, task.json_options()));
+        auto options = task.json_options();
+        if (two) options.against_digest = two->task.json_options().source_digest;
+        files.add("design.json", sivid::design_json(*about, answer, options));
         if (scenario) files.add("scenario.json", *scenario);
         files.commit();
     }

@@ -758,6 +758,7 @@ TEST_CASE("design finds an experiment that keeps its promise, or says that none 
     refused({"--halve", "Sv", "--within", "psi"}, "requirement");
     refused({"--halve", "Sv", "--period", "1e-9"}, "million");
     refused({}, "--halve or --against");
+    refused({"--halve", "m"}, "the constants in it are known");
 
     // Where both models hold the one without effect, nothing tells them apart.
     std::vector<std::string> causes;

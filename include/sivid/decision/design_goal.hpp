@@ -6,6 +6,7 @@
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/graph.hpp>
 #include <sivid/model/model.hpp>
+#include <sivid/model/parameter_choice.hpp>
 
 #include <optional>
 #include <string>
@@ -28,13 +29,14 @@ struct design_goal {
 /// What no experiment can tell of a goal, by the model's equations.
 ///   Parameters that enter only in products can be scaled with all products fixed, and no output
 /// changes. A goal that is a product of parameters changes along, unless it is made of these.
-/// @param unknown  the constants that count as parameters
+/// @param choice  the parameters, and the values of the other constants: one that is 0 takes terms
+///                with it
 /// @returns the products that can be told instead; nothing when the equations do not forbid it, or
 ///          the goal is no product of powers
+/// @throws std::invalid_argument  where all constants of the goal are known
 /// @guarantee  proved from the structure of the equations, for any experiment and start
 [[nodiscard]] SIVID_DECL std::optional<std::vector<std::string>>
-hidden_behind(recorded_model const& model, std::vector<std::string> const& unknown,
-              design_goal const& goal);
+hidden_behind(recorded_model const& model, parameter_choice const& choice, design_goal const& goal);
 
 } // namespace sivid
 

@@ -13,6 +13,7 @@
 #include <sivid/paving/run_options.hpp>
 #include <sivid/space/box.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -64,6 +65,11 @@ public:
     motion_cover& operator=(motion_cover const&) = delete;
 
     [[nodiscard]] std::vector<double> const& times() const { return times_; }
+    /// Where a time of the grid stands in it.
+    [[nodiscard]] std::size_t instant_of(double time) const {
+        auto const at = std::lower_bound(times_.begin(), times_.end(), time);
+        return static_cast<std::size_t>(at - times_.begin());
+    }
     [[nodiscard]] std::size_t outputs() const { return flow_.channels(); }
     [[nodiscard]] std::size_t integrations() const { return integrations_; }
     [[nodiscard]] std::size_t at_once() const { return run_->at_once(); }
@@ -91,6 +97,8 @@ public:
     /// How far each side moves the states at the last instant that was reached, against their own
     /// ranges: what to halve where a part gets no further. Empty when nothing was reached.
     [[nodiscard]] std::vector<double> moved_by_sides(part const& p, view const& v) const;
+    /// The share of each side in all rests; 0 where it cannot be cut.
+    [[nodiscard]] std::vector<double> curved_by_sides(part const& p, view const& v) const;
     /// The side of the greatest score above 0, or none.
     [[nodiscard]] static std::size_t most(std::vector<double> const& scores);
     static constexpr std::size_t none = ~std::size_t{0};

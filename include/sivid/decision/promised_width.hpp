@@ -35,7 +35,7 @@ namespace sivid {
 ///   It does if no parameters and starts of the one and of the other fulfil \f$ |y_k(p, x) - z_k(q,
 /// w)| \le 2 \epsilon_k \f$ for all measurements: whatever the data show, they refute all of one
 /// model or all of the other.
-/// @param first, second  with the same channels, over the same time
+/// @param first, second  with the same inputs and channels, over the same time
 /// @returns `told_apart`, where that is proved
 /// @throws std::invalid_argument
 [[nodiscard]] SIVID_DECL promise tell_apart(prediction_problem const& first,

@@ -18,9 +18,10 @@ namespace sivid {
 
 /// What files of predictions and verifications say besides.
 struct decision_json_options {
-    std::string dataset{};       ///< id
-    std::string source_folder{}; ///< of the identification, seen from the file's folder
-    std::string source_digest{}; ///< SHA-256 of its result.json
+    std::string dataset{};        ///< id
+    std::string source_folder{};  ///< of the identification, seen from the file's folder
+    std::string source_digest{};  ///< SHA-256 of its result.json
+    std::string against_digest{}; ///< of a second result, of another model
     std::string scenario{};
     std::map<std::string, interval> set{};   ///< constants of the scenario, gains of the law
     std::string law{};                       ///< "" for none

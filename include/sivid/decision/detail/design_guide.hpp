@@ -70,24 +70,20 @@ private:
             for (std::size_t y = 0; y < answer->outputs(); ++y) {
                 double const error = 0.5 * width(answer->bounds[y]);
                 if (error > 0 && std::isfinite(error))
-                    known_.push_back(
-                        in_errors(0, small_run::slopes(*answer, y, column, columns_), error));
+                    known_.push_back(in_errors(
+                        0, stretched(small_run::slopes(*answer, y, column, columns_)), error));
             }
         }
+    }
+    /// Parameters may go beyond the sets: what does not help yet would all look the same.
+    [[nodiscard]] std::vector<double> stretched(std::vector<double> slope) const {
+        for (std::size_t v = 0; v < runs_.front().unknowns(); ++v) slope[v] *= 30;
+        return slope;
     }
     [[nodiscard]] static linear_row in_errors(double offset, std::vector<double> slope,
                                               double error) {
         for (double& x : slope) x /= error;
         return {offset / error, std::move(slope)};
-    }
-    /// Calls what(time, channel, error) for each planned measurement.
-    template <class What>
-    void for_each_measurement(What const& what) const {
-        for (double const t : plan_.times) {
-            for (std::size_t c = 0; c < plan_.errors.size(); ++c) {
-                if (plan_.errors[c] > 0) what(t, c, plan_.errors[c]);
-            }
-        }
     }
     [[nodiscard]] static minimax_block block_of(std::vector<linear_row> const& rows,
                                                 std::size_t columns, double margin) {
@@ -108,18 +104,12 @@ private:
         auto columns = std::max(columns_, run.unknowns());
         auto const column = small_run::columns_of(run.answer(), 0, columns);
         auto rows = known_;
-        for_each_measurement([&](double t, std::size_t c, double error) {
+        plan_.for_each([&](double t, std::size_t c, double error) {
             auto const y = run.place_of(t, c);
             if (y != small_run::none)
-                rows.push_back(
-                    in_errors(0, small_run::slopes(run.answer(), y, column, columns), error));
+                rows.push_back(in_errors(
+                    0, stretched(small_run::slopes(run.answer(), y, column, columns)), error));
         });
-        // Parameters may go beyond the sets here: what does not help yet would all look the same.
-        constexpr double beyond = 30;
-        auto const stretch = [&](std::vector<double>& slope) {
-            for (std::size_t v = 0; v < run.unknowns(); ++v) slope[v] *= beyond;
-        };
-        for (auto& r : rows) stretch(r.slope);
         std::vector<minimax_block> const blocks{block_of(rows, columns, 1)};
         double sum = 0;
         for (std::size_t g = 0; g < goals_; ++g) {
@@ -127,7 +117,7 @@ private:
             double before = 0, after = 0;
             for (double const x : goal) before += std::abs(x);
             if (!(before > 0)) continue;
-            stretch(goal);
+            goal = stretched(std::move(goal));
             auto const cut = cut_program(columns, blocks)(goal);
             for (std::size_t v = 0; v < columns && v < cut.point.size(); ++v)
                 after += goal[v] * cut.point[v];
@@ -142,7 +132,7 @@ private:
         auto const of_a = small_run::columns_of(a.answer(), 0, columns);
         auto const of_b = small_run::columns_of(b.answer(), a.unknowns(), columns);
         std::vector<linear_row> rows;
-        for_each_measurement([&](double t, std::size_t c, double error) {
+        plan_.for_each([&](double t, std::size_t c, double error) {
             auto const y = a.place_of(t, c), z = b.place_of(t, c);
             if (y == small_run::none || z == small_run::none) return;
             auto slope = small_run::slopes(a.answer(), y, of_a, columns);

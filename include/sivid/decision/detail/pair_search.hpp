@@ -98,15 +98,10 @@ private:
             : problem(p),
               outputs(p.model, goals),
               cover(p, outputs, time_cells(p, plan.times, p.end), run) {
-            auto const& grid = cover.times();
-            for (double const t : plan.times) {
-                auto const at = std::lower_bound(grid.begin(), grid.end(), t);
-                auto const k = static_cast<std::size_t>(at - grid.begin());
-                for (std::size_t c = 0; c < plan.errors.size(); ++c) {
-                    if (plan.errors[c] > 0)
-                        rows.push_back({k * cover.outputs() + outputs.channels[c], k});
-                }
-            }
+            plan.for_each([&](double t, std::size_t c, double) {
+                auto const k = cover.instant_of(t);
+                rows.push_back({k * cover.outputs() + outputs.channels[c], k});
+            });
         }
     };
     struct pair {
@@ -120,11 +115,9 @@ private:
     pair_search(planned_measurements const& plan, promise_options const& options)
         : options_(options), limit_(options.seconds, options.keep_going) {
         options_.run.enclosure.keep_going = limit_;
-        for (std::size_t k = 0; k < plan.times.size(); ++k) {
-            for (double const e : plan.errors) { // the next double: it may be a decimal just above
-                if (e > 0) twice_.push_back(2 * std::nextafter(e, HUGE_VAL));
-            }
-        }
+        plan.for_each([this](double, std::size_t, double e) { // it may be a decimal just above
+            twice_.push_back(2 * std::nextafter(e, HUGE_VAL));
+        });
     }
     [[nodiscard]] bool two_models() const { return motions_.size() == 2; }
     [[nodiscard]] motion_set& of_first() const { return *motions_.front(); }
@@ -247,13 +240,7 @@ private:
         auto const v = m.cover.look(p, true);
         if (!p.known->complete && v.reached < m.cover.times().size())
             return m.cover.moved_by_sides(p, v);
-        std::vector<double> result(m.cover.sides(), 0.0);
-        for (std::size_t side = 0; side < result.size(); ++side) {
-            auto const q = m.cover.variable_of(p, side);
-            if (q < v.curvature.size() && m.cover.share(p, side) > 0)
-                result[side] = v.curvature[q] + 1e-9 * m.cover.share(p, side);
-        }
-        return result;
+        return m.cover.curved_by_sides(p, v);
     }
     void halve(std::size_t index) {
         auto const whole = pairs_[index];

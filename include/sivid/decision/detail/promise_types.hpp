@@ -21,6 +21,15 @@ struct planned_measurements {
     /// Every `period` seconds, the end included.
     [[nodiscard]] static planned_measurements every(double period, double end,
                                                     std::vector<double> errors);
+    /// Calls what(time, channel, error) for each measurement.
+    template <class What>
+    void for_each(What const& what) const {
+        for (double const t : times) {
+            for (std::size_t c = 0; c < errors.size(); ++c) {
+                if (errors[c] > 0) what(t, c, errors[c]);
+            }
+        }
+    }
     /// @throws std::invalid_argument that names what does not fit
     void require_valid(prediction_problem const& p) const;
 };

@@ -68,9 +68,7 @@ public:
     }
     static constexpr std::size_t none = ~std::size_t{0};
     [[nodiscard]] std::size_t place_of(double time, std::size_t channel) const {
-        auto const& grid = cover_->times();
-        auto const at = std::lower_bound(grid.begin(), grid.end(), time);
-        auto const k = static_cast<std::size_t>(at - grid.begin());
+        auto const k = cover_->instant_of(time);
         return k < part_.known->reached ? k * cover_->outputs() + outputs_->channels[channel]
                                         : none;
     }

@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -55,6 +56,9 @@ inline std::optional<std::vector<int>> only_product(recorded_model model,
     for (auto& y : model.observe) y = node;
     model_detail::monomial_set found;
     model_detail::collect_monomials(sivid::bind(model, choice, inputs), found);
+    if (found.empty())
+        throw std::invalid_argument("a goal is the same for all parameters: the constants in it "
+                                    "are known");
     if (found.size() != 1) return std::nullopt;
     return *found.begin();
 }
@@ -65,22 +69,19 @@ SIVID_DECL design_goal parse_goal(std::string_view text, recorded_model& model) 
     return {std::string(text), decision_detail::goal_parser(text, model).read()};
 }
 
-SIVID_DECL std::optional<std::vector<std::string>>
-hidden_behind(recorded_model const& model, std::vector<std::string> const& unknown,
-              design_goal const& goal) {
-    // Starts that follow parameters tell of these, and a delay is no product.
-    if (!model.added_states.empty() || model.has_delays() || model.observe.empty())
-        return std::nullopt;
-    parameter_choice choice;
-    choice.unknown = unknown;
+SIVID_DECL std::optional<std::vector<std::string>> hidden_behind(recorded_model const& model,
+                                                                 parameter_choice const& choice,
+                                                                 design_goal const& goal) {
+    if (model.has_delays() || model.observe.empty()) return std::nullopt; // a delay is no product
     // Inputs that take no term with them.
     std::vector<signal> const inputs(model.about.inputs.size(),
                                      sampled_signal({0.0, 1.0}, {0.3, 0.7}, interpolation::linear));
     auto const wanted = decision_detail::only_product(model, choice, inputs, goal.value);
-    if (!wanted) return std::nullopt;
+    // Starts that follow parameters tell of these.
+    if (!wanted || !model.added_states.empty()) return std::nullopt;
     auto const bound = sivid::bind(model, choice, inputs);
     auto const all = find_combinations(std::vector<bound_model const*>{&bound});
-    integer_span told(unknown.size());
+    integer_span told(choice.unknown.size());
     for (auto const& p : all.products) told.add(p.exponents);
     if (told.contains(*wanted)) return std::nullopt;
     std::vector<std::string> instead;

@@ -261,6 +261,15 @@ SIVID_DECL std::vector<double> motion_cover::moved_by_sides(part const& p, view 
     return moved;
 }
 
+SIVID_DECL std::vector<double> motion_cover::curved_by_sides(part const& p, view const& v) const {
+    std::vector<double> curved(sides(), 0.0);
+    for (std::size_t side = 0; side < sides(); ++side) {
+        auto const q = variable_of(p, side);
+        if (q < v.curvature.size() && share(p, side) > 0) curved[side] = v.curvature[q];
+    }
+    return curved;
+}
+
 SIVID_DECL std::size_t motion_cover::most(std::vector<double> const& scores) {
     auto const best = std::max_element(scores.begin(), scores.end());
     return best != scores.end() && *best > 0 ? static_cast<std::size_t>(best - scores.begin())

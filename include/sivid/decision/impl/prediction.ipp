@@ -176,7 +176,7 @@ private:
             if (taken == cover_->at_once() || heavy < 0.05 * found.holders.front().first) break;
             ++taken;
             bool const worn = lost_share(*i) > 0.4;
-            auto const side = most_curved(*i);
+            auto const side = motion_cover::most(cover_->curved_by_sides(i->what, i->seen));
             auto halves =
                 side == motion_cover::none ? cover_->split(i->what) : cover_->split(i->what, side);
             if (halves.empty()) {
@@ -209,20 +209,6 @@ private:
         }
         return all > 0 ? lost / all : 1;
     }
-    [[nodiscard]] std::size_t most_curved(item const& i) const {
-        std::size_t best = motion_cover::none;
-        double most = 0;
-        for (std::size_t side = 0; side < cover_->sides(); ++side) {
-            auto const v = cover_->variable_of(i.what, side);
-            if (v == motion_cover::none || v >= i.seen.curvature.size()) continue;
-            if (i.seen.curvature[v] > most) {
-                most = i.seen.curvature[v];
-                best = side;
-            }
-        }
-        return best;
-    }
-
     /// What a part's motion and the measurements say together.
     struct measured_part {
         response_list known; ///< the measured ones, then the motion

@@ -76,8 +76,14 @@ SIVID_DECL promise tell_apart(prediction_problem const& first, prediction_proble
         p->require_valid();
         plan.require_valid(*p);
     }
-    if (first.end != second.end)
-        throw std::invalid_argument("tell_apart: both models run over the same time");
+    auto const same = [](auto const& a, auto const& b) {
+        return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                          [](auto const& x, auto const& y) { return x.name == y.name; });
+    };
+    if (first.end != second.end || !same(first.model.about.channels, second.model.about.channels) ||
+        !same(first.model.about.inputs, second.model.about.inputs))
+        throw std::invalid_argument("tell_apart: both models need the same inputs (no effect that "
+                                    "acts in some experiments only), channels and duration");
     auto const begun = std::chrono::steady_clock::now();
     auto result = decision_detail::pair_search(first, second, plan, options)();
     result.seconds =

@@ -288,7 +288,13 @@ SIVID_DECL std::string design_json(stored_prediction const& about, design_answer
                               : found.met()              ? "met"
                               : best != nullptr && goals ? "less"
                                                          : "open");
-    if (!goals) json.key("first").string(found.first).key("second").string(found.second);
+    if (!goals)
+        json.key("first")
+            .string(found.first)
+            .key("second")
+            .string(found.second)
+            .key("second_sha256")
+            .string(options.against_digest);
     json.key("target").nearest(found.target).key("limits").string(found.limits);
     json.key("hidden").string(found.hidden).key("instead").begin_array();
     for (auto const& text : found.instead) json.string(text);

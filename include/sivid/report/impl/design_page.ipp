@@ -114,10 +114,11 @@ inline void add_tried(page& out, design_answer const& a) {
                           a.limits.empty() ? "none"
                           : m.limits       ? std::string{to_string(*m.limits)}
                                            : "not asked"});
-    t.caption =
-        "Each shape with its best settings. The estimate, of the share that is left, treats "
-        "outputs as linear about the middle: it chooses, and proves nothing. Shapes that "
-        "cannot be run, or pass the limits in the middle, are left out.";
+    t.caption = std::string{"Each shape with its best settings. The estimate, of "} +
+                (a.goals.empty() ? "the errors against those that would still tell, "
+                                 : "the share that is left, ") +
+                "treats outputs as linear about the middle: it chooses, and proves nothing. Shapes "
+                "that cannot be run, or pass the limits in the middle, are left out.";
     out.section("What was tried");
     out.add(t);
 }
@@ -150,8 +151,7 @@ SIVID_DECL std::string design_sentence(design_answer const& a) {
                    ? "No shape in these limits could be followed within them in the middle of the "
                      "parameters: give wider limits, a shorter scenario, or more time."
                    : "No shape whose limits are kept for all parameters has a proved promise: give "
-                     "wider "
-                     "limits or more time.";
+                     "wider limits or more time.";
     if (a.goals.empty())
         return a.met() ? "Whatever the truth among the parameters of both and whatever the errors "
                          "are, its data refute all of " +
