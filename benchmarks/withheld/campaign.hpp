@@ -77,6 +77,9 @@ struct campaign {
     std::string noise;                       // the shape of the noise
 };
 
+/// What a campaign of a family leaves open, with its priors.
+std::vector<unknown_constant> unknown_constants(family kind);
+
 inline constexpr channels error_bound{0.02, 0.02, 0.05, 0.02, 0.02, 0.03};
 
 /// floor(fraction n), exact in decimals for fractions of two digits.

@@ -30,7 +30,7 @@ std::string interval_text(range r) {
 
 std::string inputs_text(scenario const& s) {
     std::string text = "t,W,delta\n";
-    for (std::size_t i = 0; i < s.motor.t.size(); ++i)
+    for (std::size_t i = 0; i < s.motor.t.size(); i += s.held ? 2 : 1)
         text += decimal_text(s.motor.t[i]) + ',' + decimal_text(s.motor.value[i]) + ',' +
                 decimal_text(s.rudder.value[i]) + '\n';
     return text;
@@ -50,17 +50,22 @@ std::string measurements_text(campaign const& c, measured_scenario const& s) {
     return text + '\n';
 }
 
+} // namespace
+
 std::string scenario_text(scenario const& s) {
     std::string text = R"(    {"name": ")" + s.name + R"(", "role": ")" +
                        (s.holdout ? "holdout" : "fit") + R"(", "duration": )" +
                        decimal_text(s.duration) + R"(, "inputs": ")" + s.name +
-                       R"(.inputs.csv", "interpolation": "linear", "measurements": ")" + s.name +
+                       R"(.inputs.csv", "interpolation": ")" + (s.held ? "hold" : "linear") +
+                       R"(", "measurements": ")" + s.name +
                        ".measurements.csv\",\n     \"initial\": {";
     for (std::size_t i = 0; i < channel_count; ++i)
         text += (i == 0 ? "\"" : ", \"") + std::string{channel_names[i]} +
                 "\": " + interval_text(s.initial[i]);
     return text + "}}";
 }
+
+namespace {
 
 std::string dataset_text(campaign const& c) {
     std::string text = "{\n  \"format\": \"sivid-dataset-1\",\n  \"id\": \"" + c.id +
@@ -158,13 +163,15 @@ std::string best_of_parts(campaign const& c, recording const& data, best_fit con
 
 } // namespace
 
+void write_tables(campaign const& c, measured_scenario const& s, fs::path const& folder) {
+    write_file(folder / (s.plan.name + ".inputs.csv"), inputs_text(s.plan));
+    write_file(folder / (s.plan.name + ".measurements.csv"), measurements_text(c, s));
+}
+
 void write_dataset(campaign const& c, fs::path const& folder) {
     fs::create_directories(folder);
     write_file(folder / "dataset.json", dataset_text(c));
-    for (auto const& s : c.scenarios) {
-        write_file(folder / (s.plan.name + ".inputs.csv"), inputs_text(s.plan));
-        write_file(folder / (s.plan.name + ".measurements.csv"), measurements_text(c, s));
-    }
+    for (auto const& s : c.scenarios) write_tables(c, s, folder);
 }
 
 std::string labels_header() {

@@ -14,6 +14,11 @@ namespace withheld {
 /// them.
 void write_dataset(campaign const& c, std::filesystem::path const& folder);
 
+/// What dataset.json says of a scenario, and its two tables.
+std::string scenario_text(scenario const& s);
+void write_tables(campaign const& c, measured_scenario const& s,
+                  std::filesystem::path const& folder);
+
 /// Tab-separated; the first four columns say what is true, the others help to judge what is
 /// reported.
 std::string labels_header();

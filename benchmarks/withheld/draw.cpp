@@ -65,6 +65,8 @@ std::size_t ordinal(std::uint64_t seed, std::size_t index, family kind,
     return n;
 }
 
+} // namespace
+
 std::vector<unknown_constant> unknown_constants(family kind) {
     std::vector<unknown_constant> all{{"Sv", "m^2", {0.2, 0.25}}, {"Sg", "m^2", {0.0042, 0.0754}}};
     if (kind == family::wide)
@@ -77,6 +79,8 @@ std::vector<unknown_constant> unknown_constants(family kind) {
     all.push_back({"L", "m", {0.25, 0.35}});
     return all;
 }
+
+namespace {
 
 /// Truth lies inside its prior, and the rudder is neither useless nor wild.
 double drawn_constant(unknown_constant const& u, random_source& random) {

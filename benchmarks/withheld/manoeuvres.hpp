@@ -24,6 +24,8 @@ struct scenario {
     polyline motor, rudder;
     std::array<range, channel_count> initial{};
     std::vector<double> sample_times;
+    /// Commands hold: every second knot begins one, the others end one a nanosecond before the next.
+    bool held = false;
 };
 
 /// Six decimals, as in the files: what is simulated is what is written.

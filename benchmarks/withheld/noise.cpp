@@ -66,6 +66,10 @@ std::size_t outlier_budget(double fraction, std::size_t samples) {
     return hundredths * samples / 100;
 }
 
+void add_uniform_noise(measured_scenario& s, random_source& random) {
+    add_noise(s, shape::uniform, 1, {1, 1, 1, 1, 1, 1}, random);
+}
+
 void measure(campaign& c, random_source& random) {
     double const kind = random.uniform(0, 1);
     shape const noise = kind < 0.7   ? shape::uniform

@@ -11,6 +11,10 @@ namespace withheld {
 /// outliers.
 void measure(campaign& c, random_source& random);
 
+/// What the sensors would say of a single run: uniform noise within the bounds.
+/// @given  its truth
+void add_uniform_noise(measured_scenario& s, random_source& random);
+
 } // namespace withheld
 
 #endif

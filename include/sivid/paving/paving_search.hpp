@@ -258,11 +258,17 @@ private:
     }
     [[nodiscard]] std::optional<std::size_t> split_side(box const& x,
                                                         std::vector<double> const& smear) {
-        auto const side = paving_detail::side_to_split(x, whole_, smear, options_.accuracy);
-        if (side || !options_.accuracy_of_hull || 4 * tested_ < 5 * measured_at_) return side;
+        auto const side_wider_than = [&](double share) {
+            return paving_detail::side_to_split(x, whole_, smear, share);
+        };
+        auto const side = side_wider_than(options_.accuracy);
+        if (!options_.accuracy_of_hull || 4 * tested_ < 5 * measured_at_) return side;
+        // An outdated hull must not rule out the side that matters most: what is left for it is
+        // halved along sides that say nothing, again and again.
+        if (side && side == side_wider_than(0)) return side;
         whole_ = waiting_.hull(hull(paving_.outer_hull(), x));
         measured_at_ = tested_;
-        return paving_detail::side_to_split(x, whole_, smear, options_.accuracy);
+        return side_wider_than(options_.accuracy);
     }
 
     /// What a test found about a box goes into the paving, and its parts wait.
