@@ -30,9 +30,12 @@ std::string interval_text(range r) {
 
 std::string inputs_text(scenario const& s) {
     std::string text = "t,W,delta\n";
-    for (std::size_t i = 0; i < s.motor.t.size(); i += s.held ? 2 : 1)
+    for (std::size_t i = 0; i < s.motor.t.size(); ++i) {
+        bool const ends_hold = s.held && i % 2 == 1 && i + 1 < s.motor.t.size();
+        if (ends_hold) continue;
         text += decimal_text(s.motor.t[i]) + ',' + decimal_text(s.motor.value[i]) + ',' +
                 decimal_text(s.rudder.value[i]) + '\n';
+    }
     return text;
 }
 
@@ -53,12 +56,11 @@ std::string measurements_text(campaign const& c, measured_scenario const& s) {
 } // namespace
 
 std::string scenario_text(scenario const& s) {
-    std::string text = R"(    {"name": ")" + s.name + R"(", "role": ")" +
-                       (s.holdout ? "holdout" : "fit") + R"(", "duration": )" +
-                       decimal_text(s.duration) + R"(, "inputs": ")" + s.name +
-                       R"(.inputs.csv", "interpolation": ")" + (s.held ? "hold" : "linear") +
-                       R"(", "measurements": ")" + s.name +
-                       ".measurements.csv\",\n     \"initial\": {";
+    std::string text =
+        R"(    {"name": ")" + s.name + R"(", "role": ")" + (s.holdout ? "holdout" : "fit") +
+        R"(", "duration": )" + decimal_text(s.duration) + R"(, "inputs": ")" + s.name +
+        R"(.inputs.csv", "interpolation": ")" + (s.held ? "hold" : "linear") +
+        R"(", "measurements": ")" + s.name + ".measurements.csv\",\n     \"initial\": {";
     for (std::size_t i = 0; i < channel_count; ++i)
         text += (i == 0 ? "\"" : ", \"") + std::string{channel_names[i]} +
                 "\": " + interval_text(s.initial[i]);

@@ -43,7 +43,7 @@ label parsed(std::vector<std::string> const& header, std::vector<std::string> co
             std::erase(part, ' ');
             l.effects.push_back(call(part));
         }
-    for (auto const& part : split(cells[3], ' ')) {
+    for (auto const& part : split(cells[3] == "not kept" ? "" : cells[3], ' ')) {
         auto const equals = part.find('=');
         if (equals == std::string::npos) throw std::runtime_error("no value in " + part);
         l.constants_true[part.substr(0, equals)] = std::stod(part.substr(equals + 1));

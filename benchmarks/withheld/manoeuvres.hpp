@@ -24,7 +24,8 @@ struct scenario {
     polyline motor, rudder;
     std::array<range, channel_count> initial{};
     std::vector<double> sample_times;
-    /// Commands hold: every second knot begins one, the others end one a nanosecond before the next.
+    /// Commands hold: every second knot begins one, the others end one a nanosecond before the
+    /// next.
     bool held = false;
 };
 

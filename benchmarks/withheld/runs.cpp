@@ -82,8 +82,9 @@ scenario read_plan(fs::path const& file, double period) {
     s.duration = j.at("duration").get<double>();
     for (std::size_t k = 0; k < channel_count; ++k) {
         auto const& start = j.at("initial").at(std::string{channel_names[k]});
-        s.initial[k] = start.is_array() ? range{start.at(0).get<double>(), start.at(1).get<double>()}
-                                        : range{start.get<double>(), start.get<double>()};
+        s.initial[k] = start.is_array()
+                           ? range{start.at(0).get<double>(), start.at(1).get<double>()}
+                           : range{start.get<double>(), start.get<double>()};
     }
     s.motor = read_shape(j.at("inputs").at("W"), s.duration);
     s.rudder = read_shape(j.at("inputs").at("delta"), s.duration);
@@ -121,15 +122,26 @@ measured_scenario performed(label const& truth, scenario plan, control_law const
     for (int k = 0; k * period + delay < plan.duration; ++k) {
         double const t = k * period;
         // From the start anew each time: delays, lags and latencies need no memory of ours.
-        auto const shown = k == 0 ? start
-                                  : readings(true_world(truth, {}, plan), start, {t}, 2e-3).front();
-        act(k == 0 ? 0.0 : six_decimals(t + delay), law(noisy(shown)));
+        auto const shown =
+            k == 0 ? start : readings(true_world(truth, {}, plan), start, {t}, 2e-3).front();
+        act(k == 0 ? 0.0 : six_decimals(t + delay), law(t, noisy(shown)));
     }
     for (auto* line : {&plan.motor, &plan.rudder}) {
         line->t.push_back(plan.duration);
         line->value.push_back(line->value.back());
     }
     return measured(truth, std::move(plan), random);
+}
+
+std::vector<channels> true_channels(label const& truth, measured_scenario const& run,
+                                    std::vector<double> const& times) {
+    std::vector<channels> all;
+    for (auto const& s :
+         states_at(true_world(truth, {}, run.plan), run.initial, times, careful_step)) {
+        all.emplace_back();
+        std::copy_n(s.begin(), channel_count, all.back().begin());
+    }
+    return all;
 }
 
 void write_records(fs::path const& dataset, fs::path const& out, std::string const& id,

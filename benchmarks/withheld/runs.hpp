@@ -22,14 +22,18 @@ scenario read_plan(std::filesystem::path const& file, double period);
 /// The run with its noise.
 measured_scenario performed(label const& truth, scenario plan, random_source& random);
 
-/// What commands W and delta, of what the sensors show.
-using control_law = std::function<command(channels const& shown)>;
+/// What commands W and delta, of the time and of what the sensors show.
+using control_law = std::function<command(double t, channels const& shown)>;
 
 /// The run under a law that is computed from a sample every `period`; its command acts `delay`
 /// later and is held. Before the first one acts, the inputs are what it says of the first.
 /// @returns  with the commands as the plan's inputs: lines that jump within a nanosecond
 measured_scenario performed(label const& truth, scenario plan, control_law const& law,
                             double period, double delay, random_source& random);
+
+/// u, v, r, x, y, psi of a run at increasing times, without sensors.
+std::vector<channels> true_channels(label const& truth, measured_scenario const& run,
+                                    std::vector<double> const& times);
 
 /// Writes the records of `dataset` (none when empty) and these into `out`, as one data set.
 /// @param id  its name; empty: that of `dataset`

@@ -27,6 +27,7 @@ struct decision_command {
     std::vector<std::string> measure; ///< error bounds of what is measured: psi=0.01
     double duration = 0;              ///< of the experiment [s]; 0: as the scenario
     double period = 0;                ///< of measurements [s]; 0: as in the data
+    std::string name;                 ///< of the designed experiment; empty: SCENARIO-design
     double target = 0.5;              ///< the share of its width that a goal may keep
     double budget = 10;               ///< [s]
     bool quiet = false;

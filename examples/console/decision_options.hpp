@@ -74,6 +74,9 @@ inline void add_design(CLI::App& s, decision_command& c) {
     s.add_option("--within", c.requirement,
                  "what has to hold of the motion for all parameters, such as \"always(abs(psi) < "
                  "1)\"");
+    s.add_option("--name", c.name,
+                 "of the experiment, in scenario.json; not given: that of the scenario and "
+                 "\"-design\"");
     s.add_option("--measure", c.measure,
                  "what is measured and with which error at most, such as psi=0.01; not given: the "
                  "channels of the data, with their largest error");

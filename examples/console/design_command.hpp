@@ -136,7 +136,7 @@ inline int run_design(sivid::recorded_model const& open,
             about->problem = about->problem.under(best->inputs);
             about->direct = about->direct.under(best->inputs);
             if (task.described())
-                scenario = scenario_with(*task.described(), report::design_sentence(answer),
+                scenario = scenario_with(*task.described(), c.name, report::design_sentence(answer),
                                          answer.varied, best->inputs, names_of(model.about));
             double const left = std::max(0.2, c.budget - progress.elapsed());
             if (!c.out.empty()) {

@@ -80,13 +80,14 @@ planned_from(std::vector<std::string> const& errors, double period, double end,
 }
 
 /// A scenario with other inputs, as a file.
+/// @param name    empty: that of the scenario and "-design"
 /// @param inputs  lines between samples, where they vary
 [[nodiscard]] inline std::string scenario_with(sivid::scenario_description s,
-                                               std::string const& about,
+                                               std::string const& name, std::string const& about,
                                                std::vector<sivid::varied_input> const& varied,
                                                std::vector<sivid::signal> const& inputs,
                                                sivid::model_names const& names) {
-    s.name += "-design";
+    s.name = name.empty() ? s.name + "-design" : name;
     s.about = about;
     for (auto const& u : varied) {
         auto const& samples = std::get<sivid::sampled_signal>(inputs[u.index]);

@@ -239,6 +239,28 @@ TEST_CASE("a smear that says nothing does not stop the splitting") {
     }
 }
 
+TEST_CASE("a thin set is not halved along sides that say nothing of it") {
+    // What the prior leaves for the first of four unknowns is narrower than the accuracy at once.
+    auto const thin = [](box const& b) {
+        assessment<> a{box_verdict::undecided, b};
+        auto const set = between(0.50001, 0.50002);
+        a.rest[0] = traits::intersect(b[0], set);
+        if (is_empty(a.rest)) a.verdict = box_verdict::outside;
+        // Nothing is seen to be inside of what is wider than a part of it.
+        else if (width(b[0]) < 0.1 * width(set)) a.verdict = box_verdict::inside;
+        a.smear = {1, 0, 0, 0};
+        return a;
+    };
+    inversion_options options;
+    options.accuracy = 0.003;
+    options.accuracy_of_hull = true;
+    options.boxes = 100000;
+    options.sufficient_ratio = 1;
+    auto const found = invert(thin, box(std::vector(4, between(0, 1))), options);
+    CHECK(found.tested < 200);
+    CHECK(found.reason == stop_reason::decided);
+}
+
 TEST_CASE("knowledge is handed to parts of its box only") {
     struct remembering {
         struct knowledge {
