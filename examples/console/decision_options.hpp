@@ -60,13 +60,13 @@ inline void add_design(CLI::App& s, decision_command& c) {
     auto* const halve = s.add_option(
         "--halve", c.goal,
         "what is to become known better: a parameter, or an expression of parameters such "
-        "as \"L * Sg\"; several: each of them");
+        "as \"L * Sg\"; several: each of them; volume: all of them together");
     auto* const against =
         s.add_option("--against", c.against,
                      "another result for the same data, with other effects: the experiment is to "
                      "refute one of the two models, whichever it is");
     halve->excludes(against);
-    s.add_option("--share", c.target, "the share of its width that each may keep")
+    s.add_option("--share", c.target, "the share of its width, or of the volume, that may be left")
         ->check(number_between(0.0, 1.0))
         ->capture_default_str();
     s.add_option("--vary", c.vary, "inputs that may be chosen, and their limits, such as W=0:100")

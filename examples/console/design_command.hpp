@@ -20,6 +20,7 @@
 #include <sivid/report/number_text.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <iostream>
 #include <memory>
@@ -31,6 +32,15 @@
 namespace console {
 
 namespace detail {
+
+/// Whether all that can be told is to be narrowed down together.
+/// @throws std::invalid_argument
+inline bool volume_asked(decision_command const& c) {
+    bool const volume = std::find(c.goal.begin(), c.goal.end(), "volume") != c.goal.end();
+    if (volume && c.goal.size() > 1)
+        throw std::invalid_argument("--halve volume is of all parameters: give it alone");
+    return volume;
+}
 
 /// A result with what is asked of its motions.
 struct design_side {
@@ -45,10 +55,12 @@ struct design_side {
         : task(open, catalogue, c, find), model(task.model()) {
         if (!c.requirement.empty()) limits = parse_requirement(c.requirement, model, task.end());
         auto nodes = limits.margins;
-        for (auto const& text : c.goal) {
-            goals.push_back(sivid::parse_goal(text, model));
-            nodes.push_back(goals.back().value);
+        if (volume_asked(c)) {
+            goals = sivid::all_goals(model, task.data().choice);
+        } else {
+            for (auto const& text : c.goal) goals.push_back(sivid::parse_goal(text, model));
         }
+        for (auto const& g : goals) nodes.push_back(g.value);
         about = task.prediction_for(model, nodes);
     }
     design_side(design_side const&) = delete; // the task refers to its command
@@ -97,6 +109,7 @@ inline int run_design(sivid::recorded_model const& open,
     auto const& [task, model, limits, goals, about] = one;
     sivid::design_answer answer;
     answer.target = c.target;
+    answer.jointly = detail::volume_asked(c);
     answer.limits = c.requirement;
     answer.plan = planned_from(c.measure, c.period, task.end(), task.data());
     answer.varied = task.varied();
@@ -124,7 +137,9 @@ inline int run_design(sivid::recorded_model const& open,
                                                   mid(about->problem.initial), about->problem.end);
         sivid::design_options options;
         options.seconds = 0.8 * c.budget;
-        options.target = c.target;
+        options.target = answer.jointly
+                             ? std::pow(c.target, 1.0 / static_cast<double>(answer.goals.size()))
+                             : c.target;
         options.keep_going = [] { return !console::interrupted(); };
         answer.found =
             two ? sivid::design_separation(about->problem, two->about->problem, menu, answer.plan,

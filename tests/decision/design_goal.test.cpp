@@ -30,6 +30,18 @@ TEST_CASE("what the equations hide is said before anything is tried") {
     CHECK(tells("p1", {"p0", "p1"})); // the other one is known
 }
 
+TEST_CASE("all goals are what experiments can tell of all parameters") {
+    auto p = driven_cart(4);
+    auto const texts = [&](std::vector<std::string> const& unknown) {
+        std::string all;
+        for (auto const& g : sivid::all_goals(p.model, {unknown, {}})) all += g.text + " ";
+        return all;
+    };
+    CHECK(texts({"p0", "p1", "p2"}) == "p0 p1*p2 ");
+    CHECK(texts({"p2", "p1"}) == "p2*p1 ");
+    CHECK(texts({"p1", "p0"}) == "p1 p0 ");
+}
+
 TEST_CASE("a known constant counts with its value, not with the one that the model names") {
     sivid::prediction_problem p;
     p.model = support::model_of(

@@ -733,6 +733,17 @@ TEST_CASE("design finds an experiment that keeps its promise, or says that none 
         run({"verify", result, "--scenario", scenario, "--require", "always(abs(psi) < 2)"});
     CHECK(kept.code == 0);
 
+    auto const next = folder.path() / "next";
+    auto const whole = asked({"--duration", "6", "--vary", "W=0:200", "--halve", "volume", "--name",
+                              "next", "--out", next.string()});
+    CHECK(whole.code == 0);
+    CHECK_THAT(whole.out, ContainsSubstring("an experiment for the volume in Sv, Sg*L is found") &&
+                              ContainsSubstring("of the volume of now"));
+    auto const volume = json_of(next / "design.json");
+    CHECK(volume["jointly"] == true);
+    CHECK(volume["share_of_volume"] <= 0.5);
+    CHECK(json_of(next / "scenario.json")["name"] == "next");
+
     auto const none = asked({"--halve", "L"});
     CHECK(none.code == 5);
     CHECK_THAT(none.out, ContainsSubstring("no experiment tells L") && ContainsSubstring("Sg*L"));
@@ -758,6 +769,7 @@ TEST_CASE("design finds an experiment that keeps its promise, or says that none 
     refused({"--halve", "Sv", "--within", "psi"}, "requirement");
     refused({"--halve", "Sv", "--period", "1e-9"}, "million");
     refused({}, "--halve or --against");
+    refused({"--halve", "Sv", "--halve", "volume"}, "give it alone");
     refused({"--halve", "m"}, "the constants in it are known");
 
     // Where both models hold the one without effect, nothing tells them apart.

@@ -71,6 +71,18 @@ TEST_CASE("a page shows the experiment, its promise and what else was tried") {
     CHECK_THAT(text, ContainsSubstring("u&lt;"));
 }
 
+TEST_CASE("a page says what is left of the volume") {
+    designed d("");
+    d.answer.jointly = true;
+    auto const text = d.page();
+    CHECK(markup_error(body_of(text)) == "");
+    CHECK(d.answer.met());
+    CHECK_THAT(text, ContainsSubstring("An experiment for the volume in p0 is found") &&
+                         ContainsSubstring("of the volume of now (proved)"));
+    d.answer.target = 0;
+    CHECK(!d.answer.met());
+}
+
 TEST_CASE("a page says what is not promised, or hidden") {
     designed const less("always(abs(x0) < 0.3)", 1e-6);
     REQUIRE(less.answer.found.best() != nullptr);

@@ -38,6 +38,12 @@ struct design_goal {
 [[nodiscard]] SIVID_DECL std::optional<std::vector<std::string>>
 hidden_behind(recorded_model const& model, parameter_choice const& choice, design_goal const& goal);
 
+/// All that experiments can tell of the parameters: each that the equations do not hide, and of the
+/// others the products that can be told instead. As goals they are the sides of a box.
+/// @throws std::invalid_argument
+[[nodiscard]] SIVID_DECL std::vector<design_goal> all_goals(recorded_model& model,
+                                                            parameter_choice const& choice);
+
 } // namespace sivid
 
 #ifndef SIVID_COMPILED

@@ -64,7 +64,8 @@ struct experiment_design {
 struct design_answer {
     std::vector<design_goal> goals;
     std::string first, second; ///< the two models, in words
-    double target = 0.5;       ///< the share of its width that each goal is to keep
+    double target = 0.5;       ///< the share of its width that each goal is to keep,
+    bool jointly = false;      ///< or, of the volume of their box, all of them together
     planned_measurements plan;
     std::string limits; ///< "" for none
     std::vector<varied_input> varied;
@@ -73,11 +74,12 @@ struct design_answer {
     std::vector<std::string> instead;
     experiment_design found;
 
-    /// Every goal keeps at most its share, proved.
+    /// Every goal, or their box, keeps at most its share, proved.
     [[nodiscard]] bool met() const {
         auto const* best = found.best();
         if (best == nullptr) return false;
         if (goals.empty()) return best->promised->told_apart;
+        if (jointly) return best->factor() <= target;
         for (auto const& g : best->promised->goals) {
             if (!(g.factor() <= target)) return false;
         }

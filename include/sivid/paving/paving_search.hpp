@@ -258,17 +258,14 @@ private:
     }
     [[nodiscard]] std::optional<std::size_t> split_side(box const& x,
                                                         std::vector<double> const& smear) {
-        auto const side_wider_than = [&](double share) {
-            return paving_detail::side_to_split(x, whole_, smear, share);
-        };
-        auto const side = side_wider_than(options_.accuracy);
-        if (!options_.accuracy_of_hull || 4 * tested_ < 5 * measured_at_) return side;
-        // An outdated hull must not rule out the side that matters most: what is left for it is
-        // halved along sides that say nothing, again and again.
-        if (side && side == side_wider_than(0)) return side;
+        using paving_detail::side_to_split;
+        auto const side = side_to_split(x, whole_, smear, options_.accuracy);
+        // Where an old hull rules out the best side, those that say nothing would be halved.
+        bool const best = side && side == side_to_split(x, whole_, smear, 0);
+        if (best || !options_.accuracy_of_hull || 4 * tested_ < 5 * measured_at_) return side;
         whole_ = waiting_.hull(hull(paving_.outer_hull(), x));
         measured_at_ = tested_;
-        return side_wider_than(options_.accuracy);
+        return side_to_split(x, whole_, smear, options_.accuracy);
     }
 
     /// What a test found about a box goes into the paving, and its parts wait.

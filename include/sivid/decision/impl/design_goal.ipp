@@ -11,6 +11,7 @@
 #include <sivid/model/parameter_choice.hpp>
 #include <sivid/space/integer_span.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
@@ -92,6 +93,21 @@ SIVID_DECL std::optional<std::vector<std::string>> hidden_behind(recorded_model 
         if (shared) instead.push_back(c.formula);
     }
     return instead;
+}
+
+SIVID_DECL std::vector<design_goal> all_goals(recorded_model& model,
+                                              parameter_choice const& choice) {
+    std::vector<design_goal> all;
+    auto const add = [&](std::string const& text) {
+        if (std::none_of(all.begin(), all.end(), [&](auto const& g) { return g.text == text; }))
+            all.push_back(parse_goal(text, model));
+    };
+    for (auto const& name : choice.unknown) {
+        auto const instead = hidden_behind(model, choice, parse_goal(name, model));
+        if (!instead) add(name);
+        for (auto const& product : instead.value_or(std::vector<std::string>{})) add(product);
+    }
+    return all;
 }
 
 } // namespace sivid

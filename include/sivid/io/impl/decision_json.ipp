@@ -295,7 +295,9 @@ SIVID_DECL std::string design_json(stored_prediction const& about, design_answer
             .string(found.second)
             .key("second_sha256")
             .string(options.against_digest);
-    json.key("target").nearest(found.target).key("limits").string(found.limits);
+    json.key("target").nearest(found.target).key("jointly").boolean(found.jointly);
+    if (best != nullptr && goals) json.key("share_of_volume").upper_bound(best->factor());
+    json.key("limits").string(found.limits);
     json.key("hidden").string(found.hidden).key("instead").begin_array();
     for (auto const& text : found.instead) json.string(text);
     json.end_array();

@@ -25,7 +25,7 @@ inline std::string goal_texts(design_answer const& a) {
     if (a.goals.empty()) return a.first + " or " + a.second;
     std::string text;
     for (auto const& g : a.goals) text += (text.empty() ? "" : ", ") + g.text;
-    return text;
+    return a.jointly ? "the volume in " + text : text;
 }
 
 /// The inputs of a manoeuvre over time.
@@ -168,6 +168,9 @@ SIVID_DECL std::string design_sentence(design_answer const& a) {
                 at_most_percent(w.factor()) + " of the " + rounded_text(w.before, rounding::down) +
                 " of now";
     }
+    if (a.jointly)
+        text += "; the box of these has at most " + at_most_percent(best->factor()) +
+                " of the volume of now";
     return text + " (proved).";
 }
 
@@ -189,7 +192,7 @@ SIVID_DECL page design_page(stored_prediction const& about, design_answer const&
         std::vector<card> cards;
         if (best != nullptr && !a.goals.empty())
             cards.push_back({"left", "\xE2\x89\xA4 " + at_most_percent(best->factor()),
-                             a.goals.size() == 1 ? "of the width" : "of the widths' product"});
+                             a.goals.size() == 1 ? "of the width" : "of the volume"});
         cards.push_back({"settings looked at", count_text(a.found.simulated), ""});
         cards.push_back({"time", duration_text(a.found.seconds), ""});
         out.cards(cards);
