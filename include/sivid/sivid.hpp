@@ -210,6 +210,7 @@
 #include <sivid/paving/mean_value_program.hpp>
 #include <sivid/paving/misfit.hpp>
 #include <sivid/paving/misfit_block.hpp>
+#include <sivid/paving/oblique_products.hpp>
 #include <sivid/paving/observer_refutation.hpp>
 #include <sivid/paving/online_identification.hpp>
 #include <sivid/paving/outlier_budget.hpp>

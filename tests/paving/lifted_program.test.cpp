@@ -37,7 +37,7 @@ TEST_CASE("nothing that meets all measurements lies beyond what a lifted program
             double const low = d.uniform(-1, 1), high = d.uniform(low, 1);
             starts.push_back(is_point ? box{interval(1.0)} : box{between(low, high)});
         }
-        lifted_program const program(e.known, part, starts, d.coin() ? 0.0 : 0.1);
+        lifted_program const program(e.known, part, starts, d.coin() ? 0.0 : 0.1, d.coin());
         auto const count = program.unknowns().count;
         std::vector<double> up, down;
         for (std::size_t j = 0; j < count; ++j) {

@@ -15,6 +15,11 @@ namespace sivid {
     return unknowns == 0 ? 0 : unknowns <= 3 ? 4 : unknowns == 4 ? 3 : 2;
 }
 
+/// A degree for a few runs whose remainders are to be small, whatever they cost.
+[[nodiscard]] constexpr std::size_t sharp_degree(std::size_t unknowns) {
+    return unknowns == 0 ? 0 : unknowns <= 9 ? 4 : unknowns <= 12 ? 3 : suggested_degree(unknowns);
+}
+
 } // namespace sivid
 
 #endif

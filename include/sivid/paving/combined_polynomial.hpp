@@ -27,8 +27,14 @@ public:
     void add_linear(std::size_t unknown, interval const& c) {
         powers e(n_, 0);
         e[unknown] = 1;
-        auto const [known_term, is_new] = terms_.emplace(std::move(e), c);
-        if (!is_new) known_term->second = traits::add(known_term->second, c);
+        add_term(std::move(e), c);
+    }
+    /// Adds \f$ c \, d_u d_v \f$.
+    void add_product(std::size_t u, std::size_t v, interval const& c) {
+        powers e(n_, 0);
+        ++e[u];
+        ++e[v];
+        add_term(std::move(e), c);
     }
 
     /// Where a variable of a response lies: \f$ q_v = middle + reach \cdot d_{unknown} \f$.
@@ -69,8 +75,7 @@ public:
                     c[m] = traits::mul(c[m], places[v].reach);
                 }
             }
-            auto const [known_term, is_new] = terms_.emplace(std::move(e), c[m]);
-            if (!is_new) known_term->second = traits::add(known_term->second, c[m]);
+            add_term(std::move(e), c[m]);
         }
     }
 
@@ -94,6 +99,11 @@ public:
 
 private:
     using powers = std::vector<std::uint8_t>;
+
+    void add_term(powers e, interval const& c) {
+        auto const [known_term, is_new] = terms_.emplace(std::move(e), c);
+        if (!is_new) known_term->second = traits::add(known_term->second, c);
+    }
 
     /// Enclosed sum of what has no unknown, with one bound of each unknown's own part.
     [[nodiscard]] double lower_bound(bool absorb, std::vector<plane> const& planes) const {

@@ -5,6 +5,7 @@
 #include <sivid/paving/cut_certificate.hpp>
 #include <sivid/paving/cut_program.hpp>
 #include <sivid/paving/detail/lifted_block.hpp>
+#include <sivid/paving/oblique_products.hpp>
 #include <sivid/paving/response.hpp>
 #include <sivid/space/box.hpp>
 
@@ -13,6 +14,7 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -38,8 +40,10 @@ public:
     /// @param starts  parts of their boxes of starts, one each
     /// @param share   products that move no measurement by more than this share of its bound stay
     ///   errors
+    /// @param oblique  let proved bounds of combinations bound products, too; all products are
+    ///   unknowns then
     lifted_program(response_list const& known, box const& part, std::vector<box> const& starts,
-                   double share)
+                   double share, bool oblique = false)
         : known_(&known), unknowns_(known, part, starts), columns_(unknowns_.count) {
         std::map<paving_detail::product, double> moves; // in bounds, by product
         for (std::size_t s = 0; s < known.size(); ++s) {
@@ -47,13 +51,34 @@ public:
             outputs_.back().find_moves(moves);
         }
         for (auto const& [product, most] : moves) {
-            if (most > share) products_[product] = columns_++;
+            if (most > share && !oblique) products_[product] = columns_++;
         }
-        for (auto const& p : outputs_) blocks_.push_back(p.block(products_));
+        for (std::size_t u = 0; oblique && u < unknowns_.count; ++u) {
+            for (std::size_t v = u; v < unknowns_.count; ++v) products_[{u, v}] = columns_++;
+        }
+        for (auto const& p : outputs_) {
+            bool const bounded =
+                std::any_of(p.scale.begin(), p.scale.end(), [](double s) { return s > 0; });
+            blocks_.push_back(bounded ? p.block(products_) : minimax_block{});
+        }
+        auto const directions = oblique ? oblique_products::directions(unknowns_.count, blocks_)
+                                        : std::vector<std::vector<double>>{};
         for (auto const& [product, column] : products_) {
             blocks_.push_back(product.first == product.second
                                   ? tangents(product.first, column)
                                   : planes(product.first, product.second, column));
+        }
+        // Bounds of the combinations bound products, which bound the combinations.
+        for (int round = 0; round < oblique_rounds && !directions.empty(); ++round) {
+            std::vector<oblique_products::combination> all;
+            for (auto const& q : directions) {
+                double const high = reach_along(q, 1), low = -reach_along(q, -1);
+                if (!(low <= high) || !std::isfinite(low) || !std::isfinite(high)) return;
+                all.push_back({q, low, high});
+            }
+            if (oblique_) blocks_.pop_back();
+            oblique_.emplace(std::move(all));
+            blocks_.push_back(oblique_->block(products_));
         }
     }
     lifted_program(lifted_program const&) = delete; // refers to its own unknowns
@@ -87,6 +112,18 @@ public:
     }
 
 private:
+    static constexpr int oblique_rounds = 2;
+
+    /// A number that \f$ sign \, q \cdot d \f$ does not exceed.
+    [[nodiscard]] double reach_along(std::vector<double> const& q, double sign) const {
+        std::vector<double> goal(columns_, 0.0);
+        combined_polynomial target(unknowns_.count);
+        for (std::size_t v = 0; v < q.size(); ++v) {
+            goal[v] = sign * q[v];
+            target.add_linear(v, traits::point(-goal[v]));
+        }
+        return most(std::move(goal), std::move(target));
+    }
     [[nodiscard]] static minimax_block planes(std::size_t u, std::size_t v, std::size_t m) {
         // m - u + v <= 1, m + u - v <= 1, m - u - v >= -1, m + u + v >= -1; none passes 3 elsewhere
         return {{u, v, m}, {-1, 1, -1, 1, 1, -1, -1, 1, 1, 1, 1, 1}, {1, 1, -1, -1}, {2, 2, 2, 2}};
@@ -111,10 +148,16 @@ private:
         auto const cut = cut_program(columns_, blocks_)(std::move(goal));
         std::vector<measurement_weight> measured;
         std::map<paving_detail::product, double> tilts;
+        combined_polynomial alone(unknowns_.count); // without the goal
         for (auto const& w : cut.weights) {
             if (w.block < known_->size()) {
                 measured.push_back(
                     {w.block, w.function, w.value * outputs_[w.block].scale[w.function]});
+                continue;
+            }
+            if (oblique_ && w.block + 1 == blocks_.size()) {
+                oblique_->take_off(target, w.function, w.value);
+                oblique_->take_off(alone, w.function, w.value);
                 continue;
             }
             auto const& block = blocks_[w.block];
@@ -129,8 +172,9 @@ private:
         double const least = sum.outputs.lower_bound(bounds);
         if (cut.empty) {
             // The goal stands beside: what the sum alone is shows whether anything is left.
-            return certified_empty(*known_, unknowns_, measured, bounds) ? -detail::infinity
-                                                                         : detail::infinity;
+            measured_sum const rest(*known_, unknowns_, measured, std::move(alone));
+            return rest.outputs.lower_bound(bounds) > upper(rest.most) ? -detail::infinity
+                                                                       : detail::infinity;
         }
         if (!std::isfinite(least)) return detail::infinity;
         return upper(traits::sub(sum.most, traits::point(least)));
@@ -141,7 +185,8 @@ private:
     std::size_t columns_;
     std::map<paving_detail::product, std::size_t> products_; ///< column of each
     std::vector<paving_detail::scaled_polynomials> outputs_;
-    std::vector<minimax_block> blocks_; ///< experiments, then products
+    std::vector<minimax_block> blocks_; ///< experiments, products, products of combinations
+    std::optional<oblique_products> oblique_;
 };
 
 } // namespace sivid

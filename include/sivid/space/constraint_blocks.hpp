@@ -4,6 +4,8 @@
 
 #include <sivid/space/dual_simplex.hpp>
 
+#include <Eigen/Core>
+
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -59,8 +61,10 @@ public:
             value_.assign(block.offset.begin(), block.offset.end());
             for (std::size_t v = 0; v < block.variable.size(); ++v) {
                 double const d = point[block.variable[v]];
-                double const* const slope = block.slope.data() + v * count;
-                for (std::size_t y = 0; y < count; ++y) value_[y] += slope[y] * d;
+                if (d == 0) continue;
+                auto const n = static_cast<Eigen::Index>(count);
+                Eigen::Map<Eigen::ArrayXd>(value_.data(), n) +=
+                    d * Eigen::Map<Eigen::ArrayXd const>(block.slope.data() + v * count, n);
             }
             for (std::size_t y = 0; y < count; ++y) {
                 double const excess = std::abs(value_[y]) - block.margin[y];

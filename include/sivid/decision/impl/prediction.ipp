@@ -6,6 +6,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/decision/motion_cover.hpp>
+#include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/paving/lifted_program.hpp>
 #include <sivid/paving/work_limit.hpp>
 
@@ -34,6 +35,8 @@ public:
           limit_(options.seconds, options.keep_going),
           outputs_(problem.model, further) {
         options_.run.enclosure.keep_going = limit_;
+        if (many() && options_.run.degree == 0)
+            options_.run.degree = sharp_degree(problem.around().size());
         cover_.emplace(
             problem, outputs_,
             time_cells(problem, {},
@@ -45,6 +48,7 @@ public:
         auto const begun = std::chrono::steady_clock::now();
         parts_.push_back({cover_->whole(), {}});
         learn({&parts_.front()});
+        if (many()) ask_data();
         finish_parts();
         auto left = excess();
         while (left.largest > options_.excess && going()) {
@@ -76,6 +80,24 @@ private:
         std::vector<std::pair<double, item*>> holders; ///< heaviest first
     };
 
+    [[nodiscard]] static std::size_t open_sides(box const& x) {
+        return static_cast<std::size_t>(std::count_if(
+            x.begin(), x.end(), [](interval const& side) { return width(side) > 0; }));
+    }
+    /// Many parameters are known in combinations that lie across the sides.
+    [[nodiscard]] bool many() const {
+        auto const open = open_sides(problem_.around());
+        return problem_.measured && open >= 4 && open <= most_oblique;
+    }
+    /// Whether programs over the data, with products of combinations, can draw the ends in: far
+    /// more than halving does.
+    void ask_data() {
+        auto const data = problem_.measured(parts_.front().what.parameters, limit_);
+        auto unknowns = open_sides(problem_.around()) + open_sides(problem_.initial);
+        for (auto const& start : data.starts) unknowns += open_sides(start);
+        oblique_ = !data.known.empty() && unknowns <= most_oblique;
+        if (oblique_) options_.excess = std::max(options_.excess, coarse_excess);
+    }
     [[nodiscard]] bool going() const { return limit_() && parts_.size() < options_.parts; }
 
     void learn(std::vector<item*> const& which) {
@@ -214,12 +236,12 @@ private:
         response_list known; ///< the measured ones, then the motion
         std::unique_ptr<lifted_program> program;
 
-        measured_part(measured_responses data, motion_cover::part const& p)
+        measured_part(measured_responses data, motion_cover::part const& p, bool oblique)
             : known(std::move(data.known)) {
             known.push_back(p.known->answer);
             data.starts.push_back(p.initial);
-            program =
-                std::make_unique<lifted_program>(known, p.parameters, data.starts, curved_share);
+            program = std::make_unique<lifted_program>(known, p.parameters, data.starts,
+                                                       curved_share, oblique);
         }
         [[nodiscard]] double end_of(std::size_t output, bool upwards) const {
             return program->end_of(known.size() - 1, output, upwards);
@@ -230,13 +252,18 @@ private:
     /// that hold them.
     void sharpen() {
         if (!problem_.measured) return;
-        std::map<motion_cover::knowledge const*, measured_responses> data;
+        std::map<void const*, measured_responses> data;
         std::map<item const*, measured_part> measured;
         auto const of = [&](item const& i) -> measured_part const* {
-            auto const [at, fresh] = data.try_emplace(i.what.known.get());
-            if (fresh) at->second = problem_.measured(i.what.known->parameters, limit_);
+            // Of each of a few parts by itself, else of the box around many.
+            bool const few = parts_.size() <= 8;
+            auto const [at, fresh] =
+                data.try_emplace(few ? static_cast<void const*>(&i) : i.what.known.get());
+            if (fresh)
+                at->second =
+                    problem_.measured(few ? i.what.parameters : i.what.known->parameters, limit_);
             if (at->second.known.empty()) return nullptr;
-            return &measured.try_emplace(&i, at->second, i.what).first->second;
+            return &measured.try_emplace(&i, at->second, i.what, oblique_).first->second;
         };
         std::size_t reached = cover_->times().size();
         for (auto const& i : parts_) reached = std::min(reached, i.seen.reached);
@@ -315,6 +342,10 @@ private:
 
     /// Products that move no measurement by more than this share of its bound stay errors.
     static constexpr double curved_share = 0.01;
+    /// How much wider than what parts reach tubes may be before the data are asked.
+    static constexpr double coarse_excess = 0.2;
+    /// Unknowns of programs with all products.
+    static constexpr std::size_t most_oblique = 10;
 
     prediction_problem const& problem_;
     prediction_options options_;
@@ -322,6 +353,7 @@ private:
     followed_outputs outputs_;
     std::optional<motion_cover> cover_;
     items parts_;
+    bool oblique_ = false;
 };
 
 } // namespace decision_detail

@@ -6,6 +6,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/enclosure/parametric_set.hpp>
+#include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/io/detail/stored_consistency.hpp>
 #include <sivid/paving/certificate.hpp>
 #include <sivid/paving/data_test.hpp>
@@ -207,15 +208,30 @@ measured_by(identification_problem problem, std::shared_ptr<feasible_search> wit
         identification_problem problem;
         std::shared_ptr<feasible_search> witness;
         std::function<bool()> keep_going;
-        std::optional<data_test> test;
+        std::optional<data_test> test, sharp;
         [[nodiscard]] bool ready() {
-            if (!test && witness && witness->witness_is_proved()) {
-                data_test_options options;
-                options.run.enclosure.keep_going = [this] { return !keep_going || keep_going(); };
-                test.emplace(problem, options);
-            }
+            if (!test && witness && witness->witness_is_proved()) make(test, 0);
             witness = nullptr; // it has said what it knows
             return test.has_value();
+        }
+        void make(std::optional<data_test>& of, std::size_t degree) {
+            data_test_options options;
+            options.run.degree = degree;
+            options.run.enclosure.keep_going = [this] { return !keep_going || keep_going(); };
+            of.emplace(problem, options);
+        }
+        /// By polynomials of a higher degree where remainders would hide measurements.
+        [[nodiscard]] response run(std::size_t e, box const& parameters) {
+            auto const& initial = problem.experiments[e].initial;
+            auto first = *test->run(e, initial, parameters);
+            auto const degree = sharp_degree(first.unknowns.variables);
+            bool blurred = first.outputs() < first.measurements;
+            for (std::size_t y = 0; y < first.outputs(); ++y)
+                blurred = blurred || !(first.radius[y] <= 0.01 * width(first.bounds[y]));
+            if (!blurred || degree <= suggested_degree(first.unknowns.variables)) return first;
+            if (!sharp) make(sharp, degree);
+            auto second = *sharp->run(e, initial, parameters);
+            return second.outputs() < first.outputs() ? first : second; // ended early
         }
     };
     auto const data = std::make_shared<kept>();
@@ -230,7 +246,7 @@ measured_by(identification_problem problem, std::shared_ptr<feasible_search> wit
         for (std::size_t e = 0; e < data->problem.experiments.size(); ++e) {
             auto const& run = data->problem.experiments[e];
             if (run.outliers > 0) continue;
-            auto answer = std::make_shared<response>(*data->test->run(e, run.initial, first));
+            auto answer = std::make_shared<response>(data->run(e, first));
             auto& sides = answer->unknowns.parameters;
             for (auto at = parameters.begin() + own; at != parameters.end(); ++at)
                 sides.push_back({.centre = mid(*at)});
