@@ -828,6 +828,12 @@ TEST_CASE("control finds the gains of a law that are proved for all that the dat
                              "W2=0:20", "--require", "u at end > 3"});
     CHECK(none.code == 5);
     CHECK_THAT(none.out, ContainsSubstring("no gain will do"));
+    auto const farther = [&](char const* where) {
+        return asked({"--scenario", "S2", "--law", "W = W1 * during(0, 0.5)", "--gain", "W1=0:250",
+                      "--require", std::string{"abs(u) at end < 0.01 and x at end "} + where});
+    };
+    CHECK(farther("in [5, 5.5]").code == 0); // it coasts for 4.42 m
+    CHECK(farther("< 4.4").code == 5);
     auto const lane =
         asked({"--scenario", "lane", "--law", "delta = d * (during(0, 1) - during(1, 2))", "--gain",
                "d=-0.3:0.3", "--require", "always(-0.3 < y < 1.3) and y at end in [0.7, 1.2]"});
