@@ -61,7 +61,6 @@ public:
             value_.assign(block.offset.begin(), block.offset.end());
             for (std::size_t v = 0; v < block.variable.size(); ++v) {
                 double const d = point[block.variable[v]];
-                if (d == 0) continue;
                 auto const n = static_cast<Eigen::Index>(count);
                 Eigen::Map<Eigen::ArrayXd>(value_.data(), n) +=
                     d * Eigen::Map<Eigen::ArrayXd const>(block.slope.data() + v * count, n);
