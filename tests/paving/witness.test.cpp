@@ -137,3 +137,44 @@ TEST_CASE("kinks that are crossed, and those that a trajectory rests at, take fe
         CHECK(width(values[y]) < 1e-5); // a tenth of a thousandth of the bounds
     }
 }
+
+namespace {
+
+/// x' = -c^2 - x |x| from 1/2 with c = 1/2: tan(pi/4 - t/2)/2 until it crosses its kink at pi/2,
+/// then -tanh((t - pi/2)/2)/2.
+struct braked : plain_problem::decay {
+    static constexpr auto name = "braked";
+    template <class T>
+    vec<T, 1> rate(T const&, vec<T, 1> const& x, vec<T, 1> const& c, vec<T, 0> const&) const {
+        using std::abs;
+        return {-(c[0] * c[0]) - x[0] * abs(x[0])};
+    }
+};
+
+} // namespace
+
+TEST_CASE("what a kink leaves open of a measurement that is met by little is settled") {
+    auto problem = plain_problem::make();
+    problem.model = record_model<braked>();
+    auto& run = problem.experiments[0];
+    run.initial = {interval(0.5)};
+    double const end = -std::tanh((3 - std::acos(-1.0) / 2) / 2) / 2;
+    run.measurements = {{3, 0, interval(end - 0.1, end + 0.1)}};
+    box const c{interval(0.5)};
+    data_test before(problem, {});
+    double const open = before.run_finely(0, run.initial, c)->radius[0];
+    REQUIRE(open < 0.02 * 0.05); // little against the measurement, which is met
+    REQUIRE(open > 1e-9);
+    for (std::size_t const allowed : {0, 1}) { // one: misfits end nothing
+        run.outliers = allowed;
+        for (double const little : {0.2 * open, -0.2 * open}) {
+            run.measurements[0].bound = interval(end - 0.1, end + little);
+            data_test test(problem, {});
+            auto const found = test.run_finely(0, run.initial, c);
+            auto const value = output_ranges(*found, c)[0];
+            CHECK(contains(value, end));
+            CHECK(subset(value, run.measurements[0].bound) == (little > 0));
+            CHECK(disjoint(value, run.measurements[0].bound) == (little < 0));
+        }
+    }
+}

@@ -6,6 +6,7 @@
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/beyond_prior.hpp>
 #include <sivid/diagnosis/candidate.hpp>
+#include <sivid/diagnosis/detail/candidate_fit.hpp>
 #include <sivid/diagnosis/detail/screened.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 
@@ -262,99 +263,12 @@ private:
         std::vector<effect> chosen;
         for (auto const e : effects) chosen.push_back(catalogue_[e]);
         screened s{{effects, 0, {}, {}}, affected(base_, chosen), {}};
-        s.fit = fit(s.problem, effects, s.silent);
+        s.fit = fit_candidate(s.problem, base_, best_part_of(effects), effects.size(),
+                              options_.go_on, s.silent);
         s.figures.inflation = s.fit.inflation;
         s.figures.squares = s.fit.squares;
         s.figures.unknowns = s.problem.prior.size();
         return s;
-    }
-    /// Fits a problem from the best of a grid over the parameters of its last effect, the others as
-    /// a part of the candidate was fitted. An effect that sleeps (a saturation that is never
-    /// reached, say) has no slope to follow: where the best of the grid sleeps, which it may while
-    /// the others have not yielded, the best that does not is descended from, too.
-    [[nodiscard]] approximate_fit fit(identification_problem const& problem,
-                                      std::vector<std::size_t> const& effects, bool& silent) const {
-        auto narrowed = problem;
-        for (std::size_t j = base_.prior.size(); j < narrowed.prior.size(); ++j) {
-            // A lag of no time is a limit; fits keep a little away from it.
-            auto& side = narrowed.prior[j];
-            if (side.lower() == 0) {
-                side = interval_traits<interval>::bounds(0.005 * side.upper(), side.upper());
-            }
-        }
-        fitter descend(narrowed, options_.go_on);
-        auto const* known = best_part_of(effects);
-        if (known == nullptr) return descend();
-        std::vector<std::vector<double>> starts = known->fit.starts;
-        auto const first = base_.prior.size();
-        approximate_fit best;
-        std::vector<double> from, awake;
-        double least_awake = detail::infinity;
-        std::vector<double> parameters(narrowed.prior.size());
-        std::copy(known->fit.parameters.begin(),
-                  known->fit.parameters.begin() + static_cast<std::ptrdiff_t>(first),
-                  parameters.begin());
-        for (std::size_t e = 0; e < starts.size(); ++e) {
-            auto const& initial = narrowed.experiments[e].initial;
-            starts[e] = mid(initial);
-            for (std::size_t i = 0; i < base_.experiments[e].initial.size(); ++i) {
-                starts[e][i] = known->fit.starts[e][i];
-            }
-        }
-        // Which parameters stand as they were fitted, and which are open.
-        std::vector<std::size_t> open;
-        for (std::size_t j = first; j < narrowed.prior.size(); ++j) {
-            auto const& name = narrowed.choice.unknown[j];
-            auto const& others = known->problem.choice.unknown;
-            auto const f = std::find(others.begin(), others.end(), name);
-            if (f == others.end()) {
-                open.push_back(j);
-            } else {
-                auto const k = static_cast<std::size_t>(f - others.begin());
-                parameters[j] = known->fit.parameters[k];
-            }
-        }
-        std::size_t const steps = open.size() == 1 ? 9 : 4;
-        std::size_t count = 1;
-        for (std::size_t k = 0; k < open.size(); ++k) count *= steps;
-        for (std::size_t n = 0; n < count; ++n) {
-            auto code = n;
-            for (auto const j : open) {
-                double const share =
-                    (static_cast<double>(code % steps) + 0.5) / static_cast<double>(steps);
-                code /= steps;
-                auto const& side = narrowed.prior[j];
-                parameters[j] = side.lower() + share * (side.upper() - side.lower());
-            }
-            auto const here = descend.at(parameters, starts);
-            bool const sleeps = alike(here.residuals, known->fit.residuals);
-            silent = (n == 0 || silent) && sleeps;
-            if (!sleeps && here.inflation < least_awake) {
-                least_awake = here.inflation;
-                awake = parameters;
-            }
-            if (from.empty() || here.inflation < best.inflation) {
-                best = here;
-                from = parameters;
-            }
-        }
-        auto found = descend({from});
-        if (!awake.empty() && awake != from) {
-            auto other = descend({awake});
-            if (other.inflation < found.inflation) found = std::move(other);
-        }
-        constexpr double promising = 3; // of more effects than one
-        if (found.inflation > 1 && (effects.size() == 1 || found.inflation < promising)) {
-            // What sits at the end of its prior may be stuck there.
-            auto const freed = away_from_ends(problem, found.parameters);
-            if (freed != found.parameters) {
-                auto other = descend({freed});
-                if (other.inflation < found.inflation) found = std::move(other);
-            }
-        }
-        if (found.inflation < best.inflation) return found;
-        best.squares = found.squares; // the descent's, whose least inflation is no better
-        return best;
     }
     /// The likeliest candidate tried whose effects are all among these.
     [[nodiscard]] screened const* best_part_of(std::vector<std::size_t> const& effects) const {

@@ -3,6 +3,7 @@
 #define SIVID_APPROXIMATE_PLACE_PLACE_ESTIMATE_HPP
 
 #include <sivid/approximate/fit/fit.hpp>
+#include <sivid/approximate/fit/thinned.hpp>
 #include <sivid/approximate/place/estimated_place.hpp>
 #include <sivid/approximate/place/law_search.hpp>
 #include <sivid/approximate/place/missing_rate_scales.hpp>
@@ -96,7 +97,9 @@ private:
                 sampled[i] = sampled[i] && std::holds_alternative<sampled_signal>(e.inputs[i]);
             }
         }
-        place_fitter fit(*problem_, places_of(problem_->model, measured, sampled));
+        // A part of many samples tells which equations and sensors are wrong as well as all.
+        auto const seen = thinned(*problem_, many_measurements);
+        place_fitter fit(seen, places_of(problem_->model, measured, sampled));
         fit.simulations().set_workers(options_.workers);
         fit.simulations().set_keep_going(options_.search.go_on);
         auto const base = fit.plain(result.base.parameters, result.base.starts);

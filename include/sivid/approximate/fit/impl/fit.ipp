@@ -9,6 +9,7 @@
 #include <sivid/approximate/fit/detail/fit_at.hpp>
 #include <sivid/approximate/fit/minimax.hpp>
 #include <sivid/approximate/fit/suspect_samples.hpp>
+#include <sivid/approximate/fit/thinned.hpp>
 #include <sivid/compiled.hpp>
 
 #include <algorithm>
@@ -29,12 +30,17 @@ class fit_search {
 public:
     fit_search(identification_problem const& problem, std::function<bool()> keep_going)
         : campaign_(problem) {
+        if (measurement_count(problem) > 2 * many_measurements) {
+            few_ = std::make_unique<identification_problem>(thinned(problem, many_measurements));
+            by_few_ = std::make_unique<fit_search>(*few_, keep_going);
+        }
         campaign_.set_keep_going(std::move(keep_going));
     }
 
     [[nodiscard]] approximate_fit operator()(fit_start const& start, fit_norm norm) {
         if (norm == fit_norm::squares) return least_squares(begin_at(start));
         if (!start.starts.empty()) return sharpened(begin_at(start));
+        if (by_few_) return from_few(start);
         if (!start.parameters.empty()) return finished(from(begin_at(start)));
         return search();
     }
@@ -71,6 +77,19 @@ private:
             if (found.inflation < best.inflation) best = found;
         }
         return finished(std::move(best));
+    }
+
+    /// By a part of the samples first; where that is an explanation, or close, by all.
+    [[nodiscard]] approximate_fit from_few(fit_start const& start) {
+        auto const near = (*by_few_)(start, fit_norm::largest);
+        if (near.parameters.empty()) return near;
+        auto z = campaign_.variables(near.parameters, near.starts);
+        if (near.inflation <= hopeless_inflation) return finished(from(std::move(z)));
+        descent_point here;
+        if (!descent(campaign_).evaluate(std::move(z), here)) return {};
+        minimax(campaign_).run(here, sides(), {.rounds = 3});
+        squares_ = squares_of(here);
+        return finished(std::move(here));
     }
 
     [[nodiscard]] approximate_fit least_squares(arrow_vector z) {
@@ -206,6 +225,8 @@ private:
     }
 
     campaign campaign_;
+    std::unique_ptr<identification_problem> few_; ///< of the measurements, where there are many
+    std::unique_ptr<fit_search> by_few_;
     double squares_ = std::numeric_limits<double>::infinity();
 };
 
