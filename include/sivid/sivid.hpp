@@ -110,6 +110,7 @@
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/approximate/fit/minimax.hpp>
 #include <sivid/approximate/fit/suspect_samples.hpp>
+#include <sivid/approximate/fit/thinned.hpp>
 #include <sivid/approximate/place/estimated_place.hpp>
 #include <sivid/approximate/place/knot_trace.hpp>
 #include <sivid/approximate/place/law.hpp>

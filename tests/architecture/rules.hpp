@@ -118,6 +118,7 @@ inline bool may_include_approximate(std::string_view other, std::string_view inc
         {"sivid/paving/impl/outlier_budget.ipp", {"fit/fit.hpp"}},
         {"sivid/paving/impl/inflation.ipp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/screening.hpp", {"fit/fit.hpp"}},
+        {"sivid/diagnosis/detail/candidate_fit.hpp", {"fit/fit.hpp", "fit/thinned.hpp"}},
         {"sivid/diagnosis/holdout_judgement.hpp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/claim_review.hpp", {"fit/campaign.hpp"}},
         {"sivid/diagnosis/impl/confined_gap.ipp", {"fit/fit.hpp"}},

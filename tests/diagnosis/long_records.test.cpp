@@ -46,7 +46,8 @@ experiment record_of(missing effect, int seconds, unsigned seed) {
     std::uniform_real_distribution<> noise(-0.999, 0.999);
     double theta = 0, w = 0, u = 0;
     std::vector<double> times, volts;
-    experiment e{"log " + std::to_string(seed), {}, 0, {interval(-0.002, 0.002), interval(0.0)}};
+    experiment e{
+        "log " + std::to_string(seed), {}, 0, {interval(-0.002, 0.002), interval(0.0)}, {}};
     for (int k = 0; k <= 1000 * seconds; ++k) {
         double const t = 0.001 * k;
         if (k % 20 == 0) {

@@ -165,7 +165,7 @@ TEST_CASE("what a kink leaves open of a measurement that is met by little is set
     double const open = before.run_finely(0, run.initial, c)->radius[0];
     REQUIRE(open < 0.02 * 0.05); // little against the measurement, which is met
     REQUIRE(open > 1e-9);
-    for (std::size_t const allowed : {0, 1}) { // one: misfits end nothing
+    for (std::size_t const allowed : {0u, 1u}) { // one: misfits end nothing
         run.outliers = allowed;
         for (double const little : {0.2 * open, -0.2 * open}) {
             run.measurements[0].bound = interval(end - 0.1, end + little);

@@ -3,9 +3,9 @@
 
 #include <sivid/report/rounded_decimal.hpp>
 
-#include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -22,8 +22,7 @@ std::string text(double x, int quantum, rounding way) {
 double value(std::string s) {
     bool const negative = s.starts_with("\xE2\x88\x92");
     s = negative ? s.substr(3) : s;
-    double out = 0;
-    std::from_chars(s.data(), s.data() + s.size(), out);
+    double const out = std::strtod(s.c_str(), nullptr);
     return negative ? -out : out;
 }
 

@@ -216,8 +216,10 @@ private:
     void go_beyond() {
         constexpr std::size_t most = 6;
         auto closest = tried_;
-        std::ranges::stable_sort(closest, {},
-                                 [](screened const& s) { return s.figures.inflation; });
+        // Not that of std::ranges: libc++'s takes Boost's `next` for its own.
+        std::stable_sort(closest.begin(), closest.end(), [](auto const& a, auto const& b) {
+            return a.figures.inflation < b.figures.inflation;
+        });
         effect_sets singles, others;
         for (auto const& s : closest) {
             if (s.figures.effects.size() > 2) continue;

@@ -5,9 +5,9 @@
 #include <sivid/compiled.hpp>
 #include <sivid/enclosure/options.hpp>
 #include <sivid/model/operation.hpp>
+#include <sivid/number/decimal.hpp>
 #include <sivid/number/nearest_text.hpp>
 
-#include <charconv>
 #include <cstddef>
 #include <limits>
 #include <optional>

@@ -4,8 +4,10 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/io/csv_table.hpp>
+#include <sivid/number/decimal.hpp>
 #include <sivid/paving/exclusion_proof.hpp>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>

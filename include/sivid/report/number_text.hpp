@@ -3,6 +3,7 @@
 #define SIVID_REPORT_NUMBER_TEXT_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/number/decimal.hpp>
 #include <sivid/report/range.hpp>
 #include <sivid/report/rounded_decimal.hpp>
 

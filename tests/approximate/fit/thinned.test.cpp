@@ -52,7 +52,7 @@ TEST_CASE("thinned measurements are every n-th of a channel, and its last") {
     auto const some = thinned(problem, 210);
     auto const indices = thinned_indices(problem, 210);
     REQUIRE(indices.size() == 2);
-    for (std::size_t const e : {0, 1}) {
+    for (std::size_t const e : {0u, 1u}) {
         auto const& left = some.experiments[e].measurements;
         REQUIRE(left.size() == 105); // a tenth of each
         CHECK(some.experiments[e].outliers == 1);

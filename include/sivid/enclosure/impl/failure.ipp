@@ -9,9 +9,7 @@ namespace sivid {
 SIVID_DECL std::string short_text_down(double x) {
     for (int digits = 6;; ++digits) {
         auto text = nearest_text(x, digits);
-        double value = 0;
-        std::from_chars(text.data(), text.data() + text.size(), value);
-        if (!(value > x) || digits >= 17) return text;
+        if (!(parse_nearest(text).value_or(x) > x) || digits >= 17) return text;
     }
 }
 

@@ -17,6 +17,13 @@ bool read_number(std::string_view& text, Number& value) {
     text.remove_prefix(static_cast<std::size_t>(end - text.data()));
     return fault == std::errc{};
 }
+inline bool read_number(std::string_view& text, double& value) {
+    auto const length = std::min(text.find_first_not_of("+-.0123456789eE"), text.size());
+    auto const read = parse_nearest(text.substr(0, length));
+    text.remove_prefix(length);
+    value = read.value_or(0);
+    return read.has_value();
+}
 inline bool take(std::string_view& text, char what) {
     bool const there = !text.empty() && text.front() == what;
     if (there) text.remove_prefix(1);

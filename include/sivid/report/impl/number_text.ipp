@@ -77,8 +77,8 @@ SIVID_DECL std::string given_text(double x) {
         auto const end =
             std::to_chars(text, text + sizeof text, x, std::chars_format::scientific, digits - 1)
                 .ptr;
-        double back = 0;
-        std::from_chars(text, end, back);
+        double const back =
+            parse_nearest(std::string_view(text, static_cast<std::size_t>(end - text))).value_or(x);
         if (std::fabs(back - x) <= slack) {
             return rounded_text(back, rounding::nearest, {.significant = digits, .shift = 0});
         }
@@ -100,8 +100,8 @@ SIVID_DECL std::string exact_text(double x) {
         auto const end =
             std::to_chars(text, text + sizeof text, x, std::chars_format::scientific, digits - 1)
                 .ptr;
-        double back = 0;
-        std::from_chars(text, end, back);
+        double const back =
+            parse_nearest(std::string_view(text, static_cast<std::size_t>(end - text))).value_or(x);
         if (back == x) {
             return rounded_text(back, rounding::nearest, {.significant = digits, .shift = 0});
         }
