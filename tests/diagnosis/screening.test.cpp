@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/diagnosis/screening.hpp>
 
+#include <sivid/approximate/fit/thinned.hpp>
+
 #include "diagnosis/small_catalogue.hpp"
 #include "support/catch.hpp"
 
@@ -8,6 +10,7 @@
 #include <cmath>
 
 using namespace sivid;
+using namespace sivid::literals;
 
 namespace {
 
@@ -53,6 +56,34 @@ TEST_CASE("two effects are found as a pair") {
     auto real = small_campaign::with_drag(0.3);
     real.seen_position = small_campaign::with_scale(0.15).seen_position;
     CHECK(answer(screened_campaign(real)) == std::vector<std::size_t>{0, 2});
+}
+
+TEST_CASE("an effect that shows in one of many measurements is not silent") {
+    auto real = small_campaign::with_drag(0.3);
+    real.every = 1; // ms: 24000 measurements
+    auto problem = small_campaign::problem(real);
+    auto const kept = thinned_indices(problem, many_measurements)[0];
+    auto const all = sorted(problem.experiments[0].measurements);
+    std::size_t odd = kept[kept.size() / 2] + 1;
+    while (all[odd].channel != 0 || std::find(kept.begin(), kept.end(), odd) != kept.end()) ++odd;
+    double const at = all[odd].time;
+    auto glitch =
+        effects::detail::one("glitch", "k", "m", {0.1_dec, 1_dec}, "a sample that is off");
+    glitch.on_channels = [at](effect_scope& m) {
+        m.channel("p") += m.parameter() * max(1 - 4000 * abs(m.time() - at), 0.0);
+    };
+    auto never = effects::detail::one("never", "k", "m", {0.1_dec, 1_dec}, "what nobody sees");
+    never.on_channels = [at](effect_scope& m) {
+        m.channel("p") += m.parameter() * max(1 - 4000 * abs(m.time() - at - 5e-4), 0.0);
+    };
+    screening_options options;
+    options.most_effects = 1;
+    screening s(std::move(problem), {glitch, never}, options);
+    s.run();
+    REQUIRE(s.find({0}) != nullptr);
+    REQUIRE(s.find({1}) != nullptr);
+    CHECK_FALSE(s.find({0})->silent);
+    CHECK(s.find({1})->silent);
 }
 
 TEST_CASE("an effect that the channels cannot show is silent") {

@@ -54,10 +54,11 @@ struct truth {
     };
     std::function<double(double)> seen_position = [](double p) { return p; };
     double delay = 0; ///< of the input
+    int every = 100;  ///< milliseconds from one measurement to the next
 };
 
-/// Measured every 0.1 s for 4 s, within +-0.02 m and +-0.03 m/s; the deviations alternate and fill
-/// 60 % of the bounds.
+/// Measured every 0.1 s, unless the truth says otherwise, for 4 s, within +-0.02 m and +-0.03 m/s;
+/// the deviations alternate and fill 60 % of the bounds.
 inline sivid::experiment experiment(std::size_t e, truth const& real) {
     sivid::experiment result;
     result.name = "E" + std::to_string(e + 1);
@@ -82,7 +83,7 @@ inline sivid::experiment experiment(std::size_t e, truth const& real) {
         double const a3 = rate(t + h / 2, v + h / 2 * a2), a4 = rate(t + h, v + h * a3);
         p += h * (v + h / 6 * (a1 + a2 + a3));
         v += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
-        if (step % 100 != 0) continue;
+        if (step % real.every != 0) continue;
         double const wave = 0.6 * std::sin(12.9898 * step + 4.1 * static_cast<double>(e));
         auto const around = [](double y, double size) { return interval(y - size, y + size); };
         result.measurements.push_back(

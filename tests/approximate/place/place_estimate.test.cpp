@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/approximate/place/place_estimate.hpp>
 
+#include "diagnosis/small_catalogue.hpp"
 #include "support/catch.hpp"
 #include "support/hovercraft_campaign.hpp"
 
@@ -106,4 +107,30 @@ TEST_CASE("a pendulum of which only the angle is measured misses its friction") 
     CHECK(found.places[0].kind == place_kind::equation);
     CHECK(found.places[0].name == "x1");
     CHECK(found.places[0].law == "x1");
+}
+
+TEST_CASE("of many measurements the place and the scenario are told by all of its time") {
+    auto real = small_campaign::with_scale(0.15);
+    real.every = 1; // ms: 24000 measurements
+    auto const problem = small_campaign::problem(real);
+    auto const found = estimate_places(problem);
+    REQUIRE(found.places.size() == 1);
+    auto const& p = found.places[0];
+    CHECK(p.kind == place_kind::sensor);
+    CHECK(p.name == "p");
+    CHECK(p.law == "scale");
+    CHECK_THAT(p.missing, WithinAbs(0.15, 0.02));
+    CHECK(p.to == 4);
+    double most = -1;
+    std::string scenario;
+    for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
+        auto const data = sorted(problem.experiments[e].measurements);
+        double sum = 0;
+        for (std::size_t k = 0; k < data.size(); ++k) {
+            if (data[k].channel == 0) sum += std::pow(found.base.residuals[e][k], 2);
+        }
+        if (sum > most) scenario = problem.experiments[e].name;
+        most = std::max(most, sum);
+    }
+    CHECK(p.scenario == scenario);
 }

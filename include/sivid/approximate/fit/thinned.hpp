@@ -5,6 +5,8 @@
 #include <sivid/measurement/record.hpp>
 #include <sivid/model/problem.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -50,8 +52,9 @@ template <class List>
     return result;
 }
 
-/// The same problem with fewer measurements: `thinned_indices`. Budgets of outliers shrink alike,
-/// upward. What explains all explains these; nothing else is known of what explains these.
+/// The same problem with fewer measurements: `thinned_indices`. Budgets of outliers shrink to what
+/// may stand among them (three standard deviations more than their share). What explains these may
+/// miss others.
 [[nodiscard]] inline identification_problem thinned(identification_problem problem,
                                                     std::size_t most) {
     auto const step = (measurement_count(problem) + most - 1) / most;
@@ -61,8 +64,11 @@ template <class List>
     for (auto& e : problem.experiments) records.push_back(sorted(std::move(e.measurements)));
     records = thinned(records, indices);
     for (std::size_t e = 0; e < records.size(); ++e) {
+        auto& budget = problem.experiments[e].outliers;
+        double const share = static_cast<double>(budget) / static_cast<double>(step);
+        auto const some = static_cast<std::size_t>(std::ceil(share + 3 * std::sqrt(share)));
+        budget = std::min({budget, some, records[e].size()});
         problem.experiments[e].measurements = std::move(records[e]);
-        problem.experiments[e].outliers = (problem.experiments[e].outliers + step - 1) / step;
     }
     return problem;
 }

@@ -99,6 +99,8 @@ private:
         }
         // A part of many samples tells which equations and sensors are wrong as well as all.
         auto const seen = thinned(*problem_, many_measurements);
+        auto missed = result.base; // of these measurements
+        missed.residuals = thinned(missed.residuals, thinned_indices(*problem_, many_measurements));
         place_fitter fit(seen, places_of(problem_->model, measured, sampled));
         fit.simulations().set_workers(options_.workers);
         fit.simulations().set_keep_going(options_.search.go_on);
@@ -134,7 +136,7 @@ private:
             p.loss = loss;
             p.sensors = where.sensors;
             if (where.is_sensor()) {
-                sensor(p, index, best, fit, result.base);
+                sensor(p, index, best, fit, missed);
             } else {
                 missing(p, best, fit, covariances);
             }

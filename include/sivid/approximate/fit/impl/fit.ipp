@@ -33,6 +33,8 @@ public:
         if (measurement_count(problem) > 2 * many_measurements) {
             few_ = std::make_unique<identification_problem>(thinned(problem, many_measurements));
             by_few_ = std::make_unique<fit_search>(*few_, keep_going);
+            each_of_few_ = static_cast<double>(measurement_count(problem)) /
+                           static_cast<double>(measurement_count(*few_));
         }
         campaign_.set_keep_going(std::move(keep_going));
     }
@@ -88,7 +90,7 @@ private:
         descent_point here;
         if (!descent(campaign_).evaluate(std::move(z), here)) return {};
         minimax(campaign_).run(here, sides(), {.rounds = 3});
-        squares_ = squares_of(here);
+        squares_ = near.squares * each_of_few_; // of the least squares, about
         return finished(std::move(here));
     }
 
@@ -227,6 +229,7 @@ private:
     campaign campaign_;
     std::unique_ptr<identification_problem> few_; ///< of the measurements, where there are many
     std::unique_ptr<fit_search> by_few_;
+    double each_of_few_ = 1; ///< so many measurements stand for each of them
     double squares_ = std::numeric_limits<double>::infinity();
 };
 
