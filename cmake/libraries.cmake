@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# The header-only targets: sivid::sivid (core), sivid::io, sivid::report, sivid::parallel.
+# The header-only targets: sivid::sivid (core), and beside it sivid::io, sivid::verifier, sivid::importing, sivid::report,
+# sivid::parallel.
 
 if(POLICY CMP0167)
     cmake_policy(SET CMP0167 NEW)   # BoostConfig.cmake of Boost itself
@@ -45,9 +46,11 @@ sivid_add_library(sivid FOLDERS ${sivid_core_folders} impl FILES sivid.hpp compi
 find_package(nlohmann_json 3.9 QUIET)
 if(nlohmann_json_FOUND)
     sivid_add_library(io FOLDERS io LINK sivid_sivid nlohmann_json::nlohmann_json)
-    sivid_add_library(report FOLDERS report LINK sivid_io)
+    foreach(component IN ITEMS verifier importing report)   # each on io, none on another
+        sivid_add_library(${component} FOLDERS ${component} LINK sivid_io)
+    endforeach()
 else()
-    message(STATUS "sivid: nlohmann_json not found, sivid::io and sivid::report left out")
+    message(STATUS "sivid: nlohmann_json not found: sivid::io and what stands on it (verifier, importing, report) left out")
 endif()
 
 if(EXISTS "${sivid_include_dir}/sivid/parallel")

@@ -5,7 +5,7 @@
 #define SIVID_BENCHMARKS_ENCLOSURE_MEASURE_HPP
 
 #include <sivid/approximate/simulate/simulate.hpp>
-#include <sivid/enclosure/parametric_cover.hpp>
+#include <sivid/enclosure/taylor/parametric_cover.hpp>
 #include <sivid/enclosure/tube.hpp>
 
 #include <algorithm>

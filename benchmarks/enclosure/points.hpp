@@ -5,7 +5,7 @@
 
 #include "measure.hpp"
 
-#include <sivid/enclosure/parametric_flow.hpp>
+#include <sivid/enclosure/taylor/parametric_flow.hpp>
 
 #include <algorithm>
 #include <array>

@@ -5,8 +5,8 @@
 
 #include "measure.hpp"
 
-#include <sivid/enclosure/sensitive_flow.hpp>
-#include <sivid/enclosure/sensitivity_tube.hpp>
+#include <sivid/enclosure/sensitivity/sensitive_flow.hpp>
+#include <sivid/enclosure/sensitivity/sensitivity_tube.hpp>
 
 namespace benchmark {
 

@@ -2,8 +2,8 @@
 #ifndef SIVID_BENCHMARKS_PAVING_RECORDING_HPP
 #define SIVID_BENCHMARKS_PAVING_RECORDING_HPP
 
+#include <sivid/model/graph/plain_program.hpp>
 #include <sivid/model/model.hpp>
-#include <sivid/model/plain_program.hpp>
 #include <sivid/model/problem.hpp>
 
 #include <algorithm>

@@ -4,8 +4,8 @@
 #define EXAMPLES_CONSOLE_PARAMETER_RANGES_HPP
 
 #include <sivid/enclosure/normalised_unknowns.hpp>
-#include <sivid/io/exact_decimal.hpp>
 #include <sivid/io/input_error.hpp>
+#include <sivid/io/text/exact_decimal.hpp>
 
 #include <map>
 #include <stdexcept>

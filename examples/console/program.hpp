@@ -4,10 +4,10 @@
 #ifndef EXAMPLES_CONSOLE_PROGRAM_HPP
 #define EXAMPLES_CONSOLE_PROGRAM_HPP
 
-#include <sivid/io/exact_decimal.hpp>
 #include <sivid/io/input_error.hpp>
-#include <sivid/io/printable_text.hpp>
-#include <sivid/io/text_file.hpp>
+#include <sivid/io/text/exact_decimal.hpp>
+#include <sivid/io/text/printable_text.hpp>
+#include <sivid/io/text/text_file.hpp>
 
 #include <cstdio>
 #include <exception>

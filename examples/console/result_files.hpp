@@ -3,10 +3,10 @@
 #ifndef EXAMPLES_CONSOLE_RESULT_FILES_HPP
 #define EXAMPLES_CONSOLE_RESULT_FILES_HPP
 
-#include <sivid/io/certificates_csv.hpp>
 #include <sivid/io/file_set.hpp>
 #include <sivid/io/identification_csv.hpp>
-#include <sivid/io/printable_text.hpp>
+#include <sivid/io/result/certificates_csv.hpp>
+#include <sivid/io/text/printable_text.hpp>
 
 #include <filesystem>
 #include <string>

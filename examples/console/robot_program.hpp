@@ -16,7 +16,7 @@
 
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/io/dataset.hpp>
-#include <sivid/io/dataset_digest.hpp>
+#include <sivid/io/dataset/dataset_digest.hpp>
 #include <sivid/io/dataset_effects.hpp>
 #include <sivid/io/file_set.hpp>
 #include <sivid/io/identification_json.hpp>

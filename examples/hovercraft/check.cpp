@@ -5,11 +5,11 @@
 #include "posed_problem.hpp"
 
 #include <sivid/io/dataset.hpp>
-#include <sivid/io/dataset_digest.hpp>
-#include <sivid/io/identification_check.hpp>
+#include <sivid/io/dataset/dataset_digest.hpp>
 #include <sivid/io/identification_reader.hpp>
+#include <sivid/verifier/identification_check.hpp>
 #ifdef SIVID_HAS_MPFI
-#include <sivid/io/mp_identification_check.hpp>
+#include <sivid/verifier/mp_identification_check.hpp>
 #endif
 #include <sivid/report/number_text.hpp>
 

@@ -3,8 +3,8 @@
 #include "generate.hpp"
 
 #include <sivid/enclosure/enclose.hpp>
-#include <sivid/enclosure/implicit_tableau.hpp>
-#include <sivid/paving/runge_kutta_run.hpp>
+#include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
+#include <sivid/paving/run/runge_kutta_run.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <sivid/enclosure/enclosed_motion.hpp>
 #include <sivid/io/dataset_writer.hpp>
-#include <sivid/io/json_writer.hpp>
+#include <sivid/io/text/json_writer.hpp>
 #include <sivid/model/bound_model.hpp>
 
 #include <algorithm>

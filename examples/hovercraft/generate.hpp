@@ -6,7 +6,7 @@
 #include "scenario.hpp"
 
 #include <sivid/io/dataset_value.hpp>
-#include <sivid/io/exact_decimal.hpp>
+#include <sivid/io/text/exact_decimal.hpp>
 #include <sivid/measurement/signal.hpp>
 #include <sivid/model/model.hpp>
 

@@ -11,18 +11,18 @@
 #include <sivid/io/checkpoint.hpp>
 #include <sivid/io/checkpoint_reader.hpp>
 #include <sivid/io/dataset.hpp>
-#include <sivid/io/dataset_digest.hpp>
+#include <sivid/io/dataset/dataset_digest.hpp>
 #include <sivid/io/file_set.hpp>
 #include <sivid/io/identification_csv.hpp>
 #include <sivid/io/identification_json.hpp>
-#include <sivid/io/problem_digest.hpp>
+#include <sivid/io/result/problem_digest.hpp>
 #include <sivid/paving/outlier_budget.hpp>
 #include <sivid/paving/work_limit.hpp>
+#include <sivid/report/draw/time_plot.hpp>
 #include <sivid/report/identifiability_words.hpp>
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
 #include <sivid/report/identification_words.hpp>
-#include <sivid/report/time_plot.hpp>
 
 #include <algorithm>
 #include <chrono>

@@ -4,10 +4,10 @@
 
 #include "model.hpp"
 
-#include <sivid/enclosure/expansion.hpp>
 #include <sivid/enclosure/flow.hpp>
-#include <sivid/model/graph_range.hpp>
-#include <sivid/model/rewrite.hpp>
+#include <sivid/enclosure/series/expansion.hpp>
+#include <sivid/model/graph/graph_range.hpp>
+#include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/unit.hpp>
 #include <sivid/number/decimal.hpp>
 

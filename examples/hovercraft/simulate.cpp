@@ -6,12 +6,12 @@
 #include <sivid/approximate/simulate/simulate.hpp>
 #include <sivid/decision/prediction.hpp>
 #include <sivid/enclosure/enclosed_motion.hpp>
-#include <sivid/enclosure/parametric_set.hpp>
+#include <sivid/enclosure/set/parametric_set.hpp>
 #include <sivid/io/file_set.hpp>
 #include <sivid/number/decimal_output.hpp>
+#include <sivid/report/draw/plane_plot.hpp>
+#include <sivid/report/draw/time_plot.hpp>
 #include <sivid/report/page.hpp>
-#include <sivid/report/plane_plot.hpp>
-#include <sivid/report/time_plot.hpp>
 #include <sivid/version.hpp>
 
 #include <algorithm>

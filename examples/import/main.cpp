@@ -2,7 +2,7 @@
 // sivid-import MAPPING.json --out DIR: recorded files of any form into a data set.
 #include "console/program.hpp"
 
-#include <sivid/io/import_writer.hpp>
+#include <sivid/importing/import_writer.hpp>
 
 #include <CLI/CLI.hpp>
 #ifdef SIVID_HAS_ZLIB

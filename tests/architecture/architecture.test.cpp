@@ -105,6 +105,31 @@ TEST_CASE("planted breaches are found") {
         tree.write("tests/approximate/fit.test.cpp", "#include <sivid/approximate/fit/fit.hpp>\n");
         CHECK_THAT(tree.findings(), ContainsSubstring("no tests/approximate/fit/fit.test.cpp"));
     }
+    SECTION("an include of a higher room, and a room that nobody knows") {
+        tree.header("paving/response/low.hpp", "");
+        tree.header("paving/search/high.hpp", "#include <sivid/paving/response/low.hpp>\n");
+        tree.umbrella();
+        CHECK(tree.findings() == "");
+        tree.header("paving/response/low.hpp", "#include <sivid/paving/search/high.hpp>\n");
+        CHECK_THAT(tree.findings(),
+                   ContainsSubstring("upward: include/sivid/paving/response/low.hpp: includes "
+                                     "<sivid/paving/search/high.hpp> of a higher room"));
+        tree.header("paving/cellar/low.hpp", "");
+        CHECK_THAT(tree.findings(), ContainsSubstring("room: include/sivid/paving/cellar/low.hpp"));
+    }
+    SECTION("a door that serves one header") {
+        tree.header("paving/door.hpp", "");
+        tree.header("paving/search/one.hpp", "#include <sivid/paving/door.hpp>\n");
+        tree.umbrella();
+        tree.write("examples/main.cpp", "#include <sivid/sivid.hpp>\n");
+        CHECK_THAT(tree.findings(), ContainsSubstring("door: include/sivid/paving/door.hpp"));
+        tree.write("examples/main.cpp", "#include <sivid/paving/door.hpp>\n");
+        CHECK(tree.findings() == "");
+        tree.write("examples/main.cpp", "#include <sivid/sivid.hpp>\n");
+        tree.header("paving/search/two.hpp", "#include <sivid/paving/door.hpp>\n");
+        tree.umbrella();
+        CHECK(tree.findings() == "");
+    }
     SECTION("the umbrella counts as upward") {
         tree.header("number/low.hpp", "#include <sivid/sivid.hpp>\n");
         CHECK_THAT(tree.findings(), ContainsSubstring("upward: include/sivid/number/low.hpp"));

@@ -3,6 +3,8 @@
 #ifndef SIVID_TESTS_ARCHITECTURE_RULES_HPP
 #define SIVID_TESTS_ARCHITECTURE_RULES_HPP
 
+#include "architecture/rooms.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -20,9 +22,9 @@ namespace architecture {
 
 namespace fs = std::filesystem;
 
-inline constexpr std::array<std::string_view, 12> floors{
-    "number", "space",    "measurement", "model", "approximate", "enclosure",
-    "paving", "decision", "diagnosis",   "io",    "report",      "parallel"};
+inline constexpr std::array<std::string_view, 14> floors{
+    "number",   "space",     "measurement", "model",    "approximate", "enclosure", "paving",
+    "decision", "diagnosis", "io",          "verifier", "importing",   "report",    "parallel"};
 inline constexpr std::size_t core_floors = 9;
 /// Headers outside of floors that each floor may include.
 inline constexpr std::array<std::string_view, 3> common{"sivid/version.hpp", "sivid/compiled.hpp",
@@ -114,19 +116,19 @@ inline bool may_include_approximate(std::string_view other, std::string_view inc
                                                     "place/estimated_place.hpp"};
     static std::map<std::string_view, std::set<std::string_view>> const starters{
         {"sivid/paving/impl/identify.ipp", {"fit/fit.hpp"}},
-        {"sivid/paving/detail/online_witness.hpp", {"fit/fit.hpp"}},
+        {"sivid/paving/online/detail/online_witness.hpp", {"fit/fit.hpp"}},
         {"sivid/paving/impl/outlier_budget.ipp", {"fit/fit.hpp"}},
         {"sivid/paving/impl/inflation.ipp", {"fit/fit.hpp"}},
-        {"sivid/diagnosis/screening.hpp", {"fit/fit.hpp"}},
-        {"sivid/diagnosis/detail/candidate_fit.hpp", {"fit/fit.hpp", "fit/thinned.hpp"}},
-        {"sivid/diagnosis/holdout_judgement.hpp", {"fit/fit.hpp"}},
-        {"sivid/diagnosis/claim_review.hpp", {"fit/campaign.hpp"}},
-        {"sivid/diagnosis/impl/confined_gap.ipp", {"fit/fit.hpp"}},
+        {"sivid/diagnosis/candidate/screening.hpp", {"fit/fit.hpp"}},
+        {"sivid/diagnosis/candidate/detail/candidate_fit.hpp", {"fit/fit.hpp", "fit/thinned.hpp"}},
+        {"sivid/diagnosis/hold_out/holdout_judgement.hpp", {"fit/fit.hpp"}},
+        {"sivid/diagnosis/claim/claim_review.hpp", {"fit/campaign.hpp"}},
+        {"sivid/diagnosis/gap/impl/confined_gap.ipp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/impl/manoeuvre.ipp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/impl/diagnose.ipp", {"place/place_estimate.hpp"}},
-        {"sivid/report/scenario_report.hpp", {"simulate/simulate.hpp"}},
-        {"sivid/io/paving_check.hpp", {"fit/counterexample.hpp"}},
-        {"sivid/io/fewest_outliers_check.hpp", {"fit/counterexample.hpp"}}};
+        {"sivid/report/fill/scenario_report.hpp", {"simulate/simulate.hpp"}},
+        {"sivid/verifier/claim/paving_check.hpp", {"fit/counterexample.hpp"}},
+        {"sivid/verifier/claim/fewest_outliers_check.hpp", {"fit/counterexample.hpp"}}};
     std::string_view const floor = "sivid/approximate/";
     if (!starts_with(other, floor) || starts_with(includer, floor)) return true;
     auto const what = other.substr(floor.size());
@@ -294,6 +296,8 @@ inline std::vector<finding> check(fs::path const& tree) {
     // compiled once, and in a cycle what they need would not be declared yet.
     std::map<std::string, std::vector<std::string>> graph;
     std::set<std::string> umbrella_members, core_headers;
+    std::map<std::string, std::set<std::string>> users;  // header -> headers that include it
+    std::vector<std::string> doors;                      // of floors that have rooms
     std::set<std::string> listed, definitions_of_floors; // .ipp in sivid/impl, and all of them
 
     for (auto const& entry : fs::recursive_directory_iterator{include / "sivid"}) {
@@ -319,6 +323,11 @@ inline std::vector<finding> check(fs::path const& tree) {
             report("floor", "unknown floor '" + floor + "'");
             continue;
         }
+        auto const room = at_root ? std::string{} : room_of(relative);
+        if (!room.empty() && !is_room(floor, room)) {
+            report("room", "unknown room '" + room + "'");
+            continue;
+        }
         bool const internal = definitions || name.find("/detail/") != std::string::npos;
         auto const file = path.filename().string();
         bool const optional =
@@ -326,6 +335,7 @@ inline std::vector<finding> check(fs::path const& tree) {
             (starts_with(file, "mp_") || starts_with(file, "mpfr_") || file == "format.hpp");
         if (!at_root && !internal && !optional && rank < core_floors) core_headers.insert(name);
 
+        if (!at_root && !internal && room.empty() && rooms.count(floor) > 0) doors.push_back(name);
         if (definitions && !at_root) definitions_of_floors.insert(name);
 
         auto const lines = lines_of(path);
@@ -356,6 +366,7 @@ inline std::vector<finding> check(fs::path const& tree) {
             if (to_definitions && at_root) listed.insert(other);
             auto const node = definitions ? header_of(relative) : name;
             if (!to_definitions && other != node) graph[node].push_back(other);
+            if (!at_root && other != node) users[other].insert(node);
             if (name == "sivid/sivid.hpp") umbrella_members.insert(other);
             if (!fs::exists(include / other))
                 report("missing", "includes <" + other + ">, which does not exist");
@@ -365,6 +376,10 @@ inline std::vector<finding> check(fs::path const& tree) {
                     report("upward", "includes <" + other + ">");
             } else if (!at_root && rank_of(other.substr(6, slash - 6)) > rank) {
                 report("upward", "includes <" + other + ">");
+            } else if (auto const there = room_of(other);
+                       !room.empty() && !there.empty() && other.substr(6, slash - 6) == floor &&
+                       height_of(floor, there) > height_of(floor, room)) {
+                report("upward", "includes <" + other + "> of a higher room");
             }
             if (!at_root && !may_include_approximate(other, name))
                 report("unproved", "includes <" + other + ">, which is no result of a fit");
@@ -395,6 +410,13 @@ inline std::vector<finding> check(fs::path const& tree) {
         if (!umbrella_members.empty() && umbrella_members.count(header) == 0)
             findings.push_back(
                 {"umbrella", "include/" + header, "not in sivid.hpp (scripts/update-umbrella)"});
+
+    if (auto const named = named_by_programs(tree); !named.empty())
+        for (auto const& door : doors)
+            if (users[door].size() < 2 && named.count(door) == 0)
+                findings.push_back({"door", "include/" + door,
+                                    "at the top of its floor, where no program and at most one "
+                                    "header includes it: it belongs into a room"});
 
     for (auto const& d : definitions_of_floors)
         if (fs::exists(include / "sivid/impl/src.hpp") && listed.count(d) == 0 &&

@@ -6,7 +6,7 @@
 #include "support/catch.hpp"
 #include "support/random.hpp"
 
-#include <sivid/paving/data_test.hpp>
+#include <sivid/paving/judge/data_test.hpp>
 
 #include <algorithm>
 #include <cmath>

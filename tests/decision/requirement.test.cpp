@@ -5,7 +5,7 @@
 #include "support/models.hpp"
 #include "support/random.hpp"
 
-#include <sivid/decision/robustness.hpp>
+#include <sivid/decision/requirement/robustness.hpp>
 
 #include <algorithm>
 #include <string>

@@ -5,7 +5,7 @@
 #include "paving/plain_problem.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/paving/data_test.hpp>
+#include <sivid/paving/judge/data_test.hpp>
 
 #include <cmath>
 #include <cstddef>

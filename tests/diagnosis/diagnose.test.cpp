@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <sivid/diagnosis/claim/diagnosis_consistency.hpp>
 #include <sivid/diagnosis/diagnose.hpp>
-#include <sivid/diagnosis/diagnosis_consistency.hpp>
 #include <sivid/io/diagnosis_json.hpp>
 
 #include "diagnosis/small_catalogue.hpp"

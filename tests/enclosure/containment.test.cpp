@@ -9,11 +9,11 @@
 #include "support/systems.hpp"
 #include "support/variational_reference.hpp"
 
-#include <sivid/enclosure/implicit_tableau.hpp>
-#include <sivid/enclosure/parametric_flow.hpp>
-#include <sivid/enclosure/parametric_runge_kutta.hpp>
-#include <sivid/enclosure/sensitivity_tube.hpp>
-#include <sivid/enclosure/tableau.hpp>
+#include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
+#include <sivid/enclosure/runge_kutta/tableau.hpp>
+#include <sivid/enclosure/sensitivity/sensitivity_tube.hpp>
+#include <sivid/enclosure/taylor/parametric_flow.hpp>
+#include <sivid/enclosure/taylor/parametric_runge_kutta.hpp>
 #if defined(SIVID_HAS_MPFI)
 #include <sivid/number/mp_functions.hpp>
 #include <sivid/number/mp_interval.hpp>

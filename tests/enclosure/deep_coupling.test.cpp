@@ -7,7 +7,7 @@
 #include "support/reference.hpp"
 
 #include <sivid/enclosure/enclose.hpp>
-#include <sivid/enclosure/implicit_tableau.hpp>
+#include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
 
 #include <cmath>
 #include <cstddef>

@@ -2,7 +2,7 @@
 // A turning vector x' = p y, y' = -p x, known in closed form, by every set and kind of method.
 #include <sivid/enclosure/enclose.hpp>
 
-#include <sivid/enclosure/implicit_tableau.hpp>
+#include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
 #include <sivid/enclosure/tube.hpp>
 
 #include "support/catch.hpp"

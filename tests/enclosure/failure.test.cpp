@@ -8,9 +8,9 @@
 #include "support/random.hpp"
 #include "support/sampling.hpp"
 
-#include <sivid/enclosure/implicit_tableau.hpp>
-#include <sivid/enclosure/parametric_flow.hpp>
-#include <sivid/enclosure/parametric_runge_kutta.hpp>
+#include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
+#include <sivid/enclosure/taylor/parametric_flow.hpp>
+#include <sivid/enclosure/taylor/parametric_runge_kutta.hpp>
 #include <sivid/enclosure/tube.hpp>
 
 #include <cmath>

@@ -10,7 +10,7 @@
 
 #include "../../examples/hovercraft/model.hpp"
 
-#include <sivid/enclosure/parametric_flow.hpp>
+#include <sivid/enclosure/taylor/parametric_flow.hpp>
 #include <sivid/enclosure/tube.hpp>
 
 #include <cmath>

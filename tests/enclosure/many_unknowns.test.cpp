@@ -6,7 +6,7 @@
 #include "support/random.hpp"
 #include "support/reference.hpp"
 
-#include <sivid/enclosure/parametric_flow.hpp>
+#include <sivid/enclosure/taylor/parametric_flow.hpp>
 
 #include <cmath>
 #include <cstddef>

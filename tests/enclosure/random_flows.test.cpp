@@ -7,7 +7,7 @@
 #include "support/reference.hpp"
 #include "support/taylor_models.hpp"
 
-#include <sivid/enclosure/parametric_flow.hpp>
+#include <sivid/enclosure/taylor/parametric_flow.hpp>
 
 #include <cmath>
 #include <cstddef>

@@ -8,9 +8,9 @@
 #include "support/taylor_models.hpp"
 #include "support/uncertain_inputs.hpp"
 
-#include <sivid/enclosure/implicit_tableau.hpp>
-#include <sivid/enclosure/parametric_flow.hpp>
-#include <sivid/enclosure/parametric_runge_kutta.hpp>
+#include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
+#include <sivid/enclosure/taylor/parametric_flow.hpp>
+#include <sivid/enclosure/taylor/parametric_runge_kutta.hpp>
 #include <sivid/enclosure/tube.hpp>
 
 #include <cmath>

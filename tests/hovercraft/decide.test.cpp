@@ -15,8 +15,8 @@
 #include <sivid/io/identification_json.hpp>
 #include <sivid/io/identification_reader.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
-#include <sivid/io/stored_prediction.hpp>
 #include <sivid/paving/identify.hpp>
+#include <sivid/verifier/predict_from.hpp>
 
 #include "io/support.hpp"
 

@@ -7,7 +7,7 @@
 #include "support/random.hpp"
 
 #include <sivid/diagnosis/affected_problem.hpp>
-#include <sivid/enclosure/expansion.hpp>
+#include <sivid/enclosure/series/expansion.hpp>
 #include <sivid/model/bound_model.hpp>
 
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "io/support.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/io/model_names.hpp>
+#include <sivid/io/dataset/model_names.hpp>
 
 #include <cmath>
 #include <set>

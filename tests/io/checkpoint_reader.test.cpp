@@ -2,7 +2,7 @@
 // Checkpoints come back exactly, and what is not one is refused.
 #include <sivid/io/checkpoint_reader.hpp>
 
-#include <sivid/io/problem_digest.hpp>
+#include <sivid/io/result/problem_digest.hpp>
 #include <sivid/paving/identify.hpp>
 
 #include "io/small_identification.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/io/dataset.hpp>
-#include <sivid/io/dataset_digest.hpp>
+#include <sivid/io/dataset/dataset_digest.hpp>
 
 #include "io/support.hpp"
 #include "support/catch.hpp"

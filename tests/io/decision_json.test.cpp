@@ -4,7 +4,7 @@
 #include "io/stored_result.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/io/json_document.hpp>
+#include <sivid/io/text/json_document.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Random damage to mappings and recorded files: the import refuses them with input_error, or gives
 // a data set that the reader accepts. Nothing else happens.
-#include <sivid/io/import_writer.hpp>
+#include <sivid/importing/import_writer.hpp>
 
 #include "io/damaged_text.hpp"
 #include "io/import_support.hpp"

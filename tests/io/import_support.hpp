@@ -3,8 +3,8 @@
 #ifndef SIVID_TESTS_IO_IMPORT_SUPPORT_HPP
 #define SIVID_TESTS_IO_IMPORT_SUPPORT_HPP
 
+#include <sivid/importing/import_writer.hpp>
 #include <sivid/io/dataset.hpp>
-#include <sivid/io/import_writer.hpp>
 
 #include "io/support.hpp"
 #include "support/catch.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A record whose truth is known, through mapping, windows, thinning and proposed starts into
 // identify: the truth is never excluded.
-#include <sivid/io/import_writer.hpp>
+#include <sivid/importing/import_writer.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
 #include <sivid/paving/identify.hpp>
 

@@ -6,10 +6,10 @@
 #include "io/small_identification.hpp"
 #include "io/support.hpp"
 
-#include <sivid/io/certificates_csv.hpp>
 #include <sivid/io/identification_csv.hpp>
 #include <sivid/io/identification_json.hpp>
 #include <sivid/io/identification_reader.hpp>
+#include <sivid/io/result/certificates_csv.hpp>
 
 #include <string>
 #include <utility>

@@ -3,7 +3,7 @@
 #ifndef SIVID_TESTS_IO_SUPPORT_HPP
 #define SIVID_TESTS_IO_SUPPORT_HPP
 
-#include <sivid/io/model_names.hpp>
+#include <sivid/io/dataset/model_names.hpp>
 
 #include <filesystem>
 #include <fstream>

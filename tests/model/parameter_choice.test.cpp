@@ -3,9 +3,9 @@
 #include <sivid/model/parameter_choice.hpp>
 
 #include <sivid/model/bound_model.hpp>
+#include <sivid/model/change/substitution.hpp>
 #include <sivid/model/effect.hpp>
-#include <sivid/model/find_combinations.hpp>
-#include <sivid/model/substitution.hpp>
+#include <sivid/model/structure/find_combinations.hpp>
 
 #include "support/catch.hpp"
 #include "support/formulas.hpp"

@@ -5,8 +5,8 @@
 #include "support/random.hpp"
 #include "support/reference.hpp"
 
-#include <sivid/paving/experiment_run.hpp>
 #include <sivid/paving/identify.hpp>
+#include <sivid/paving/run/experiment_run.hpp>
 
 #include <cstddef>
 #include <vector>

@@ -2,8 +2,8 @@
 // An instrument of u and v mounted askew: the sway equation, exactly right, was called proved to
 // lack something, because no sensor was estimated to be wrong.
 #include <sivid/approximate/place/place_estimate.hpp>
-#include <sivid/diagnosis/place_report.hpp>
-#include <sivid/diagnosis/sensor_discharge.hpp>
+#include <sivid/diagnosis/claim/place_report.hpp>
+#include <sivid/diagnosis/sensor/sensor_discharge.hpp>
 
 #include "support/catch.hpp"
 #include "support/hovercraft_campaign.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Parameters were called entangled, and motions symmetries, because a rank was counted in doubles
 // and exponents wrapped around at 2^32: theorems that are wrong.
-#include <sivid/model/find_combinations.hpp>
-#include <sivid/model/homogeneity.hpp>
-#include <sivid/model/symmetry.hpp>
+#include <sivid/model/structure/find_combinations.hpp>
+#include <sivid/model/structure/homogeneity.hpp>
+#include <sivid/model/structure/symmetry.hpp>
 
 #include "support/catch.hpp"
 #include "support/models.hpp"

@@ -3,10 +3,10 @@
 // false result is not verified, and a true one loses time at most.
 #include <sivid/io/checkpoint.hpp>
 #include <sivid/io/checkpoint_reader.hpp>
-#include <sivid/io/identification_check.hpp>
-#include <sivid/io/paving_check.hpp>
-#include <sivid/io/problem_digest.hpp>
+#include <sivid/io/result/problem_digest.hpp>
 #include <sivid/paving/identify.hpp>
+#include <sivid/verifier/claim/paving_check.hpp>
+#include <sivid/verifier/identification_check.hpp>
 
 #include "io/stored_result.hpp"
 #include "support/catch.hpp"

@@ -3,15 +3,15 @@
 // digests adapted, so that nothing but a proof can tell.
 #include <sivid/io/checkpoint.hpp>
 #include <sivid/io/checkpoint_reader.hpp>
-#include <sivid/io/identification_check.hpp>
-#include <sivid/io/problem_digest.hpp>
+#include <sivid/io/result/problem_digest.hpp>
 #include <sivid/paving/identify.hpp>
+#include <sivid/verifier/identification_check.hpp>
 
 #include "io/stored_result.hpp"
 #include "support/catch.hpp"
 
 #ifdef SIVID_HAS_MPFI
-#include <sivid/io/mp_identification_check.hpp>
+#include <sivid/verifier/mp_identification_check.hpp>
 #endif
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 #include "report/well_formed.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/report/bar_chart.hpp>
-#include <sivid/report/heat_map.hpp>
-#include <sivid/report/interval_chart.hpp>
+#include <sivid/report/draw/bar_chart.hpp>
+#include <sivid/report/draw/heat_map.hpp>
+#include <sivid/report/draw/interval_chart.hpp>
 #include <sivid/report/page.hpp>
 
 #include <cmath>

@@ -7,9 +7,9 @@
 #include "support/random.hpp"
 
 #include <sivid/model/expression.hpp>
-#include <sivid/model/operation.hpp>
-#include <sivid/model/series.hpp>
-#include <sivid/model/tape.hpp>
+#include <sivid/model/graph/operation.hpp>
+#include <sivid/model/graph/tape.hpp>
+#include <sivid/model/series/series.hpp>
 
 #include <cstddef>
 #include <initializer_list>

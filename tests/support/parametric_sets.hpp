@@ -6,8 +6,8 @@
 #include "support/reference.hpp"
 #include "support/taylor_models.hpp"
 
-#include <sivid/enclosure/parametric_flow.hpp>
-#include <sivid/enclosure/parametric_runge_kutta.hpp>
+#include <sivid/enclosure/taylor/parametric_flow.hpp>
+#include <sivid/enclosure/taylor/parametric_runge_kutta.hpp>
 
 #include <cmath>
 #include <cstddef>

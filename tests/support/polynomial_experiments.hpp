@@ -6,7 +6,7 @@
 #include "support/models.hpp"
 #include "support/random.hpp"
 
-#include <sivid/paving/response.hpp>
+#include <sivid/paving/response/response.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 #include "support/models.hpp"
 #include "support/random.hpp"
 
-#include <sivid/paving/dependence.hpp>
 #include <sivid/paving/identify.hpp>
+#include <sivid/paving/products/dependence.hpp>
 
 namespace support {
 

@@ -7,7 +7,7 @@
 #include "support/random.hpp"
 #include "support/taylor_models.hpp"
 
-#include <sivid/paving/response.hpp>
+#include <sivid/paving/response/response.hpp>
 
 #include <cstddef>
 #include <memory>

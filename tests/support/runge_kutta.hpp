@@ -5,7 +5,7 @@
 
 #include "support/power_series.hpp"
 
-#include <sivid/enclosure/implicit_tableau.hpp>
+#include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
 #include <sivid/measurement/signal.hpp>
 
 #include <cstddef>

@@ -4,7 +4,7 @@
 
 #include "record.hpp"
 
-#include <sivid/io/exact_decimal.hpp>
+#include <sivid/io/text/exact_decimal.hpp>
 #include <sivid/paving/identify.hpp>
 
 #include <filesystem>

@@ -6,9 +6,9 @@
 
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/approximate/simulate/simulate.hpp>
-#include <sivid/paving/data_test.hpp>
 #include <sivid/paving/invert.hpp>
-#include <sivid/paving/witness.hpp>
+#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/witness.hpp>
 
 #include <algorithm>
 #include <array>

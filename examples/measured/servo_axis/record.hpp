@@ -2,8 +2,8 @@
 #ifndef SERVO_AXIS_RECORD_HPP
 #define SERVO_AXIS_RECORD_HPP
 
-#include <sivid/io/csv_table.hpp>
-#include <sivid/io/exact_decimal.hpp>
+#include <sivid/io/text/csv_table.hpp>
+#include <sivid/io/text/exact_decimal.hpp>
 
 #include <cmath>
 #include <cstddef>

@@ -3,15 +3,15 @@
 #include "console/console.hpp"
 #include "console/program.hpp"
 
-#include <sivid/io/certificates_csv.hpp>
 #include <sivid/io/explaining_motion.hpp>
 #include <sivid/io/file_set.hpp>
 #include <sivid/io/identification_csv.hpp>
 #include <sivid/io/identification_json.hpp>
+#include <sivid/io/result/certificates_csv.hpp>
+#include <sivid/report/draw/residual_plot.hpp>
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
 #include <sivid/report/identification_words.hpp>
-#include <sivid/report/residual_plot.hpp>
 
 #include <algorithm>
 #include <chrono>

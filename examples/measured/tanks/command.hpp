@@ -2,7 +2,7 @@
 #ifndef TANKS_COMMAND_HPP
 #define TANKS_COMMAND_HPP
 
-#include <sivid/io/exact_decimal.hpp>
+#include <sivid/io/text/exact_decimal.hpp>
 #include <sivid/model/problem.hpp>
 
 #include <filesystem>

@@ -9,7 +9,7 @@
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/diagnosis/verification.hpp>
 #include <sivid/paving/inflation.hpp>
-#include <sivid/paving/observer_refutation.hpp>
+#include <sivid/paving/inflation/observer_refutation.hpp>
 #include <sivid/report/table.hpp>
 
 #include <algorithm>

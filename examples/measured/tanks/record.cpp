@@ -2,7 +2,7 @@
 #include "command.hpp"
 #include "model.hpp"
 
-#include <sivid/io/csv_table.hpp>
+#include <sivid/io/text/csv_table.hpp>
 
 namespace tanks {
 

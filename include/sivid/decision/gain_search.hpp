@@ -3,7 +3,7 @@
 #define SIVID_DECISION_GAIN_SEARCH_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/decision/detail/verification_types.hpp>
+#include <sivid/decision/motion/detail/verification_types.hpp>
 #include <sivid/decision/prediction_options.hpp>
 #include <sivid/decision/prediction_problem.hpp>
 #include <sivid/decision/requirement.hpp>

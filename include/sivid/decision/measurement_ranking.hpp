@@ -3,7 +3,7 @@
 #define SIVID_DECISION_MEASUREMENT_RANKING_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/decision/measurement_group.hpp>
+#include <sivid/decision/ranking/measurement_group.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/run_options.hpp>
 #include <sivid/paving/verdict.hpp>

@@ -3,11 +3,11 @@
 #define SIVID_DECISION_PREDICTION_PROBLEM_HPP
 
 #include <sivid/measurement/signal.hpp>
-#include <sivid/model/added_start.hpp>
 #include <sivid/model/bound_model.hpp>
+#include <sivid/model/change/added_start.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/model/parameter_choice.hpp>
-#include <sivid/paving/response.hpp>
+#include <sivid/paving/response/response.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>

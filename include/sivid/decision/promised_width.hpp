@@ -3,9 +3,9 @@
 #define SIVID_DECISION_PROMISED_WIDTH_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/decision/detail/promise_types.hpp>
+#include <sivid/decision/design/detail/promise_types.hpp>
 #include <sivid/decision/prediction_problem.hpp>
-#include <sivid/model/graph.hpp>
+#include <sivid/model/graph/graph.hpp>
 
 #include <vector>
 

@@ -3,8 +3,8 @@
 #define SIVID_DECISION_RANK_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/model/combination.hpp>
 #include <sivid/model/problem.hpp>
+#include <sivid/model/structure/combination.hpp>
 #include <sivid/paving/run_options.hpp>
 
 #include <cstddef>

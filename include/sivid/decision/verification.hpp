@@ -3,11 +3,11 @@
 #define SIVID_DECISION_VERIFICATION_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/decision/detail/verification_types.hpp>
+#include <sivid/decision/motion/detail/verification_types.hpp>
 #include <sivid/decision/prediction_options.hpp>
 #include <sivid/decision/prediction_problem.hpp>
 #include <sivid/decision/requirement.hpp>
-#include <sivid/decision/robustness.hpp>
+#include <sivid/decision/requirement/robustness.hpp>
 #include <sivid/space/box.hpp>
 
 #include <cstddef>

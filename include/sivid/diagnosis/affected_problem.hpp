@@ -3,7 +3,7 @@
 #define SIVID_DIAGNOSIS_AFFECTED_PROBLEM_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/model/added_start.hpp>
+#include <sivid/model/change/added_start.hpp>
 #include <sivid/model/effect.hpp>
 #include <sivid/model/problem.hpp>
 

@@ -3,7 +3,7 @@
 #define SIVID_DIAGNOSIS_DIAGNOSIS_HPP
 
 #include <sivid/number/interval_traits.hpp>
-#include <sivid/paving/run_reach.hpp>
+#include <sivid/paving/run/run_reach.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -2,8 +2,8 @@
 #ifndef SIVID_DIAGNOSIS_DIAGNOSIS_EFFORT_HPP
 #define SIVID_DIAGNOSIS_DIAGNOSIS_EFFORT_HPP
 
-#include <sivid/paving/detail/observer_effort.hpp>
 #include <sivid/paving/inflation.hpp>
+#include <sivid/paving/inflation/detail/observer_effort.hpp>
 
 #include <algorithm>
 #include <atomic>

@@ -4,19 +4,19 @@
 
 #include <sivid/approximate/place/estimated_place.hpp>
 #include <sivid/compiled.hpp>
-#include <sivid/diagnosis/candidate.hpp>
-#include <sivid/diagnosis/detail/gap_options.hpp>
-#include <sivid/diagnosis/detail/holdout_results.hpp>
-#include <sivid/diagnosis/detail/screened.hpp>
-#include <sivid/diagnosis/detail/verified_inflation.hpp>
+#include <sivid/diagnosis/candidate/candidate.hpp>
+#include <sivid/diagnosis/candidate/detail/screened.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/diagnosis_effort.hpp>
+#include <sivid/diagnosis/gap/detail/gap_options.hpp>
+#include <sivid/diagnosis/gap/detail/verified_inflation.hpp>
+#include <sivid/diagnosis/hold_out/detail/holdout_results.hpp>
 #include <sivid/diagnosis/holdout.hpp>
-#include <sivid/diagnosis/relation_finding.hpp>
+#include <sivid/diagnosis/relation/relation_finding.hpp>
 #include <sivid/model/effect.hpp>
 #include <sivid/model/manoeuvre.hpp>
 #include <sivid/model/problem.hpp>
-#include <sivid/paving/data_test_options.hpp>
+#include <sivid/paving/judge/data_test_options.hpp>
 
 #include <cstddef>
 #include <functional>

@@ -3,7 +3,7 @@
 #define SIVID_DIAGNOSIS_HOLDOUT_HPP
 
 #include <sivid/diagnosis/affected_problem.hpp>
-#include <sivid/diagnosis/detail/screened.hpp>
+#include <sivid/diagnosis/candidate/detail/screened.hpp>
 
 #include <utility>
 #include <vector>

@@ -4,13 +4,13 @@
 
 #include <sivid/approximate/approximate_fit.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>
-#include <sivid/diagnosis/detail/verified_inflation.hpp>
+#include <sivid/diagnosis/candidate/resolve_delays.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
-#include <sivid/diagnosis/resolve_delays.hpp>
-#include <sivid/paving/box_explorer.hpp>
-#include <sivid/paving/data_test.hpp>
+#include <sivid/diagnosis/gap/detail/verified_inflation.hpp>
 #include <sivid/paving/inflation.hpp>
-#include <sivid/paving/witness.hpp>
+#include <sivid/paving/judge/box_explorer.hpp>
+#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/witness.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -9,9 +9,9 @@
 
 #include <sivid/enclosure/enclosed_motion.hpp>
 #include <sivid/enclosure/observation.hpp>
-#include <sivid/enclosure/parametric_flow.hpp>
-#include <sivid/enclosure/parametric_runge_kutta.hpp>
 #include <sivid/enclosure/suggested_degree.hpp>
+#include <sivid/enclosure/taylor/parametric_flow.hpp>
+#include <sivid/enclosure/taylor/parametric_runge_kutta.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -4,7 +4,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/enclosure/options.hpp>
-#include <sivid/model/operation.hpp>
+#include <sivid/model/graph/operation.hpp>
 #include <sivid/number/decimal.hpp>
 #include <sivid/number/nearest_text.hpp>
 

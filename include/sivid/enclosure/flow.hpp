@@ -5,7 +5,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/measurement/signal.hpp>
 #include <sivid/model/bound_model.hpp>
-#include <sivid/model/tape.hpp>
+#include <sivid/model/graph/tape.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 #ifndef SIVID_ENCLOSURE_OBSERVATION_HPP
 #define SIVID_ENCLOSURE_OBSERVATION_HPP
 
-#include <sivid/enclosure/doubleton.hpp>
+#include <sivid/enclosure/set/doubleton.hpp>
 #include <sivid/enclosure/uncertain_input.hpp>
-#include <sivid/model/series.hpp>
+#include <sivid/model/series/series.hpp>
 
 #include <cstddef>
 #include <vector>

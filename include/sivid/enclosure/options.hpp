@@ -2,7 +2,7 @@
 #ifndef SIVID_ENCLOSURE_OPTIONS_HPP
 #define SIVID_ENCLOSURE_OPTIONS_HPP
 
-#include <sivid/enclosure/tableau.hpp>
+#include <sivid/enclosure/runge_kutta/tableau.hpp>
 
 #include <cstddef>
 #include <functional>

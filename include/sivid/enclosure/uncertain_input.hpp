@@ -2,7 +2,7 @@
 #ifndef SIVID_ENCLOSURE_UNCERTAIN_INPUT_HPP
 #define SIVID_ENCLOSURE_UNCERTAIN_INPUT_HPP
 
-#include <sivid/enclosure/expansion.hpp>
+#include <sivid/enclosure/series/expansion.hpp>
 #include <sivid/number/taylor_model.hpp>
 
 #include <cmath>

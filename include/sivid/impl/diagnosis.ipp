@@ -2,12 +2,12 @@
 #ifndef SIVID_IMPL_DIAGNOSIS_IPP
 #define SIVID_IMPL_DIAGNOSIS_IPP
 
+#include <sivid/diagnosis/candidate/impl/effect_hulls.ipp>
+#include <sivid/diagnosis/candidate/impl/input_slices.ipp>
+#include <sivid/diagnosis/gap/impl/confined_gap.ipp>
 #include <sivid/diagnosis/impl/affected_problem.ipp>
-#include <sivid/diagnosis/impl/confined_gap.ipp>
 #include <sivid/diagnosis/impl/diagnose.ipp>
 #include <sivid/diagnosis/impl/diagnosis_run.ipp>
-#include <sivid/diagnosis/impl/effect_hulls.ipp>
-#include <sivid/diagnosis/impl/input_slices.ipp>
 #include <sivid/diagnosis/impl/manoeuvre.ipp>
 
 #endif

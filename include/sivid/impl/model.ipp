@@ -2,16 +2,16 @@
 #ifndef SIVID_IMPL_MODEL_IPP
 #define SIVID_IMPL_MODEL_IPP
 
+#include <sivid/model/change/impl/slower_inputs.ipp>
+#include <sivid/model/graph/impl/graph.ipp>
+#include <sivid/model/graph/impl/graph_listing.ipp>
 #include <sivid/model/impl/bound_model.ipp>
 #include <sivid/model/impl/closed_loop.ipp>
 #include <sivid/model/impl/describe.ipp>
 #include <sivid/model/impl/effect.ipp>
 #include <sivid/model/impl/effects.ipp>
 #include <sivid/model/impl/expression.ipp>
-#include <sivid/model/impl/graph.ipp>
-#include <sivid/model/impl/graph_listing.ipp>
 #include <sivid/model/impl/model.ipp>
-#include <sivid/model/impl/slower_inputs.ipp>
 #include <sivid/model/impl/to_dot.ipp>
 #include <sivid/model/impl/unit.ipp>
 

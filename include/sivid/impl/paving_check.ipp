@@ -2,6 +2,6 @@
 #ifndef SIVID_IMPL_PAVING_CHECK_IPP
 #define SIVID_IMPL_PAVING_CHECK_IPP
 
-#include <sivid/paving/impl/scalar_run.ipp>
+#include <sivid/paving/run/impl/scalar_run.ipp>
 
 #endif

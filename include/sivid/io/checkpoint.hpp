@@ -3,9 +3,9 @@
 #define SIVID_IO_CHECKPOINT_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/io/certificates_csv.hpp>
-#include <sivid/io/durable_file.hpp>
-#include <sivid/io/sha256.hpp>
+#include <sivid/io/result/certificates_csv.hpp>
+#include <sivid/io/text/durable_file.hpp>
+#include <sivid/io/text/sha256.hpp>
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/paving/identification_state.hpp>
 #include <sivid/version.hpp>

@@ -5,7 +5,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/io/checkpoint.hpp>
 #include <sivid/io/input_error.hpp>
-#include <sivid/io/text_file.hpp>
+#include <sivid/io/text/text_file.hpp>
 
 #include <algorithm>
 #include <charconv>

@@ -3,9 +3,9 @@
 #define SIVID_IO_DATASET_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/io/dataset/model_names.hpp>
 #include <sivid/io/dataset_value.hpp>
 #include <sivid/io/input_error.hpp>
-#include <sivid/io/model_names.hpp>
 
 #include <filesystem>
 

@@ -2,8 +2,8 @@
 #ifndef SIVID_IO_DATASET_EFFECTS_HPP
 #define SIVID_IO_DATASET_EFFECTS_HPP
 
+#include <sivid/io/dataset/mapping_entries.hpp>
 #include <sivid/io/dataset_value.hpp>
-#include <sivid/io/mapping_entries.hpp>
 #include <sivid/model/effect.hpp>
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 #ifndef SIVID_IO_DATASET_VALUE_HPP
 #define SIVID_IO_DATASET_VALUE_HPP
 
-#include <sivid/io/exact_decimal.hpp>
+#include <sivid/io/dataset/outlier_rule.hpp>
 #include <sivid/io/input_error.hpp>
-#include <sivid/io/outlier_rule.hpp>
+#include <sivid/io/text/exact_decimal.hpp>
 #include <sivid/measurement/record.hpp>
 #include <sivid/measurement/signal.hpp>
 #include <sivid/number/interval.hpp>

@@ -3,10 +3,10 @@
 #define SIVID_IO_DATASET_WRITER_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/io/dataset/model_names.hpp>
 #include <sivid/io/dataset_value.hpp>
 #include <sivid/io/file_set.hpp>
-#include <sivid/io/json_writer.hpp>
-#include <sivid/io/model_names.hpp>
+#include <sivid/io/text/json_writer.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -4,8 +4,8 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
-#include <sivid/io/json_writer.hpp>
-#include <sivid/io/reach_json.hpp>
+#include <sivid/io/result/reach_json.hpp>
+#include <sivid/io/text/json_writer.hpp>
 
 #include <cstddef>
 #include <optional>

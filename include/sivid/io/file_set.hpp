@@ -2,9 +2,9 @@
 #ifndef SIVID_IO_FILE_SET_HPP
 #define SIVID_IO_FILE_SET_HPP
 
-#include <sivid/io/durable_file.hpp>
-#include <sivid/io/printable_text.hpp>
-#include <sivid/io/text_file.hpp>
+#include <sivid/io/text/durable_file.hpp>
+#include <sivid/io/text/printable_text.hpp>
+#include <sivid/io/text/text_file.hpp>
 
 #include <cerrno>
 #include <charconv>

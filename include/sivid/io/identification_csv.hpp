@@ -3,8 +3,8 @@
 #define SIVID_IO_IDENTIFICATION_CSV_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/io/exact_decimal.hpp>
 #include <sivid/io/explaining_motion.hpp>
+#include <sivid/io/text/exact_decimal.hpp>
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/paving/identify.hpp>
 

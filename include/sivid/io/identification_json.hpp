@@ -3,12 +3,12 @@
 #define SIVID_IO_IDENTIFICATION_JSON_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/io/identifiability_json.hpp>
 #include <sivid/io/identification_csv.hpp>
-#include <sivid/io/json_writer.hpp>
-#include <sivid/io/problem_digest.hpp>
-#include <sivid/io/reach_json.hpp>
-#include <sivid/io/sha256.hpp>
+#include <sivid/io/result/identifiability_json.hpp>
+#include <sivid/io/result/problem_digest.hpp>
+#include <sivid/io/result/reach_json.hpp>
+#include <sivid/io/text/json_writer.hpp>
+#include <sivid/io/text/sha256.hpp>
 #include <sivid/paving/identify.hpp>
 
 #include <algorithm>

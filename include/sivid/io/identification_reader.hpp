@@ -3,8 +3,8 @@
 #define SIVID_IO_IDENTIFICATION_READER_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/io/detail/stored_identification.hpp>
 #include <sivid/io/input_error.hpp>
+#include <sivid/io/result/detail/stored_identification.hpp>
 
 #include <filesystem>
 

@@ -3,7 +3,7 @@
 #define SIVID_IO_INPUT_ERROR_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/io/printable_text.hpp>
+#include <sivid/io/text/printable_text.hpp>
 
 #include <concepts>
 #include <cstddef>

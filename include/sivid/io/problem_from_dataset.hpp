@@ -4,8 +4,8 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/diagnosis/holdout.hpp>
+#include <sivid/io/dataset/outlier_rule.hpp>
 #include <sivid/io/dataset_value.hpp>
-#include <sivid/io/outlier_rule.hpp>
 #include <sivid/model/problem.hpp>
 
 #include <cstddef>

@@ -3,8 +3,8 @@
 #define SIVID_IO_SCENARIO_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/io/dataset/model_names.hpp>
 #include <sivid/io/dataset_value.hpp>
-#include <sivid/io/model_names.hpp>
 #include <sivid/measurement/signal.hpp>
 #include <sivid/model/bound_model.hpp>
 

@@ -4,10 +4,10 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/measurement/signal.hpp>
-#include <sivid/model/differentiate.hpp>
+#include <sivid/model/graph/differentiate.hpp>
+#include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/model/parameter_choice.hpp>
-#include <sivid/model/rewrite.hpp>
 
 #include <algorithm>
 #include <cstddef>

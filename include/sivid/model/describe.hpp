@@ -3,7 +3,7 @@
 #define SIVID_MODEL_DESCRIBE_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/model/graph_listing.hpp>
+#include <sivid/model/graph/graph_listing.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/number/nearest_text.hpp>
 

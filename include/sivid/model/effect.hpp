@@ -5,8 +5,8 @@
 #include <sivid/compiled.hpp>
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/expression.hpp>
+#include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/model.hpp>
-#include <sivid/model/rewrite.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -3,7 +3,7 @@
 #define SIVID_MODEL_EXPRESSION_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/model/graph.hpp>
+#include <sivid/model/graph/graph.hpp>
 #include <sivid/number/decimal.hpp>
 
 #include <stdexcept>

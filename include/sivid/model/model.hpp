@@ -4,8 +4,8 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/model/expression.hpp>
-#include <sivid/model/formula_text.hpp>
-#include <sivid/model/rewrite.hpp>
+#include <sivid/model/graph/formula_text.hpp>
+#include <sivid/model/graph/rewrite.hpp>
 #include <sivid/number/decimal.hpp>
 #include <sivid/space/vec.hpp>
 

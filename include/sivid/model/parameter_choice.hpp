@@ -2,8 +2,8 @@
 #ifndef SIVID_MODEL_PARAMETER_CHOICE_HPP
 #define SIVID_MODEL_PARAMETER_CHOICE_HPP
 
+#include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/model.hpp>
-#include <sivid/model/rewrite.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>

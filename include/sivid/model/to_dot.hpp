@@ -3,7 +3,7 @@
 #define SIVID_MODEL_TO_DOT_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/model/graph_listing.hpp>
+#include <sivid/model/graph/graph_listing.hpp>
 #include <sivid/model/model.hpp>
 
 #include <cstddef>

@@ -3,7 +3,7 @@
 #define SIVID_PAVING_BISECTION_TEST_HPP
 
 #include <sivid/paving/invert.hpp>
-#include <sivid/paving/plain_run.hpp>
+#include <sivid/paving/run/plain_run.hpp>
 #include <sivid/paving/work_limit.hpp>
 
 #include <cstddef>

@@ -5,8 +5,8 @@
 #include <sivid/compiled.hpp>
 #include <sivid/enclosure/options.hpp>
 #include <sivid/model/problem.hpp>
-#include <sivid/model/symmetry.hpp>
-#include <sivid/paving/detail/unknown_quantity.hpp>
+#include <sivid/model/structure/symmetry.hpp>
+#include <sivid/paving/identifiability/detail/unknown_quantity.hpp>
 #include <sivid/space/box.hpp>
 
 #include <cstddef>

@@ -3,12 +3,12 @@
 #define SIVID_PAVING_IDENTIFICATION_HPP
 
 #include <sivid/approximate/approximate_fit.hpp>
-#include <sivid/model/combination.hpp>
-#include <sivid/paving/detail/fewest_outliers.hpp>
-#include <sivid/paving/exclusion_proof.hpp>
-#include <sivid/paving/reduction.hpp>
+#include <sivid/model/structure/combination.hpp>
+#include <sivid/paving/outliers/detail/fewest_outliers.hpp>
+#include <sivid/paving/products/reduction.hpp>
+#include <sivid/paving/run/run_reach.hpp>
 #include <sivid/paving/run_options.hpp>
-#include <sivid/paving/run_reach.hpp>
+#include <sivid/paving/search/exclusion_proof.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/space/box.hpp>

@@ -3,8 +3,8 @@
 #define SIVID_PAVING_IDENTIFICATION_STATE_HPP
 
 #include <sivid/approximate/approximate_fit.hpp>
-#include <sivid/paving/search_state.hpp>
-#include <sivid/paving/window_contraction.hpp>
+#include <sivid/paving/contract/window_contraction.hpp>
+#include <sivid/paving/search/search_state.hpp>
 
 #include <optional>
 

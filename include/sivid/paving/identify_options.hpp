@@ -2,9 +2,9 @@
 #ifndef SIVID_PAVING_IDENTIFY_OPTIONS_HPP
 #define SIVID_PAVING_IDENTIFY_OPTIONS_HPP
 
-#include <sivid/paving/data_test_options.hpp>
 #include <sivid/paving/identification_state.hpp>
 #include <sivid/paving/inversion_options.hpp>
+#include <sivid/paving/judge/data_test_options.hpp>
 
 #include <cstddef>
 #include <functional>

@@ -6,8 +6,8 @@
 #include <sivid/compiled.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/number/interval.hpp>
-#include <sivid/paving/data_test_options.hpp>
 #include <sivid/paving/identification.hpp>
+#include <sivid/paving/judge/data_test_options.hpp>
 #include <sivid/space/box.hpp>
 
 #include <cstddef>

@@ -3,9 +3,9 @@
 #define SIVID_PAVING_INVERSION_OPTIONS_HPP
 
 #include <sivid/executor.hpp>
-#include <sivid/paving/exclusion_proof.hpp>
-#include <sivid/paving/frontier.hpp>
-#include <sivid/paving/search_state.hpp>
+#include <sivid/paving/search/exclusion_proof.hpp>
+#include <sivid/paving/search/frontier.hpp>
+#include <sivid/paving/search/search_state.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/verdict.hpp>
 

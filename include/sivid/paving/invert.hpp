@@ -2,9 +2,9 @@
 #ifndef SIVID_PAVING_INVERT_HPP
 #define SIVID_PAVING_INVERT_HPP
 
-#include <sivid/paving/box_test.hpp>
 #include <sivid/paving/inversion_options.hpp>
-#include <sivid/paving/paving_search.hpp>
+#include <sivid/paving/search/box_test.hpp>
+#include <sivid/paving/search/paving_search.hpp>
 #include <sivid/paving/set_test.hpp>
 
 #include <utility>

@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_SET_TEST_HPP
 #define SIVID_PAVING_SET_TEST_HPP
 
-#include <sivid/paving/exclusion_proof.hpp>
+#include <sivid/paving/search/exclusion_proof.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/space/box.hpp>
 

@@ -2,10 +2,10 @@
 #ifndef SIVID_REPORT_DIAGNOSIS_VIEW_HPP
 #define SIVID_REPORT_DIAGNOSIS_VIEW_HPP
 
-#include <sivid/report/candidate_chart.hpp>
-#include <sivid/report/comparison_plot.hpp>
+#include <sivid/report/draw/candidate_chart.hpp>
+#include <sivid/report/draw/comparison_plot.hpp>
+#include <sivid/report/draw/missing_rate_plot.hpp>
 #include <sivid/report/identification_view.hpp>
-#include <sivid/report/missing_rate_plot.hpp>
 
 #include <algorithm>
 #include <cstddef>

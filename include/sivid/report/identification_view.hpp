@@ -2,10 +2,10 @@
 #ifndef SIVID_REPORT_IDENTIFICATION_VIEW_HPP
 #define SIVID_REPORT_IDENTIFICATION_VIEW_HPP
 
+#include <sivid/report/draw/paving_plot.hpp>
+#include <sivid/report/draw/plane_plot.hpp>
+#include <sivid/report/draw/time_plot.hpp>
 #include <sivid/report/page.hpp>
-#include <sivid/report/paving_plot.hpp>
-#include <sivid/report/plane_plot.hpp>
-#include <sivid/report/time_plot.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -3,12 +3,12 @@
 #define SIVID_REPORT_PAGE_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/report/escape.hpp>
-#include <sivid/report/legend.hpp>
-#include <sivid/report/page_script.hpp>
-#include <sivid/report/page_style.hpp>
-#include <sivid/report/svg.hpp>
+#include <sivid/report/draw/legend.hpp>
+#include <sivid/report/draw/svg.hpp>
+#include <sivid/report/page/page_script.hpp>
+#include <sivid/report/page/page_style.hpp>
 #include <sivid/report/table.hpp>
+#include <sivid/report/text/escape.hpp>
 
 #include <cstddef>
 #include <ostream>

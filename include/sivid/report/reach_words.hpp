@@ -5,7 +5,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/run_reach.hpp>
+#include <sivid/paving/run/run_reach.hpp>
 
 #include <string>
 #include <vector>

@@ -3,7 +3,7 @@
 #define SIVID_REPORT_TABLE_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/report/escape.hpp>
+#include <sivid/report/text/escape.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -3,8 +3,8 @@
 #define SIVID_APPROXIMATE_PLACE_LAW_HPP
 
 #include <sivid/approximate/place/knot_trace.hpp>
+#include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/model.hpp>
-#include <sivid/model/rewrite.hpp>
 #include <sivid/number/nearest_text.hpp>
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 #ifndef SIVID_APPROXIMATE_PLACE_PLACE_HPP
 #define SIVID_APPROXIMATE_PLACE_PLACE_HPP
 
+#include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/model.hpp>
-#include <sivid/model/rewrite.hpp>
 
 #include <algorithm>
 #include <cstddef>

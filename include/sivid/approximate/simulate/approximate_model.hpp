@@ -4,7 +4,7 @@
 
 #include <sivid/approximate/simulate/late_signal.hpp>
 #include <sivid/model/bound_model.hpp>
-#include <sivid/model/plain_program.hpp>
+#include <sivid/model/graph/plain_program.hpp>
 
 #include <cstddef>
 #include <stdexcept>

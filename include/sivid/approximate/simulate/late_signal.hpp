@@ -3,7 +3,7 @@
 #define SIVID_APPROXIMATE_SIMULATE_LATE_SIGNAL_HPP
 
 #include <sivid/model/bound_model.hpp>
-#include <sivid/model/plain_program.hpp>
+#include <sivid/model/graph/plain_program.hpp>
 
 #include <algorithm>
 #include <cmath>

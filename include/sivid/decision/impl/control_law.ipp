@@ -5,8 +5,8 @@
 #include <sivid/decision/control_law.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/decision/detail/requirement_numbers.hpp>
-#include <sivid/model/graph_range.hpp>
+#include <sivid/decision/requirement/detail/requirement_numbers.hpp>
+#include <sivid/model/graph/graph_range.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <sivid/decision/experiment_design.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/decision/detail/design_guide.hpp>
+#include <sivid/decision/design/detail/design_guide.hpp>
 #include <sivid/model/best_settings.hpp>
 #include <sivid/paving/work_limit.hpp>
 

@@ -5,7 +5,7 @@
 #include <sivid/decision/gain_search.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/decision/detail/gain_test.hpp>
+#include <sivid/decision/motion/detail/gain_test.hpp>
 #include <sivid/number/decimal.hpp>
 #include <sivid/number/few_digits.hpp>
 #include <sivid/paving/invert.hpp>

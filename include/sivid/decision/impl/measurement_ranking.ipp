@@ -5,7 +5,7 @@
 #include <sivid/decision/measurement_ranking.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/decision/detail/others_leave.hpp>
+#include <sivid/decision/ranking/detail/others_leave.hpp>
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/work_limit.hpp>

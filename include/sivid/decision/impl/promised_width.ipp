@@ -5,7 +5,7 @@
 #include <sivid/decision/promised_width.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/decision/detail/pair_search.hpp>
+#include <sivid/decision/design/detail/pair_search.hpp>
 
 #include <algorithm>
 #include <chrono>

@@ -5,11 +5,11 @@
 #include <sivid/decision/rank.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/decision/detail/effect_cover.hpp>
+#include <sivid/decision/ranking/detail/effect_cover.hpp>
+#include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/parameter_choice.hpp>
-#include <sivid/model/rewrite.hpp>
-#include <sivid/paving/box_explorer.hpp>
-#include <sivid/paving/dependence.hpp>
+#include <sivid/paving/judge/box_explorer.hpp>
+#include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/work_limit.hpp>
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include <sivid/decision/requirement.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/decision/detail/requirement_parser.hpp>
+#include <sivid/decision/requirement/detail/requirement_parser.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,11 +5,11 @@
 #include <sivid/decision/verification.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/decision/detail/heard_data.hpp>
-#include <sivid/decision/detail/idle_parts.hpp>
-#include <sivid/decision/detail/judged_motions.hpp>
-#include <sivid/decision/detail/open_parts.hpp>
-#include <sivid/decision/detail/witness_search.hpp>
+#include <sivid/decision/motion/detail/heard_data.hpp>
+#include <sivid/decision/motion/detail/idle_parts.hpp>
+#include <sivid/decision/motion/detail/judged_motions.hpp>
+#include <sivid/decision/motion/detail/open_parts.hpp>
+#include <sivid/decision/motion/detail/witness_search.hpp>
 #include <sivid/paving/work_limit.hpp>
 
 #include <algorithm>

@@ -6,21 +6,21 @@
 
 #include <sivid/approximate/place/place_estimate.hpp>
 #include <sivid/compiled.hpp>
-#include <sivid/diagnosis/broken_relation.hpp>
-#include <sivid/diagnosis/candidate_order.hpp>
-#include <sivid/diagnosis/candidate_verdicts.hpp>
-#include <sivid/diagnosis/claim_review.hpp>
-#include <sivid/diagnosis/confined_gap.hpp>
-#include <sivid/diagnosis/describe_candidate.hpp>
-#include <sivid/diagnosis/diagnosis_consistency.hpp>
+#include <sivid/diagnosis/candidate/candidate_order.hpp>
+#include <sivid/diagnosis/candidate/describe_candidate.hpp>
+#include <sivid/diagnosis/candidate/screening.hpp>
+#include <sivid/diagnosis/claim/candidate_verdicts.hpp>
+#include <sivid/diagnosis/claim/claim_review.hpp>
+#include <sivid/diagnosis/claim/diagnosis_consistency.hpp>
+#include <sivid/diagnosis/claim/opening_words.hpp>
+#include <sivid/diagnosis/claim/place_report.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
-#include <sivid/diagnosis/gap_proof.hpp>
+#include <sivid/diagnosis/gap/confined_gap.hpp>
+#include <sivid/diagnosis/gap/gap_proof.hpp>
+#include <sivid/diagnosis/gap/part_inflation.hpp>
 #include <sivid/diagnosis/manoeuvre.hpp>
-#include <sivid/diagnosis/opening_words.hpp>
-#include <sivid/diagnosis/part_inflation.hpp>
-#include <sivid/diagnosis/place_report.hpp>
-#include <sivid/diagnosis/screening.hpp>
-#include <sivid/diagnosis/sensor_discharge.hpp>
+#include <sivid/diagnosis/relation/broken_relation.hpp>
+#include <sivid/diagnosis/sensor/sensor_discharge.hpp>
 #include <sivid/diagnosis/verification.hpp>
 
 #include <algorithm>

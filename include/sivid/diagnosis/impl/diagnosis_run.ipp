@@ -5,8 +5,8 @@
 #include <sivid/diagnosis/diagnosis_run.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/diagnosis/hold_out/holdout_judgement.hpp>
 #include <sivid/diagnosis/holdout.hpp>
-#include <sivid/diagnosis/holdout_judgement.hpp>
 
 #include <chrono>
 #include <cstddef>

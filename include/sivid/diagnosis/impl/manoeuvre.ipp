@@ -6,8 +6,8 @@
 
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>
+#include <sivid/diagnosis/candidate/screening.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
-#include <sivid/diagnosis/screening.hpp>
 #include <sivid/model/best_settings.hpp>
 #include <sivid/model/manoeuvre.hpp>
 

@@ -5,11 +5,11 @@
 #include <sivid/io/dataset.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/io/dataset/dataset_tables.hpp>
+#include <sivid/io/dataset/model_names.hpp>
 #include <sivid/io/dataset_effects.hpp>
-#include <sivid/io/dataset_tables.hpp>
 #include <sivid/io/dataset_value.hpp>
-#include <sivid/io/json_document.hpp>
-#include <sivid/io/model_names.hpp>
+#include <sivid/io/text/json_document.hpp>
 
 #include <algorithm>
 #include <cstddef>

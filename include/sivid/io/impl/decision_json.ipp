@@ -6,7 +6,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/io/identification_csv.hpp>
-#include <sivid/io/json_writer.hpp>
+#include <sivid/io/text/json_writer.hpp>
 
 #include <algorithm>
 #include <cmath>

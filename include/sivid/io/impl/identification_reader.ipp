@@ -5,13 +5,12 @@
 #include <sivid/io/identification_reader.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/io/certificates_csv.hpp>
-#include <sivid/io/csv_table.hpp>
-#include <sivid/io/detail/stored_identification.hpp>
-#include <sivid/io/identifiability_check.hpp>
-#include <sivid/io/json_document.hpp>
-#include <sivid/io/sha256.hpp>
-#include <sivid/io/text_file.hpp>
+#include <sivid/io/result/certificates_csv.hpp>
+#include <sivid/io/result/detail/stored_identification.hpp>
+#include <sivid/io/text/csv_table.hpp>
+#include <sivid/io/text/json_document.hpp>
+#include <sivid/io/text/sha256.hpp>
+#include <sivid/io/text/text_file.hpp>
 
 #include <array>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include <sivid/io/scenario.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/io/json_document.hpp>
-#include <sivid/io/json_writer.hpp>
+#include <sivid/io/text/json_document.hpp>
+#include <sivid/io/text/json_writer.hpp>
 
 #include <algorithm>
 #include <cmath>

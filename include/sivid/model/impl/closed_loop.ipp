@@ -5,10 +5,10 @@
 #include <sivid/model/closed_loop.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/model/added_start.hpp>
-#include <sivid/model/copy_equations.hpp>
-#include <sivid/model/differentiate.hpp>
-#include <sivid/model/rewrite.hpp>
+#include <sivid/model/change/added_start.hpp>
+#include <sivid/model/change/copy_equations.hpp>
+#include <sivid/model/graph/differentiate.hpp>
+#include <sivid/model/graph/rewrite.hpp>
 #include <sivid/number/nearest_text.hpp>
 
 #include <algorithm>

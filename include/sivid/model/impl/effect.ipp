@@ -2,7 +2,7 @@
 #ifndef SIVID_MODEL_IMPL_EFFECT_IPP
 #define SIVID_MODEL_IMPL_EFFECT_IPP
 
-#include <sivid/model/copy_equations.hpp>
+#include <sivid/model/change/copy_equations.hpp>
 #include <sivid/model/effect.hpp>
 
 #include <string_view>

@@ -5,11 +5,11 @@
 #include <sivid/paving/identifiability.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/model/find_combinations.hpp>
-#include <sivid/model/homogeneity.hpp>
-#include <sivid/model/symmetry.hpp>
-#include <sivid/paving/detail/sensitivity_spectrum.hpp>
-#include <sivid/paving/output_sensitivities.hpp>
+#include <sivid/model/structure/find_combinations.hpp>
+#include <sivid/model/structure/homogeneity.hpp>
+#include <sivid/model/structure/symmetry.hpp>
+#include <sivid/paving/identifiability/detail/sensitivity_spectrum.hpp>
+#include <sivid/paving/identifiability/output_sensitivities.hpp>
 #include <sivid/space/certified_rank.hpp>
 
 #include <algorithm>

@@ -6,17 +6,17 @@
 
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>
-#include <sivid/paving/core_box.hpp>
-#include <sivid/paving/data_test.hpp>
-#include <sivid/paving/dependence.hpp>
-#include <sivid/paving/detail/drawing.hpp>
-#include <sivid/paving/detail/prior_contraction.hpp>
+#include <sivid/paving/contract/window_contraction.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/identify_options.hpp>
 #include <sivid/paving/invert.hpp>
-#include <sivid/paving/reduction.hpp>
-#include <sivid/paving/window_contraction.hpp>
-#include <sivid/paving/witness.hpp>
+#include <sivid/paving/judge/core_box.hpp>
+#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/detail/prior_contraction.hpp>
+#include <sivid/paving/judge/witness.hpp>
+#include <sivid/paving/products/dependence.hpp>
+#include <sivid/paving/products/detail/drawing.hpp>
+#include <sivid/paving/products/reduction.hpp>
 #include <sivid/paving/work_limit.hpp>
 
 #include <algorithm>

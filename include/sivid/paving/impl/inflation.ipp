@@ -7,9 +7,9 @@
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>
 #include <sivid/number/guard.hpp>
-#include <sivid/paving/dependence.hpp>
-#include <sivid/paving/inflation_search.hpp>
-#include <sivid/paving/witness.hpp>
+#include <sivid/paving/inflation/inflation_search.hpp>
+#include <sivid/paving/judge/witness.hpp>
+#include <sivid/paving/products/dependence.hpp>
 
 #include <algorithm>
 #include <chrono>

@@ -5,12 +5,12 @@
 #include <sivid/paving/online_identification.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/paving/dependence.hpp>
-#include <sivid/paving/detail/drawing.hpp>
-#include <sivid/paving/detail/online_paving.hpp>
-#include <sivid/paving/detail/online_update.hpp>
-#include <sivid/paving/detail/online_witness.hpp>
-#include <sivid/paving/reduction.hpp>
+#include <sivid/paving/online/detail/online_paving.hpp>
+#include <sivid/paving/online/detail/online_update.hpp>
+#include <sivid/paving/online/detail/online_witness.hpp>
+#include <sivid/paving/products/dependence.hpp>
+#include <sivid/paving/products/detail/drawing.hpp>
+#include <sivid/paving/products/reduction.hpp>
 #include <sivid/space/box_cover.hpp>
 
 #include <algorithm>

@@ -7,12 +7,12 @@
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>
 #include <sivid/model/problem.hpp>
-#include <sivid/paving/box_explorer.hpp>
-#include <sivid/paving/dependence.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/outlier_count.hpp>
-#include <sivid/paving/reduction.hpp>
-#include <sivid/paving/witness.hpp>
+#include <sivid/paving/judge/box_explorer.hpp>
+#include <sivid/paving/judge/witness.hpp>
+#include <sivid/paving/outliers/outlier_count.hpp>
+#include <sivid/paving/products/dependence.hpp>
+#include <sivid/paving/products/reduction.hpp>
 #include <sivid/paving/work_limit.hpp>
 
 #include <algorithm>

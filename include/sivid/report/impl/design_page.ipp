@@ -5,9 +5,9 @@
 #include <sivid/report/design_page.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/report/detail/decision_figures.hpp>
 #include <sivid/report/identification_words.hpp>
 #include <sivid/report/number_text.hpp>
+#include <sivid/report/page/detail/decision_figures.hpp>
 #include <sivid/report/table.hpp>
 
 #include <cctype>

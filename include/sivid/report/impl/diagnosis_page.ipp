@@ -7,12 +7,12 @@
 #include <sivid/report/diagnosis_page.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/report/diagnosis_figures.hpp>
-#include <sivid/report/diagnosis_tables.hpp>
 #include <sivid/report/diagnosis_view.hpp>
 #include <sivid/report/diagnosis_words.hpp>
-#include <sivid/report/holdout_tables.hpp>
 #include <sivid/report/page.hpp>
+#include <sivid/report/page/diagnosis_figures.hpp>
+#include <sivid/report/page/diagnosis_tables.hpp>
+#include <sivid/report/page/holdout_tables.hpp>
 
 #include <algorithm>
 #include <cstddef>

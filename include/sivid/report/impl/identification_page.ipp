@@ -7,10 +7,10 @@
 #include <sivid/report/identification_page.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/report/identification_parameters.hpp>
+#include <sivid/report/draw/residual_plot.hpp>
 #include <sivid/report/identification_view.hpp>
 #include <sivid/report/identification_words.hpp>
-#include <sivid/report/residual_plot.hpp>
+#include <sivid/report/page/identification_parameters.hpp>
 
 #include <algorithm>
 #include <cmath>

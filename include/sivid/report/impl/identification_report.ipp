@@ -40,6 +40,6 @@ SIVID_DECL comparison_row comparison_of(std::string name, identification const& 
 
 } // namespace sivid::report
 
-#include <sivid/report/detail/report_filler.hpp>
+#include <sivid/report/fill/detail/report_filler.hpp>
 
 #endif

@@ -5,7 +5,7 @@
 #include <sivid/report/ranking_page.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/report/bar_chart.hpp>
+#include <sivid/report/draw/bar_chart.hpp>
 #include <sivid/report/number_text.hpp>
 #include <sivid/report/table.hpp>
 

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DECISION_REQUIREMENT_DETAIL_REQUIREMENT_NUMBERS_HPP
+#define SIVID_DECISION_REQUIREMENT_DETAIL_REQUIREMENT_NUMBERS_HPP
+
+#include <sivid/decision/requirement/detail/requirement_words.hpp>
+#include <sivid/model/expression.hpp>
+#include <sivid/model/model.hpp>
+#include <sivid/number/decimal.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sivid::decision_detail {
+
+/// Reads the expressions of a requirement, or of a control law, into the graph of a model.
+class requirement_numbers {
+protected:
+    /// @param what  the text is, for messages; a literal
+    requirement_numbers(std::string_view what, std::string_view text, recorded_model& model)
+        : words_(what, text), model_(model) {}
+    ~requirement_numbers() = default;
+
+    /// What was read: a number at each instant, or a formula.
+    struct operand {
+        bool is_formula = false;
+        node_id value = 0;    ///< of a number
+        std::size_t part = 0; ///< of a formula
+        std::size_t position = 0;
+        std::optional<double> time{}; ///< of a number that is asked at one time only
+    };
+    /// One level of nesting.
+    class level {
+    public:
+        explicit level(requirement_numbers& p) : depth_(p.depth_) {
+            if (++depth_ > 60) {
+                --depth_;
+                p.words_.fail("nested too deep", "use fewer brackets, at most 60 deep");
+            }
+        }
+        level(level const&) = delete;
+        level& operator=(level const&) = delete;
+        ~level() { --depth_; }
+
+    private:
+        std::size_t& depth_;
+    };
+
+    graph& g() { return model_.g; }
+
+    /// What stands in brackets may be a formula.
+    virtual operand in_brackets() = 0;
+    /// A further function, its bracket open; nothing where there is none of this name.
+    virtual std::optional<operand> further_call(std::string const&, std::size_t) {
+        return std::nullopt;
+    }
+    /// Names of further functions, for messages.
+    [[nodiscard]] virtual std::string further_functions() const { return ""; }
+
+    /// Operations of the graph; what folds to no number is refused.
+    template <class Operation>
+    node_id numeric(std::size_t position, Operation const& compute) {
+        try {
+            return compute();
+        } catch (std::domain_error const&) {
+            words_.fail_at(position, "this is no finite number", "use smaller numbers");
+        }
+    }
+    operand number(std::size_t position, node_id value) {
+        return {.value = value, .position = position};
+    }
+    operand binary(operation op, operand const& a, operand const& b) {
+        need_plain(a);
+        need_plain(b);
+        if (op == operation::div && g().is(b.value, 0))
+            words_.fail_at(b.position, "division by 0", "correct the divisor");
+        return number(a.position,
+                      numeric(a.position, [&] { return g().binary(op, a.value, b.value); }));
+    }
+
+    operand sum() {
+        auto left = product();
+        while (true) {
+            if (words_.take("+"))
+                left = binary(operation::add, left, product());
+            else if (words_.take("-"))
+                left = binary(operation::sub, left, product());
+            else
+                return left;
+        }
+    }
+    operand product() {
+        auto left = factor();
+        while (true) {
+            if (words_.take("*"))
+                left = binary(operation::mul, left, factor());
+            else if (words_.take("/"))
+                left = binary(operation::div, left, factor());
+            else
+                return left;
+        }
+    }
+    operand factor() {
+        level const nested(*this);
+        auto const position = words_.position();
+        if (words_.take("-")) {
+            auto const of = factor();
+            need_plain(of);
+            return number(position, g().neg(of.value));
+        }
+        if (words_.take("+")) return factor();
+        auto base = primary();
+        auto const hat = words_.position();
+        if (!words_.take("^")) return base;
+        need_plain(base);
+        auto const text = words_.take_number();
+        int power = 0;
+        if (text) {
+            auto const [stop, fault] =
+                std::from_chars(text->data(), text->data() + text->size(), power);
+            if (fault != std::errc{} || stop != text->data() + text->size()) power = 0;
+        }
+        if (power < 1 || power > 32)
+            words_.fail_at(hat, "a power needs a whole number from 1 to 32",
+                           "write x^2; for others use exp and log");
+        return number(base.position, numeric(hat, [&] {
+                          return pown(expression(g(), base.value), power).in(g());
+                      }));
+    }
+    operand primary() {
+        auto const position = words_.position();
+        if (auto const text = words_.take_number()) {
+            auto const value = parse_decimal(*text);
+            if (!value || !std::isfinite(mag(*value)))
+                words_.fail_at(position, "this is no finite number",
+                               "write a decimal such as 0.25 or 1e-3");
+            return number(position, numeric(position, [&] {
+                              return g().constant(literal{*value, mid(*value)});
+                          }));
+        }
+        if (words_.take("(")) {
+            auto of = in_brackets();
+            words_.need(")", "close the bracket");
+            of.position = position;
+            return of;
+        }
+        auto const name = words_.take_name();
+        if (!name)
+            words_.fail(words_.at_end() ? "something is missing"
+                                        : "this cannot begin an expression",
+                        "write a number, a name of the model, a function, or a bracket");
+        if (words_.take("(")) return call(*name, position);
+        return quantity_of(*name, position);
+    }
+
+    /// The channel that a bracket names, and the bracket's end.
+    std::size_t channel_in_bracket() {
+        auto const channel = words_.take_name();
+        auto const& all = model_.about.channels;
+        auto const found = std::find_if(
+            all.begin(), all.end(), [&](auto const& c) { return channel && c.name == *channel; });
+        if (found == all.end())
+            words_.fail("no channel of the model", "the model has: " + names_of_list(all));
+        words_.need(")", "close the bracket");
+        return static_cast<std::size_t>(found - all.begin());
+    }
+
+    operand call(std::string const& name, std::size_t position) {
+        if (auto const own = further_call(name, position)) return *own;
+        if (name == "measured") return number(position, model_.observe[channel_in_bracket()]);
+        static constexpr std::array<operation, 12> known{
+            operation::sqrt, operation::exp,  operation::log,  operation::sin,
+            operation::cos,  operation::tan,  operation::atan, operation::tanh,
+            operation::abs,  operation::sign, operation::min,  operation::max};
+        auto const found = std::find_if(known.begin(), known.end(),
+                                        [&](operation op) { return sivid::name(op) == name; });
+        if (found == known.end())
+            words_.fail_at(position, "unknown function '" + name + "'",
+                           "known: sqrt, exp, log, sin, cos, tan, atan, tanh, abs, sign, min, max, "
+                           "measured" +
+                               further_functions());
+        auto of = sum();
+        need_plain(of);
+        if (is_binary(*found)) {
+            words_.need(",", "this function takes two numbers or more");
+            do {
+                of = binary(*found, of, sum());
+            } while (words_.take(","));
+            words_.need(")", "close the bracket");
+            of.position = position;
+            return of;
+        }
+        words_.need(")", "close the bracket");
+        return number(position, numeric(position, [&] { return g().unary(*found, of.value); }));
+    }
+
+    template <class Items>
+    static std::string names_of_list(Items const& items) {
+        std::string text;
+        for (auto const& i : items) text += (text.empty() ? "" : ", ") + std::string(i.name);
+        return text;
+    }
+
+    operand quantity_of(std::string const& name, std::size_t position) {
+        auto const& about = model_.about;
+        auto const place = [&](auto const& items) -> std::optional<std::size_t> {
+            auto const found = std::find_if(items.begin(), items.end(),
+                                            [&](auto const& i) { return i.name == name; });
+            if (found == items.end()) return std::nullopt;
+            return static_cast<std::size_t>(found - items.begin());
+        };
+        if (auto const i = place(about.states))
+            return number(position, g().leaf(operation::state, *i));
+        if (auto const i = place(about.channels)) return number(position, model_.observe[*i]);
+        if (auto const i = place(about.inputs))
+            return number(position, g().leaf(operation::input, *i));
+        if (auto const i = place(about.constants))
+            return number(position, g().leaf(operation::constant, *i));
+        if (name == "t") return number(position, g().leaf(operation::time, 0));
+        auto known = "states " + names_of_list(about.states) + "; channels " +
+                     names_of_list(about.channels) + "; inputs " + names_of_list(about.inputs) +
+                     "; constants " + names_of_list(about.constants) + "; t for the time";
+        words_.fail_at(position, "unknown name '" + name + "'", "known: " + known);
+    }
+
+    /// A time in s, or `end`.
+    double instant(double end) {
+        if (words_.take("end")) return end;
+        auto const position = words_.position();
+        auto const text = words_.take_number();
+        auto const time = text ? parse_nearest(*text) : std::nullopt;
+        if (!time || !std::isfinite(*time) || *time < 0)
+            words_.fail_at(position, "a time in seconds is needed here",
+                           "write a number of 0 or more, such as 0.5, or end");
+        return *time;
+    }
+
+    void need_number(operand const& x) {
+        if (x.is_formula)
+            words_.fail_at(x.position, "a number is needed here, not something that holds or not",
+                           "compare numbers, and join comparisons by and, or");
+    }
+
+    /// A number to calculate with.
+    void need_plain(operand const& x) {
+        need_number(x);
+        if (x.time)
+            words_.fail_at(x.position, "'at' stands behind a whole expression",
+                           "write (x + 1) at 2 > 3, not x at 2 + 1 > 3");
+    }
+
+    requirement_words words_;
+    recorded_model& model_;
+    std::size_t depth_ = 0;
+};
+
+} // namespace sivid::decision_detail
+
+#endif

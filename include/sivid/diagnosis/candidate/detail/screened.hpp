@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_CANDIDATE_DETAIL_SCREENED_HPP
+#define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_SCREENED_HPP
+
+#include <sivid/approximate/approximate_fit.hpp>
+#include <sivid/diagnosis/candidate/candidate.hpp>
+#include <sivid/executor.hpp>
+#include <sivid/model/problem.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace sivid {
+
+/// A candidate with its problem and fit.
+struct screened {
+    candidate figures;
+    identification_problem problem;
+    approximate_fit fit;
+    bool silent = false; ///< no value of the effect's parameters moves a measured output
+};
+
+/// Whether the residuals of two fits are the same, but for rounding.
+[[nodiscard]] inline bool alike(std::vector<std::vector<double>> const& a,
+                                std::vector<std::vector<double>> const& b) {
+    if (a.size() != b.size()) return false;
+    for (std::size_t e = 0; e < a.size(); ++e) {
+        for (std::size_t k = 0; k < a[e].size(); ++k) {
+            if (!(std::abs(a[e][k] - b[e][k]) < 1e-5)) return false;
+        }
+    }
+    return true;
+}
+
+struct screening_options {
+    double seconds = 60;
+    /// Pairs are tried with so many of the best single effects when none explains alone, ...
+    std::size_t partners = 6;
+    /// ... and the best single one with all others when it does.
+    bool always_pairs = true;
+    /// Candidates of up to so many effects are tried: where no pair explains, effects join the
+    /// likeliest candidate one by one.
+    std::size_t most_effects = 2;
+    /// Called before each fit with what is tried, by one thread at a time; false ends the
+    /// screening.
+    std::function<bool(std::string const&)> progress{};
+    /// Asked within the fits, by any thread; false ends the screening, and a fit that it ends
+    /// counts only if it explains the data. May be empty.
+    std::function<bool()> go_on{};
+    executor workers{}; ///< for candidates that do not build on each other
+};
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_CANDIDATE_IMPL_INPUT_SLICES_IPP
+#define SIVID_DIAGNOSIS_CANDIDATE_IMPL_INPUT_SLICES_IPP
+
+#include <sivid/diagnosis/candidate/input_slices.hpp>
+
+#include <sivid/number/interval_traits.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+namespace diagnosis_detail {
+
+/// What a recorded input is over some times.
+struct seen_input {
+    interval values; ///< all of them, errors left out
+    double steepest = 0;
+    double error = 0; ///< the largest bound
+};
+
+/// @param from, until  clipped to `begin` and later; until >= from
+inline seen_input seen_between(sampled_signal const& u, double begin, double from, double until) {
+    from = std::max(from, begin);
+    until = std::max(until, from);
+    seen_input seen;
+    seen.values = interval_traits<interval>::empty();
+    // A knot belongs to both of its pieces.
+    auto first = u.piece(from);
+    if (first > 0 && u.times()[first] == from) --first;
+    for (auto k = first; k == first || (k < u.times().size() && u.times()[k] <= until); ++k) {
+        bool const last = k + 1 >= u.times().size();
+        double const low = k == first ? from : u.times()[k];
+        double const high = last ? until : std::min(until, u.times()[k + 1]);
+        seen.values = hull(seen.values, u.value<interval>(k, interval(low, std::max(low, high))));
+        seen.steepest = std::max(seen.steepest, mag(u.slope<interval>(k)));
+        seen.error = std::max({seen.error, u.error_bound(k, low), u.error_bound(k, high)});
+        if (last) break;
+        // The last piece of straight lines goes on to the right.
+        if (u.kind() == interpolation::linear && k + 2 == u.times().size()) {
+            if (until > high) {
+                seen.values = hull(seen.values, u.value<interval>(k, interval(high, until)));
+            }
+            seen.error = std::max(seen.error, u.error_bound(k, until));
+            break;
+        }
+    }
+    return seen;
+}
+
+/// Collects the knots of a signal with errors.
+class widened_signal {
+public:
+    explicit widened_signal(interpolation kind) : kind_(kind) {}
+    /// @param value  its middle is taken, its radius joins the error
+    void add(double time, interval const& value, double error) {
+        double const middle = mid(value);
+        double const far = std::max(value.upper() - middle, middle - value.lower());
+        // One more rounding for each sum.
+        double const all = (error + far) * (1 + 4 * std::numeric_limits<double>::epsilon());
+        times_.push_back(time);
+        values_.push_back(middle);
+        errors_.push_back(all > 0 ? all + std::numeric_limits<double>::min() : 0.0);
+    }
+    [[nodiscard]] sampled_signal take() && {
+        return sampled_signal(std::move(times_), std::move(values_), kind_, std::move(errors_));
+    }
+
+private:
+    interpolation kind_;
+    std::vector<double> times_, values_, errors_;
+};
+
+/// Times in increasing order from `begin` until, at least, `end`.
+inline std::vector<double> grid_of(std::vector<double> times, double begin, double end) {
+    times.push_back(begin);
+    times.push_back(std::max(end, std::nextafter(begin, HUGE_VAL)));
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    times.erase(times.begin(), std::lower_bound(times.begin(), times.end(), begin));
+    return times;
+}
+
+} // namespace diagnosis_detail
+
+SIVID_DECL sampled_signal lagged_within(sampled_signal const& u, double begin, double end,
+                                        double longest, bool rests) {
+    using traits = interval_traits<interval>;
+    bool const holds = u.kind() == interpolation::hold;
+    std::vector<double> times = u.times();
+    for (std::size_t k = 0; k < u.times().size(); ++k) {
+        // Where a piece is long, the bound falls to its limit at its begin.
+        double const next = k + 1 < u.times().size() ? u.times()[k + 1] : end;
+        for (double const after : {1.0, 3.0, 8.0}) {
+            double const t = std::max(u.times()[k], begin) + after * longest;
+            if (t < next) times.push_back(t);
+        }
+    }
+    auto const grid = diagnosis_detail::grid_of(std::move(times), begin, end);
+    auto const value = [&](double t) { return u.value<interval>(u.piece(t), interval(t)); };
+
+    std::vector<double> lag; // what |d - u| is at most, after a jump at a knot
+    std::vector<double> error;
+    double now = rests ? mag(value(begin)) : 0;
+    double worst = u.error_bound(u.piece(begin), begin);
+    if (rests) now += worst;
+    for (std::size_t k = 0; k < grid.size(); ++k) {
+        lag.push_back(now);
+        if (k + 1 == grid.size()) {
+            error.push_back(worst);
+            break;
+        }
+        auto const piece = u.piece(grid[k]);
+        worst = std::max({worst, u.error_bound(piece, grid[k]), u.error_bound(piece, grid[k + 1])});
+        error.push_back(worst);
+        bool undefined = false;
+        auto const span = traits::sub(interval(grid[k + 1]), interval(grid[k]));
+        auto const left = traits::intersect(
+            traits::exp(traits::neg(traits::div(span, interval(longest), undefined))),
+            interval(0.0, 1.0));
+        auto const limit = traits::mul(interval(mag(u.slope<interval>(piece))), interval(longest));
+        now = traits::add(traits::mul(interval(now), left),
+                          traits::mul(limit, traits::sub(interval(1.0), left)))
+                  .upper();
+        if (holds) {
+            auto const jump = traits::sub(value(grid[k + 1]), value(grid[k]));
+            now = traits::add(interval(now), interval(mag(jump))).upper();
+        }
+    }
+    diagnosis_detail::widened_signal result(u.kind());
+    for (std::size_t k = 0; k < grid.size(); ++k) {
+        // Between two knots of straight lines the bound is convex where it falls, and otherwise
+        // at most its value at the right end.
+        double const next = holds || k + 1 == grid.size() ? 0 : lag[k + 1];
+        result.add(grid[k], value(grid[k]), std::max(lag[k], next) + error[k]);
+    }
+    return std::move(result).take();
+}
+
+SIVID_DECL sampled_signal delayed_within(sampled_signal const& u, double begin, double end,
+                                         interval const& delays) {
+    bool const holds = u.kind() == interpolation::hold;
+    double const middle = mid(delays);
+    double farthest = std::max(std::abs(begin), std::abs(end));
+    for (double const t : u.times()) farthest = std::max(farthest, std::abs(t));
+    // Sums of times are rounded: knots lie safely beyond what is within reach.
+    double const unit = 4 * std::numeric_limits<double>::epsilon();
+    double const rounding = unit * (farthest + delays.upper());
+    double const reach =
+        std::max(delays.upper() - middle, middle - delays.lower()) * (1 + unit) + rounding;
+    double const half = reach + 2 * rounding;
+    std::vector<double> times;
+    for (double const t : u.times()) {
+        if (holds) {
+            times.push_back(t + middle - half);
+            times.push_back(t + middle + half);
+        } else {
+            times.push_back(t + middle);
+        }
+    }
+    if (!holds) times.push_back(begin + middle); // where u(begin) is left
+    auto const grid = diagnosis_detail::grid_of(std::move(times), begin, end);
+    auto const seen = [&](double from, double until) {
+        return diagnosis_detail::seen_between(u, begin, from - middle - reach,
+                                              until - middle + reach);
+    };
+    diagnosis_detail::widened_signal result(u.kind());
+    double before = 0; // of the piece to the left
+    for (std::size_t k = 0; k < grid.size(); ++k) {
+        bool const last = k + 1 == grid.size();
+        auto const after = seen(grid[k], last ? grid[k] : grid[k + 1]);
+        if (holds) {
+            result.add(grid[k], after.values, after.error);
+            continue;
+        }
+        double const error = half * after.steepest * (1 + unit) + after.error;
+        double const t = std::max(begin, grid[k] - middle);
+        result.add(grid[k], u.value<interval>(u.piece(t), interval(t)), std::max(before, error));
+        before = error;
+    }
+    return std::move(result).take();
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_CANDIDATE_SCREENING_HPP
+#define SIVID_DIAGNOSIS_CANDIDATE_SCREENING_HPP
+
+#include <sivid/approximate/fit/fit.hpp>
+#include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/diagnosis/candidate/beyond_prior.hpp>
+#include <sivid/diagnosis/candidate/candidate.hpp>
+#include <sivid/diagnosis/candidate/detail/candidate_fit.hpp>
+#include <sivid/diagnosis/candidate/detail/screened.hpp>
+#include <sivid/diagnosis/diagnosis.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// Fits a catalogue of effects, alone, in pairs and perhaps further, to one campaign. Nothing here
+/// is proved.
+class screening {
+public:
+    using effect_sets = std::vector<std::vector<std::size_t>>;
+
+    screening(identification_problem base, std::vector<effect> catalogue,
+              screening_options options = {})
+        : base_(std::move(base)), catalogue_(std::move(catalogue)), options_(std::move(options)) {
+        for (auto const& e : base_.experiments) measurements_ += e.measurements.size();
+    }
+
+    [[nodiscard]] std::vector<screened> const& candidates() const { return tried_; }
+    /// What candidates name.
+    [[nodiscard]] std::vector<effect> const& catalogue() const { return catalogue_; }
+    [[nodiscard]] std::size_t measurements() const { return measurements_; }
+    [[nodiscard]] std::vector<candidate> figures() const {
+        std::vector<candidate> result;
+        for (auto const& s : tried_) result.push_back(s.figures);
+        return result;
+    }
+
+    /// How much of the plan is done. What pairs are planned depends on the single effects: before
+    /// all of them are tried, as many as there will be where none explains alone.
+    [[nodiscard]] tried_candidates counts() const {
+        tried_candidates result;
+        result.singles = count(singles());
+        if (result.singles.tried < result.singles.planned) {
+            auto const n = planned_;
+            auto const k = std::min(n, options_.partners);
+            result.pairs.planned = k * (n - k) + k * (k - std::min<std::size_t>(k, 1)) / 2;
+        } else {
+            result.pairs = count(pairs());
+        }
+        for (std::size_t size = 3; size <= options_.most_effects; ++size) {
+            if (explained(size - 1)) break;
+            auto const planned = planned_ + 1 - std::min(size, planned_ + 1);
+            auto const found = std::count_if(tried_.begin(), tried_.end(), [size](auto const& s) {
+                return s.figures.effects.size() == size;
+            });
+            result.larger.planned += planned;
+            result.larger.tried += std::min(planned, static_cast<std::size_t>(found));
+        }
+        return result;
+    }
+
+    /// The model itself, every single effect, then pairs, then larger sets where they are asked
+    /// for; where none explains, those that end at their priors with wider ones. Called again, it
+    /// goes on where it was stopped.
+    /// @cost  21 effects: 22 fits, about 20 to 100 for pairs, about 20 for each further effect
+    void run() {
+        stopped_ = false;
+        try_one({});
+        try_all(singles());
+        polish();
+        if (!stopped_) try_all(pairs());
+        for (std::size_t size = 3; size <= options_.most_effects && !stopped_; ++size) {
+            if (explained(size - 1)) break;
+            join_one_more(size);
+        }
+        polish();
+        if (!stopped_ && !explained(catalogue_.size())) go_beyond();
+    }
+
+    /// Descends on from every fit that misses an explanation by little: which side of 1 the largest
+    /// misfit ends on decides what explains.
+    void polish() {
+        constexpr double close = 1.05;
+        options_.workers(tried_.size(), [this](std::size_t k) {
+            auto& s = tried_[k];
+            double const before = s.figures.inflation;
+            if (!(before > 1 && before < close) || !in_time()) return;
+            auto better = sivid::fit(s.problem, fit_norm::largest, {s.fit.parameters, s.fit.starts},
+                                     [this] { return in_time(); });
+            if (!(better.inflation < before)) return;
+            better.squares = s.fit.squares;
+            s.fit = std::move(better);
+            s.figures.inflation = s.fit.inflation;
+        });
+    }
+
+    /// Tries single effects (none: all of the plan) as such that act in these experiments only.
+    /// Those with delays or states of their own are left out.
+    void try_within(std::vector<std::string> const& experiments, effect_sets some = {}) {
+        if (some.empty()) some = singles();
+        effect_sets wanted;
+        for (auto const& one : some) {
+            auto const& e = catalogue_[one.front()];
+            if (remembers(with(base_.model, {e}), base_.model)) continue;
+            wanted.push_back({index_of_effect(catalogue_, only_within(e, experiments))});
+        }
+        try_all(wanted);
+    }
+
+    /// Fits one set of effects, unless that was done.
+    void try_one(std::vector<std::size_t> const& effects) { try_all({effects}); }
+
+    /// Fits sets of effects of which none contains another, each unless that was done; several at
+    /// once where there are workers.
+    void try_all(effect_sets const& wanted) {
+        effect_sets open;
+        for (auto const& effects : wanted) {
+            bool const known = std::find(open.begin(), open.end(), effects) != open.end();
+            if (!known && find(effects) == nullptr) open.push_back(effects);
+        }
+        std::vector<std::optional<screened>> fitted(open.size());
+        std::mutex asking;
+        options_.workers(open.size(), [&](std::size_t k) {
+            if (!may_try(open[k], asking)) return;
+            auto s = fit(open[k]);
+            // Cut short, it says nothing of a candidate, but the model itself is needed.
+            bool const first = open[k].empty() && !s.fit.parameters.empty();
+            if (in_time() || s.figures.explains() || first) fitted[k] = std::move(s);
+        });
+        for (auto& s : fitted) {
+            if (s) tried_.push_back(std::move(*s));
+        }
+    }
+
+    [[nodiscard]] screened const* find(std::vector<std::size_t> const& effects) const {
+        auto const f = std::find_if(tried_.begin(), tried_.end(), [&](screened const& s) {
+            return s.figures.effects == effects;
+        });
+        return f == tried_.end() ? nullptr : &*f;
+    }
+
+private:
+    using clock = std::chrono::steady_clock;
+
+    [[nodiscard]] static bool remembers(recorded_model const& with, recorded_model const& without) {
+        return with.input_delays.size() > without.input_delays.size() ||
+               with.channel_delays.size() > without.channel_delays.size() ||
+               with.rate.size() > without.rate.size();
+    }
+
+    [[nodiscard]] effect_sets singles() const {
+        effect_sets wanted;
+        for (std::size_t e = 0; e < planned_; ++e) wanted.push_back({e});
+        return wanted;
+    }
+    /// @given  all single effects were tried
+    [[nodiscard]] effect_sets pairs() const {
+        effect_sets wanted;
+        bool const alone = explained(1);
+        if (alone && !options_.always_pairs) return wanted;
+        auto partners = ranked_singles();
+        partners.resize(std::min(partners.size(), alone ? 1 : options_.partners));
+        for (auto const a : partners) {
+            for (std::size_t b = 0; b < planned_; ++b) {
+                std::vector<std::size_t> pair{std::min(a, b), std::max(a, b)};
+                bool const known = std::find(wanted.begin(), wanted.end(), pair) != wanted.end();
+                if (b != a && !known) wanted.push_back(std::move(pair));
+            }
+        }
+        return wanted;
+    }
+    [[nodiscard]] tried_candidates::count count(effect_sets const& planned) const {
+        auto const known = [this](auto const& set) { return find(set) != nullptr; };
+        return {static_cast<std::size_t>(std::count_if(planned.begin(), planned.end(), known)),
+                planned.size()};
+    }
+    /// Joins every other effect to the likeliest candidate of size - 1 effects. What explains must
+    /// then do without each of its effects, or a smaller candidate is the answer.
+    void join_one_more(std::size_t size) {
+        screened const* likeliest = nullptr;
+        for (auto const& s : tried_) {
+            if (s.figures.effects.size() + 1 != size) continue;
+            if (likeliest == nullptr || s.figures.squares < likeliest->figures.squares) {
+                likeliest = &s;
+            }
+        }
+        if (likeliest == nullptr) return;
+        auto const part = likeliest->figures.effects;
+        effect_sets larger;
+        for (std::size_t e = 0; e < planned_; ++e) {
+            if (std::find(part.begin(), part.end(), e) != part.end()) continue;
+            larger.push_back(united(part, e));
+        }
+        try_all(larger);
+        effect_sets parts;
+        for (auto const& s : tried_) {
+            if (s.figures.effects.size() != size || !s.figures.explains()) continue;
+            for (std::size_t k = 0; k < size; ++k) {
+                parts.push_back(s.figures.effects);
+                parts.back().erase(parts.back().begin() + static_cast<std::ptrdiff_t>(k));
+            }
+        }
+        try_all(parts);
+    }
+    /// The closest candidates of one or two effects that end at a prior, with wider ones there.
+    void go_beyond() {
+        constexpr std::size_t most = 6;
+        auto closest = tried_;
+        // Not that of std::ranges: libc++'s takes Boost's `next` for its own.
+        std::stable_sort(closest.begin(), closest.end(), [](auto const& a, auto const& b) {
+            return a.figures.inflation < b.figures.inflation;
+        });
+        effect_sets singles, others;
+        for (auto const& s : closest) {
+            if (s.figures.effects.size() > 2) continue;
+            auto const further = beyond_prior(s, catalogue_, planned_);
+            if (further == s.figures.effects) continue;
+            for (auto const e : further)
+                if (e >= planned_) singles.push_back({e}); // one effect is the simpler answer
+            others.push_back(further);
+            if (others.size() == most) break;
+        }
+        try_all(singles);
+        if (!explained(1)) try_all(others);
+        polish();
+    }
+    [[nodiscard]] static std::vector<std::size_t> united(std::vector<std::size_t> effects,
+                                                         std::size_t one) {
+        effects.insert(std::upper_bound(effects.begin(), effects.end(), one), one);
+        return effects;
+    }
+    /// By at most so many effects.
+    [[nodiscard]] bool explained(std::size_t effects) const {
+        return std::any_of(tried_.begin(), tried_.end(), [effects](screened const& s) {
+            return s.figures.effects.size() <= effects && s.figures.explains();
+        });
+    }
+
+    [[nodiscard]] std::string name_of(std::vector<std::size_t> const& effects) const {
+        std::string name;
+        for (auto const e : effects) name += (name.empty() ? "" : " + ") + catalogue_[e].name;
+        return name.empty() ? "the model itself" : name;
+    }
+    [[nodiscard]] bool may_try(std::vector<std::size_t> const& effects, std::mutex& asking) {
+        std::lock_guard const alone(asking);
+        stopped_ =
+            stopped_ || !in_time() || (options_.progress && !options_.progress(name_of(effects)));
+        return !stopped_;
+    }
+    /// For any thread.
+    [[nodiscard]] bool in_time() const {
+        return seconds() < options_.seconds && (!options_.go_on || options_.go_on());
+    }
+    [[nodiscard]] screened fit(std::vector<std::size_t> const& effects) const {
+        std::vector<effect> chosen;
+        for (auto const e : effects) chosen.push_back(catalogue_[e]);
+        screened s{{effects, 0, {}, {}}, affected(base_, chosen), {}};
+        s.fit = fit_candidate(s.problem, base_, best_part_of(effects), effects.size(),
+                              options_.go_on, s.silent);
+        s.figures.inflation = s.fit.inflation;
+        s.figures.squares = s.fit.squares;
+        s.figures.unknowns = s.problem.prior.size();
+        return s;
+    }
+    /// The likeliest candidate tried whose effects are all among these.
+    [[nodiscard]] screened const* best_part_of(std::vector<std::size_t> const& effects) const {
+        screened const* best = nullptr;
+        for (auto const& s : tried_) {
+            auto const& part = s.figures.effects;
+            if (!std::includes(effects.begin(), effects.end(), part.begin(), part.end())) continue;
+            if (best == nullptr || s.figures.squares < best->figures.squares) best = &s;
+        }
+        return best;
+    }
+
+    /// Single effects of the plan, the likeliest first.
+    [[nodiscard]] std::vector<std::size_t> ranked_singles() const {
+        std::vector<screened const*> singles;
+        for (auto const& s : tried_) {
+            if (s.figures.effects.size() == 1 && s.figures.effects[0] < planned_)
+                singles.push_back(&s);
+        }
+        std::stable_sort(singles.begin(), singles.end(), [&](auto const* a, auto const* b) {
+            return a->figures.score(measurements_) < b->figures.score(measurements_);
+        });
+        std::vector<std::size_t> result;
+        for (auto const* s : singles) result.push_back(s->figures.effects.front());
+        return result;
+    }
+    [[nodiscard]] double seconds() const {
+        return std::chrono::duration<double>(clock::now() - begin_).count();
+    }
+
+    identification_problem base_;
+    std::vector<effect> catalogue_;
+    std::size_t planned_ = catalogue_.size(); ///< of them; wider ones follow
+    screening_options options_;
+    std::vector<screened> tried_;
+    std::size_t measurements_ = 0;
+    bool stopped_ = false; ///< changed by one thread at a time
+    clock::time_point begin_ = clock::now();
+};
+
+} // namespace sivid
+
+#endif

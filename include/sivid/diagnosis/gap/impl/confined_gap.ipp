@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_GAP_IMPL_CONFINED_GAP_IPP
+#define SIVID_DIAGNOSIS_GAP_IMPL_CONFINED_GAP_IPP
+
+#include <sivid/diagnosis/gap/confined_gap.hpp>
+
+#include <sivid/approximate/fit/fit.hpp>
+#include <sivid/compiled.hpp>
+#include <sivid/diagnosis/candidate/describe_candidate.hpp>
+#include <sivid/diagnosis/verification.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+namespace diagnosis_detail {
+
+class gap_confinement {
+public:
+    gap_confinement(identification_problem const& p, approximate_fit const& fit,
+                    inflation_range const& whole, confinement_options const& options)
+        : p_(&p), fit_(&fit), whole_(whole), options_(&options) {}
+
+    /// What fits find.
+    [[nodiscard]] std::vector<data_part> parts() const {
+        std::vector<data_part> result;
+        for (auto& f : smallest_parts()) result.push_back(std::move(f.part));
+        return result;
+    }
+    /// With proof.
+    [[nodiscard]] std::vector<confined_gap> operator()() const {
+        std::vector<confined_gap> result;
+        for (auto const& f : smallest_parts()) {
+            if (!go_on()) break;
+            if (auto proved = judged(f)) result.push_back(std::move(*proved));
+        }
+        return result;
+    }
+
+private:
+    /// A part, and a fit of all measurements but these.
+    struct found {
+        data_part part;
+        approximate_fit others;
+    };
+    /// By so many times its bounds a part says nothing.
+    static constexpr double nothing = 1e6;
+    /// Factors are found to within this share ...
+    static constexpr double precision = 0.02;
+    /// ... and a validated run has this much room.
+    static constexpr double slack = 1e-3;
+
+    [[nodiscard]] bool go_on() const { return !options_->go_on || options_->go_on(); }
+
+    [[nodiscard]] std::vector<found> smallest_parts() const {
+        std::set<std::size_t> measured;
+        for (auto const& e : p_->experiments) {
+            for (auto const& m : e.measurements) measured.insert(m.channel);
+        }
+        std::vector<data_part> channels, experiments, both;
+        if (options_->channels && measured.size() > 1) {
+            for (auto const y : measured) channels.push_back({y, {}});
+        }
+        auto const n = p_->experiments.size();
+        for (std::size_t e = 0; n > 1 && e < n; ++e) experiments.push_back({{}, {e}});
+        auto const without_channel = explained(channels);
+        std::vector<found> not_enough;
+        auto const without_experiment = explained(experiments, &not_enough);
+        for (auto const& c : without_channel) {
+            for (auto const& e : without_experiment)
+                both.push_back({c.part.channel, e.part.experiments});
+        }
+        auto result = explained(both);
+        auto const smaller = result;
+        for (auto const* larger : {&without_channel, &without_experiment}) {
+            for (auto const& f : *larger) {
+                bool const holds =
+                    std::any_of(smaller.begin(), smaller.end(), [&f](found const& s) {
+                        return f.part.channel ? s.part.channel == f.part.channel
+                                              : s.part.experiments == f.part.experiments;
+                    });
+                if (!holds) result.push_back(f);
+            }
+        }
+        return result.empty() ? several_experiments(std::move(not_enough)) : result;
+    }
+
+    /// Those parts without which the others are explained.
+    /// @param not_enough  receives those without which they are not
+    [[nodiscard]] std::vector<found> explained(std::vector<data_part> const& parts,
+                                               std::vector<found>* not_enough = nullptr) const {
+        std::vector<found> result;
+        for (auto const& part : parts) {
+            if (!go_on()) break;
+            found f{part, fit_of_others(part)};
+            if (f.others.inflation <= 1) {
+                result.push_back(std::move(f));
+            } else if (not_enough != nullptr) {
+                not_enough->push_back(std::move(f));
+            }
+        }
+        return result;
+    }
+    [[nodiscard]] approximate_fit fit_of_others(data_part const& part) const {
+        constexpr double promising = 3, close = 1.05;
+        auto const others = loosened(*p_, part, nothing);
+        fitter descend(others, options_->go_on);
+        auto best = descend({fit_->parameters});
+        auto const try_again = [&](double below, fit_start const& from) {
+            if (!(best.inflation > 1 && best.inflation < below)) return;
+            if (auto other = descend(from); other.inflation < best.inflation)
+                best = std::move(other);
+        };
+        try_again(promising, {}); // from where the part has not drawn it
+        try_again(close, {best.parameters, best.starts});
+        return best;
+    }
+
+    /// Two or three experiments are left out, from those on that leave the least.
+    [[nodiscard]] std::vector<found> several_experiments(std::vector<found> one_less) const {
+        auto const n = p_->experiments.size();
+        for (std::size_t size = 2; size <= 3 && size + 2 <= n && !one_less.empty(); ++size) {
+            keep_closest(one_less);
+            std::set<std::vector<std::size_t>> sets;
+            for (auto const& f : one_less) {
+                for (auto const e : worst(f)) {
+                    auto without = f.part.experiments;
+                    without.push_back(e);
+                    std::sort(without.begin(), without.end());
+                    sets.insert(std::move(without));
+                }
+            }
+            std::vector<data_part> parts;
+            for (auto const& without : sets) parts.push_back({{}, without});
+            std::vector<found> not_enough;
+            auto result = explained(parts, &not_enough);
+            keep_closest(result);
+            if (!result.empty()) return result;
+            one_less = std::move(not_enough);
+        }
+        return {};
+    }
+    void keep_closest(std::vector<found>& all) const {
+        std::stable_sort(all.begin(), all.end(), [](found const& a, found const& b) {
+            return a.others.inflation < b.others.inflation;
+        });
+        if (all.size() > options_->most) all.resize(options_->most);
+    }
+    /// The experiments with the largest residuals, of those that a part does not hold.
+    [[nodiscard]] std::vector<std::size_t> worst(found const& f) const {
+        std::vector<std::pair<double, std::size_t>> all;
+        for (std::size_t e = 0; e < f.others.residuals.size(); ++e) {
+            auto const& out = f.part.experiments;
+            if (std::find(out.begin(), out.end(), e) != out.end()) continue;
+            double most = 0;
+            for (double const r : f.others.residuals[e]) most = std::max(most, std::abs(r));
+            all.emplace_back(-most, e);
+        }
+        std::sort(all.begin(), all.end());
+        std::vector<std::size_t> result;
+        for (std::size_t k = 0; k < std::min(all.size(), options_->most); ++k) {
+            result.push_back(all[k].second);
+        }
+        return result;
+    }
+
+    /// The least factor that a fit finds, by halving its logarithm, proved from above by a witness
+    /// and from below by a search.
+    [[nodiscard]] std::optional<confined_gap> judged(found const& f) const {
+        auto const& part = f.part;
+        auto at = f.others;
+        double high = needed(part, at), low = std::max(1.0, whole_.lower());
+        if (!(high > 1)) return std::nullopt; // it explains all data
+        while (high > low * (1 + precision) && go_on()) {
+            double const middle = std::sqrt(low) * std::sqrt(high);
+            auto const problem = loosened(*p_, part, middle);
+            auto next = fitter(problem, options_->go_on)({at.parameters});
+            if (next.inflation > 1) {
+                low = middle;
+            } else {
+                high = middle;
+                at = std::move(next);
+            }
+        }
+        double const upper = high * (1 + slack);
+        auto const problem = loosened(*p_, part, upper);
+        auto const proved = verify_at(problem, at, options_->lower.test);
+        if (!(proved.range.upper() <= 1) || !proved.witness) return std::nullopt;
+        double const proved_upper = growth_of(*p_, problem); // bounds were rounded outward
+        if (!(proved_upper < detail::infinity)) return std::nullopt;
+        double const lower = std::min(lower_end(part, at, upper), proved_upper);
+        confined_gap result;
+        if (part.channel) result.channel = p_->model.about.channels[*part.channel].name;
+        for (auto const e : part.experiments) {
+            result.scenarios.push_back(p_->experiments[e].name);
+        }
+        result.factor = interval_traits<interval>::bounds(lower, proved_upper);
+        result.witness = named(*p_, proved.witness->parameters, proved.witness->starts);
+        result.assumptions = proved.assumptions;
+        return result;
+    }
+    /// By how much a part's bounds must grow at a fit, outliers included.
+    [[nodiscard]] double needed(data_part const& part, approximate_fit const& f) const {
+        double most = 1;
+        for (std::size_t e = 0; e < p_->experiments.size(); ++e) {
+            auto const data = sorted(p_->experiments[e].measurements);
+            for (std::size_t k = 0; k < data.size(); ++k) {
+                if (part.holds(e, data[k]))
+                    most = std::max(most, nothing * std::abs(f.residuals[e][k]));
+            }
+        }
+        return most;
+    }
+    /// Where no parameter explains the data with all bounds so wide, none does with some of them.
+    [[nodiscard]] double lower_end(data_part const& part, approximate_fit const& at,
+                                   double upper) const {
+        double const known = whole_.lower() > 1 ? whole_.lower() : 0;
+        double const tried = (1 - 2 * precision) * upper;
+        if (tried <= std::max(known, 1.0) || p_->model.has_delays() || !go_on()) return known;
+        auto search = options_->lower;
+        search.only_verdict = true;
+        auto const refuted = bound_inflation(loosened(*p_, part, tried), &at, search);
+        return refuted.value.lower() > 1 ? tried : known;
+    }
+
+    identification_problem const* p_;
+    approximate_fit const* fit_;
+    inflation_range whole_;
+    confinement_options const* options_;
+};
+
+} // namespace diagnosis_detail
+
+SIVID_DECL std::vector<data_part> find_unexplained_parts(identification_problem const& p,
+                                                         approximate_fit const& fit,
+                                                         confinement_options const& options) {
+    if (fit.parameters.size() != p.prior.size()) return {};
+    return diagnosis_detail::gap_confinement(p, fit, unknown_inflation(), options).parts();
+}
+
+SIVID_DECL std::vector<confined_gap> find_confined_gaps(identification_problem const& p,
+                                                        approximate_fit const& fit,
+                                                        inflation_range const& whole,
+                                                        confinement_options const& options) {
+    if (fit.parameters.size() != p.prior.size()) return {};
+    return diagnosis_detail::gap_confinement(p, fit, whole, options)();
+}
+
+} // namespace sivid
+
+#endif

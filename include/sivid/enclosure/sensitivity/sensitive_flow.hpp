@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_ENCLOSURE_SENSITIVITY_SENSITIVE_FLOW_HPP
+#define SIVID_ENCLOSURE_SENSITIVITY_SENSITIVE_FLOW_HPP
+
+#include <sivid/enclosure/series/detail/expansion_tail.hpp>
+#include <sivid/enclosure/series/detail/power_sum.hpp>
+#include <sivid/enclosure/set/framed_radii.hpp>
+#include <sivid/enclosure/suggested_degree.hpp>
+#include <sivid/enclosure/taylor/parametric_flow.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// A `parametric_flow` that carries the derivatives of all its trajectories along: for each q,
+///   \f$ S(q) = \partial x(t) / \partial (x_0, p) \in K(q) + B R \f$
+/// with polynomials K of the states' degree and one orthogonal frame B for what is lost.
+///
+/// With \f$ V^{[k]} \f$ the coefficients of the flow's derivatives by states and parameters on the
+/// set before, \f$ M = V(h) \in \sum_{k<L} h^k V^{[k]} + [-\bar R, \bar R] \f$ encloses the
+/// derivatives over the step at every member, and \f$ S' = M_x S + [0, M_p] \f$. \f$ \bar R \f$
+/// follows from the sizes of coefficients alone (`expansion_tail`). Where that fails, and at kinks,
+/// the tube b(q, s) serves that the step of the flow has left: with J the coefficients of order L
+/// on it,
+///   \f$ W > \sum_{1 \le k<L} h^k |V^{[k]}| + h^L (|J| + |J_x| W) \f$
+/// bounds \f$ |V - [1, 0]| \f$ on the step (docs/taylor_models.md, section 3, (a)), and
+///   \f$ M \in \sum_{k<L} h^k V^{[k]} + h^L (J + |J_x| [-W, W]) \f$.
+/// Columns: initial states, then parameters, in the model's units (not per unit of q). Across kinks
+/// L = 1 and the derivative is Clarke's; across jumps there is none, and the entries say nothing
+/// from there on.
+/// @guarantee  for every q and every start of the family, the derivative lies in `derivative(i, c)`
+///             at that q.
+/// @cost  about (n + parameters) / 2 times that of the flow's own derivatives
+/// @ref   Zgliczynski 2002 (C1)
+template <class Model = taylor_model<double>>
+class sensitive_flow {
+public:
+    using entry = Model;
+    using flow_type = parametric_flow<Model>;
+
+    /// @param variables, degree  of the polynomials: see `parametric_flow`
+    /// @throws std::invalid_argument for inputs with error bounds: the tubes that bound derivatives
+    ///         are those of the recorded inputs
+    sensitive_flow(flow const& f, enclosure_options const& options, std::size_t variables,
+                   std::size_t degree)
+        : flow_(&f),
+          options_(options),
+          run_(f, options, variables, degree),
+          series_(f, options.order + 1, variations::by_state_and_parameter, run_.shape()),
+          tube_(f, options.order + 1, variations::by_state_and_parameter, run_.tube_shape()),
+          tail_(f, series_),
+          observe_(f.observe_jacobian(), 0, run_.shape()),
+          parameters_(f.parameters(), entry(run_.shape())),
+          tube_parameters_(f.parameters(), entry(run_.tube_shape())),
+          around_(f.states()) {
+        if (f.uncertain()) {
+            throw std::invalid_argument("sensitive_flow: inputs with error bounds are not "
+                                        "supported; give signals without bounds");
+        }
+    }
+
+    /// See `parametric_flow::begin`.
+    void begin(double time, box const& initial, box const& parameters) {
+        run_.begin(time, initial, parameters);
+        auto const n = flow_->states();
+        auto const& sides = run_.unknowns().parameters;
+        for (std::size_t j = 0; j < sides.size(); ++j) {
+            enclosure_detail::put(sides[j], 0, parameters_[j]);
+            enclosure_detail::put(sides[j], 0, tube_parameters_[j]);
+        }
+        series_.set_parameters(parameters_);
+        tube_.set_parameters(tube_parameters_);
+        observe_.set_parameters(parameters_);
+        centre_.assign(n * columns(), entry::constant(0.0));
+        for (std::size_t i = 0; i < n; ++i) centre_[i * columns() + i] = entry::constant(1.0);
+        rest_ = framed_radii(n, columns());
+        exists_ = true;
+        order_ = options_.order;
+    }
+
+    /// One proved step of states and derivatives, at most to `limit`.
+    /// @returns false when the states could not be enclosed any further: `states().failure()`
+    [[nodiscard]] bool step(double limit) {
+        auto const before = run_.set();
+        if (!run_.step(limit)) return false;
+        if (exists_) exists_ = follow(before, run_.time());
+        return true;
+    }
+
+    [[nodiscard]] flow_type const& states() const { return run_; }
+    [[nodiscard]] double time() const { return run_.time(); }
+    /// Initial states, then parameters.
+    [[nodiscard]] std::size_t columns() const { return flow_->states() + flow_->parameters(); }
+    /// Whether derivatives exist and are known. They are not after a jump, nor after a step on
+    /// which they could not be bounded.
+    [[nodiscard]] bool known() const { return exists_; }
+
+    /// \f$ \partial x_i / \partial (x_0, p)_c \f$ as a function of the unknowns.
+    [[nodiscard]] entry derivative(std::size_t i, std::size_t c) const {
+        double const r = exists_ ? rest_(i, c) : std::numeric_limits<double>::infinity();
+        return widened(centre_[i * columns() + c], r);
+    }
+
+    /// The channels at the present time, as functions of the unknowns.
+    [[nodiscard]] std::vector<entry> outputs() { return run_.outputs(); }
+    /// \f$ \partial y / \partial (x_0, p) \f$ of all channels by rows, as functions of the
+    /// unknowns.
+    [[nodiscard]] std::vector<entry> output_derivatives() {
+        auto const n = flow_->states();
+        around(run_.set());
+        auto const t = entry::constant(run_.time());
+        input_pieces<entry> const inputs(*flow_, run_.time(), t);
+        observe_.start(t);
+        auto const state = [this](std::size_t i, std::size_t) -> entry const& {
+            return around_[i];
+        };
+        observe_.advance_principal(0, state, inputs);
+        bool const jumps = observe_.jumped();
+        observe_.advance_rest(0, state, inputs);
+        bool const unknown = jumps || observe_.undefined() || !exists_;
+        std::vector<entry> s;
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t c = 0; c < columns(); ++c) s.push_back(derivative(i, c));
+        }
+        std::vector<product_sum<>> sums(flow_->channels() * columns());
+        for (auto const& e : flow_->observe_entries()) {
+            auto const& d = observe_.output(e.output, 0);
+            auto* const row = &sums[e.row * columns()];
+            if (e.column >= n) {
+                row[e.column].add(d);
+                continue;
+            }
+            for (std::size_t c = 0; c < columns(); ++c) {
+                if (flow_->sensitive(e.column, c)) row[c].add(d, s[e.column * columns() + c]);
+            }
+        }
+        std::vector<entry> result;
+        for (auto& sum : sums) {
+            result.push_back(sum.result());
+            if (unknown) result.back().r() = std::numeric_limits<double>::infinity();
+        }
+        return result;
+    }
+
+private:
+    /// Makes computed sums of a few dozen non-negative numbers upper bounds.
+    static constexpr double up = 1 + 1e-12;
+
+    void around(typename flow_type::set_type const& set) {
+        for (std::size_t i = 0; i < set.centre.size(); ++i) {
+            around_[i] = widened(set.centre[i], set.reach[i]);
+        }
+    }
+
+    /// |V - [1, 0]| on a step of length h, by the series up to order L: n x columns.
+    [[nodiscard]] std::optional<std::vector<double>> bound(double h, std::size_t L) const {
+        auto const n = flow_->states();
+        auto const m = columns();
+        double power = h;
+        for (std::size_t k = 1; k < L; ++k) power *= h;
+        power *= up;
+        std::vector<double> base(n * m, 0.0), last(n * m, 0.0);
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t c = 0; c < m; ++c) {
+                if (!flow_->sensitive(i, c)) continue;
+                double sum = 0;
+                for (std::size_t k = L; k-- > 1;) {
+                    sum = sum * h + series_.variation(i, c, k).norm();
+                }
+                last[i * m + c] = tube_.variation(i, c, L).norm() * power * up;
+                base[i * m + c] = sum * h * up + entry::tiny + last[i * m + c];
+            }
+        }
+        auto const image = [&](std::vector<double> const& w) {
+            auto result = base;
+            for (std::size_t i = 0; i < n; ++i) {
+                for (std::size_t l = 0; l < n; ++l) {
+                    if (last[i * m + l] == 0) continue;
+                    for (std::size_t c = 0; c < m; ++c) {
+                        result[i * m + c] += last[i * m + l] * w[l * m + c];
+                    }
+                }
+            }
+            for (auto& x : result) x *= up;
+            return result;
+        };
+        auto guess = base;
+        // What acts through a chain of states takes a round for each of them to arrive.
+        for (std::size_t round = 0; round < 12 + n; ++round) {
+            guess = image(guess);
+            for (auto& x : guess) x = x * 1.1 + 1e-300;
+            auto const next = image(guess);
+            bool inside = true;
+            for (std::size_t k = 0; k < next.size(); ++k) inside = inside && next[k] < guess[k];
+            if (inside) return guess;
+        }
+        return std::nullopt;
+    }
+
+    /// Carries the derivatives over the step that the flow has just proved.
+    /// @returns false where they do not exist or could not be bounded
+    [[nodiscard]] bool follow(typename flow_type::set_type const& before, double to) {
+        double const from = before.time;
+        double const length = to - from;                 // off by less than a unit
+        double const h = length * (1 + 4 * entry::unit); // not less than the length
+        auto const s = run_.within_step(h);              // as in the tube's proof
+        auto const times = entry::constant(from) + s;
+        around(before);
+        std::size_t L = std::clamp<std::size_t>(order_, 1, options_.order);
+        std::optional<std::vector<double>> w;
+        for (;; L = std::max<std::size_t>(1, L / 2)) {
+            series_.expand_with_variations(from, entry::constant(from), around_, L - 1);
+            if (L > 1 && tail_.covers() && !series_.undefined() && !series_.kinked() &&
+                tail_.bound_variations(series_, h, L)) {
+                carry(nullptr, length, L);
+                return true;
+            }
+            tube_.expand(from, times, run_.swept_models(), L);
+            bool const jumps = tube_.jumped();
+            bool kinked = L > 1 && (series_.kinked() || tube_.kinked());
+            if (L == 1 && jumps) return false;
+            if (!kinked && !(L > 1 && jumps)) {
+                tube_.add_variations(L);
+                if (series_.undefined() || tube_.undefined()) return false;
+                kinked = L > 1 && tube_.kinked();
+                if (!kinked) w = bound(h, L);
+            }
+            if (w || L == 1) break;
+            if (kinked || jumps) L = 1; // halving would not take the kink away
+        }
+        if (!w) return false;
+        carry(&*w, length, L);
+        return true;
+    }
+
+    /// @param w  what `bound` says of the tube; null where `tail_` has bounded V
+    void carry(std::vector<double> const* w, double length, std::size_t L) {
+        auto const n = flow_->states();
+        auto const m = columns();
+        std::vector<entry> map(n * m);
+        double tail = 0, spread = 0, size = 0;
+        double const power = w ? std::pow(length, static_cast<double>(L)) : 1;
+        for (std::size_t i = 0; i < n; ++i) {
+            double row = 0;
+            for (std::size_t c = 0; c < m; ++c) {
+                if (!flow_->sensitive(i, c)) continue;
+                entry last;
+                double more = 0;
+                if (w) { // |J_x| W
+                    for (std::size_t l = 0; l < n; ++l) {
+                        if (!flow_->sensitive(i, l)) continue;
+                        more += tube_.variation(i, l, L).norm() * (*w)[l * m + c];
+                    }
+                    last = widened(without_last_variable(tube_.variation(i, c, L), run_.shape()),
+                                   more * up);
+                    row += last.norm();
+                } else {
+                    row += tail_.variation(i, c);
+                }
+                auto& over_step = map[i * m + c];
+                over_step = at_time(
+                    run_.shape(),
+                    [&](std::size_t k) -> entry const& {
+                        return k < L ? series_.variation(i, c, k) : last;
+                    },
+                    w ? L : L - 1, length);
+                if (!w) over_step = widened(over_step, tail_.variation(i, c));
+                spread = std::max(spread, over_step.spread());
+                size = std::max(size, over_step.polynomial_norm());
+            }
+            tail = std::max(tail, row * power);
+        }
+        // The next step's order follows the truncation, as far as it exceeds a rounding: a
+        // preference.
+        double const allowed =
+            std::max(options_.tolerance + options_.relative_tolerance * spread, entry::unit * size);
+        if (tail > allowed) {
+            order_ = std::min(options_.order, L + 2);
+        } else if (tail < 0.01 * allowed && L > 2) {
+            order_ = L - 1;
+        } else {
+            order_ = L;
+        }
+        std::vector<entry> next(n * m);
+        auto const rows = static_cast<Eigen::Index>(n);
+        Eigen::MatrixXd lost = Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(m));
+        Eigen::MatrixXd along = Eigen::MatrixXd::Zero(rows, rows);
+        Eigen::MatrixXd spread_along = along;
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t l = 0; l < n; ++l) {
+                if (!flow_->sensitive(i, l)) continue;
+                auto const entries = range(map[i * m + l]);
+                at(along, i, l) = mid(entries);
+                at(spread_along, i, l) = rad(entries);
+            }
+            for (std::size_t c = 0; c < m; ++c) {
+                if (!flow_->sensitive(i, c)) continue;
+                product_sum<> sum;
+                for (std::size_t l = 0; l < n; ++l) {
+                    if (flow_->sensitive(i, l) && flow_->sensitive(l, c))
+                        sum.add(map[i * m + l], centre_[l * m + c]);
+                }
+                if (c >= n) sum.add(map[i * m + c]);
+                auto image = sum.result();
+                at(lost, i, c) = image.r();
+                image.r() = 0;
+                next[i * m + c] = std::move(image);
+            }
+        }
+        centre_ = std::move(next);
+        rest_.map(along, spread_along, lost);
+    }
+
+    static double& at(Eigen::MatrixXd& a, std::size_t i, std::size_t j) {
+        return a(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    }
+
+    flow const* flow_;
+    enclosure_options options_;
+    flow_type run_;
+    expansion<entry> series_;
+    expansion<entry> tube_;
+    expansion_tail<entry> tail_;
+    series<entry> observe_;
+    std::vector<entry> parameters_;
+    std::vector<entry> tube_parameters_;
+    std::vector<entry> around_;
+    std::vector<entry> centre_; ///< K, radii 0, n x columns
+    framed_radii rest_;         ///< B R
+    bool exists_ = false;
+    std::size_t order_ = 8; ///< L to try next
+};
+
+/// What the channels are at a time, and how they depend on initial states and parameters: functions
+/// of the normalised unknowns of a box.
+template <class Model = taylor_model<double>>
+struct measured_sensitivities {
+    double time = 0;
+    std::vector<Model> outputs;
+    std::vector<Model> derivatives; ///< channels x (n + parameters), by rows
+
+    /// Encloses \f$ \partial y_k / \partial (x_0, p)_c \f$ over the whole box.
+    [[nodiscard]] interval over_box(std::size_t k, std::size_t c) const {
+        return range(derivatives[k * (derivatives.size() / outputs.size()) + c]);
+    }
+};
+
+/// Encloses the outputs and their derivatives by initial states and parameters, over boxes of both,
+/// at each of the times of measurement.
+/// @param times  increasing, none before `begin`
+/// @returns one value for each time that was reached; all of them unless `failure` is set
+template <class Model = taylor_model<double>>
+[[nodiscard]] std::vector<measured_sensitivities<Model>>
+sensitivities_at(flow const& f, enclosure_options const& options, box const& initial,
+                 box const& parameters, double begin, std::vector<double> const& times,
+                 std::optional<enclosure_failure>* failure = nullptr) {
+    auto const unknowns = normalised_unknowns(initial, parameters).variables;
+    sensitive_flow<Model> run(f, options, unknowns, suggested_degree(unknowns));
+    run.begin(begin, initial, parameters);
+    std::vector<measured_sensitivities<Model>> result;
+    for (double const t : times) {
+        if (t < run.time())
+            throw std::invalid_argument("sensitivities_at: times must increase from the begin");
+        while (run.time() < t) {
+            if (run.step(t)) continue;
+            if (failure != nullptr) *failure = run.states().failure();
+            return result;
+        }
+        result.push_back({t, run.outputs(), run.output_derivatives()});
+    }
+    return result;
+}
+
+} // namespace sivid
+
+#endif

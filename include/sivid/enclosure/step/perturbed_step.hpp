@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_ENCLOSURE_STEP_PERTURBED_STEP_HPP
+#define SIVID_ENCLOSURE_STEP_PERTURBED_STEP_HPP
+
+#include <sivid/enclosure/step/perturbation_bound.hpp>
+#include <sivid/enclosure/uncertain_input.hpp>
+#include <sivid/model/graph/tape.hpp>
+#include <sivid/model/series/series.hpp>
+#include <sivid/model/series/taylor_arithmetic.hpp>
+
+#include <cstddef>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// How a perturbation of the rates spreads during one step, whose length enters with its end:
+///   \f$ |d|' \le M |d| + G e + r \f$, and \f$ |d' - A d| \le R |d| + G e + r \f$,
+/// e the error bounds of the inputs, which run along lines, and |d| known to stay below `room`.
+template <class C>
+struct perturbation_law {
+    std::vector<C> growth; ///< M, states x states
+    std::vector<C> middle; ///< A
+    std::vector<C> beside; ///< R
+    std::vector<C> gain;   ///< G, states x uncertain inputs
+    std::vector<C> rate;   ///< r
+    std::vector<C> room;
+
+    /// Bounds |d| at the end of a step, the less of both ways.
+    [[nodiscard]] std::vector<C> deviation(std::vector<C> const& begin, std::vector<C> const& end,
+                                           C const& h) const {
+        return bound(push(begin), push(end), h);
+    }
+    /// The same at all times of the step.
+    [[nodiscard]] std::vector<C> largest_deviation(std::vector<C> const& begin,
+                                                   std::vector<C> const& end, C const& h) const {
+        auto most = push(begin);
+        auto const other = push(end);
+        for (std::size_t i = 0; i < most.size(); ++i) {
+            most[i] = lane_traits<C>::max(most[i], other[i]);
+        }
+        return bound(most, most, h);
+    }
+
+private:
+    static constexpr double up = 1 + 1e-12;
+
+    [[nodiscard]] std::vector<C> bound(std::vector<C> begin, std::vector<C> end, C const& h) const {
+        auto const n = rate.size();
+        auto result = bound_perturbation(growth, begin, end, h);
+        for (std::size_t i = 0; i < n; ++i) {
+            C more{};
+            for (std::size_t j = 0; j < n; ++j) more += beside[i * n + j] * room[j];
+            begin[i] = (begin[i] + more) * up;
+            end[i] = (end[i] + more) * up;
+        }
+        auto const other = bound_linear_perturbation(middle, begin, end, h);
+        for (std::size_t i = 0; i < n; ++i) {
+            result[i] = lane_traits<C>::min(result[i], other[i]);
+        }
+        return result;
+    }
+    [[nodiscard]] std::vector<C> push(std::vector<C> const& e) const {
+        auto w = rate;
+        for (std::size_t i = 0; i < w.size(); ++i) {
+            for (std::size_t k = 0; k < e.size(); ++k) w[i] += gain[i * e.size() + k] * e[k];
+            w[i] *= up;
+        }
+        return w;
+    }
+};
+
+/// Bounds how far solutions of a perturbed flow leave those of the nominal one during a step for
+/// which a tube of the nominal ones is proved. The perturbation is what the inputs may differ from
+/// their samples, and a bound of the rates, if one is set; it varies in time in any measurable way,
+/// so that no derivative of it is taken: the nominal flow is expanded, and this bound is added.
+///   With \f$ \hat d \f$ the tube widened by it holds both solutions as long as \f$ |d| < \hat d
+///   \f$, and while it does, \f$ d' = J d + v \f$ with J in the range of \f$ \partial_x f \f$ and
+///   \f$ |v| \le |\partial_u f| e + r \f$, by the mean value theorem (with Clarke's derivative at
+///   kinks); a \f$ \hat d \f$ above the bound that follows is never reached. Where the right-hand
+///   side may jump, or has no bounded derivative, d' is enclosed by the difference of the rates
+///   themselves.
+/// @tparam T  scalar of the tube: an interval, or a Taylor model in lanes
+/// @guarantee  of each lane that `prove` returns: for every member of the tube's family, every
+///             solution of the perturbed flow from the same start exists during the step, and its
+///             distance to the nominal one is at most `largest()` during the step and at most
+///             `at_end()` at its end
+/// @cost  some evaluations of the rates and their Jacobian over the tube
+template <class T>
+class perturbed_step {
+    using arithmetic = arithmetic_of<T>;
+    using number = set_scalar<T>;
+
+public:
+    using scalar = typename number::scalar;
+    using side_by_side = lane_traits<scalar>;
+    using mask = typename side_by_side::mask;
+
+    /// @param values  see `series`
+    explicit perturbed_step(flow const& f, size_of_values<T> const& values = {}) : flow_(&f) {
+        auto const& model = f.model();
+        auto outputs = model.rate;
+        for (auto const* derivatives : {&model.rate_dx, &model.rate_du}) {
+            std::size_t const offset = derivatives == &model.rate_dx ? 0 : f.states();
+            for (std::size_t i = 0; i < derivatives->size(); ++i) {
+                for (std::size_t k = 0; k < (*derivatives)[i].size(); ++k) {
+                    auto const d = (*derivatives)[i][k];
+                    if (model.g.is(d, 0)) continue;
+                    entries_.push_back({i, offset + k, outputs.size()});
+                    outputs.push_back(d);
+                }
+            }
+        }
+        program_ = std::make_shared<tape const>(model.g, outputs, model.rate.size());
+        series_ = std::make_unique<series<T>>(*program_, 0, values);
+    }
+
+    template <class Box>
+    void set_parameters(Box const& p) {
+        series_->set_parameters(p);
+    }
+    /// A perturbation of each rate beside that of the inputs: \f$ |x_i' - f_i| \le w_i \f$.
+    /// @throws std::invalid_argument for a wrong number of bounds, or one that is negative or NaN
+    void set_rate_bound(std::vector<double> w) {
+        if (!w.empty() && w.size() != flow_->states()) {
+            throw std::invalid_argument("perturbed_step: needs one rate bound per state");
+        }
+        for (double const x : w) {
+            if (!(x >= 0)) throw std::invalid_argument("perturbed_step: a negative rate bound");
+        }
+        rate_bound_ = std::move(w);
+    }
+
+    /// @param from    begin of the step, in each lane
+    /// @param to      its end, at most the next knot of a sampled input
+    /// @param times   encloses all times of the step
+    /// @param tube    all nominal solutions of the family, at all these times
+    /// @param trying  the lanes that matter
+    /// @returns the lanes of `trying` for which a bound was found
+    template <class Tube>
+    [[nodiscard]] mask prove(scalar const& from, scalar const& to, T const& times, Tube const& tube,
+                             mask trying) {
+        auto const n = flow_->states();
+        scalar const h = to - from;
+        begin_ = input_errors(*flow_, from, from);
+        end_ = input_errors(*flow_, from, to);
+        std::vector<scalar> room(n);
+        mask found{};
+        for (int round = 0; round < 8 && side_by_side::any(trying & !found); ++round) {
+            trying = trying & look(from, to, times, tube, room);
+            auto const reach = law_.largest_deviation(begin_, end_, h);
+            if (round > 0) { // the first round, without room, only says where to begin
+                mask inside = trying;
+                for (std::size_t i = 0; i < n; ++i) inside = inside & (reach[i] < room[i]);
+                found = found | inside;
+                largest_ = reach;
+            }
+            for (std::size_t i = 0; i < n; ++i) {
+                trying = trying & (reach[i] < scalar(1e300));
+                room[i] = side_by_side::select(found, room[i], reach[i] * 1.25 + 1e-280);
+            }
+        }
+        found = found & trying;
+        if (side_by_side::any(found)) at_end_ = law_.deviation(begin_, end_, h);
+        return found;
+    }
+
+    /// Of the last `prove`, in the lanes that it returned.
+    [[nodiscard]] std::vector<scalar> const& largest() const { return largest_; }
+    [[nodiscard]] std::vector<scalar> const& at_end() const { return at_end_; }
+    [[nodiscard]] perturbation_law<scalar> const& law() const { return law_; }
+
+private:
+    /// Rates and their derivatives over the tube and `room` beside it.
+    /// @returns the lanes in which the rates are defined
+    template <class Tube>
+    [[nodiscard]] mask look(scalar const& from, scalar const& to, T const& times, Tube const& tube,
+                            std::vector<scalar> const& room) {
+        auto const n = flow_->states();
+        auto const& uncertain = flow_->uncertain_inputs();
+        input_pieces<T> const recorded(*flow_, from, times);
+        auto const possible =
+            widened(recorded, *flow_, largest_input_errors(*flow_, from, from, to));
+        std::vector<T> around;
+        for (std::size_t i = 0; i < n; ++i) around.push_back(number::widened(tube[i], room[i]));
+        auto const at = [](auto const& x) {
+            return [&x](std::size_t i, std::size_t) -> T const& { return x[i]; };
+        };
+        series_->start(times);
+        series_->advance_principal(0, at(around), possible);
+        mask const undefined = series_->undefined();
+        mask rough = series_->jumped();
+        series_->advance_rest(0, at(around), possible);
+        rough = rough | series_->undefined();
+        law_.room = room;
+        law_.growth.assign(n * n, scalar(0.0));
+        law_.middle = law_.beside = law_.growth;
+        law_.gain.assign(n * uncertain.size(), scalar(0.0));
+        for (auto const& e : entries_) {
+            auto const& a = series_->output(e.output, 0);
+            if (e.column < n) {
+                auto const place = e.row * n + e.column;
+                law_.growth[place] = e.row == e.column ? number::upper(a) : number::mag(a);
+                law_.middle[place] = number::middle(a);
+                law_.beside[place] = number::beside(a, law_.middle[place]);
+            } else {
+                law_.gain[e.row * uncertain.size() + e.column - n] = number::mag(a);
+            }
+        }
+        law_.rate.assign(n, scalar(0.0));
+        for (std::size_t i = 0; i < rate_bound_.size(); ++i) law_.rate[i] = rate_bound_[i];
+        for (auto const* part : {&law_.beside, &law_.gain}) {
+            for (auto const& x : *part) rough = rough | !(x < scalar(1e300));
+        }
+        if (!side_by_side::any(rough)) return !undefined;
+        std::vector<T> rates;
+        for (std::size_t i = 0; i < n; ++i) rates.push_back(series_->output(i, 0));
+        series_->start(times);
+        series_->advance_principal(0, at(tube), recorded);
+        for (auto* part : {&law_.growth, &law_.middle, &law_.beside, &law_.gain}) {
+            for (auto& x : *part) x = side_by_side::select(rough, scalar(0.0), x);
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+            scalar const apart = number::mag(arithmetic::sub(rates[i], series_->output(i, 0)));
+            law_.rate[i] += side_by_side::select(rough, apart, scalar(0.0));
+        }
+        return !undefined;
+    }
+
+    flow const* flow_;
+    std::vector<jacobian_entry> entries_;
+    std::shared_ptr<tape const> program_; // the series points to it
+    std::unique_ptr<series<T>> series_;
+    std::vector<double> rate_bound_;
+    std::vector<scalar> begin_, end_; ///< error bounds of the inputs
+    perturbation_law<scalar> law_;
+    std::vector<scalar> largest_, at_end_;
+};
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_ENCLOSURE_TAYLOR_DETAIL_PARAMETRIC_FLOW_ATTEMPT_HPP
+#define SIVID_ENCLOSURE_TAYLOR_DETAIL_PARAMETRIC_FLOW_ATTEMPT_HPP
+
+/// @file
+/// The proof of one step: a tube, what is lost on it, and the lanes where the tube holds.
+
+#include <sivid/enclosure/series/detail/power_sum.hpp>
+#include <sivid/enclosure/taylor/detail/parametric_flow_class.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace sivid {
+
+/// \f$ \sum_{from \le k < order} h^k \|V_k\| \f$, componentwise, rounded up.
+template <class Model>
+void parametric_flow<Model>::sizes(C const& h, std::size_t order, std::size_t from,
+                                   square& result) const {
+    auto const n = flow_->states();
+    result.assign(n * n, C(0.0));
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t c = 0; c < n; ++c) {
+            if (!flow_->sensitive(i, c)) continue;
+            C sum{};
+            for (std::size_t k = order; k-- > from;) {
+                sum = sum * h + derivative_.variation(i, c, k).norm();
+            }
+            for (std::size_t k = 0; k < from; ++k) sum *= h;
+            result[i * n + c] = sum * up + polynomial::tiny;
+        }
+    }
+}
+
+template <class Model>
+typename parametric_flow<Model>::mask
+parametric_flow<Model>::bound_flow(square const& base, square const& last, mask pending,
+                                   square& w) const {
+    auto const n = flow_->states();
+    auto const image = [&](square const& x, square& y) { // (base + last (1 + x)) rounded up
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t c = 0; c < n; ++c) {
+                C sum = base[i * n + c] + last[i * n + c];
+                for (std::size_t l = 0; l < n; ++l) sum += last[i * n + l] * x[l * n + c];
+                y[i * n + c] = sum * up;
+            }
+        }
+    };
+    square guess(n * n), inside(n * n);
+    for (std::size_t k = 0; k < n * n; ++k) guess[k] = base[k] + last[k];
+    mask found{};
+    w.assign(n * n, C(0.0));
+    for (int round = 0; round < 8; ++round) {
+        image(guess, inside);
+        for (std::size_t k = 0; k < n * n; ++k) guess[k] = inside[k] * 1.1 + 1e-300;
+        image(guess, inside);
+        mask good = pending & !found;
+        for (std::size_t k = 0; k < n * n; ++k) good = good & (inside[k] < guess[k]);
+        if (side_by_side::any(good)) {
+            for (std::size_t k = 0; k < n * n; ++k)
+                w[k] = side_by_side::select(good, guess[k], w[k]);
+            found = found | good;
+        }
+        if (!side_by_side::any(pending & !found)) break;
+    }
+    return found;
+}
+
+/// The lanes whose truncation is allowed; the others try again with a shorter step.
+template <class Model>
+typename parametric_flow<Model>::mask
+parametric_flow<Model>::short_enough(mask trying, C const& h, std::size_t order,
+                                     std::vector<C> const& truncation) {
+    C ratio{}; // of the truncation to what is allowed
+    for (std::size_t i = 0; i < truncation.size(); ++i) {
+        C const share = truncation[i] / (allowed(i) * (order > 0 ? 10.0 : 1e4));
+        // NaN counts as too large.
+        auto const more = !(share <= ratio);
+        ratio = side_by_side::select(more, share, ratio);
+        if (!side_by_side::any(trying & more)) continue;
+        for (std::size_t l = 0; l < width; ++l) {
+            if (side_by_side::test(more, l)) lanes_[l].why.component = i;
+        }
+    }
+    ratio_ = ratio;
+    mask forced{};
+    for (std::size_t l = 0; l < width; ++l) {
+        if (lanes_[l].forced) forced = forced | side_by_side::only(l);
+    }
+    mask const enough =
+        ((h <= C(4 * options_.minimum_step)) & !forced) | (order > 0 ? mask{} : mask(h <= C(1e-4)));
+    mask const too_long = trying & !(ratio <= C(1.0)) & !enough;
+    if (side_by_side::any(too_long)) {
+        auto const shorten = each_lane<C>([&](std::size_t l) {
+            double const x = side_by_side::get(ratio, l);
+            if (!std::isfinite(x)) return 0.5;
+            return std::clamp(0.9 * std::pow(x, -1.0 / static_cast<double>(order + 1)), 0.3, 0.9);
+        });
+        reject(too_long, failure_reason::minimum_step, shorten);
+    }
+    return trying & !too_long;
+}
+
+/// The tube's middle: the Taylor polynomials over s = h (1 + tau)/2, in q and tau.
+template <class Model>
+void parametric_flow<Model>::guess_tube(C const& h, std::size_t order) {
+    for (std::size_t i = 0; i < path_.size(); ++i) {
+        path_[i] = path_of_([&](std::size_t k) -> polynomial const& { return centre_.state(i, k); },
+                            order, h);
+    }
+}
+
+template <class Model>
+typename parametric_flow<Model>::mask
+parametric_flow<Model>::attempt(mask trying, C const& to, std::size_t order, std::size_t flow_order,
+                                square& w, mask& jumps) {
+    auto const n = flow_->states();
+    std::size_t const K = order;
+    std::size_t const L = flow_order;
+    C const half = C(0.5);
+    if (K > 0) {
+        mask kinked = centre_.kinked();
+        kinked |= derivative_.kinked();
+        kinked &= trying;
+        for (std::size_t l = 0; l < width; ++l) {
+            if (side_by_side::test(kinked, l)) lanes_[l].rough = true;
+        }
+        trying = trying & !kinked;
+        if (!side_by_side::any(trying)) return mask{};
+    }
+    C const h = (to - set_.time) * (1 + 4 * polynomial::unit); // not less than the length
+    tails_ = false;
+    if (K > 0 && L > 1 && centre_tail_.covers() && derivative_tail_.covers()) {
+        mask const bounded = bound_tails(h, K, L);
+        if (side_by_side::all(bounded | !trying)) {
+            tails_ = true;
+            trying = carries_well(short_enough(trying, h, K, truncation_), h, L);
+            if (!side_by_side::any(trying)) return mask{};
+            guess_tube(h, K);
+            square all;
+            sizes(h, L, 0, all);
+            for (std::size_t i = 0; i < n; ++i) {
+                C sum = truncation_[i];
+                for (std::size_t c = 0; c < n; ++c) {
+                    sum += (all[i * n + c] + derivative_tail_.variation(i, c)) * set_.reach[c];
+                }
+                tube_box_[i] = widened(path_[i], sum * up);
+            }
+            return trying;
+        }
+    }
+    C power = h; // h^(K+1), h^L, rounded up
+    C flow_power = h;
+    for (std::size_t k = 1; k < K + 1; ++k) power *= h;
+    for (std::size_t k = 1; k < L; ++k) flow_power *= h;
+    power *= up;
+    flow_power *= up;
+    auto const s = within_step(h);
+    auto const times = tube_entry::constant(set_.time) + s;
+    // What the reach becomes during the step, as far as the series knows.
+    square all, base, last;
+    sizes(h, L, 0, all);
+    sizes(h, L, 1, base);
+    std::vector<C> carried(n), spread(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t c = 0; c < n; ++c) carried[i] += all[i * n + c] * set_.reach[c];
+    }
+    guess_tube(h, K);
+    C const before = power / h;
+    for (std::size_t i = 0; i < n; ++i) {
+        C const next = K > 0 ? centre_.state(i, K).norm() * before : centre_.state(i, 1).norm() * h;
+        // Room for the truncation that is still accepted, as a second round costs as much as the
+        // first; but not much on the scale of the tube.
+        C const wide = path_[i].spread() * 0.3 + carried[i] * 0.05;
+        C const more =
+            side_by_side::min(allowed(i) * 5.0, side_by_side::max(allowed(i) * 0.1, wide));
+        room_[i] = carried[i] * 1.2 + next + more;
+    }
+    mask proved{};
+    for (int round = 0; round < 3; ++round) {
+        for (std::size_t i = 0; i < n; ++i) tube_box_[i] = widened(path_[i], room_[i]);
+        tube_.expand(set_.time, times, tube_box_, K + 1);
+        mask undefined = trying & tube_.undefined();
+        if (side_by_side::any(undefined)) {
+            reject(undefined, failure_reason::undefined, half);
+            trying = trying & !undefined;
+        }
+        mask const kinked = trying & tube_.kinked();
+        if (side_by_side::any(kinked)) {
+            for (std::size_t l = 0; l < width; ++l) {
+                if (side_by_side::test(kinked, l)) lanes_[l].rough = true;
+            }
+            trying = trying & !kinked;
+        }
+        // Without series terms x(h) = x(0) + h f(b) holds for every member, jumps or not. With them
+        // no sign varies here (it would be a kink), and V carries the members as usual.
+        jumps = K == 0 ? trying & tube_.jumped() : mask{};
+        std::vector<C> share(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            auto const& lagrange = tube_.state(i, K + 1);
+            truncation_[i] = lagrange.norm() * power * up;
+            share[i] = (lagrange.spread() + lagrange.r()) * power;
+        }
+        trying = short_enough(trying, h, K, share);
+        if (!side_by_side::any(trying)) return mask{};
+        last.assign(n * n, C(0.0));
+        w.assign(n * n, C(0.0));
+        for (std::size_t i = 0; i < n; ++i) spread[i] = set_.reach[i];
+        if (side_by_side::any(trying & !jumps)) {
+            tube_.add_variations(L);
+            undefined = trying & !jumps & tube_.undefined();
+            if (L > 1) {
+                mask const late = trying & !jumps & tube_.kinked();
+                for (std::size_t l = 0; l < width; ++l) {
+                    if (side_by_side::test(late, l)) lanes_[l].rough = true;
+                }
+                trying = trying & !late;
+            }
+            if (side_by_side::any(undefined)) {
+                reject(undefined, failure_reason::undefined, half);
+                trying = trying & !undefined;
+            }
+            for (std::size_t i = 0; i < n; ++i) {
+                for (std::size_t c = 0; c < n; ++c) {
+                    if (!flow_->sensitive(i, c)) continue;
+                    last[i * n + c] = tube_.variation(i, c, L).norm() * flow_power * up;
+                }
+            }
+            mask const bounded = bound_flow(base, last, trying & !jumps, w);
+            mask const unbounded = trying & !jumps & !bounded;
+            if (side_by_side::any(unbounded)) {
+                square growth = base;
+                for (std::size_t k = 0; k < n * n; ++k) growth[k] += last[k];
+                note_steepest(unbounded, growth);
+                reject(unbounded, failure_reason::minimum_step, half);
+                trying = trying & !unbounded;
+            }
+            for (std::size_t i = 0; i < n; ++i) { // carried + last (1 + w) reach
+                C sum = carried[i];
+                for (std::size_t l = 0; l < n; ++l) {
+                    C inner = set_.reach[l];
+                    for (std::size_t c = 0; c < n; ++c) inner += w[l * n + c] * set_.reach[c];
+                    sum += last[i * n + l] * inner;
+                }
+                spread[i] = side_by_side::select(jumps, spread[i], sum * up);
+            }
+        }
+        proved = trying;
+        std::array<double, width> worst{};
+        for (std::size_t i = 0; i < n; ++i) {
+            C const image = (truncation_[i] + spread[i]) * up;
+            auto const inside = image < room_[i];
+            proved = proved & inside;
+            if (side_by_side::all(inside | !trying)) continue;
+            for (std::size_t l = 0; l < width; ++l) {
+                double const excess = side_by_side::get(image, l) / side_by_side::get(room_[i], l);
+                if (side_by_side::test(inside, l) || excess <= worst[l]) continue;
+                worst[l] = std::isfinite(excess) ? excess : infinity;
+                lanes_[l].why.component = i;
+            }
+        }
+        mask const open = trying & !proved;
+        if (!side_by_side::any(open) || round == 2) {
+            reject(open, failure_reason::minimum_step, C(0.7));
+            return proved;
+        }
+        // Rooms of lanes that are proved stay; the next round judges them again.
+        mask finite = open;
+        for (std::size_t i = 0; i < n; ++i) {
+            C const image = (truncation_[i] + spread[i]) * up;
+            auto const grow = open & !(image < room_[i]);
+            room_[i] = side_by_side::select(grow, image * 1.3, room_[i]);
+            finite = finite & (room_[i] < C(1e300));
+        }
+        mask const lost = open & !finite;
+        if (side_by_side::any(lost)) {
+            reject(lost, failure_reason::minimum_step, half);
+            trying = trying & !lost;
+        }
+    }
+    return proved;
+}
+
+template <class Model>
+typename parametric_flow<Model>::mask parametric_flow<Model>::perturb(mask moved, C const& to) {
+    // What an input may add is small: ranges of the rates' derivatives need no polynomial in time.
+    C const half = (to - set_.time) * (0.5 * (1 + 4 * polynomial::unit));
+    auto const times =
+        column_entry::constant(set_.time) + widened(column_entry::constant(half), half);
+    std::vector<column_entry> tube;
+    for (auto const& x : tube_box_) tube.push_back(without_last_variable(x, *column_shape_));
+    mask const bounded = perturbed_->prove(set_.time, to, times, tube, moved);
+    reject(moved & !bounded, failure_reason::minimum_step, C(0.5));
+    return bounded;
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IMPL_VERIFIER_IPP
+#define SIVID_IMPL_VERIFIER_IPP
+
+#include <sivid/verifier/claim/impl/identifiability_check.ipp>
+#include <sivid/verifier/impl/identification_check.ipp>
+#include <sivid/verifier/impl/predict_from.ipp>
+
+namespace sivid {
+
+template class identification_check<interval, interval>;
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IO_RESULT_IMPL_SAME_PROBLEM_IPP
+#define SIVID_IO_RESULT_IMPL_SAME_PROBLEM_IPP
+
+#include <sivid/io/result/same_problem.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/io/input_error.hpp>
+#include <sivid/io/result/detail/stored_identification.hpp>
+#include <sivid/io/result/product_formula.hpp>
+#include <sivid/model/problem.hpp>
+#include <sivid/model/unit.hpp>
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+namespace sivid {
+
+SIVID_DECL void require_same_problem(identification_problem const& problem,
+                                     stored_identification const& stored,
+                                     std::filesystem::path const& file) {
+    auto const fail = [&](std::string const& what) {
+        throw input_error{{.file = file.string()}, what, "give the data set of this result"};
+    };
+    auto const& names = problem.choice.unknown;
+    if (stored.parameters.size() != names.size()) fail("other parameters than the data set's");
+    for (std::size_t j = 0; j < names.size(); ++j) {
+        if (stored.parameters[j].name != names[j]) fail("other parameters than the data set's");
+    }
+    auto const& constants = problem.model.about.constants;
+    auto const unit_of = [&](product_formula const& formula) {
+        unit product;
+        for (std::size_t j = 0; j < names.size(); ++j) {
+            auto const& own = constants[index_of(constants, names[j], "constant")].unit;
+            product = product.times(unit(own), formula.exponents()[j]);
+        }
+        return product.text();
+    };
+    for (auto const* const list : {&stored.parameters, &stored.combinations}) {
+        for (auto const& q : *list) {
+            auto const formula = product_formula::parse(q.name, names);
+            if (!formula) fail(text_of("no product of the parameters: ", in_quotes(q.name)));
+            if (unit(q.unit).text() != unit_of(*formula)) fail("another unit of " + q.name);
+        }
+    }
+    for (auto const& e : problem.experiments) {
+        if (stored.budget.count(e.name) == 0) {
+            fail(text_of("no outlier budget for the scenario ", in_quotes(e.name)));
+        }
+    }
+    if (stored.budget.size() != problem.experiments.size()) fail("other scenarios");
+}
+
+} // namespace sivid
+
+#endif

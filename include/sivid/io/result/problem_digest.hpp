@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IO_RESULT_PROBLEM_DIGEST_HPP
+#define SIVID_IO_RESULT_PROBLEM_DIGEST_HPP
+
+#include <sivid/compiled.hpp>
+#include <sivid/io/text/sha256.hpp>
+#include <sivid/paving/identify.hpp>
+
+#include <array>
+#include <bit>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+namespace sivid {
+
+namespace io_detail {
+
+/// Bytes in which different values are written differently, doubles by their bits.
+class canonical_text {
+public:
+    template <class... Values>
+    canonical_text& operator()(std::string_view name, Values const&... values) {
+        text_.append(name);
+        (put(values), ...);
+        text_ += '\n';
+        return *this;
+    }
+    [[nodiscard]] std::string const& text() const { return text_; }
+
+private:
+    void put(std::string const& s) {
+        text_ += ' ';
+        text_ += std::to_string(s.size()) + ':';
+        text_ += s;
+    }
+    void put(double x) {
+        auto bits = std::bit_cast<std::uint64_t>(x);
+        std::array<char, 9> bytes{' '};
+        for (std::size_t k = 1; k < bytes.size(); ++k, bits >>= 8) {
+            bytes[k] = static_cast<char>(bits & 0xff);
+        }
+        text_.append(bytes.data(), bytes.size());
+    }
+    template <class T>
+        requires std::integral<T> || std::is_enum_v<T>
+    void put(T x) {
+        text_ += ' ';
+        text_ += std::to_string(static_cast<long long>(x));
+    }
+    void put(interval const& x) {
+        put(x.lower());
+        put(x.upper());
+    }
+    template <class Items>
+        requires requires(Items const& items) {
+            items.begin();
+            items.size();
+        }
+    void put(Items const& items) {
+        put(items.size());
+        for (auto const& i : items) put(i);
+    }
+
+    std::string text_;
+};
+
+inline void describe(canonical_text& t, graph const& g) {
+    for (auto const& n : g.nodes()) {
+        t("node", n.op, n.a, n.b, n.companion, n.index);
+        if (n.op == operation::literal) t("literal", g.value(n).enclosure, g.value(n).nearest);
+    }
+}
+
+inline void describe(canonical_text& t, recorded_model const& m) {
+    t("model", m.about.name);
+    for (auto const& s : m.about.states) t("state", s.name, s.limit);
+    for (auto const& i : m.about.inputs) t("input", i.name);
+    for (auto const& c : m.about.channels) t("channel", c.name);
+    for (auto const& c : m.about.constants) {
+        t("constant", c.name, c.nominal.enclosure, c.nominal.nearest);
+    }
+    describe(t, m.g);
+    t("rate", m.rate)("observe", m.observe);
+    for (auto const& d : m.input_delays) t("input delay", d.index, d.constant);
+    for (auto const& d : m.channel_delays) t("channel delay", d.index, d.constant);
+    for (auto const& s : m.added_states) t("added state", s.state, s.at_begin);
+    for (auto const& d : m.derived) t("derived constant", d.constant, d.value, d.always);
+}
+
+inline void describe(canonical_text& t, identification_problem const& p) {
+    describe(t, p.model);
+    t("unknown", p.choice.unknown)("prior", p.prior);
+    for (auto const& [name, value] : p.choice.fixed) t("fixed", name, value);
+    for (auto const& e : p.experiments) {
+        t("experiment", e.name, e.begin, e.initial, e.outliers);
+        for (auto const& m : e.measurements) t("measured", m.time, m.channel, m.bound);
+        for (auto const& input : e.inputs) {
+            if (auto const* sampled = std::get_if<sampled_signal>(&input)) {
+                t("sampled", sampled->kind(), sampled->times(), sampled->values());
+                if (!sampled->exact()) t("errors", sampled->errors());
+            } else if (auto const* formula = std::get_if<analytic_signal>(&input)) {
+                describe(t("formula", formula->value), formula->g);
+            }
+        }
+    }
+}
+
+/// A digest of each node: of its operation and those of its operands, whatever their numbers.
+inline std::vector<std::string> structure_of(graph const& g) {
+    std::vector<std::string> digests;
+    digests.reserve(g.size());
+    for (auto const& n : g.nodes()) {
+        canonical_text t;
+        t("node", n.op);
+        if (n.op == operation::literal) {
+            t("literal", g.value(n).enclosure, g.value(n).nearest);
+        } else if (is_leaf(n.op)) {
+            t("leaf", n.index);
+        } else if (is_binary(n.op)) {
+            auto const& a = digests[n.a];
+            auto const& b = digests[n.b];
+            bool const ordered = n.op == operation::sub || n.op == operation::div || a < b;
+            t("operands", ordered ? a : b, ordered ? b : a);
+        } else {
+            t("operand", digests[n.a], n.index);
+        }
+        digests.push_back(sha256(t.text()));
+    }
+    return digests;
+}
+
+/// The problem, but of its graphs only what they say: a compiler may record the operands of a sum
+/// in either order, and a graph may hold more than is needed.
+inline void describe_meaning(canonical_text& t, identification_problem p) {
+    auto& m = p.model;
+    auto const nodes = structure_of(m.g);
+    for (auto const k : m.rate) t("rate", nodes[k]);
+    for (auto const k : m.observe) t("observe", nodes[k]);
+    for (auto const& s : m.added_states) t("added state", s.state, nodes[s.at_begin]);
+    for (auto const& d : m.derived) t("derived constant", d.constant, nodes[d.value], d.always);
+    m.g = graph();
+    m.rate.clear();
+    m.observe.clear();
+    m.added_states.clear();
+    m.derived.clear();
+    for (auto& e : p.experiments) {
+        for (auto& input : e.inputs) {
+            auto const* formula = std::get_if<analytic_signal>(&input);
+            if (formula == nullptr) continue;
+            t("formula", structure_of(formula->g)[formula->value]);
+            input = sampled_signal{};
+        }
+    }
+    describe(t, p);
+}
+
+inline void describe(canonical_text& t, run_options const& o) {
+    auto const& e = o.enclosure;
+    t("run", o.set, o.degree, o.hopeless, e.order, e.variational_order, e.method.has_value(),
+      e.tolerance, e.relative_tolerance, e.minimum_step, e.maximum_step, e.maximum_steps, e.widest,
+      e.remainder_share);
+    if (!e.method) return;
+    t("method", e.method->name, e.method->order);
+    auto const coefficients = [&t](std::vector<surd> const& list) {
+        for (auto const& x : list) t("surd", x.numerator, x.denominator, x.factor, x.radicand);
+    };
+    for (auto const& row : e.method->a) coefficients(row);
+    coefficients(e.method->b);
+    coefficients(e.method->c);
+}
+
+/// Everything that decides what a search does; budgets and threads do not.
+inline void describe(canonical_text& t, identify_options const& o) {
+    auto const& s = o.search;
+    t("options", o.algorithm, o.only_hulls, o.windows, o.slower_inputs, o.drawn_boxes);
+    t("search", s.accuracy, s.accuracy_of_hull, s.hull_gain, s.sufficient_ratio, s.order,
+      s.keep_outside, s.batches);
+    t("test", o.test.contract, o.test.cut, o.test.sharp_enough, o.test.witness_steps);
+    describe(t, o.test.run);
+    describe(t, o.test.witness);
+}
+
+} // namespace io_detail
+
+/// A digest of a problem and of the options that decide what its search does: SHA-256 over model
+/// (its recorded equations), constants, prior, inputs, measurements and options, numbers exact.
+/// Budgets of time, boxes and memory, and threads are not in it.
+/// @param also  what else it shall depend on, the digest of the data set's files for instance
+/// @cost  linear in the problem
+[[nodiscard]] SIVID_DECL std::string problem_digest(identification_problem const& problem,
+                                                    identify_options const& options,
+                                                    std::string const& also = {});
+
+/// A digest of what is asked, for whoever reads the answer later: SHA-256 over model, constants,
+/// prior, inputs, measurements, starts and budgets of outliers. Of the recorded equations counts
+/// what they say, not in which order they were recorded.
+/// @cost  linear in the problem
+[[nodiscard]] SIVID_DECL std::string problem_digest(identification_problem const& problem);
+
+} // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/io/result/impl/problem_digest.ipp>
+#endif
+
+#endif // SIVID_IO_RESULT_PROBLEM_DIGEST_HPP

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_MODEL_CHANGE_COPY_EQUATIONS_HPP
+#define SIVID_MODEL_CHANGE_COPY_EQUATIONS_HPP
+
+#include <sivid/model/graph/rewrite.hpp>
+#include <sivid/model/model.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace sivid {
+
+/// The rates, channels and starts of added states of a model in the graph of another one, with
+/// other leaves. What is there of these in `to` is replaced, nothing else.
+/// @param leaf  as for `copy_into`
+/// @cost  O(size of `from`)
+template <class Leaf>
+void copy_equations(recorded_model& to, recorded_model const& from, Leaf&& leaf) {
+    auto outputs = from.rate;
+    outputs.insert(outputs.end(), from.observe.begin(), from.observe.end());
+    for (auto const& a : from.added_states) outputs.push_back(a.at_begin);
+    auto const images = copy_into(to.g, from.g, outputs, leaf);
+    auto const channels = images.begin() + static_cast<std::ptrdiff_t>(from.rate.size());
+    auto begins = channels + static_cast<std::ptrdiff_t>(from.observe.size());
+    to.rate.assign(images.begin(), channels);
+    to.observe.assign(channels, begins);
+    to.added_states.clear();
+    for (auto const& a : from.added_states) to.added_states.push_back({a.state, *begins++});
+}
+
+} // namespace sivid
+
+#endif

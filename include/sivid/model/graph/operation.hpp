@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_MODEL_GRAPH_OPERATION_HPP
+#define SIVID_MODEL_GRAPH_OPERATION_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace sivid {
+
+/// What a node of a recorded model does. Leaves first.
+enum class operation : std::uint8_t {
+    literal,  ///< a constant, `index` into the graph's literals
+    time,     ///< t
+    state,    ///< x[index]
+    constant, ///< c[index], a constant of the model; after binding, an unknown parameter
+    input,    ///< u[index]
+    neg,
+    add,
+    sub,
+    mul,
+    div,
+    sqr,
+    pown, ///< a^n with the integer n >= 3 in `index`; companion a^(n-1)
+    sqrt,
+    exp,
+    log,
+    sin,  ///< companion cos
+    cos,  ///< companion sin
+    tan,  ///< companion 1 + tan^2
+    atan, ///< companion 1 + a^2
+    tanh, ///< companion 1 - tanh^2
+    abs,
+    sign, ///< set-valued at 0: [-1, 1]
+    min,
+    max
+};
+
+[[nodiscard]] constexpr bool is_leaf(operation op) { return op <= operation::input; }
+
+[[nodiscard]] constexpr bool is_binary(operation op) {
+    return op == operation::add || op == operation::sub || op == operation::mul ||
+           op == operation::div || op == operation::min || op == operation::max;
+}
+
+/// Defined for every real argument.
+[[nodiscard]] constexpr bool is_total(operation op) {
+    return op != operation::div && op != operation::sqrt && op != operation::log &&
+           op != operation::tan;
+}
+
+/// Has a kink: not differentiable for some argument.
+[[nodiscard]] constexpr bool has_kink(operation op) {
+    return op == operation::abs || op == operation::sign || op == operation::min ||
+           op == operation::max;
+}
+
+[[nodiscard]] constexpr std::string_view name(operation op) {
+    constexpr std::string_view names[] = {
+        "literal", "t",   "x",   "c",   "u",   "neg", "add",  "sub",  "mul", "div",  "sqr", "pown",
+        "sqrt",    "exp", "log", "sin", "cos", "tan", "atan", "tanh", "abs", "sign", "min", "max"};
+    return names[static_cast<std::size_t>(op)];
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_MODEL_STRUCTURE_COMBINATION_HPP
+#define SIVID_MODEL_STRUCTURE_COMBINATION_HPP
+
+#include <sivid/number/interval_traits.hpp>
+#include <sivid/space/box.hpp>
+
+#include <cstddef>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+namespace sivid {
+
+/// A product of powers of parameters, \f$ \prod_j p_j^{e_j} \f$.
+struct combination {
+    std::vector<int> exponents; ///< one per unknown parameter
+    std::string formula;        ///< for instance "L*Sg"
+    std::string unit;
+
+    /// Encloses its range over a box of parameters.
+    [[nodiscard]] interval over(box const& p) const {
+        using traits = interval_traits<interval>;
+        bool undefined = false;
+        auto above = traits::point(1.0);
+        auto below = traits::point(1.0);
+        for (std::size_t j = 0; j < exponents.size(); ++j) {
+            if (exponents[j] == 0) continue;
+            auto const power = traits::pown(p[j], std::abs(exponents[j]), undefined);
+            auto& side = exponents[j] > 0 ? above : below;
+            side = traits::mul(side, power);
+        }
+        auto const value = traits::div(above, below, undefined);
+        return undefined ? traits::entire() : value;
+    }
+};
+
+/// Through which products of parameters a model's outputs depend on them.
+struct dependence_structure {
+    /// All products that the equations contain.
+    std::vector<combination> products;
+    /// Parameters that no output determines alone, because they enter only through `combinations`:
+    /// changing them with all combinations fixed changes no trajectory and no output. Proved from
+    /// the structure of the equations, whatever the data.
+    std::vector<std::size_t> entangled;
+    /// Independent products of the entangled parameters alone, which replace them.
+    std::vector<combination> combinations;
+};
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_MODEL_STRUCTURE_STATES_SEEN_HPP
+#define SIVID_MODEL_STRUCTURE_STATES_SEEN_HPP
+
+#include <sivid/model/model.hpp>
+
+#include <cstddef>
+
+namespace sivid {
+
+/// The same model with a further channel for every state, "state NAME", in their order.
+[[nodiscard]] inline recorded_model with_states_seen(recorded_model model) {
+    for (std::size_t i = 0; i < model.about.states.size(); ++i) {
+        auto const& state = model.about.states[i];
+        model.about.channels.push_back({"state " + state.name, state.unit});
+        model.observe.push_back(model.g.leaf(operation::state, i));
+    }
+    return model;
+}
+
+} // namespace sivid
+
+#endif

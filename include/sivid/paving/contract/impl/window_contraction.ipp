@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_CONTRACT_IMPL_WINDOW_CONTRACTION_IPP
+#define SIVID_PAVING_CONTRACT_IMPL_WINDOW_CONTRACTION_IPP
+
+#include <sivid/paving/contract/window_contraction.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/enclosure/flow.hpp>
+#include <sivid/measurement/record.hpp>
+#include <sivid/model/structure/states_seen.hpp>
+#include <sivid/paving/contract/lifted_program.hpp>
+#include <sivid/paving/response/local_response.hpp>
+#include <sivid/paving/run/experiment_run.hpp>
+#include <sivid/paving/work_limit.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+namespace paving_detail {
+
+class window_contractor {
+    using traits = interval_traits<interval>;
+    using clock = std::chrono::steady_clock;
+
+public:
+    window_contractor(identification_problem const& problem, window_options const& options)
+        : problem_(&problem),
+          options_(options),
+          limit_(options.seconds, options.keep_going),
+          model_(with_states_seen(problem.model)) {
+        options_.run.enclosure.keep_going = limit_;
+        // Inputs held for a millisecond end as many steps, each with its own truncation.
+        options_.run.enclosure.relative_tolerance *= 0.01;
+        result_.rest = problem.prior;
+        for (auto const& e : problem.experiments) {
+            result_.starts.push_back(e.initial);
+            records_.push_back(sorted(e.measurements));
+        }
+    }
+
+    [[nodiscard]] window_contraction operator()() {
+        auto const begin = clock::now();
+        auto const& run = options_.run;
+        bool const as_asked = run.set == carried_set::taylor_model && !run.enclosure.method &&
+                              run.make == nullptr; // else by other means than these
+        if (as_asked && !problem_->model.has_delays() && problem_->model.added_states.empty()) {
+            std::vector<window> chain;
+            for (std::size_t e = 0; e < records_.size() && !result_.empty(); ++e) {
+                flows_.push_back(std::make_unique<flow const>(model_, problem_->choice,
+                                                              problem_->experiments[e].inputs));
+                if (problem_->experiments[e].outliers == 0) follow(e, chain);
+            }
+            if (!result_.empty()) contract_together(some_of(std::move(chain)));
+        }
+        result_.seconds = std::chrono::duration<double>(clock::now() - begin).count();
+        return std::move(result_);
+    }
+
+private:
+    struct window {
+        std::size_t experiment;
+        double from, to;
+        box start; ///< holds the state at `from`
+        std::shared_ptr<response const> answer = nullptr;
+        double blur = 0; ///< the largest radius of an output against its bound
+    };
+
+    void nothing_is_left() {
+        result_.rest = box(std::vector<interval>(result_.rest.size(), traits::empty()));
+    }
+    [[nodiscard]] std::size_t states() const { return problem_->model.about.states.size(); }
+    [[nodiscard]] double last_sample(std::size_t e) const { return records_[e].back().time; }
+
+    /// The measurements of a window. What is measured where it begins has contracted its start
+    /// already, but for the first one.
+    [[nodiscard]] record measured_in(window const& w) const {
+        bool const first = w.from == problem_->experiments[w.experiment].begin;
+        record part;
+        for (auto const& m : records_[w.experiment]) {
+            if (m.time <= w.to && (w.from < m.time || first)) part.push_back(m);
+        }
+        return part;
+    }
+    /// A window as an experiment, with the states at its end as outputs.
+    [[nodiscard]] experiment part_of(window const& w) const {
+        auto const& whole = problem_->experiments[w.experiment];
+        experiment part{whole.name, {}, w.from, w.start, measured_in(w), 0};
+        for (std::size_t i = 0; i < states(); ++i) {
+            part.measurements.push_back(
+                {w.to, problem_->model.about.channels.size() + i, traits::entire()});
+        }
+        return part;
+    }
+    /// Carries windows of one experiment over the parameters that are left.
+    void run(std::vector<window*> const& windows) const {
+        auto const e = windows.front()->experiment;
+        auto options = options_.run;
+        options.degree = degree_;
+        auto& shortest = options.enclosure.minimum_step;
+        shortest = minimum_step_for(problem_->experiments[e], shortest);
+        std::vector<experiment> parts;
+        for (auto const* w : windows) parts.push_back(part_of(*w));
+        auto const answers = run_parts(*flows_[e], parts, result_.rest, options);
+        for (std::size_t k = 0; k < windows.size(); ++k) {
+            windows[k]->answer = answers[k];
+            windows[k]->blur = answers[k]->blur();
+        }
+    }
+    void run(window& w) const { run({&w}); }
+    /// Contracts a window's start by its own measurements. @returns false when nothing is left
+    [[nodiscard]] bool contract_start(window& w) const {
+        response_list const alone{w.answer};
+        lifted_program const program(alone, result_.rest, {w.start}, options_.share);
+        for (std::size_t i = 0; i < w.start.size(); ++i) {
+            auto const& side = w.answer->unknowns.initial[i];
+            if (!(side.radius > 0) || !limit_()) continue;
+            auto const unknown = program.unknowns().places[0][side.variable].unknown;
+            auto const left = contracted(program, unknown, w.start[i]);
+            if (is_empty(left)) return false;
+            w.start[i] = left;
+        }
+        return true;
+    }
+    /// Cuts off what an unknown cannot reach of its range. @returns what is left
+    [[nodiscard]] static interval contracted(lifted_program const& program, std::size_t unknown,
+                                             interval const& range) {
+        auto left = range;
+        for (bool const upwards : {true, false}) {
+            double const reach = program.reach(unknown, upwards);
+            if (!(reach < 1)) continue;
+            if (!std::isfinite(reach)) return traits::empty();
+            auto const end = traits::add(
+                traits::point(mid(range)),
+                traits::mul(traits::point(rad(range)), traits::point(upwards ? reach : -reach)));
+            left = traits::intersect(left, upwards ? traits::bounds(-detail::greatest, end.upper())
+                                                   : traits::bounds(end.lower(), detail::greatest));
+            if (is_empty(left)) break;
+        }
+        return left;
+    }
+    /// The states at the end of a window, unless there are none.
+    [[nodiscard]] std::optional<box> end_of(window const& w) const {
+        response_list const alone{w.answer};
+        lifted_program const program(alone, result_.rest, {w.start}, options_.share);
+        auto const ranges = output_ranges(*w.answer, result_.rest);
+        std::vector<interval> end;
+        for (std::size_t y = ranges.size() - states(); y < ranges.size(); ++y) {
+            auto const channel = model_.observe.size() - (ranges.size() - y);
+            auto const above = program.end_of(0, y, true), below = program.end_of(0, y, false);
+            auto side = ranges[y];
+            if (below <= above) side = traits::intersect(side, traits::bounds(below, above));
+            for (auto const& m : records_[w.experiment]) { // seen without any remainder
+                bool const seen =
+                    m.time == w.to && model_.observe[m.channel] == model_.observe[channel];
+                if (seen) side = traits::intersect(side, m.bound);
+            }
+            if (!(below <= above) || is_empty(side)) return std::nullopt;
+            end.push_back(side);
+        }
+        return box(std::move(end));
+    }
+
+    /// Windows one after the other, as long as the box carries.
+    void follow(std::size_t e, std::vector<window>& chain) {
+        auto const& whole = problem_->experiments[e];
+        auto const& record = records_[e];
+        double length = std::min(last_sample(e) - whole.begin, options_.longest);
+        double at = whole.begin;
+        auto start = whole.initial;
+        degree_ = highest_degree();
+        for (std::size_t k = 0; k < options_.chained && at < last_sample(e) && limit_();) {
+            window w{e, at, end_before(record, at, length), start};
+            run(w);
+            ++result_.windows;
+            if (!(w.blur < too_blurred)) {
+                double const carried = carried_until(w);
+                double const next = std::min(0.7 * (w.to - at), carried - at);
+                bool const shortest = !(end_before(record, at, next) < w.to);
+                if (shortest) break;
+                length = next;
+                continue;
+            }
+            auto end = contract_start(w) ? end_of(w) : std::nullopt;
+            if (!end) return nothing_is_left();
+            start = std::move(*end);
+            if (k == 0) result_.starts[e] = w.start;
+            at = w.to;
+            // Not from where it ended: samples may be further apart than it grows by.
+            length = w.blur < 0.3 ? std::min(1.3 * length, options_.longest) : w.to - w.from;
+            chain.push_back(std::move(w));
+            ++k;
+        }
+    }
+    /// The last time of a measurement in a window, or the first one.
+    [[nodiscard]] static double end_before(record const& samples, double from, double length) {
+        double end = samples.back().time;
+        bool any = false;
+        for (auto const& m : samples) {
+            if (!(m.time > from)) continue;
+            if (any && m.time > from + length) break;
+            end = m.time;
+            any = true;
+        }
+        return end;
+    }
+    /// Until when the outputs of a window are sharp.
+    [[nodiscard]] double carried_until(window const& w) const {
+        auto const& r = *w.answer;
+        double time = w.from;
+        auto const samples = measured_in(w);
+        for (std::size_t y = 0; y < std::min(r.outputs(), samples.size()); ++y) {
+            if (r.radius[y] > 0.5 * too_blurred * 0.5 * width(r.bounds[y])) break;
+            time = samples[y].time;
+        }
+        return time;
+    }
+
+    /// So many that one program takes them: of each part of the chain the longest that is sharp.
+    [[nodiscard]] std::vector<window> some_of(std::vector<window> chain) const {
+        auto const most = std::max<std::size_t>(options_.windows, 1);
+        if (chain.size() <= most) return chain;
+        auto const less = [](window const& a, window const& b) {
+            auto const worth = [](window const& w) { return (w.to - w.from) / (1 + w.blur); };
+            return worth(a) < worth(b);
+        };
+        std::vector<window> chosen;
+        for (std::size_t k = 0; k < most; ++k) {
+            auto const at = [&](std::size_t part) {
+                return chain.begin() + static_cast<std::ptrdiff_t>(part * chain.size() / most);
+            };
+            chosen.push_back(*std::max_element(at(k), at(k + 1), less));
+        }
+        return chosen;
+    }
+
+    void contract_together(std::vector<window> windows) {
+        std::size_t idle = 0; // rounds in a row
+        std::vector<double> lengths;
+        for (auto const& w : windows) lengths.push_back(w.to - w.from);
+        auto longest = lengths; // that each has had
+        while (!windows.empty() && limit_()) {
+            auto const before = result_.rest;
+            auto const count = windows.size();
+            std::vector<std::vector<window*>> together; // eight of one experiment at a time
+            for (std::size_t k = 0; k < count; ++k) {
+                auto& w = windows[k];
+                w.to = end_before(records_[w.experiment], w.from, lengths[k]);
+                bool const joins = !together.empty() && together.back().size() < 8 &&
+                                   together.back().front()->experiment == w.experiment;
+                if (!joins) together.emplace_back();
+                together.back().push_back(&w);
+            }
+            options_.workers(together.size(), [&](std::size_t k) { run(together[k]); });
+            result_.windows += count;
+            if (!limit_()) return; // what was carried may be cut short
+            response_list known;
+            std::vector<box> starts;
+            std::vector<double> blurs;
+            for (auto const& w : windows) {
+                blurs.push_back(w.blur);
+                known.push_back(w.answer);
+                starts.push_back(w.start);
+                result_.longest = std::max(result_.longest, w.to - w.from);
+            }
+            lifted_program const program(known, before, starts, options_.share);
+            options_.workers(before.size(), [&](std::size_t j) {
+                if (!(rad(before[j]) > 0) || !limit_()) return;
+                result_.rest[j] = contracted(program, j, before[j]);
+            });
+            ++result_.rounds;
+            if (result_.empty()) return nothing_is_left();
+            std::vector<char> left(count, 1); // by window: of its start
+            options_.workers(count, [&](std::size_t k) {
+                if (limit_()) left[k] = contract_start(windows[k]) ? 1 : 0;
+            });
+            bool grown = false;
+            for (std::size_t k = 0; k < count; ++k) {
+                auto const& w = windows[k];
+                if (left[k] == 0) return nothing_is_left();
+                if (w.from == problem_->experiments[w.experiment].begin) {
+                    result_.starts[w.experiment] = w.start;
+                }
+                bool const ends = !(w.to < last_sample(w.experiment));
+                if (w.blur < 1 && !ends && lengths[k] < options_.longest) {
+                    lengths[k] = std::min(1.35 * lengths[k], options_.longest);
+                    grown = grown || lengths[k] > longest[k];
+                    longest[k] = std::max(longest[k], lengths[k]);
+                } else if (!(w.blur < 4)) {
+                    lengths[k] *= 0.8;
+                }
+            }
+            std::nth_element(blurs.begin(),
+                             blurs.begin() + static_cast<std::ptrdiff_t>(blurs.size() / 2),
+                             blurs.end());
+            double const median = blurs[blurs.size() / 2];
+            if (median < 0.02) degree_ = 2;
+            if (!(median < 0.5)) degree_ = highest_degree();
+            double const volume = relative_volume(result_.rest, before).upper();
+            double const side = std::pow(volume, 1 / static_cast<double>(before.size()));
+            idle = side > 1 - options_.gain && !grown ? idle + 1 : 0;
+            if (idle == 3) break;
+        }
+    }
+
+    /// Terms of degree 3 grow with the cube of the unknowns.
+    [[nodiscard]] std::size_t highest_degree() const {
+        return problem_->prior.size() + states() <= 14 ? 3 : 2;
+    }
+    static constexpr double too_blurred = 8;
+
+    identification_problem const* problem_;
+    window_options options_;
+    work_limit limit_;
+    recorded_model model_;
+    std::vector<record> records_;
+    std::vector<std::unique_ptr<flow const>> flows_;
+    std::size_t degree_ = 3;
+    window_contraction result_;
+};
+
+} // namespace paving_detail
+
+SIVID_DECL window_contraction contract_by_windows(identification_problem const& problem,
+                                                  window_options const& options) {
+    problem.require_valid();
+    return paving_detail::window_contractor(problem, options)();
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_JUDGE_DATA_TEST_HPP
+#define SIVID_PAVING_JUDGE_DATA_TEST_HPP
+
+#include <sivid/model/change/smoothed.hpp>
+#include <sivid/model/problem.hpp>
+#include <sivid/paving/judge/data_test_options.hpp>
+#include <sivid/paving/judge/detail/response_judgement.hpp>
+#include <sivid/paving/response/local_response.hpp>
+#include <sivid/paving/run/detail/run_pool.hpp>
+#include <sivid/paving/run/experiment_run.hpp>
+#include <sivid/paving/set_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// Tests boxes of parameters against all experiments of a problem.
+///   outside: in some experiment more than `outliers` measurements certainly fail, whatever the
+///   start and, within their error bounds, the inputs; inside: in every experiment at least n -
+///   `outliers` certainly hold, for the recorded inputs and for some start in the box: the one
+///   given to `set_starts`, or one that follows the parameters (`explaining_starts`).
+/// The outlier rule is the consistent reading of the report's Algorithm 2.
+class data_test {
+public:
+    /// `judge` and `learn` are for several threads at once.
+    static constexpr bool concurrent = true;
+
+    /// Responses of the experiments over a region: for all starts and inputs, and for the chosen
+    /// ones.
+    struct knowledge {
+        box region;
+        response_list all_starts;
+        response_list chosen_starts;
+    };
+
+    data_test(identification_problem const& problem, data_test_options const& options)
+        : problem_(&problem), options_(options) {
+        problem.require_valid();
+        records_.reserve(problem.experiments.size()); // the runs keep references
+        for (auto const& e : problem.experiments) {
+            flows_.push_back(std::make_shared<flow const>(problem.model, problem.choice, e.inputs));
+            records_.push_back(sorted(e.measurements));
+            starts_.push_back(e.initial);
+            recorded_.push_back(
+                flows_.back()->uncertain()
+                    ? std::make_shared<flow const>(problem.model, problem.choice, nominal(e.inputs))
+                    : flows_.back());
+        }
+        auto const pool_of = [&](std::vector<std::shared_ptr<flow const>> const& flows) {
+            return std::make_unique<run_pool>(
+                [&problem, flows, records = records_.data(), run = options.run] {
+                    run_set runs;
+                    for (std::size_t e = 0; e < flows.size(); ++e) {
+                        runs.push_back(make_run(*flows[e], problem.experiments[e], records[e],
+                                                problem.prior, run));
+                    }
+                    return runs;
+                });
+        };
+        pool_ = pool_of(flows_);
+        for (std::size_t e = 0; e < flows_.size(); ++e) {
+            lasting_.emplace_back();
+            if (!flows_[e]->uncertain()) continue;
+            if (!recorded_pool_) recorded_pool_ = pool_of(recorded_);
+            // At a point the inputs alone make the radii.
+            auto whole = problem.experiments[e];
+            whole.outliers = whole.measurements.size(); // misfits end nothing
+            auto const at_point =
+                make_run(*flows_[e], whole, records_[e], problem.prior, options.run);
+            lasting_[e] =
+                (*at_point)(point_box(mid(whole.initial)), point_box(mid(problem.prior)))->radius;
+            pool_->count(1);
+        }
+    }
+
+    /// Initial states, one box per experiment within its own, from which existence is proved.
+    void set_starts(std::vector<box> starts) { starts_ = std::move(starts); }
+
+    /// What is known from elsewhere to hold every feasible parameter (trusted): the rest of each
+    /// box is cut off before it is run.
+    void set_rest(box rest) {
+        left_ = std::move(rest);
+        first_.reset();
+    }
+    /// Which share of the measurements runs over a box reach from all starts; 1 when they decide
+    /// it. What was found is kept for the `learn` to come.
+    /// @given  nobody else works with this object meanwhile
+    [[nodiscard]] double reached(box const& parameters) {
+        auto found = learn({parameters});
+        std::size_t seen = 0, all = 0;
+        if (found[0].knowledge) {
+            for (auto const& r : found[0].knowledge->all_starts) {
+                seen += r->outputs();
+                all += r->measurements;
+            }
+        }
+        first_.emplace(parameters, std::move(found));
+        return all == 0 ? 1 : static_cast<double>(seen) / static_cast<double>(all);
+    }
+
+    /// Whether it was told to stop (`enclosure_options::keep_going` of its runs).
+    [[nodiscard]] bool cancelled() const { return options_.run.enclosure.cancelled(); }
+
+    [[nodiscard]] std::size_t integrations() const {
+        return pool_->integrations() + (recorded_pool_ ? recorded_pool_->integrations() : 0);
+    }
+    [[nodiscard]] std::shared_ptr<flow const> flow_of(std::size_t e) const { return flows_[e]; }
+    /// In the order of time.
+    [[nodiscard]] record const& record_of(std::size_t e) const { return records_[e]; }
+
+    [[nodiscard]] assessment<knowledge> operator()(box const& parameters,
+                                                   std::shared_ptr<knowledge const> const& known) {
+        auto result = judge(parameters, known);
+        return result.blind ? std::move(learn({parameters})[0]) : result;
+    }
+
+    /// Decides and contracts by what is known, without integrating.
+    [[nodiscard]] assessment<knowledge> judge(box const& parameters,
+                                              std::shared_ptr<knowledge const> const& known) const {
+        assessment<knowledge> result{.rest = parameters};
+        if (known && options_.contract && subset(parameters, known->region)) {
+            double const share = judge(*known, result);
+            result.blind =
+                result.verdict == box_verdict::undecided && !(share <= options_.sharp_enough);
+            if (!result.blind) result.knowledge = known;
+            return result;
+        }
+        result.blind = true;
+        return result;
+    }
+
+    /// Integrates over each of the boxes, then decides and contracts.
+    /// The sets depend on all the boxes, in their order: they share step orders while they are
+    /// integrated together.
+    [[nodiscard]] std::vector<assessment<knowledge>> learn(std::vector<box> const& boxes) {
+        if (first_ && boxes.size() == 1 && same(boxes[0], first_->first)) {
+            auto found = std::move(first_->second);
+            first_.reset();
+            return found;
+        }
+        auto runs = pool_->borrow();
+        std::vector<assessment<knowledge>> results;
+        std::vector<std::shared_ptr<knowledge>> found;
+        std::vector<std::size_t> open; // boxes that no experiment has refuted
+        for (auto const& x : boxes) {
+            results.push_back({.rest = x});
+            auto& mine = results.back();
+            mine.smear.assign(x.size(), 0.0);
+            found.push_back(std::make_shared<knowledge>());
+            if (left_) {
+                mine.rest = intersect(x, *left_);
+                if (is_empty(mine.rest)) {
+                    mine.rest = x;
+                    mine.verdict = box_verdict::outside;
+                    mine.proof.push_back({proof_step::kind::empty});
+                    continue;
+                }
+                add_cuts(mine.proof, x, mine.rest);
+            }
+            open.push_back(results.size() - 1);
+            found.back()->region = mine.rest;
+        }
+        for (std::size_t e = 0; e < flows_.size() && !open.empty(); ++e) {
+            std::vector<box> regions;
+            for (auto const k : open) {
+                // What earlier experiments cut off need not be integrated, if it is worth the
+                // narrower use.
+                auto& region = found[k]->region;
+                if (relative_volume(results[k].rest, region).upper() < 0.5) {
+                    region = results[k].rest;
+                }
+                regions.push_back(region);
+            }
+            auto const& all = problem_->experiments[e].initial;
+            auto const answers = marked(e, runs(e, all, regions));
+            bool const choice_matters =
+                flows_[e]->uncertain() || (!is_point(all) && starts_differ(e));
+            std::vector<std::size_t> still_open;
+            std::vector<box> promising;
+            std::vector<std::size_t> whose;
+            for (std::size_t n = 0; n < open.size(); ++n) {
+                auto const k = open[n];
+                ++results[k].cost;
+                auto part = results[k].rest;
+                results[k].proof.push_back({proof_step::kind::run, e});
+                auto const says = assess(*answers[n], part);
+                found[k]->all_starts.push_back(answers[n]);
+                found[k]->chosen_starts.push_back(answers[n]);
+                if (says.refuted) {
+                    results[k].verdict = box_verdict::outside;
+                    results[k].proof.push_back({proof_step::kind::empty});
+                    continue;
+                }
+                if (options_.contract) {
+                    add_cuts(results[k].proof, results[k].rest, part);
+                    results[k].rest = std::move(part);
+                }
+                add_smear(results[k], says.smear);
+                still_open.push_back(k);
+                // Not worth a run where neither the box nor, later, parts of it might hold.
+                bool const sharp = answers[n]->outputs() == answers[n]->measurements &&
+                                   says.sharpness <= options_.sharp_enough;
+                // Else starts that follow the parameters do as well, without a run.
+                bool const spoilt =
+                    flows_[e]->uncertain() || !options_.contract || says.blur > 0.25;
+                if (choice_matters && !says.explained && (says.may_hold || sharp) && spoilt) {
+                    promising.push_back(found[k]->region);
+                    whose.push_back(k);
+                }
+            }
+            if (!promising.empty()) {
+                auto const chosen = flows_[e]->uncertain()
+                                        ? recorded_pool_->borrow()(e, starts_[e], promising)
+                                        : runs(e, starts_[e], promising);
+                for (std::size_t n = 0; n < whose.size(); ++n) {
+                    ++results[whose[n]].cost;
+                    found[whose[n]]->chosen_starts.back() = chosen[n];
+                }
+            }
+            open = std::move(still_open);
+        }
+        for (auto const k : open) {
+            // `rest` may have shrunk since an experiment was judged.
+            auto smear = std::move(results[k].smear);
+            (void)judge(*found[k], results[k]);
+            results[k].smear = std::move(smear);
+            results[k].knowledge = std::move(found[k]);
+        }
+        return results;
+    }
+    [[nodiscard]] std::size_t at_once() const { return pool_->at_once(); }
+    /// Bytes that responses take.
+    [[nodiscard]] static std::size_t bytes(knowledge const& known) {
+        std::size_t sum = sizeof(knowledge);
+        for (std::size_t e = 0; e < known.all_starts.size(); ++e) {
+            auto const& all = known.all_starts[e];
+            auto const& chosen = known.chosen_starts[e];
+            sum += 2 * sizeof all + all->bytes();
+            if (chosen != all) sum += chosen->bytes();
+        }
+        return sum;
+    }
+
+    /// One experiment over next to nothing with the recorded inputs, by the options for witnesses.
+    /// Where a kink stops or blurs a point, or leaves open whether it meets its measurements, it is
+    /// rounded off (`smoothed`) by little against the narrowest measurement. A trajectory that is
+    /// stiff, or chatters at a kink, would take a million steps of the shortest length: it ends
+    /// after `data_test_options::witness_steps` and some for each knot and measurement.
+    [[nodiscard]] std::shared_ptr<response const> run_finely(std::size_t e, box const& initial,
+                                                             box const& parameters) {
+        pool_->count(1);
+        auto options = options_.witness;
+        auto& most = options.enclosure.maximum_steps;
+        most = std::min(most, options_.witness_steps + 4 * stops(e));
+        auto const run = [&](flow const& f, carried_set set, double shortest = 1) {
+            auto own = options;
+            own.set = set;
+            own.enclosure.minimum_step *= shortest;
+            return (*make_run(f, problem_->experiments[e], records_[e], initial, parameters, own))(
+                initial, parameters);
+        };
+        bool const point = paving_detail::unknown_count(initial, parameters) == 0;
+        if (point && options.set == carried_set::taylor_model) {
+            auto best = run(*recorded_[e], carried_set::taylor_model);
+            bool const fine = best->blur() < 0.02 && !on_the_brink(*best, parameters);
+            if (auto rest = parameters; fine || assess(*best, rest).refuted) return best;
+            if (auto const f = smooth_flow(e)) {
+                // In steps as short as kinks of inputs are narrow.
+                auto smooth = run(*f, carried_set::taylor_model, 1e-8);
+                if (smooth->blur() < best->blur()) best = std::move(smooth);
+            }
+            if (best->blur() < detail::infinity) return best;
+        }
+        return run(*recorded_[e], carried_set::doubleton);
+    }
+    /// One experiment over boxes of starts and parameters, for all possible inputs.
+    [[nodiscard]] std::vector<std::shared_ptr<response const>>
+    run(std::size_t e, box const& initial, std::vector<box> const& parameters) {
+        return marked(e, pool_->borrow()(e, initial, parameters));
+    }
+    [[nodiscard]] std::shared_ptr<response const> run(std::size_t e, box const& initial,
+                                                      box const& parameters) {
+        return run(e, initial, std::vector<box>{parameters})[0];
+    }
+
+private:
+    /// Whether a sharper run might show that a point meets its measurements. Where all may be
+    /// violated, as many as none.
+    [[nodiscard]] static bool on_the_brink(response const& r, box const& point) {
+        auto const values = output_ranges(r, point);
+        std::size_t missed = 0, open = 0;
+        for (std::size_t y = 0; y < values.size(); ++y) {
+            bool const apart = disjoint(values[y], r.bounds[y]);
+            missed += apart ? 1 : 0;
+            open += apart || subset(values[y], r.bounds[y]) ? 0 : 1;
+        }
+        auto const most = r.allowed < r.measurements ? r.allowed : 0;
+        return missed <= most && missed + open > most;
+    }
+    /// The recorded flow without kinks; none where it has none.
+    [[nodiscard]] std::unique_ptr<flow const> smooth_flow(std::size_t e) const {
+        constexpr double share = 1e-7; // of a measurement's width
+        double narrowest = detail::infinity;
+        for (auto const& m : records_[e]) narrowest = std::min(narrowest, width(m.bound));
+        if (!(narrowest > 1e-90 && narrowest < 1e90)) return nullptr; // or what is no number
+        auto const smooth = smoothed(problem_->model, share * narrowest);
+        if (smooth.bounds.empty()) return nullptr;
+        auto inputs = nominal(problem_->experiments[e].inputs);
+        for (double const bound : smooth.bounds) {
+            inputs.emplace_back(sampled_signal({problem_->experiments[e].begin}, {0.0},
+                                               interpolation::hold, {bound}));
+        }
+        return std::make_unique<flow const>(smooth.model, problem_->choice, inputs);
+    }
+    /// Knots of the inputs and measurements until the last of them: each ends a step.
+    [[nodiscard]] std::size_t stops(std::size_t e) const {
+        std::size_t count = records_[e].size();
+        if (records_[e].empty()) return count;
+        double const end = records_[e].back().time;
+        for (double t = recorded_[e]->next_knot(problem_->experiments[e].begin); t < end;
+             t = recorded_[e]->next_knot(t)) {
+            ++count;
+        }
+        return count;
+    }
+    /// Notes how much of the radii is due to uncertain inputs.
+    [[nodiscard]] std::vector<std::shared_ptr<response const>>
+    marked(std::size_t e, std::vector<std::shared_ptr<response const>> answers) const {
+        if (!flows_[e]->uncertain()) return answers;
+        for (auto& answer : answers) {
+            auto own = std::make_shared<response>(*answer);
+            own->lasting = lasting_[e];
+            answer = std::move(own);
+        }
+        return answers;
+    }
+    static bool same(box const& x, box const& y) { return subset(x, y) && subset(y, x); }
+    static bool is_point(box const& x) {
+        return std::all_of(x.begin(), x.end(), [](interval const& side) {
+            return interval_traits<interval>::is_point(side);
+        });
+    }
+    [[nodiscard]] bool starts_differ(std::size_t e) const {
+        return !subset(problem_->experiments[e].initial, starts_[e]);
+    }
+    static void add_smear(assessment<knowledge>& a, std::vector<double> const& more) {
+        for (std::size_t j = 0; j < a.smear.size(); ++j) a.smear[j] += more[j];
+    }
+
+    /// Contracts and decides by responses alone. @returns the largest non-affine share.
+    double judge(knowledge const& known, assessment<knowledge>& a) const {
+        auto found = judge_by_responses(known.all_starts, known.chosen_starts, std::move(a.rest),
+                                        options_.contract, options_.cut);
+        a.verdict = found.verdict;
+        a.rest = std::move(found.rest);
+        a.smear = std::move(found.smear);
+        std::move(found.proof.begin(), found.proof.end(), std::back_inserter(a.proof));
+        return found.share;
+    }
+
+    identification_problem const* problem_;
+    data_test_options options_;
+    std::vector<std::shared_ptr<flow const>> flows_;
+    std::vector<record> records_;
+    std::vector<box> starts_;
+    std::optional<box> left_;                                                 ///< of all parameters
+    std::optional<std::pair<box, std::vector<assessment<knowledge>>>> first_; ///< learnt ahead
+    std::vector<std::shared_ptr<flow const>> recorded_; ///< `flows_`, without input errors
+    std::vector<std::vector<double>> lasting_;          ///< see `response`
+    std::unique_ptr<run_pool> pool_;
+    std::unique_ptr<run_pool> recorded_pool_; ///< where inputs have errors
+};
+
+} // namespace sivid
+
+#endif

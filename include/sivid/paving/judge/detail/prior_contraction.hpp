@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_JUDGE_DETAIL_PRIOR_CONTRACTION_HPP
+#define SIVID_PAVING_JUDGE_DETAIL_PRIOR_CONTRACTION_HPP
+
+/// @file
+/// What `identify` does before it searches where runs over the prior end early: slower inputs where
+/// a logger is faster than the motion, windows where starts are not known.
+
+#include <sivid/measurement/signal.hpp>
+#include <sivid/model/change/slower_inputs.hpp>
+#include <sivid/paving/contract/window_contraction.hpp>
+#include <sivid/paving/identify_options.hpp>
+#include <sivid/paving/invert.hpp>
+#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/work_limit.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace sivid::paving_detail {
+
+/// Whether trajectories over the prior end early, from starts that nobody knows.
+inline bool starts_hinder(data_test& test, identification_problem const& problem) {
+    bool const known = std::all_of(
+        problem.experiments.begin(), problem.experiments.end(),
+        [](experiment const& e) { return normalised_unknowns(e.initial, {}).variables == 0; });
+    return !known && test.reached(problem.prior) < 0.25;
+}
+
+/// The problem from the starts that windows have left.
+/// @throws std::invalid_argument  when they are of another problem
+inline identification_problem narrowed_by(window_contraction const& windows,
+                                          identification_problem problem) {
+    if (windows.rest.size() != problem.prior.size() ||
+        windows.starts.size() != problem.experiments.size())
+        throw std::invalid_argument("identification state: its windows are of another problem");
+    for (std::size_t e = 0; e < problem.experiments.size() && !windows.empty(); ++e) {
+        problem.experiments[e].initial = windows.starts[e];
+    }
+    problem.require_valid();
+    return problem;
+}
+
+/// One contraction after the other.
+inline window_contraction joined(window_contraction const& first, window_contraction then) {
+    then.rounds += first.rounds;
+    then.windows += first.windows;
+    then.longest = std::max(first.longest, then.longest);
+    then.seconds += first.seconds;
+    then.integrations += first.integrations;
+    then.input_period = first.input_period;
+    return then;
+}
+
+/// The time between two samples of the fastest input with a thousand of them or more; 0: none.
+inline double sample_period(identification_problem const& problem) {
+    double least = HUGE_VAL;
+    for (auto const& e : problem.experiments) {
+        double end = e.begin;
+        for (auto const& m : e.measurements) end = std::max(end, m.time);
+        for (auto const& s : e.inputs) {
+            auto const* const u = std::get_if<sampled_signal>(&s);
+            if (u == nullptr) continue;
+            auto const& t = u->times();
+            auto const knots = std::upper_bound(t.begin(), t.end(), end) -
+                               std::upper_bound(t.begin(), t.end(), e.begin);
+            if (knots < 1000) continue;
+            least = std::min(least, (end - e.begin) / static_cast<double>(knots));
+        }
+    }
+    return std::isfinite(least) ? least : 0;
+}
+
+/// The share of the measurements that a run at the fit tells to half their bounds.
+inline double seen_sharply(data_test& test, identification_problem const& problem,
+                           box const& fitted, std::vector<box> const& starts) {
+    auto const point = point_box(mid(fitted));
+    std::size_t sharp = 0, all = 0;
+    for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
+        auto const from =
+            e < starts.size() ? starts[e] : point_box(mid(problem.experiments[e].initial));
+        auto const answer = test.run(e, from, point);
+        auto const values = output_ranges(*answer, point);
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            sharp += width(values[i]) <= 0.5 * width(answer->bounds[i]) ? 1 : 0;
+        }
+        all += answer->measurements;
+    }
+    return static_cast<double>(sharp) / static_cast<double>(std::max<std::size_t>(all, 1));
+}
+
+/// What a search with slower inputs leaves of the prior, where that pays: see `identify_options`.
+/// @param fitted  where they are tried, from `starts`
+inline std::optional<window_contraction>
+contract_by_slower_inputs(data_test& exact, identification_problem const& posed, box const& fitted,
+                          std::vector<box> const& starts, identify_options const& options,
+                          work_limit const& limit) {
+    using clock = std::chrono::steady_clock;
+    auto const begin = clock::now();
+    double const period = 10 * sample_period(posed);
+    if (!(period > 0)) return std::nullopt;
+    if (!(exact.reached(posed.prior) < 0.25)) return std::nullopt;
+    auto slow = with_slower_inputs(posed, period);
+    if (!slow) return std::nullopt;
+    data_test test(*slow, options.test);
+    if (!limit() || seen_sharply(test, *slow, fitted, starts) < 0.25) return std::nullopt;
+    double const most = 0.5 * limit.seconds();
+    auto const spent = [begin] {
+        return std::chrono::duration<double>(clock::now() - begin).count();
+    };
+    window_contraction result;
+    result.rest = posed.prior;
+    for (auto const& e : posed.experiments) result.starts.push_back(e.initial);
+    if (options.windows && starts_hinder(test, *slow)) {
+        // They are cheaper here than over the recorded inputs, and end by themselves.
+        result = contract_by_windows(*slow, {.run = options.test.run,
+                                             .seconds = 0.6 * limit.seconds(),
+                                             .keep_going = limit,
+                                             .workers = options.search.workers});
+        *slow = narrowed_by(result, *std::move(slow));
+    }
+    data_test further(*slow, options.test);
+    auto search = options.search;
+    search.hull_gain = 0.02;
+    search.keep_outside = false;
+    search.proof_bytes = 0;
+    search.checkpoint = nullptr;
+    search.resume = nullptr;
+    search.seconds = most - spent();
+    if (!result.empty() && search.seconds > 0) {
+        further.set_rest(result.rest);
+        auto const found = invert(further, posed.prior, search);
+        result.rest = intersect(result.rest, found.paving.outer_hull());
+    }
+    bool const shrunk = relative_volume(result.rest, posed.prior).upper() < 1;
+    if (!shrunk && result.windows == 0) return std::nullopt;
+    result.integrations = further.integrations();
+    result.input_period = period;
+    result.seconds = spent();
+    return result;
+}
+
+/// What can be left of the prior, and of starts, by means that are quicker than the search; nothing
+/// where the search does as well.
+/// @param test    of `posed`
+/// @param fitted  parameters that explain the data best, or the prior
+/// @param starts  of each experiment, with them; or none
+inline std::optional<window_contraction>
+contract_prior(data_test& test, identification_problem const& posed, box const& fitted,
+               std::vector<box> const& starts, identify_options const& options,
+               work_limit const& limit) {
+    std::optional<window_contraction> result;
+    if (options.slower_inputs) {
+        result = contract_by_slower_inputs(test, posed, fitted, starts, options, limit);
+    }
+    if (!options.windows || !limit() || (result && result->empty())) return result;
+    auto hindered = posed;
+    std::optional<data_test> after;
+    if (result) {
+        hindered = narrowed_by(*result, std::move(hindered));
+        hindered.prior = result->rest;
+        after.emplace(hindered, options.test);
+    }
+    // Windows that were of use with slower inputs go on with the recorded ones.
+    bool const go_on = result && result->windows > 0;
+    if (go_on || starts_hinder(after ? *after : test, hindered)) {
+        auto found = contract_by_windows(hindered, {.run = options.test.run,
+                                                    .seconds = 0.8 * limit.seconds(),
+                                                    .keep_going = limit,
+                                                    .workers = options.search.workers});
+        result = result ? joined(*result, std::move(found)) : std::move(found);
+    }
+    if (after) result->integrations += after->integrations();
+    return result;
+}
+
+} // namespace sivid::paving_detail
+
+#endif

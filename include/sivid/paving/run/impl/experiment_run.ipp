@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_RUN_IMPL_EXPERIMENT_RUN_IPP
+#define SIVID_PAVING_RUN_IMPL_EXPERIMENT_RUN_IPP
+
+#include <sivid/paving/run/experiment_run.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/measurement/record.hpp>
+#include <sivid/paving/run/detail/doubleton_run.hpp>
+#include <sivid/paving/run/detail/taylor_run.hpp>
+#include <sivid/paving/run/scalar_run.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+namespace sivid {
+
+SIVID_DECL std::unique_ptr<experiment_run> make_run(flow const& f, experiment const& e,
+                                                    record const& samples, box const& initial,
+                                                    box const& prior, run_options options) {
+    using namespace paving_detail;
+    options.enclosure.minimum_step = minimum_step_for(e, options.enclosure.minimum_step);
+    auto const unknowns = unknown_count(initial, prior);
+    // What uncertain inputs cost, no smaller box gives back.
+    if (f.uncertain()) options.hopeless = 1e300;
+    if (options.set == carried_set::taylor_model) {
+        if (options.make != nullptr) return options.make(f, e, samples, initial, prior, options);
+        if (options.enclosure.method) {
+            throw std::invalid_argument(
+                "run_options: Taylor models follow the method '" + options.enclosure.method->name +
+                "' with make = runge_kutta_run (sivid/paving/run/runge_kutta_run.hpp), else the "
+                "Taylor "
+                "series alone; sets of first order (carried_set::doubleton) take any method");
+        }
+        auto const degree = degree_for(options, unknowns);
+        // Points one by one: where nothing is unknown there are no boxes to fill the lanes.
+        if (degree == 0) return make_scalar_run(f, e, samples, initial, prior, options);
+        return std::make_unique<taylor_run<lanes<8>>>(f, e, samples, options, unknowns, degree);
+    }
+    return std::make_unique<doubleton_run>(f, e, samples, options);
+}
+
+SIVID_DECL std::vector<std::shared_ptr<response const>>
+run_parts(flow const& f, std::vector<experiment> const& parts, box const& parameters,
+          run_options options) {
+    using namespace paving_detail;
+    if (f.uncertain()) options.hopeless = 1e300;
+    std::vector<record> samples;
+    std::vector<lane_task> families;
+    std::size_t unknowns = 0;
+    for (auto const& part : parts) {
+        unknowns = std::max(unknowns, unknown_count(part.initial, parameters));
+        samples.push_back(sorted(part.measurements));
+    }
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        families.push_back({&parts[k], &samples[k], &parts[k].initial, &parameters});
+    }
+    if (families.empty()) return {};
+    auto const degree = degree_for(options, unknowns);
+    if (families.size() == 1) return taylor_lanes<double>(f, options, unknowns, degree)(families);
+    return taylor_lanes<lanes<8>>(f, options, unknowns, degree)(families);
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_RUN_IMPL_RUN_REACH_IPP
+#define SIVID_PAVING_RUN_IMPL_RUN_REACH_IPP
+
+#include <sivid/paving/run/run_reach.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/enclosure/flow.hpp>
+#include <sivid/measurement/record.hpp>
+#include <sivid/model/structure/states_seen.hpp>
+#include <sivid/paving/response/local_response.hpp>
+#include <sivid/paving/run/experiment_run.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+namespace paving_detail {
+
+/// @given  samples in the order of time
+[[nodiscard]] inline std::vector<double> instants_of(record const& samples) {
+    std::vector<double> times;
+    for (auto const& m : samples) {
+        if (times.empty() || m.time > times.back()) times.push_back(m.time);
+    }
+    return times;
+}
+
+/// The measurements of some of the instants, spread over all of them.
+[[nodiscard]] inline record thinned(record const& samples, std::size_t instants) {
+    auto const times = instants_of(samples);
+    if (times.size() <= instants) return samples;
+    std::vector<double> kept;
+    for (std::size_t k = 1; k <= instants; ++k) {
+        kept.push_back(times[k * times.size() / instants - 1]);
+    }
+    record result;
+    std::copy_if(
+        samples.begin(), samples.end(), std::back_inserter(result),
+        [&](measurement const& m) { return std::binary_search(kept.begin(), kept.end(), m.time); });
+    return result;
+}
+
+/// What spreads an output, the most first.
+[[nodiscard]] inline std::vector<run_reach::cause> causes_of(identification_problem const& problem,
+                                                             response const& r,
+                                                             local_response const& local,
+                                                             std::size_t output) {
+    std::vector<run_reach::cause> result;
+    double all = local.rest[output];
+    auto const add = [&](bool start, auto const& sides, auto const& name_of) {
+        for (std::size_t i = 0; i < sides.size(); ++i) {
+            if (!(sides[i].radius > 0)) continue;
+            double const moved = std::abs(local.slope[sides[i].variable * r.outputs() + output]);
+            all += moved;
+            result.push_back({start, i, name_of(i), moved});
+        }
+    };
+    add(true, r.unknowns.initial,
+        [&](std::size_t i) { return problem.model.about.states[i].name; });
+    add(false, r.unknowns.parameters, [&](std::size_t j) { return problem.choice.unknown[j]; });
+    for (auto& c : result) c.share = all > 0 ? c.share / all : 0;
+    std::erase_if(result, [](auto const& c) { return !(c.share >= 0.1); });
+    std::sort(result.begin(), result.end(),
+              [](auto const& a, auto const& b) { return a.share > b.share; });
+    return result;
+}
+
+inline run_reach reach_of_run(identification_problem const& problem, std::size_t e,
+                              recorded_model const& seen, box const& parameters,
+                              run_options const& options) {
+    constexpr std::size_t instants = 50;
+    auto const& whole = problem.experiments[e];
+    auto const all = sorted(whole.measurements);
+    auto samples = thinned(all, instants);
+    auto const states = whole.initial.size();
+    auto const channels = problem.model.about.channels.size();
+    run_reach result;
+    result.scenario = whole.name;
+    result.begin = result.until = whole.begin;
+    result.end = samples.back().time;
+    result.instants = instants_of(samples).size();
+    result.measured = instants_of(all).size();
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+        bool const last = k + 1 == samples.size() || samples[k].time < samples[k + 1].time;
+        if (!last || samples[k].channel >= channels) continue;
+        double const time = samples[k].time;
+        for (std::size_t i = 0; i < states; ++i) {
+            samples.insert(samples.begin() + static_cast<std::ptrdiff_t>(++k),
+                           {time, channels + i, interval_traits<interval>::entire()});
+        }
+    }
+    experiment run{whole.name, whole.inputs, whole.begin, whole.initial, samples, samples.size()};
+    flow const f(seen, problem.choice, whole.inputs);
+    auto const r = (*make_run(f, run, samples, parameters, options))(whole.initial, parameters);
+    result.interrupted = options.enclosure.cancelled();
+    auto const local = expand(*r, parameters);
+    auto const ranges = output_ranges(*r, local);
+    auto const against_limit = [&](std::size_t i, double width) {
+        return width / problem.model.about.states[i].limit;
+    };
+    auto const widest = [&](auto const& width_of) {
+        std::size_t state = 0;
+        for (std::size_t i = 1; i < states; ++i) {
+            if (!(against_limit(i, width_of(i)) <= against_limit(state, width_of(state))))
+                state = i;
+        }
+        result.state = problem.model.about.states[state].name;
+        result.unit = problem.model.about.states[state].unit;
+        result.width = width_of(state);
+        return state;
+    };
+    widest([&](std::size_t i) { return width(whole.initial[i]); });
+    std::size_t at = 0; // the last outputs where all states were reached
+    for (std::size_t y = 0; y < r->outputs(); ++y) {
+        if (samples[y].channel + 1 == channels + states && is_bounded(ranges[y])) at = y + 1;
+    }
+    if (at == 0) return result;
+    for (std::size_t y = 0; y < at; ++y) {
+        if (samples[y].channel >= channels) continue;
+        double moved = 0;
+        for (std::size_t v = 0; v < r->table->variables; ++v)
+            moved += std::abs(local.slope[v * r->outputs() + y]);
+        double const bound = 0.5 * width(samples[y].bound);
+        double const spread = (moved + local.rest[y]) / bound;
+        bool const known = bound > 0 && std::isfinite(r->radius[y]) && std::isfinite(spread);
+        if (!known) {
+            result.spread = std::numeric_limits<double>::infinity();
+            continue;
+        }
+        result.spread = std::max(result.spread, spread);
+        result.moved = std::max(result.moved, moved / bound);
+        result.lost = std::max(result.lost, r->radius[y] / bound);
+    }
+    result.until = samples[at - 1].time;
+    auto const state = widest([&](std::size_t i) { return width(ranges[at - states + i]); });
+    result.causes = causes_of(problem, *r, local, at - states + state);
+    return result;
+}
+
+} // namespace paving_detail
+
+SIVID_DECL std::vector<run_reach> reach_of_runs(identification_problem const& problem,
+                                                box const& parameters, run_options const& run) {
+    problem.require_valid();
+    std::vector<run_reach> result;
+    if (problem.model.has_delays()) return result;
+    auto const seen = with_states_seen(problem.model);
+    for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
+        if (problem.experiments[e].measurements.empty()) continue;
+        if (run.enclosure.cancelled()) break;
+        result.push_back(paving_detail::reach_of_run(problem, e, seen, parameters, run));
+    }
+    return result;
+}
+
+} // namespace sivid
+
+#endif

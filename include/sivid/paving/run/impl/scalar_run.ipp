@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_RUN_IMPL_SCALAR_RUN_IPP
+#define SIVID_PAVING_RUN_IMPL_SCALAR_RUN_IPP
+
+#include <sivid/paving/run/scalar_run.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/paving/run/detail/taylor_run.hpp>
+
+#include <memory>
+
+namespace sivid {
+
+SIVID_DECL std::unique_ptr<experiment_run> make_scalar_run(flow const& f, experiment const& e,
+                                                           record const& samples,
+                                                           box const& initial, box const& prior,
+                                                           run_options options) {
+    using namespace paving_detail;
+    options.enclosure.minimum_step = minimum_step_for(e, options.enclosure.minimum_step);
+    if (f.uncertain()) options.hopeless = 1e300;
+    auto const unknowns = unknown_count(initial, prior);
+    return std::make_unique<taylor_run<double>>(f, e, samples, options, unknowns,
+                                                degree_for(options, unknowns));
+}
+
+} // namespace sivid
+
+#endif

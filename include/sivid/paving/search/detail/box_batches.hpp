@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_SEARCH_DETAIL_BOX_BATCHES_HPP
+#define SIVID_PAVING_SEARCH_DETAIL_BOX_BATCHES_HPP
+
+#include <sivid/executor.hpp>
+#include <sivid/number/guard.hpp>
+#include <sivid/paving/search/detail/hull_rest.hpp>
+#include <sivid/paving/search/detail/lesson.hpp>
+#include <sivid/paving/search/frontier.hpp>
+#include <sivid/paving/set_test.hpp>
+#include <sivid/paving/subpaving.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <memory>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace sivid::paving_detail {
+
+template <class Test>
+struct knowledge_of {
+    using type = std::monostate;
+};
+template <learning_set_test Test>
+struct knowledge_of<Test> {
+    using type = typename Test::knowledge;
+};
+
+/// Bytes that knowledge of a box takes.
+template <class Test>
+[[nodiscard]] std::size_t bytes_of(Test const& test, box const& x,
+                                   typename knowledge_of<Test>::type const& found) {
+    using knowledge = typename knowledge_of<Test>::type;
+    auto const frame = sizeof(learnt<knowledge>) + sizeof(box) + x.size() * sizeof(interval);
+    if constexpr (measured_set_test<Test>) {
+        return frame + test.bytes(found);
+    } else {
+        return frame + sizeof(knowledge);
+    }
+}
+
+/// What waits with a box.
+template <class Knowledge>
+struct companion {
+    std::shared_ptr<learnt<Knowledge>> known = nullptr;
+    std::shared_ptr<assessment<Knowledge> const> judged = nullptr; ///< ahead of its turn
+};
+
+/// Nothing: for tests that are asked about one box after the other.
+template <class Test>
+class box_batches {
+public:
+    template <class Frontier>
+    box_batches(Test&, Frontier&, executor const&) {}
+    [[nodiscard]] static bool hold_faces(subpaving const&, box const&, double) { return true; }
+};
+
+/// Takes boxes from a frontier and has them judged and learnt about, in parallel where the test
+/// allows it. What comes out does not depend on the number of threads: judgements depend on the box
+/// alone and are only made earlier, and sets are chosen before any of them is learnt about.
+template <batch_set_test Test>
+class box_batches<Test> {
+    using knowledge = typename Test::knowledge;
+    using answer = assessment<knowledge>;
+    using waiting_boxes = frontier<companion<knowledge>>;
+    using item = typename waiting_boxes::item;
+
+public:
+    box_batches(Test& test, waiting_boxes& waiting, executor const& workers)
+        : test_(&test), waiting_(&waiting), workers_(workers) {}
+
+    /// The next box with its judgement.
+    [[nodiscard]] item take() {
+        if (!waiting_->next().load.judged) look_ahead();
+        return waiting_->pop();
+    }
+
+    struct gathered {
+        std::vector<std::vector<item>> sets;
+        std::vector<std::size_t> moved; ///< numbers that others had, which now wait under new ones
+    };
+    /// The first, which is blind, and more blind boxes that are near their turn: one set as large
+    /// as the test takes at once, or what there is, and up to `most` - 1 further full sets.
+    [[nodiscard]] gathered gather(item first, std::size_t most) {
+        std::size_t const wanted = test_->at_once();
+        gathered result;
+        auto& sets = result.sets;
+        sets.resize(1);
+        std::vector<item> others;
+        sets[0].push_back(std::move(first));
+        auto const fill = [&](std::vector<item>& set) {
+            for (std::size_t looked = 0;
+                 looked < 2 * wanted && set.size() < wanted && !waiting_->empty(); ++looked) {
+                auto other = take();
+                (other.load.judged->blind ? set : others).push_back(std::move(other));
+            }
+        };
+        fill(sets[0]);
+        while (sets.size() < most && sets.back().size() == wanted) {
+            std::vector<item> more;
+            fill(more);
+            if (more.size() < wanted) {
+                std::move(more.begin(), more.end(), std::back_inserter(others));
+                break;
+            }
+            sets.push_back(std::move(more));
+        }
+        for (auto& i : others) {
+            result.moved.push_back(i.number);
+            waiting_->push(std::move(i.set), i.volume, std::move(i.load));
+        }
+        return result;
+    }
+
+    /// A call of `learn`.
+    struct lecture {
+        std::shared_ptr<lesson<knowledge>> of;
+        std::vector<answer> answers;
+    };
+    [[nodiscard]] std::vector<lecture> learn(std::vector<std::vector<item>> const& sets) const {
+        std::vector<lecture> result(sets.size());
+        for (std::size_t k = 0; k < sets.size(); ++k) {
+            result[k].of = std::make_shared<lesson<knowledge>>();
+            for (auto const& i : sets[k]) result[k].of->boxes.push_back(i.set);
+        }
+        in_parallel(sets.size(),
+                    [&](std::size_t k) { result[k].answers = test_->learn(result[k].of->boxes); });
+        return result;
+    }
+
+    /// Whether each face of a hull is touched by a box of the paving, or by a waiting one that what
+    /// is known of it shows sharply: such a face moves with the size of boxes alone, others when
+    /// enclosures become narrow enough.
+    /// @param share  of a side's width within which a box touches a face
+    [[nodiscard]] bool hold_faces(subpaving const& paving, box const& hull, double share) {
+        open_faces open(hull, share);
+        for (auto const& b : paving.boxes()) {
+            if (b.verdict != box_verdict::outside) open.close(b.set);
+        }
+        for (auto* const i : waiting_->best(waiting_->size())) {
+            if (!i->load.known || !open.touched_by(i->set)) continue;
+            if (!i->load.judged) judge({i});
+            if (!i->load.judged->blind) open.close(i->set);
+        }
+        return open.none();
+    }
+
+private:
+    void in_parallel(std::size_t count, executor::task const& work) const {
+        if constexpr (concurrent_set_test<Test>) {
+            workers_(count, [&work](std::size_t k) {
+                require_sound_environment(); // of this thread
+                work(k);
+            });
+        } else {
+            for (std::size_t k = 0; k < count; ++k) work(k);
+        }
+    }
+
+    /// Judges the next box, and with several threads those after it.
+    void look_ahead() {
+        bool const alone = !concurrent_set_test<Test> || !workers_.run || workers_.threads < 2;
+        auto ahead = waiting_->best(alone ? 1 : 16 * workers_.threads);
+        std::erase_if(ahead, [](item const* i) { return i->load.judged != nullptr; });
+        judge(ahead);
+    }
+    void judge(std::vector<item*> const& items) {
+        remember(items);
+        in_parallel(items.size(), [&](std::size_t k) {
+            auto& load = items[k]->load;
+            auto const known = load.known ? load.known->found() : nullptr;
+            load.judged = std::make_shared<answer const>(test_->judge(items[k]->set, known));
+        });
+    }
+
+    /// Learns anew what these boxes knew before the search was interrupted.
+    void remember(std::vector<item*> const& items) const {
+        std::vector<lesson<knowledge>*> missing;
+        for (auto const* i : items) {
+            if (!i->load.known || !i->load.known->missing()) continue;
+            auto* const from = i->load.known->from.get();
+            if (std::find(missing.begin(), missing.end(), from) == missing.end()) {
+                missing.push_back(from);
+            }
+        }
+        std::vector<std::vector<answer>> found(missing.size());
+        in_parallel(missing.size(),
+                    [&](std::size_t k) { found[k] = test_->learn(missing[k]->boxes); });
+        for (std::size_t k = 0; k < missing.size(); ++k) {
+            for (auto const& use : missing[k]->uses) {
+                auto const part = use.lock();
+                if (part) part->found_again(found[k][part->place].knowledge);
+            }
+        }
+    }
+
+    Test* test_;
+    waiting_boxes* waiting_;
+    executor workers_;
+};
+
+} // namespace sivid::paving_detail
+
+#endif

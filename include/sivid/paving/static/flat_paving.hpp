@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_STATIC_FLAT_PAVING_HPP
+#define SIVID_PAVING_STATIC_FLAT_PAVING_HPP
+
+#include <sivid/paving/subpaving.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// Room for so many boxes of one dimension, side by side: all lower bounds of a side, then all
+/// upper ones. Small enough to stay in the cache and in the allocator.
+class box_chunk {
+public:
+    static constexpr std::size_t capacity = 256;
+
+    explicit box_chunk(std::size_t sides) : bounds_(2 * sides * capacity) {}
+
+    [[nodiscard]] double const* lower(std::size_t side) const { return at(2 * side); }
+    [[nodiscard]] double const* upper(std::size_t side) const { return at(2 * side + 1); }
+    double* lower(std::size_t side) { return bounds_.data() + 2 * side * capacity; }
+    double* upper(std::size_t side) { return bounds_.data() + (2 * side + 1) * capacity; }
+    /// Takes box i of another chunk of the same dimension as box `to`.
+    void copy(box_chunk const& from, std::size_t i, std::size_t to) {
+        for (std::size_t row = 0; row < bounds_.size(); row += capacity) {
+            bounds_[row + to] = from.bounds_[row + i];
+        }
+    }
+
+private:
+    [[nodiscard]] double const* at(std::size_t row) const {
+        return bounds_.data() + row * capacity;
+    }
+    std::vector<double> bounds_;
+};
+
+/// Many boxes of one dimension, without an allocation for each.
+class flat_boxes {
+public:
+    explicit flat_boxes(std::size_t sides) : sides_(sides) {}
+
+    [[nodiscard]] std::size_t sides() const { return sides_; }
+    [[nodiscard]] std::size_t size() const { return count_; }
+    [[nodiscard]] double lower(std::size_t i, std::size_t side) const {
+        return chunks_[i / box_chunk::capacity].lower(side)[i % box_chunk::capacity];
+    }
+    [[nodiscard]] double upper(std::size_t i, std::size_t side) const {
+        return chunks_[i / box_chunk::capacity].upper(side)[i % box_chunk::capacity];
+    }
+    void add(box const& x) {
+        box_chunk own(sides_);
+        for (std::size_t j = 0; j < sides_; ++j) {
+            own.lower(j)[0] = x[j].lower();
+            own.upper(j)[0] = x[j].upper();
+        }
+        add(own, 0);
+    }
+    /// Appends box i of a chunk.
+    void add(box_chunk const& from, std::size_t i) {
+        auto const place = count_ % box_chunk::capacity;
+        if (place == 0) chunks_.emplace_back(sides_);
+        chunks_.back().copy(from, i, place);
+        ++count_;
+    }
+    [[nodiscard]] box at(std::size_t i) const {
+        box x(sides_);
+        for (std::size_t j = 0; j < sides_; ++j) x[j] = interval(lower(i, j), upper(i, j));
+        return x;
+    }
+    /// What contains them all; empty sides when there are none.
+    [[nodiscard]] box hull() const {
+        box x(std::vector<interval>(sides_, interval_traits<interval>::empty()));
+        for (std::size_t j = 0; j < sides_ && count_ > 0; ++j) {
+            double lo = lower(0, j), hi = upper(0, j);
+            for (std::size_t i = 1; i < count_; ++i) {
+                lo = std::min(lo, lower(i, j));
+                hi = std::max(hi, upper(i, j));
+            }
+            x[j] = interval(lo, hi);
+        }
+        return x;
+    }
+    /// Their volumes relative to a whole, summed.
+    /// @guarantee  encloses the exact sum
+    [[nodiscard]] interval relative_volume(box const& whole) const {
+        using traits = interval_traits<interval>;
+        auto const length = [](double lo, double hi) {
+            return traits::sub(traits::point(hi), traits::point(lo));
+        };
+        interval sum{0.0};
+        for (std::size_t i = 0; i < count_; ++i) {
+            interval product{1.0};
+            for (std::size_t j = 0; j < sides_; ++j) {
+                if (traits::is_point(whole[j])) continue;
+                product = traits::mul(product, length(lower(i, j), upper(i, j)));
+            }
+            sum = traits::add(sum, product);
+        }
+        bool undefined = false;
+        for (auto const& side : whole) {
+            if (traits::is_point(side)) continue;
+            sum = traits::div(sum, length(side.lower(), side.upper()), undefined);
+        }
+        return sum;
+    }
+
+private:
+    std::size_t sides_;
+    std::size_t count_ = 0;
+    std::vector<box_chunk> chunks_;
+};
+
+/// What a set inversion found, as flat lists. What neither `inside` nor `open` covers of the prior
+/// is proved outside.
+struct flat_paving {
+    explicit flat_paving(box whole)
+        : prior(std::move(whole)), inside(prior.size()), open(prior.size()) {}
+
+    box prior;
+    flat_boxes inside; ///< proved feasible throughout
+    flat_boxes open;   ///< undecided, or still waiting when the work ended
+    stop_reason reason = stop_reason::decided;
+    std::size_t tested = 0; ///< boxes tested
+    std::size_t asked = 0;  ///< measurements looked at, summed over them
+    double seconds = 0;
+
+    /// What contains all feasible parameters of the prior; empty when there are none.
+    [[nodiscard]] box hull() const {
+        if (inside.size() == 0) return open.hull();
+        return open.size() == 0 ? inside.hull() : sivid::hull(inside.hull(), open.hull());
+    }
+    /// Volume that is neither proved inside nor outside, relative to the prior.
+    [[nodiscard]] interval uncertain_volume() const { return open.relative_volume(prior); }
+    [[nodiscard]] interval inner_volume() const { return inside.relative_volume(prior); }
+    /// The same as the general type. @cost an allocation a box
+    [[nodiscard]] subpaving boxes() const {
+        subpaving result(prior);
+        for (std::size_t i = 0; i < inside.size(); ++i) {
+            result.add(inside.at(i), box_verdict::inside);
+        }
+        for (std::size_t i = 0; i < open.size(); ++i) {
+            result.add(open.at(i), box_verdict::undecided);
+        }
+        return result;
+    }
+};
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_STATIC_STATIC_PROGRAM_HPP
+#define SIVID_PAVING_STATIC_STATIC_PROGRAM_HPP
+
+#include <sivid/model/bound_model.hpp>
+#include <sivid/model/graph/arithmetic.hpp>
+#include <sivid/model/graph/program.hpp>
+#include <sivid/model/graph/rewrite.hpp>
+#include <sivid/paving/static_problem.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace sivid {
+
+/// Values of a `static_program`, and what of them holds for the present parameters.
+template <class I>
+struct static_memory {
+    using mask = typename interval_traits<I>::mask;
+
+    std::vector<I> values; ///< by node
+    mask common{}, time{}; ///< where they are not defined
+    struct part {
+        bool known = false;
+        mask undefined{};
+    };
+    std::vector<part> value_part, slope_part; ///< by channel: what parameters alone decide
+};
+
+/// The measured channels of a static problem and their gradients as straight-line programs in which
+/// the time is an input, so that all measurements of a channel share one. What parameters alone
+/// decide is computed once for each of them, what time alone decides may be kept for each time.
+/// @guarantee  with interval arithmetic: enclosures of the model's real functions
+/// @cost  of the construction: that of the model, however many measurements there are
+class static_program {
+public:
+    /// @given  a valid problem (checked)
+    explicit static_program(static_problem const& problem) {
+        problem.require_valid();
+        auto const bound = bind(problem.model, problem.choice, {});
+        auto const& g = bound.g;
+        parameters_ = bound.parameter_count();
+        channels_.resize(bound.channel_count());
+        std::vector<bool> measured(channels_.size(), false);
+        for (auto const& m : problem.measurements) measured[m.channel] = true;
+        std::vector<bool> leaves;
+        for (auto const& n : g.nodes()) leaves.push_back(is_leaf(n.op));
+        leaves_ = program::marked(g, leaves);
+        for (auto const& l : leaves_.leaves()) {
+            if (l.op == operation::time) clock_.push_back(l.target);
+        }
+        std::vector<std::size_t> users(g.size(), 0);
+        for (std::size_t c = 0; c < channels_.size(); ++c) {
+            if (!measured[c]) continue;
+            auto const below = operands_of(g, {bound.observe[c]});
+            for (std::size_t i = 0; i < g.size(); ++i) users[i] += below[i] ? 1 : 0;
+        }
+        auto const timed = [&g](std::size_t i) {
+            return (g.depends(static_cast<node_id>(i)) & on_time) != 0;
+        };
+        auto const time_alone = [&g](std::size_t i) {
+            return g.depends(static_cast<node_id>(i)) == on_time;
+        };
+        auto const block = [&](auto const& wanted) {
+            std::vector<bool> operations(g.size());
+            for (std::size_t i = 0; i < g.size(); ++i) operations[i] = !leaves[i] && wanted(i);
+            return program::marked(g, operations);
+        };
+        common_ = block([&](std::size_t i) { return users[i] > 1 && !timed(i); });
+        for (std::size_t c = 0; c < channels_.size(); ++c) {
+            if (!measured[c]) continue;
+            auto& o = channels_[c];
+            o.value = bound.observe[c];
+            o.slopes = bound.observe_dp[c];
+            auto const below = operands_of(g, {o.value}), wanted = operands_of(g, o.slopes);
+            auto const more = [&](std::size_t i) { return wanted[i] && !below[i]; };
+            o.once = block([&](std::size_t i) { return below[i] && !timed(i) && users[i] == 1; });
+            o.slopes_once =
+                block([&](std::size_t i) { return more(i) && !timed(i) && users[i] < 2; });
+            o.time_steps =
+                block([&](std::size_t i) { return (below[i] || wanted[i]) && time_alone(i); });
+            o.steps = block([&](std::size_t i) { return below[i] && timed(i) && !time_alone(i); });
+            o.slope_steps =
+                block([&](std::size_t i) { return more(i) && timed(i) && !time_alone(i); });
+            std::vector<bool> read(g.size(), false);
+            read[o.value] = true;
+            for (auto const s : o.slopes) read[s] = true;
+            for (auto const* steps : {&o.steps, &o.slope_steps}) {
+                for (auto const& s : steps->steps()) read[s.a] = read[s.b] = true;
+            }
+            for (std::size_t i = 0; i < g.size(); ++i) {
+                if (read[i] && time_alone(i)) o.timed.push_back(static_cast<node_id>(i));
+            }
+            read.assign(g.size(), false);
+            read[o.value] = true;
+            for (auto const s : o.slopes) read[s] = true;
+            for (auto const& s : o.slope_steps.steps()) read[s.a] = read[s.b] = true;
+            for (auto const& s : o.steps.steps()) {
+                if (read[s.target]) o.kept.push_back(s.target);
+            }
+            count_uses(g, o, below);
+        }
+    }
+
+    [[nodiscard]] std::size_t parameters() const { return parameters_; }
+    /// Whether the mean value theorem holds for a channel: no jump in it.
+    [[nodiscard]] bool differentiable(std::size_t c) const { return channels_[c].differentiable; }
+    /// Whether a parameter stands in a channel more than once, so that its plain evaluation
+    /// overestimates.
+    [[nodiscard]] bool repeats(std::size_t c) const { return channels_[c].repeats; }
+    /// The values that time alone decides and that the rest of a channel reads.
+    [[nodiscard]] std::vector<node_id> const& timed(std::size_t c) const {
+        return channels_[c].timed;
+    }
+    /// Besides these, what the gradient reads of what `value` has computed, and the value.
+    [[nodiscard]] std::vector<node_id> const& kept(std::size_t c) const {
+        return channels_[c].kept;
+    }
+
+    template <class I>
+    [[nodiscard]] static_memory<I> memory() const {
+        static_memory<I> m;
+        m.values = leaves_.template memory<proven_arithmetic<I>>();
+        m.value_part.resize(channels_.size());
+        m.slope_part.resize(channels_.size());
+        return m;
+    }
+    /// Writes the parameters and runs what channels share.
+    template <class I, class Parameter>
+    void start(static_memory<I>& m, Parameter const& parameter) const {
+        for (auto const& l : leaves_.leaves()) {
+            if (l.op == operation::constant) m.values[l.target] = parameter(std::size_t{l.index});
+        }
+        m.common = common_.template run<proven_arithmetic<I>>(m.values);
+        for (auto& p : m.value_part) p.known = false;
+        for (auto& p : m.slope_part) p.known = false;
+    }
+    /// Sets the time for a channel, in each lane its own.
+    template <class I>
+    void at(static_memory<I>& m, std::size_t c, I const& time) const {
+        for (auto const target : clock_) m.values[target] = time;
+        m.time = channels_[c].time_steps.template run<proven_arithmetic<I>>(m.values);
+    }
+    /// The channel over the parameters at the time; `undefined` is set where it is not defined.
+    template <class I>
+    I const& value(static_memory<I>& m, std::size_t c,
+                   typename interval_traits<I>::mask& undefined) const {
+        auto const& o = channels_[c];
+        auto& part = m.value_part[c];
+        if (!part.known) part = {true, o.once.template run<proven_arithmetic<I>>(m.values)};
+        undefined = static_cast<typename interval_traits<I>::mask>(
+            undefined | m.common | m.time | part.undefined |
+            o.steps.template run<proven_arithmetic<I>>(m.values));
+        return m.values[o.value];
+    }
+    /// What `value` gave last.
+    template <class I>
+    I const& last_value(static_memory<I> const& m, std::size_t c) const {
+        return m.values[channels_[c].value];
+    }
+    /// Makes the gradient of a channel, after its value.
+    template <class I>
+    void differentiate_at(static_memory<I>& m, std::size_t c,
+                          typename interval_traits<I>::mask& undefined) const {
+        auto const& o = channels_[c];
+        auto& part = m.slope_part[c];
+        if (!part.known) part = {true, o.slopes_once.template run<proven_arithmetic<I>>(m.values)};
+        undefined = static_cast<typename interval_traits<I>::mask>(
+            undefined | part.undefined |
+            o.slope_steps.template run<proven_arithmetic<I>>(m.values));
+    }
+    template <class I>
+    I const& slope(static_memory<I> const& m, std::size_t c, std::size_t j) const {
+        return m.values[channels_[c].slopes[j]];
+    }
+
+private:
+    struct channel {
+        node_id value = 0;
+        std::vector<node_id> slopes, timed, kept;
+        program once, slopes_once, time_steps, steps, slope_steps;
+        bool differentiable = true, repeats = false;
+    };
+
+    /// How often parameters are read on the way to an output.
+    static void count_uses(graph const& g, channel& o, std::vector<bool> const& below) {
+        std::vector<std::size_t> paths(g.size(), 0);
+        paths[o.value] = 1;
+        for (std::size_t i = g.size(); i-- > 0;) {
+            auto const& n = g.nodes()[i];
+            if (!below[i]) continue;
+            bool const varies = (g.depends(static_cast<node_id>(i)) & on_constant) != 0;
+            if (n.op == operation::sign && varies) o.differentiable = false;
+            if (n.op == operation::constant) o.repeats = o.repeats || paths[i] > 1;
+            if (is_leaf(n.op)) continue;
+            auto const more = [&](node_id child) { // two is as good as many
+                paths[child] = std::min<std::size_t>(paths[child] + paths[i], 2);
+            };
+            more(n.a);
+            if (is_binary(n.op)) more(n.b);
+        }
+    }
+
+    std::size_t parameters_ = 0;
+    program leaves_, common_;
+    std::vector<program::slot> clock_;
+    std::vector<channel> channels_;
+};
+
+} // namespace sivid
+
+#endif

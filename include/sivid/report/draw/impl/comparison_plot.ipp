@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_REPORT_DRAW_IMPL_COMPARISON_PLOT_IPP
+#define SIVID_REPORT_DRAW_IMPL_COMPARISON_PLOT_IPP
+
+#include <sivid/report/draw/comparison_plot.hpp>
+
+namespace sivid::report {
+
+namespace detail {
+
+SIVID_DECL channel_series plain_series(comparison_series const& c) {
+    channel_series out{c.name, c.unit, c.measured, c.tube, c.after};
+    for (point const& p : c.before) {
+        if (is_finite(p)) out.tube.push_back({p.x, p.x, {p.y, p.y}});
+    }
+    return out;
+}
+
+SIVID_DECL double median_spacing(std::vector<point> const& all) {
+    std::vector<double> gaps;
+    for (std::size_t k = 1; k < all.size(); ++k) {
+        double const gap = all[k].x - all[k - 1].x;
+        if (std::isfinite(gap) && gap > 0) gaps.push_back(gap);
+    }
+    if (gaps.empty()) return 0;
+    auto const middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
+    std::nth_element(gaps.begin(), middle, gaps.end());
+    return *middle;
+}
+
+} // namespace detail
+
+SIVID_DECL std::vector<legend_entry> comparison_legend(std::vector<comparison_series> const& all,
+                                                       std::string const& second) {
+    bool measured = false, suspect = false, before = false, after = false, tube = false;
+    for (comparison_series const& c : all) {
+        before = before || !c.before.empty();
+        after = after || !c.after.empty();
+        tube = tube || !c.tube.empty();
+        for (measured_sample const& m : c.measured) {
+            (m.state == sample_state::regular ? measured : suspect) = true;
+        }
+    }
+    std::vector<legend_entry> out;
+    auto const add = [&](bool used, symbol mark, std::string const& label) {
+        if (used) out.push_back({mark, label});
+    };
+    add(measured, symbol::measured, "measured interval");
+    add(suspect, symbol::suspect, "suspected outlier");
+    add(before, symbol::line_before, "model as it is, best fit (estimate)");
+    add(after, symbol::line_after, "model " + second + ", best fit (estimate)");
+    add(tube, symbol::tube, "predicted tube " + second);
+    return out;
+}
+
+SIVID_DECL svg draw_comparison_plot(comparison_series const& c, time_plot_options const& o) {
+    auto const plain = detail::plain_series(c);
+    svg out{o.width, o.height, (o.title.empty() ? c.name : o.title) + ", before and after"};
+    axes const a{{"time", o.time_unit, is_empty(o.time) ? detail::time_range(plain) : o.time},
+                 {c.name, c.unit, detail::value_range(plain)},
+                 {.width = o.width, .height = o.height, .title = o.title}};
+    a.draw_ground(out);
+    out.clip(a.left(), a.top(), a.right() - a.left(), a.bottom() - a.top());
+    detail::draw_tube(out, a, c.tube);
+    std::size_t const stride = c.measured.size() / std::max<std::size_t>(o.most_samples, 1) + 1;
+    std::vector<measured_sample const*> marked;
+    for (std::size_t i = 0; i < c.measured.size(); ++i) {
+        measured_sample const& m = c.measured[i];
+        if (!is_finite(m.value) || !std::isfinite(m.time)) continue;
+        if (m.state != sample_state::regular) {
+            marked.push_back(&m);
+        } else if (i % stride == 0) {
+            draw_measured(out, a.px(m.time), a.py(m.value.lo), a.py(m.value.hi), palette::frame,
+                          stride == 1 ? detail::sample_tip(plain, m, o.time_unit) : "");
+        }
+    }
+    // Lines above the bars: it is they that are compared.
+    detail::draw_reference(out, a, c.before, line_before_paint);
+    detail::draw_reference(out, a, c.after, line_after_paint);
+    for (std::size_t i = 0; i < std::min(marked.size(), 4 * o.most_samples); ++i) {
+        detail::draw_outlier(out, a, *marked[i], approximate_middle(marked[i]->value),
+                             detail::sample_tip(plain, *marked[i], o.time_unit));
+    }
+    out.close();
+    a.draw_frame(out);
+    if (c.measured.empty() && c.before.empty() && c.after.empty() && c.tube.empty()) {
+        out.text((a.left() + a.right()) / 2, (a.top() + a.bottom()) / 2, "no data",
+                 {.size = 12, .align = anchor::middle, .fill = palette::muted_ink});
+    }
+    return out;
+}
+
+SIVID_DECL heat_map misfit_map(std::vector<comparison_series> const& channels, bool after,
+                               std::size_t most_columns) {
+    heat_map out{.quantity = "|residual| / bound"};
+    range span;
+    std::size_t columns = 1;
+    for (comparison_series const& c : channels) {
+        auto const& all = after ? c.misfit_after : c.misfit_before;
+        columns = std::max(columns, std::min(all.size(), most_columns));
+        for (point const& p : all) span = hull(span, p.x);
+    }
+    if (is_empty(span)) return out;
+    span = axis_range(span);
+    double const step = (span.hi - span.lo) / static_cast<double>(columns);
+    for (std::size_t k = 0; k <= columns; ++k) {
+        out.times.push_back(span.lo + step * static_cast<double>(k));
+    }
+    for (comparison_series const& c : channels) {
+        auto const& all = after ? c.misfit_after : c.misfit_before;
+        std::vector<double> row(columns, std::nan(""));
+        double const reach = detail::median_spacing(all) / 2;
+        auto const cell = [&](double t) {
+            double const place = std::floor((t - span.lo) / step);
+            return static_cast<std::size_t>(
+                std::clamp(place, 0.0, static_cast<double>(columns - 1)));
+        };
+        for (point const& p : all) {
+            if (!std::isfinite(p.x) || std::isnan(p.y)) continue;
+            for (std::size_t k = cell(p.x - reach); k <= cell(p.x + reach); ++k) {
+                double const middle = span.lo + step * (static_cast<double>(k) + 0.5);
+                if (k == cell(p.x) || std::fabs(middle - p.x) <= reach) {
+                    row[k] = std::fmax(row[k], std::fabs(p.y));
+                }
+            }
+        }
+        out.rows.push_back(c.name);
+        out.values.push_back(std::move(row));
+    }
+    return out;
+}
+
+SIVID_DECL double largest_value(heat_map const& m) {
+    double largest = 0;
+    for (auto const& row : m.values) {
+        for (double const v : row) largest = std::isfinite(v) ? std::max(largest, v) : largest;
+    }
+    return largest;
+}
+
+} // namespace sivid::report
+
+#endif

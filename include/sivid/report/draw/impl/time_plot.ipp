@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_REPORT_DRAW_IMPL_TIME_PLOT_IPP
+#define SIVID_REPORT_DRAW_IMPL_TIME_PLOT_IPP
+
+#include <sivid/report/draw/time_plot.hpp>
+
+namespace sivid::report {
+
+SIVID_DECL std::vector<legend_entry> time_plot_legend(std::vector<channel_series> const& all) {
+    bool measured = false, forced = false, suspect = false, tube = false, reference = false;
+    for (channel_series const& c : all) {
+        tube = tube || !c.tube.empty();
+        reference = reference || !c.reference.empty();
+        for (measured_sample const& m : c.measured) {
+            measured = measured || m.state == sample_state::regular;
+            forced = forced || m.state == sample_state::forced_outlier;
+            suspect = suspect || m.state == sample_state::suspect;
+        }
+    }
+    std::vector<legend_entry> out;
+    auto const add = [&](bool used, symbol mark, char const* label) {
+        if (used) {
+            out.push_back({mark, label});
+        }
+    };
+    add(measured, symbol::measured, "measured interval");
+    add(tube, symbol::tube, "proven enclosure of the model");
+    add(forced, symbol::forced_outlier, "outlier (proved)");
+    add(suspect, symbol::suspect, "suspected outlier");
+    add(reference, symbol::reference, "reference, not validated");
+    return out;
+}
+
+namespace detail {
+
+SIVID_DECL void draw_tube(svg& out, axes const& a, std::vector<tube_piece> const& tube) {
+    struct column {
+        double left, right, top, bottom;
+    };
+    std::vector<column> run;
+    path_data band;
+    path_data edge;
+    auto const flush = [&] {
+        if (run.empty()) {
+            return;
+        }
+        band.move(run.front().left, run.front().top);
+        edge.move(run.front().left, run.front().top);
+        for (column const& c : run) {
+            band.line(c.left, c.top).line(c.right, c.top);
+            edge.line(c.left, c.top).line(c.right, c.top);
+        }
+        edge.move(run.back().right, run.back().bottom);
+        for (auto c = run.rbegin(); c != run.rend(); ++c) {
+            band.line(c->right, c->bottom).line(c->left, c->bottom);
+            edge.line(c->right, c->bottom).line(c->left, c->bottom);
+        }
+        band.close();
+        run.clear();
+    };
+    for (tube_piece const& t : tube) {
+        if (is_empty(t.value) || !(t.from <= t.to)) {
+            continue;
+        }
+        column c{a.px(t.from), a.px(t.to), a.py(t.value.hi), a.py(t.value.lo)};
+        double const thin = std::max(0.0, 1.2 - (c.bottom - c.top)) / 2;
+        c.top -= thin;
+        c.bottom += thin;
+        if (!run.empty() && std::abs(c.left - run.back().right) > 0.02) {
+            flush();
+        }
+        if (!run.empty() && run.back().right - run.back().left < 0.5) {
+            run.back() = {run.back().left, c.right, std::min(c.top, run.back().top),
+                          std::max(c.bottom, run.back().bottom)};
+        } else {
+            run.push_back(c);
+        }
+    }
+    flush();
+    out.path(band, {.fill = palette::tube, .opacity = 0.45});
+    out.path(edge, {.stroke = palette::tube_edge, .width = 0.8});
+}
+
+SIVID_DECL void draw_reference(svg& out, axes const& a, std::vector<point> const& line,
+                               paint const& how) {
+    path_data d;
+    bool pen_down = false;
+    double last_x = 0, last_y = 0;
+    for (point const& p : line) {
+        if (!is_finite(p)) {
+            pen_down = false;
+            continue;
+        }
+        double const x = a.px(p.x), y = a.py(p.y);
+        if (pen_down && std::abs(x - last_x) + std::abs(y - last_y) < 0.5) {
+            continue;
+        }
+        pen_down ? d.line(x, y) : d.move(x, y);
+        pen_down = true;
+        last_x = x;
+        last_y = y;
+    }
+    out.path(d, how);
+}
+
+SIVID_DECL void draw_outlier(svg& out, axes const& a, measured_sample const& m, double middle,
+                             std::string_view tip) {
+    double const y = a.py(middle);
+    bool const above = y < a.top() + 6;
+    bool const below = y > a.bottom() - 6;
+    double const shown = std::clamp(y, a.top() + 12, a.bottom() - 12);
+    m.state == sample_state::forced_outlier ? draw_forced_outlier(out, a.px(m.time), shown, tip)
+                                            : draw_suspect(out, a.px(m.time), shown, tip);
+    if (above || below) {
+        draw_beyond(out, a.px(m.time), above ? shown - 6 : shown + 6, above,
+                    m.state == sample_state::forced_outlier ? palette::outlier : palette::suspect);
+    }
+}
+
+} // namespace detail
+
+SIVID_DECL svg draw_time_plot(channel_series const& c, time_plot_options const& o) {
+    auto const entries = o.legend ? time_plot_legend({c}) : std::vector<legend_entry>{};
+    svg measure{0, 0, ""};
+    double const below = draw_legend(measure, entries, 0, 0, o.width - 60);
+    svg out{o.width, o.height + below, (o.title.empty() ? c.name : o.title) + " over time"};
+    axes const a{{"time", o.time_unit, is_empty(o.time) ? detail::time_range(c) : o.time},
+                 {c.name, c.unit, detail::value_range(c)},
+                 {.width = o.width, .height = o.height, .title = o.title}};
+    a.draw_ground(out);
+    out.clip(a.left(), a.top(), a.right() - a.left(), a.bottom() - a.top());
+    detail::draw_tube(out, a, c.tube);
+    detail::draw_reference(out, a, c.reference);
+
+    std::size_t const stride = c.measured.size() / std::max<std::size_t>(o.most_samples, 1) + 1;
+    std::vector<measured_sample const*> marked;
+    for (std::size_t i = 0; i < c.measured.size(); ++i) {
+        measured_sample const& m = c.measured[i];
+        if (!is_finite(m.value) || !std::isfinite(m.time)) {
+            continue;
+        }
+        if (m.state != sample_state::regular) {
+            marked.push_back(&m);
+        } else if (i % stride == 0) {
+            draw_measured(out, a.px(m.time), a.py(m.value.lo), a.py(m.value.hi),
+                          palette::measurement,
+                          stride == 1 ? detail::sample_tip(c, m, o.time_unit) : "");
+        }
+    }
+    for (std::size_t i = 0; i < marked.size(); ++i) {
+        measured_sample const& m = *marked[i];
+        draw_measured(out, a.px(m.time), a.py(m.value.lo), a.py(m.value.hi), palette::outlier);
+        if (i < 4 * o.most_samples) {
+            detail::draw_outlier(out, a, m, approximate_middle(m.value),
+                                 detail::sample_tip(c, m, o.time_unit));
+        }
+    }
+    out.close();
+    a.draw_frame(out);
+    if (c.measured.empty() && c.tube.empty() && c.reference.empty()) {
+        out.text((a.left() + a.right()) / 2, (a.top() + a.bottom()) / 2, "no data",
+                 {.size = 12, .align = anchor::middle, .fill = palette::muted_ink});
+    } else if (stride > 1) {
+        out.text(a.right(), a.top() - 11, std::string{"1 in "} + std::to_string(stride) + " drawn",
+                 {.size = 10, .align = anchor::end, .fill = palette::muted_ink});
+    }
+    draw_legend(out, entries, a.left(), o.height + 4, o.width - 60);
+    return out;
+}
+
+} // namespace sivid::report
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_REPORT_DRAW_TIME_PLOT_HPP
+#define SIVID_REPORT_DRAW_TIME_PLOT_HPP
+
+#include <sivid/compiled.hpp>
+#include <sivid/report/draw/axes.hpp>
+#include <sivid/report/draw/channel_series.hpp>
+#include <sivid/report/draw/legend.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sivid::report {
+
+struct time_plot_options {
+    double width = 360;
+    double height = 230;
+    std::string title{};
+    std::string time_unit = "s";
+    range time{};                   ///< empty: what the data need
+    bool legend = false;            ///< draw the legend below (for a picture that stands alone)
+    std::size_t most_samples = 400; ///< more are thinned evenly; outliers are always drawn
+};
+
+/// The legend of time plots, with the symbols that the series use.
+[[nodiscard]] SIVID_DECL std::vector<legend_entry>
+time_plot_legend(std::vector<channel_series> const& all);
+
+namespace detail {
+
+/// Draws the tube: one outline for each run without a gap; pieces thinner than half a unit of the
+/// drawing are joined by their hull, so the picture never shows less than the tube.
+SIVID_DECL void draw_tube(svg& out, axes const& a, std::vector<tube_piece> const& tube);
+
+SIVID_DECL void draw_reference(svg& out, axes const& a, std::vector<point> const& line,
+                               paint const& how = {
+                                   .stroke = palette::truth, .width = 1.2, .dash = "5 3"});
+
+/// Draws the symbol of a marked sample, or an arrow at the frame when it lies outside.
+SIVID_DECL void draw_outlier(svg& out, axes const& a, measured_sample const& m, double middle,
+                             std::string_view tip);
+
+} // namespace detail
+
+/// Measured intervals over time as bars, the proven tube as a band, outliers marked, and a
+/// reference line that is not validated: the report's Figure 4.1.
+/// @cost  O(samples + pieces); the text grows with neither beyond a few hundred marks
+[[nodiscard]] SIVID_DECL svg draw_time_plot(channel_series const& c,
+                                            time_plot_options const& o = {});
+
+} // namespace sivid::report
+
+#ifndef SIVID_COMPILED
+#include <sivid/report/draw/impl/time_plot.ipp>
+#endif
+
+#endif

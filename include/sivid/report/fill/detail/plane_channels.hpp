@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_REPORT_FILL_DETAIL_PLANE_CHANNELS_HPP
+#define SIVID_REPORT_FILL_DETAIL_PLANE_CHANNELS_HPP
+
+#include <sivid/number/interval.hpp>
+#include <sivid/report/text/range.hpp>
+
+#include <string>
+
+namespace sivid::report {
+
+/// Which channels are a position in the plane; `heading` may be empty.
+struct plane_channels {
+    std::string x = "x";
+    std::string y = "y";
+    std::string heading{};
+};
+
+namespace detail {
+
+inline range shown(interval const& x) { return {lower(x), upper(x)}; }
+
+} // namespace detail
+
+} // namespace sivid::report
+
+#endif

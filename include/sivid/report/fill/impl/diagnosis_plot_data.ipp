@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_REPORT_FILL_IMPL_DIAGNOSIS_PLOT_DATA_IPP
+#define SIVID_REPORT_FILL_IMPL_DIAGNOSIS_PLOT_DATA_IPP
+
+#include <sivid/report/fill/diagnosis_plot_data.hpp>
+
+namespace sivid::report {
+
+namespace detail {
+
+SIVID_DECL std::vector<bool> suspects(std::vector<double> const& residuals, std::size_t n,
+                                      std::size_t q) {
+    std::vector<std::size_t> beyond;
+    for (std::size_t i = 0; i < std::min(n, residuals.size()); ++i) {
+        if (std::fabs(residuals[i]) > 1) beyond.push_back(i);
+    }
+    std::stable_sort(beyond.begin(), beyond.end(), [&](std::size_t a, std::size_t b) {
+        return std::fabs(residuals[a]) > std::fabs(residuals[b]);
+    });
+    beyond.resize(std::min(beyond.size(), q));
+    std::vector<bool> out(n, false);
+    for (std::size_t const i : beyond) out[i] = true;
+    return out;
+}
+
+} // namespace detail
+
+SIVID_DECL std::vector<scenario_data> compared_scenarios(identification_problem const& problem,
+                                                         approximate_fit const& base,
+                                                         approximate_fit const& after,
+                                                         bool holdout) {
+    auto const& about = problem.model.about;
+    std::vector<double> const nothing;
+    std::vector<scenario_data> out;
+    for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
+        auto const& experiment = problem.experiments[e];
+        auto const samples = sorted(experiment.measurements);
+        auto const& before = e < base.residuals.size() ? base.residuals[e] : nothing;
+        auto const& then = e < after.residuals.size() ? after.residuals[e] : nothing;
+        auto const suspect =
+            detail::suspects(then.empty() ? before : then, samples.size(), experiment.outliers);
+        scenario_data s{.name = experiment.name, .holdout = holdout};
+        for (std::size_t c = 0; c < about.channels.size(); ++c) {
+            channel_data d{.name = about.channels[c].name, .unit = about.channels[c].unit};
+            for (std::size_t i = 0; i < samples.size(); ++i) {
+                if (samples[i].channel != c) continue;
+                double const y = mid(samples[i].bound), half = rad(samples[i].bound);
+                d.times.push_back(samples[i].time);
+                d.values.push_back(y);
+                d.bounds.push_back(half);
+                d.outliers.push_back(suspect[i]);
+                if (i < before.size()) d.base.push_back(y + half * before[i]);
+                if (i < then.size()) d.after.push_back(y + half * then[i]);
+            }
+            if (!d.times.empty()) s.channels.push_back(std::move(d));
+        }
+        out.push_back(std::move(s));
+    }
+    return out;
+}
+
+} // namespace sivid::report
+
+#endif

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_REPORT_PAGE_IMPL_DIAGNOSIS_TABLES_IPP
+#define SIVID_REPORT_PAGE_IMPL_DIAGNOSIS_TABLES_IPP
+
+#include <sivid/report/page/diagnosis_tables.hpp>
+
+namespace sivid::report {
+
+SIVID_DECL std::size_t effects_tried(diagnosis_view const& v) {
+    return static_cast<std::size_t>(
+        std::count_if(v.candidates.begin(), v.candidates.end(),
+                      [](candidate_view const& c) { return !c.effects.empty(); }));
+}
+
+SIVID_DECL std::vector<card> diagnosis_cards(diagnosis_view const& v) {
+    std::vector<card> out;
+    if (says_something(v.inflation)) {
+        out.push_back({"bounds must grow by", inflation_text(v.inflation) + " \xC3\x97",
+                       v.gap == gap_state::present  ? "\xE2\x9C\x93 proved: there is a gap"
+                       : v.gap == gap_state::absent ? "\xE2\x9C\x93 proved: there is no gap"
+                                                    : "\xE2\x9C\x93 proved; a gap is open"});
+    } else if (is_fitted(base_fitted(v))) {
+        out.push_back({"bounds must grow by", estimate_text(base_fitted(v)) + " \xC3\x97",
+                       "\xE2\x89\x88 estimate, best fit"});
+    }
+    if (!v.places.empty()) {
+        place_view const& p = v.places.front();
+        std::string const where = window_text(p.where);
+        out.push_back({"where", place_name(p),
+                       std::string{p.proved ? proved_mark : estimate_mark} +
+                           (where.empty() ? "" : ": " + where)});
+    }
+    if (v.answer == answer_state::effects && !v.effects.empty()) {
+        candidate_view const* const c = answer_of(v);
+        std::string numbers;
+        for (std::size_t i = 0; c != nullptr && i < std::min<std::size_t>(2, c->parameters.size());
+             ++i) {
+            numbers += (numbers.empty() ? "" : ", ") + estimate_words(c->parameters[i]);
+        }
+        bool const proved = c != nullptr && c->state == candidate_state::explains;
+        out.push_back(
+            {proved ? "effect (\xE2\x9C\x93 proved to explain)" : "effect (\xE2\x89\x88 likeliest)",
+             names_of(v.effects), numbers});
+    } else if (v.answer == answer_state::unexplained) {
+        out.push_back({"effect", "none found", tried_text(v)});
+    } else if (v.answer == answer_state::open) {
+        out.push_back({"effect", "open", tried_text(v)});
+    }
+    if (v.answer != answer_state::effects) {
+        // There is no effect that would remove anything.
+    } else if (says_shrink(v.shrink_holdout)) {
+        out.push_back({"gap removed, hold-out data", shrink_text(v.shrink_holdout),
+                       "\xE2\x9C\x93 proved at the witness"});
+    } else if (says_shrink(v.shrink_fit)) {
+        out.push_back({"gap removed, fit data", shrink_text(v.shrink_fit), "\xE2\x9C\x93 proved"});
+    }
+    if (v.seconds > 0) {
+        out.push_back({"time", duration_text(v.seconds), v.interrupted ? "stopped early" : ""});
+    }
+    return out;
+}
+
+SIVID_DECL table summary_table(diagnosis_view const& v) {
+    table t{.columns = {{"in short", column_kind::symbol}, {"answer"}}, .rows = {}};
+    auto const add = [&](char const* question, std::string const& text) {
+        if (!text.empty()) {
+            t.rows.push_back({question, capitalised(text) + (text.back() == '.' ? "" : ".")});
+        }
+    };
+    add("Gap", gap_clause(v));
+    if (!v.places.empty()) add("Where", place_clause(v.places.front()));
+    if (!v.confined.empty()) add("Data", confined_clause(v.confined.front()));
+    std::size_t const tried = effects_tried(v);
+    std::size_t excluded = 0;
+    for (candidate_view const& c : v.candidates) {
+        excluded += !c.effects.empty() && c.state == candidate_state::excluded ? 1 : 0;
+    }
+    std::string const all = tried_text(v);
+    std::string const count = tried == 0
+                                  ? ""
+                                  : "; " + count_text(excluded) + " of the " + count_text(tried) +
+                                        " candidates tried are excluded (proved)";
+    if (v.answer == answer_state::effects && !v.effects.empty()) {
+        add("Effect", answer_clause(v) + count + (v.interrupted && !all.empty() ? "; " + all : ""));
+    } else if (v.answer == answer_state::unexplained) {
+        add("Effect", "no candidate was found that explains the data" +
+                          (all.empty() ? "" : " (" + all + ")") + "; nothing is forced to fit" +
+                          count);
+    } else if (v.answer == answer_state::open) {
+        add("Effect", open_clause(v) + count);
+    }
+    add("Or else", alternatives_clause(v));
+    if (!v.absorbed.empty()) {
+        add("Hidden", "the priors are wide enough to take up " + words_of(v, v.absorbed));
+    }
+    if (v.answer == answer_state::effects) {
+        std::string const fit = shrink_clause(v.shrink_fit, "the data used for fitting");
+        std::string const holdout = shrink_clause(v.shrink_holdout, "the hold-out data");
+        add("Shrink", fit + (fit.empty() || holdout.empty() ? "" : "; ") + holdout);
+    }
+    add("Next", next_words(v));
+    return t;
+}
+
+SIVID_DECL table places_table(diagnosis_view const& v, std::size_t most) {
+    table t{.columns = {{"place", column_kind::symbol},
+                        {"scenario"},
+                        {"window [s]"},
+                        {"missing"},
+                        {"its shape (estimate)"},
+                        {"known by"},
+                        {"explains as much", column_kind::note}},
+            .rows = {}};
+    for (place_view const& p : v.places) {
+        if (t.rows.size() == most) break;
+        std::string const span = p.where.from < p.where.to
+                                     ? given_text(p.where.from) + " to " + given_text(p.where.to)
+                                     : "";
+        std::string shape = law_text(p.law);
+        shape += p.regime.empty() ? "" : (shape.empty() ? "where " : ", where ") + p.regime;
+        t.rows.push_back({place_name(p), p.where.scenario, span, missing_text(p), shape,
+                          std::string{p.proved ? proved_mark : estimate_mark},
+                          enumeration(p.alternatives, " or ")});
+    }
+    if (v.places.size() > most) {
+        t.caption = "The first " + count_text(most) + " of " + count_text(v.places.size()) + ".";
+    }
+    return t;
+}
+
+SIVID_DECL table gap_shares_table(diagnosis_view const& v) {
+    table t{.columns = {{"scenario or channel", column_kind::symbol},
+                        {"proved", column_kind::number},
+                        {"best fit (estimate)", column_kind::number}},
+            .rows = {},
+            .caption = "The factor by which the bounds of this scenario or channel must grow."};
+    auto const add = [&](std::string const& kind, share_of_gap const& s) {
+        t.rows.push_back({kind + s.name,
+                          says_something(s.inflation) ? inflation_text(s.inflation) : "",
+                          is_fitted(s.fitted) ? estimate_text(s.fitted) : ""});
+    };
+    for (share_of_gap const& s : v.scenario_gaps) add("scenario ", s);
+    for (share_of_gap const& s : v.channel_gaps) add("channel ", s);
+    return t;
+}
+
+SIVID_DECL std::string kept_together(std::string const& text) {
+    std::string out;
+    for (char const c : text) out += c == ' ' ? std::string{"\xC2\xA0"} : std::string(1, c);
+    return out;
+}
+
+SIVID_DECL table causes_table(diagnosis_view const& v, std::size_t most) {
+    table t{.columns = {{"candidate"},
+                        {"verdict"},
+                        {"parameter"},
+                        {"value", column_kind::number},
+                        {"proved range", column_kind::number},
+                        {"prior", column_kind::number},
+                        {"unit"}},
+            .rows = {}};
+    auto const answer = answer_of(v);
+    for (candidate_view const* c : foremost(v, most)) {
+        bool first = true;
+        for (estimate_view const& e : c->parameters) {
+            if (c == answer && first) t.chosen_row = t.rows.size();
+            t.rows.push_back({first ? names_of(c->effects) : "",
+                              first ? kept_together(std::string{state_sign(c->state)} + ' ' +
+                                                    std::string{state_words(c->state)})
+                                    : "",
+                              e.name, value_text(e), hull_text(e),
+                              is_empty(e.prior) ? "" : given_text(e.prior),
+                              kept_together(unit_text(e.unit))});
+            first = false;
+        }
+    }
+    t.caption = t.rows.empty() ? "" : std::string{value_note};
+    return t;
+}
+
+SIVID_DECL std::string value_text(estimate_view const& e) {
+    if (!std::isfinite(e.value)) return "?";
+    return e.verified ? rounded_text(e.value, rounding::nearest) + " \xE2\x9C\x93"
+                      : estimate_text(e.value);
+}
+
+SIVID_DECL table constants_table(diagnosis_view const& v) {
+    table t{.columns = {{"constant", column_kind::symbol},
+                        {"value", column_kind::number},
+                        {"proved range", column_kind::number},
+                        {"prior", column_kind::number},
+                        {"unit"},
+                        {"to be noted", column_kind::note}},
+            .rows = {}};
+    for (estimate_view const& e : v.constants) {
+        auto const end = std::find_if(v.at_ends.begin(), v.at_ends.end(), [&](end_view const& a) {
+            return a.constant.name == e.name && a.constant.value == e.value;
+        });
+        t.rows.push_back(
+            {e.name, value_text(e), hull_text(e), is_empty(e.prior) ? "" : given_text(e.prior),
+             kept_together(unit_text(e.unit)),
+             end == v.at_ends.end() ? ""
+                                    : std::string{"at the "} + (end->upper ? "upper" : "lower") +
+                                          " end of its prior: widen it"});
+    }
+    t.caption = t.rows.empty() ? "" : std::string{value_note};
+    return t;
+}
+
+} // namespace sivid::report
+
+#endif

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_REPORT_WORDS_IMPL_PLACE_WORDS_IPP
+#define SIVID_REPORT_WORDS_IMPL_PLACE_WORDS_IPP
+
+#include <sivid/report/words/place_words.hpp>
+
+namespace sivid::report {
+
+SIVID_DECL std::string enumeration(std::vector<std::string> const& all, std::string_view last) {
+    std::string out;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        out += i == 0 ? "" : i + 1 == all.size() ? std::string{last} : ", ";
+        out += all[i];
+    }
+    return out;
+}
+
+SIVID_DECL std::string capitalised(std::string text) {
+    if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') {
+        text[0] = static_cast<char>(text[0] - 'a' + 'A');
+    }
+    return text;
+}
+
+SIVID_DECL std::string window_text(window_view const& w) {
+    std::string const times = given_text(w.from) + " to " + given_text(w.to) + "\xC2\xA0s";
+    return !(w.from < w.to) ? w.scenario : w.scenario.empty() ? times : w.scenario + ", " + times;
+}
+
+SIVID_DECL std::string place_name(place_view const& p) {
+    return p.kind == "equation" ? p.name + " equation"
+           : p.kind.empty()     ? p.name
+                                : p.kind + ' ' + p.name;
+}
+
+SIVID_DECL std::string missing_text(place_view const& p) {
+    if (!is_empty(p.missing)) {
+        return span_text(p.missing) + unit_suffix(p.unit) + " (proved)";
+    }
+    return p.estimate && std::isfinite(*p.estimate)
+               ? estimate_text(*p.estimate) + unit_suffix(p.unit) + " (estimate)"
+               : std::string{};
+}
+
+SIVID_DECL std::string law_text(std::string const& law) {
+    std::string out;
+    for (std::size_t i = 0; i < law.size(); ++i) {
+        bool const beside =
+            (i > 0 && law[i - 1] == '*') || (i + 1 < law.size() && law[i + 1] == '*');
+        if (law[i] != ' ' || !beside) out += law[i];
+    }
+    return formula_text(out);
+}
+
+SIVID_DECL std::string place_clause(place_view const& p) {
+    std::string const missing = missing_text(p);
+    std::string const where = window_text(p.where);
+    std::string out = "the " + place_name(p) + (where.empty() ? "" : " (" + where + ")");
+    out += !missing.empty() ? (p.kind == "equation" ? " lacks " : " is off by ") + missing
+           : p.proved       ? " is broken (proved)"
+                            : " is suspected (estimate)";
+    out += p.law.empty() ? "" : ", in the shape of " + law_text(p.law) + " (estimate)";
+    return p.regime.empty() ? out : out + ", where " + p.regime + " (estimate)";
+}
+
+SIVID_DECL std::string relation_words(relation_view const& r) {
+    constexpr std::size_t most = 4;
+    std::string out = "The " + r.equation + " equation";
+    out += r.sensors.empty()       ? ""
+           : r.sensors.size() == 1 ? " and the sensor " + r.sensors[0]
+                                   : " and the sensors " + enumeration(r.sensors);
+    char const* const together = r.sensors.empty() ? "" : " together";
+    out +=
+        r.proved
+            ? std::string{" cannot hold"} + together + ", whatever the parameters of the prior (" +
+                  (r.assumptions.empty() ? "proved" : "proved if " + enumeration(r.assumptions)) +
+                  ")."
+        : r.sensors.empty() ? std::string{" seems not to hold (estimate)."}
+                            : std::string{" seem not to hold together (estimate)."};
+    std::vector<std::string> windows;
+    for (std::size_t i = 0; i < std::min(most, r.windows.size()); ++i) {
+        windows.push_back(window_text(r.windows[i]));
+    }
+    if (!windows.empty()) {
+        std::string list;
+        for (std::string const& w : windows) list += (list.empty() ? "" : "; ") + w;
+        out += " Shown by " + list;
+        out += r.windows.size() > most ? " and " + count_text(r.windows.size() - most) + " more."
+                                       : ".";
+    }
+    if (!r.proved && !r.assumptions.empty()) {
+        out += " It rests on " + enumeration(r.assumptions) + ".";
+    }
+    return out;
+}
+
+} // namespace sivid::report
+
+#endif

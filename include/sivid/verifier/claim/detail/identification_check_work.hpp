@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_VERIFIER_CLAIM_DETAIL_IDENTIFICATION_CHECK_WORK_HPP
+#define SIVID_VERIFIER_CLAIM_DETAIL_IDENTIFICATION_CHECK_WORK_HPP
+
+#include <sivid/io/result/detail/stored_identification.hpp>
+#include <sivid/paving/work_limit.hpp>
+#include <sivid/verifier/claim/detail/check_finding.hpp>
+#include <sivid/verifier/claim/detail/identification_check_options.hpp>
+#include <sivid/verifier/claim/drawing_check.hpp>
+#include <sivid/verifier/claim/fewest_outliers_check.hpp>
+#include <sivid/verifier/claim/forced_outlier_check.hpp>
+#include <sivid/verifier/claim/identifiability_check.hpp>
+#include <sivid/verifier/claim/identification_consistency.hpp>
+#include <sivid/verifier/claim/paving_check.hpp>
+#include <sivid/verifier/claim/product_check.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+namespace io_detail {
+
+/// One check of a stored identification.
+template <class Exact, class Fast>
+class identification_check_work {
+public:
+    identification_check_work(identification_problem const& problem,
+                              stored_identification const& stored,
+                              identification_check_options const& options)
+        : problem_(&problem),
+          stored_(&stored),
+          options_(options),
+          limit_(options.seconds, options.certificate.keep_going) {
+        auto& how = options_.certificate;
+        how.keep_going = how.enclosure.keep_going = options_.run.enclosure.keep_going = limit_;
+    }
+
+    /// All findings, each handed to `tell` as soon as it is there.
+    std::vector<check_finding> operator()(std::function<void(check_finding const&)> const& tell) {
+        std::vector<check_finding> all;
+        auto const add = [&](auto const& work) {
+            auto const begin = std::chrono::steady_clock::now();
+            all.push_back(work());
+            all.back().seconds =
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+            if (tell) tell(all.back());
+        };
+        stored_products rebuilt;
+        bool const by_products = stored_->products.has_value();
+        auto& options = options_;
+        // Each of what takes long gets a share of the time that is left.
+        auto const within = [&](double share) { options.seconds = share * limit_.seconds(); };
+        // Finer than the search: what it cut off must be cut off again.
+        auto& fine = options.run.enclosure;
+        double const stated = stored_->tolerance > 0 ? stored_->tolerance : fine.tolerance;
+        fine.tolerance = std::clamp(0.01 * stated, 1e-11, fine.tolerance);
+        fine.relative_tolerance = std::min(fine.relative_tolerance, 1e3 * fine.tolerance);
+        if (by_products) {
+            rebuilt = rebuild_products<Exact>(*problem_, stored_->products->sides);
+            add([&] { return check_products(rebuilt, *stored_->products); });
+            if (!rebuilt.malformed.empty()) return all;
+        }
+        add([&] { return check_files(*stored_); });
+        add([&] { return check_problem(*problem_, *stored_); });
+        add([&] { return check_assumptions(*problem_, *stored_, options_.further_assumptions); });
+        add([&] {
+            return check_stop(*stored_, by_products ? rebuilt.problem.prior : problem_->prior);
+        });
+        add([&] { return check_verdict(*stored_); });
+        add([&] {
+            return by_products ? check_hull_of_products<Exact>(*problem_, *stored_, rebuilt)
+                               : check_hull(*problem_, *stored_);
+        });
+        add([&] {
+            return by_products
+                       ? check_volumes_of_products<Fast>(*problem_, *stored_, rebuilt, limit_)
+                       : check_volumes(*problem_, *stored_);
+        });
+        add([&] {
+            return by_products ? check_combinations_of_products(*stored_)
+                               : check_combinations<Exact>(*problem_, *stored_);
+        });
+        add([&] { return witness(); });
+        add([&] {
+            return check_forced<Fast>(*problem_, *stored_, hits_, options_.certificate.enclosure,
+                                      0.2 * limit_.seconds());
+        });
+        add([&] {
+            auto how = options_.certificate;
+            if (options_.all) how.runs_per_claim = static_cast<std::size_t>(-1);
+            return check_fewest<Fast>(*problem_, *stored_, how, 0.2 * limit_.seconds(),
+                                      options_.all ? 0 : std::max<std::size_t>(options_.sample, 1),
+                                      options_.seed + 2);
+        });
+        add([&] { return check_identifiability(*problem_, *stored_, limit_); });
+        if (by_products) add([&] { return check_rows(*problem_, *stored_); });
+        bool const drawn = by_products && rebuilt.unproved.empty();
+        paving_check<Fast> boxes(*problem_, problem_->choice.unknown, stored_->rows, starts_,
+                                 options, by_products ? exclusion_proof{} : stored_->proof);
+        add([&] { return boxes.covering("cover"); });
+        std::optional<drawing_check<Exact>> drawing;
+        if (drawn) drawing.emplace(*problem_, *stored_, rebuilt, 400'000, limit_);
+        add([&] {
+            std::string const what = "inside boxes";
+            within(drawn ? 0.25 : 0.5);
+            if (!drawn) return boxes.inside(what);
+            auto found = drawing->inside(what);
+            return found.found == outcome::undecided ? boxes.inside(what) : found;
+        });
+        add([&] {
+            std::string const what = "excluded boxes";
+            within(drawn ? 0.25 : 1.0);
+            if (!drawn || !boxes.covered()) return boxes.outside(what);
+            auto found = drawing->excluded(what, boxes.gaps());
+            return found.found == outcome::undecided ? boxes.outside(what) : found;
+        });
+        if (!drawn) return all;
+        paving_check<Fast> products(rebuilt.problem, stored_->products->sides,
+                                    stored_->products->rows, starts_, options, stored_->proof);
+        add([&] { return products.covering("product cover"); });
+        add([&] {
+            within(0.5);
+            return products.inside("inside products");
+        });
+        add([&] {
+            within(1.0);
+            return products.outside("excluded products");
+        });
+        return all;
+    }
+
+private:
+    using outcome = check_finding::outcome;
+
+    /// The parameters and starts of the witness, if they fit the problem.
+    struct point {
+        std::vector<double> parameters;
+        std::vector<std::vector<double>> starts;
+    };
+    [[nodiscard]] std::optional<point> witness_point(std::string& fault) const {
+        point result;
+        auto const look = [&](std::map<std::string, double> const& values,
+                              std::string const& name) {
+            auto const found = values.find(name);
+            if (found == values.end()) fault = "the witness lacks " + name;
+            return found == values.end() ? 0.0 : found->second;
+        };
+        for (auto const& name : problem_->choice.unknown) {
+            result.parameters.push_back(look(stored_->witness->parameters, name));
+        }
+        if (!contains(problem_->prior, result.parameters)) fault = "the witness leaves the prior";
+        for (auto const& e : problem_->experiments) {
+            auto const found = stored_->witness->initial.find(e.name);
+            if (found == stored_->witness->initial.end()) {
+                fault = "the witness has no start for " + e.name;
+                return std::nullopt;
+            }
+            auto& start = result.starts.emplace_back();
+            for (auto const& state : problem_->model.about.states) {
+                start.push_back(look(found->second, state.name));
+            }
+            if (!contains(e.initial, start)) fault = "the start in " + e.name + " is not allowed";
+        }
+        if (!fault.empty()) return std::nullopt;
+        return result;
+    }
+
+    [[nodiscard]] check_finding witness() {
+        std::string fault;
+        if (!stored_->witness) return {"witness", outcome::nothing, fault};
+        auto const w = witness_point(fault);
+        if (!w) return {"witness", outcome::refuted, fault};
+        enclosure_options fine{
+            .order = 14, .tolerance = 1e-11, .relative_tolerance = 1e-3, .minimum_step = 1e-6};
+        fine.keep_going = limit_;
+        check_finding result{"witness", outcome::verified, ""};
+        std::size_t samples = 0;
+        auto const p = point_box(w->parameters);
+        for (std::size_t e = 0; e < problem_->experiments.size(); ++e) {
+            auto own = problem_->experiments[e];
+            bool const uncertain = any_uncertain(own.inputs);
+            own.inputs = nominal(std::move(own.inputs)); // any possible input will do
+            plain_run<Exact> run(problem_->model, problem_->choice, own, fine);
+            auto const known = run(point_box(w->starts[e]), p);
+            note_hits(e, known, run.samples());
+            samples += run.samples().size();
+            auto says = decide(known, run.samples(), p, own.outliers);
+            if (says == run_finding::explained) continue;
+            if (uncertain && says == run_finding::refuted) { // by the recorded inputs, not by all
+                plain_run<Exact> all(problem_->model, problem_->choice, problem_->experiments[e],
+                                     fine);
+                says = decide(all(point_box(w->starts[e]), p), all.samples(), p, own.outliers);
+            }
+            if (says == run_finding::open && result.found == outcome::refuted) continue;
+            result.found = says == run_finding::refuted ? outcome::refuted : outcome::undecided;
+            result.detail = (says == run_finding::refuted ? "it does not explain "
+                                                          : "no proof that it explains ") +
+                            own.name;
+        }
+        if (result.found != outcome::verified) return result;
+        result.detail = "explains " + std::to_string(samples) + " measurements by " +
+                        std::to_string(problem_->experiments.size()) + " validated runs";
+        for (auto const& s : w->starts) starts_.push_back(point_box(s));
+        return result;
+    }
+    /// Which measurements the witness certainly meets: none of them can be a forced outlier.
+    void note_hits(std::size_t e, plain_outputs<Exact> const& known, record const& samples) {
+        using traits = interval_traits<Exact>;
+        hits_.resize(problem_->experiments.size());
+        for (std::size_t k = 0; k < samples.size(); ++k) {
+            auto const& b = samples[k].bound;
+            hits_[e].push_back(
+                k < known.outputs.size() && known.outputs[k].defined &&
+                traits::subset(known.outputs[k].value, traits::bounds(b.lower(), b.upper())));
+        }
+    }
+
+    identification_problem const* problem_;
+    stored_identification const* stored_;
+    identification_check_options options_; ///< its `seconds` are those of the step at hand
+    work_limit limit_;
+    std::vector<box> starts_;             ///< of a verified witness
+    std::vector<std::vector<bool>> hits_; ///< of the witness
+};
+
+} // namespace io_detail
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// The rooms of the floors, and which headers are their doors.
+#ifndef SIVID_TESTS_ARCHITECTURE_ROOMS_HPP
+#define SIVID_TESTS_ARCHITECTURE_ROOMS_HPP
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace architecture {
+
+/// Folders within a floor, lowest first: a header in one includes none that stands in a higher one.
+/// Headers at the top of the floor are its doors, what programs name; every room may use them.
+inline std::map<std::string_view, std::vector<std::string_view>> const rooms{
+    {"model", {"graph", "structure", "series", "change"}},
+    {"approximate", {"simulate", "fit", "place"}},
+    {"enclosure",
+     {"series", "set", "runge_kutta", "stiff", "step", "taylor", "sensitivity", "advice"}},
+    {"paving",
+     {"response", "run", "search", "products", "contract", "judge", "inflation", "outliers",
+      "online", "identifiability", "static"}},
+    {"decision", {"requirement", "motion", "ranking", "design"}},
+    {"diagnosis", {"relation", "sensor", "candidate", "gap", "hold_out", "claim"}},
+    {"io", {"text", "dataset", "result"}},
+    {"verifier", {"proof", "claim"}},
+    {"importing", {"mapping", "table", "scenario"}},
+    {"report", {"text", "draw", "words", "page", "fill"}}};
+
+/// The room of sivid/floor/room/...; "" for a door.
+inline std::string room_of(std::filesystem::path const& name) {
+    std::vector<std::string> parts;
+    for (auto const& p : name) parts.push_back(p.string());
+    bool const door = parts.size() < 4 || parts[2] == "detail" || parts[2] == "impl";
+    return door ? std::string{} : parts[2];
+}
+
+/// Position of a room on its floor; past the end where it is not known.
+inline std::size_t height_of(std::string_view floor, std::string_view room) {
+    auto const of = rooms.find(floor);
+    if (of == rooms.end()) return 1;
+    auto const found = std::find(of->second.begin(), of->second.end(), room);
+    return static_cast<std::size_t>(found - of->second.begin());
+}
+inline bool is_room(std::string_view floor, std::string_view room) {
+    auto const of = rooms.find(floor);
+    return of != rooms.end() && height_of(floor, room) < of->second.size();
+}
+
+/// Headers that programs and guides of the tree include; none where it has no programs.
+inline std::set<std::string> named_by_programs(std::filesystem::path const& tree) {
+    std::set<std::string> names;
+    for (auto const* folder : {"examples", "benchmarks", "docs"}) {
+        if (!std::filesystem::exists(tree / folder)) continue;
+        for (auto const& entry : std::filesystem::recursive_directory_iterator{tree / folder}) {
+            auto const kind = entry.path().extension();
+            if (!entry.is_regular_file() || (kind != ".cpp" && kind != ".hpp" && kind != ".md"))
+                continue;
+            std::ifstream in{entry.path()};
+            std::string const text{std::istreambuf_iterator<char>{in}, {}};
+            for (auto at = text.find("<sivid/"); at != text.npos; at = text.find("<sivid/", at + 1))
+                names.insert(text.substr(at + 1, text.find('>', at) - at - 1));
+        }
+    }
+    return names;
+}
+
+} // namespace architecture
+
+#endif

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/diagnosis/candidate/resolve_delays.hpp>
+
+#include "diagnosis/small_campaign.hpp"
+#include "support/catch.hpp"
+
+#include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/enclosure/flow.hpp>
+
+using namespace sivid;
+using namespace sivid::literals;
+
+TEST_CASE("a delayed signal shows the past") {
+    sampled_signal const linear({0.0, 1.0, 3.0}, {2.0, 4.0, 0.0}, interpolation::linear);
+    sampled_signal const hold({0.0, 1.0, 3.0}, {2.0, 4.0, 0.0}, interpolation::hold);
+    auto const formula = analytic_signal::from([](auto const& t) { return 3 * t + 1; });
+    auto const late = std::get<sampled_signal>(delayed(linear, 0.5, 0));
+    auto const late_hold = std::get<sampled_signal>(delayed(hold, 0.5, 0));
+    for (double t = 0; t < 4; t += 0.0625) {
+        double const past = std::max(t - 0.5, 0.0);
+        CHECK(std::abs(late.approximate(t) - linear.approximate(past)) < 1e-14);
+        CHECK(late_hold.approximate(t) == hold.approximate(past));
+    }
+    auto const late_formula = std::get<analytic_signal>(delayed(formula, 0.5, 0.25));
+    auto const at = [&](double t) {
+        graph g;
+        auto const v = copy_into(g, late_formula.g, {late_formula.value},
+                                 [t](node const&, graph& to) { return to.constant(t); });
+        return g.value(g[v.front()]).nearest;
+    };
+    CHECK(at(0.3) == 1.75);
+    CHECK(at(1.0) == 2.5);
+    // A signal that was recorded from before the begin on.
+    sampled_signal const early({-2.0, 2.0}, {-2.0, 2.0}, interpolation::linear);
+    auto const held = std::get<sampled_signal>(delayed(early, 0.5, 1));
+    CHECK(held.approximate(1.25) == 1);
+    CHECK(held.approximate(2.0) == 1.5);
+    CHECK(std::get<sampled_signal>(delayed(linear, 0, 0)).times().size() == 3);
+}
+
+TEST_CASE("resolving delays moves signals and measurements and drops the unknowns") {
+    auto const p = affected(small_campaign::problem(),
+                            {effects::input_delay("late", "u", {0_dec, 0.5_dec}),
+                             effects::sensor_latency("slow", {"p"}, {0_dec, 0.5_dec})});
+    auto const r = resolve_delays(p, {1.25, 0.25, 0.15});
+    CHECK(r.kept == std::vector<std::size_t>{0});
+    CHECK(r.problem.choice.unknown == std::vector<std::string>{"k"});
+    CHECK(r.problem.model.input_delays.empty());
+    CHECK(r.problem.model.channel_delays.empty());
+    auto const& e = r.problem.experiments[0];
+    auto const& u = std::get<sampled_signal>(e.inputs[0]);
+    CHECK(std::abs(u.approximate(1.0) - std::cos(1.5)) < 1e-3);
+    CHECK(u.approximate(0.2) == 1);
+    REQUIRE(e.measurements.size() == p.experiments[0].measurements.size());
+    // 0.1 s - 0.15 s lies before the begin.
+    CHECK(e.measurements[0].time == 0);
+    CHECK(e.measurements[0].channel == 0);
+    r.problem.require_valid();
+    flow const f(r.problem.model, r.problem.choice, e.inputs); // binds
+    CHECK_THROWS_AS(resolve_delays(p, {1.25, -0.25, 0.15}), std::invalid_argument);
+}
+
+TEST_CASE("a late signal keeps the error bounds of its samples") {
+    std::vector<double> const errors{0.1, 0.3, 0.2};
+    for (auto const kind : {interpolation::linear, interpolation::hold}) {
+        sampled_signal const u({0.0, 1.0, 3.0}, {2.0, 4.0, 0.0}, kind, errors);
+        auto const late = std::get<sampled_signal>(delayed(u, 0.5, 0));
+        REQUIRE_FALSE(late.exact());
+        for (double t = 0; t < 4; t += 0.0625) {
+            double const past = std::max(t - 0.5, 0.0);
+            CHECK(std::abs(late.error_bound(late.piece(t), t) -
+                           u.error_bound(u.piece(past), past)) < 1e-14);
+        }
+        CHECK(std::get<sampled_signal>(delayed(u.nominal(), 0.5, 0)).exact());
+    }
+}

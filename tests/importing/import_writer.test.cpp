@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/importing/import_writer.hpp>
+
+#include "io/import_support.hpp"
+
+#include <nlohmann/json.hpp>
+
+using namespace sivid;
+using namespace io_support;
+
+namespace {
+std::size_t entries(fs::path const& folder) {
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator{folder}, fs::directory_iterator{}));
+}
+imported_dataset example(std::string const& name) {
+    return import_dataset(read_import_mapping(std::string{SIVID_SOURCE_DIR} + "/examples/import/" +
+                                              name + "/mapping.json"));
+}
+} // namespace
+
+TEST_CASE("an import is written with its protocol, and nothing is left beside it") {
+    temporary_folder const folder;
+    folder.write("mapping.json", csv_mapping);
+    folder.write("a.csv", small_table);
+    auto const r = import_in(folder);
+    CHECK(folder.read("out/A.measurements.csv") ==
+          "t,h,h_err\n0,1,0.02\n0.1,1.01,0.02\n0.3,1.035,0.02\n");
+    CHECK(folder.read("out/A.inputs.csv") == "t,u\n0,1.5\n0.1,1.5\n0.2,2.5\n0.3,2.5\n");
+    CHECK(folder.read("out/import.txt") == r.protocol.text());
+    CHECK(nlohmann::json::parse(folder.read("out/import.json"))["dataset"] == "small");
+    CHECK(entries(folder.path()) == 3);
+    CHECK(entries(folder.path() / "out") == 5);
+    // Again, over the old one and with a slash at the end.
+    write_import(r, folder.path() / "out/");
+    CHECK(entries(folder.path() / "out") == 5);
+    CHECK(entries(folder.path()) == 3);
+    // In a folder that is not there yet.
+    write_import(r, folder.path() / "new" / "deeper");
+    CHECK(entries(folder.path() / "new") == 1);
+}
+
+TEST_CASE("what cannot be written leaves nothing") {
+    temporary_folder const folder;
+    folder.write("mapping.json", csv_mapping);
+    folder.write("a.csv", small_table);
+    folder.write("file", "x");
+    auto const r = import_dataset(read_import_mapping(folder.path() / "mapping.json"));
+    CHECK_THROWS_AS(write_import(r, folder.path() / "file" / "out"), output_error);
+    CHECK_THROWS_AS(write_import(r, folder.path() / "file"), output_error);
+    CHECK(entries(folder.path()) == 3);
+    CHECK(folder.read("file") == "x");
+    // What the reader would refuse is not written.
+    auto broken = r;
+    broken.data.scenarios[0].role = scenario_role::holdout;
+    CHECK_THROWS_AS(write_import(broken, folder.path() / "out"), std::logic_error);
+    CHECK(entries(folder.path()) == 3);
+}
+
+TEST_CASE("the worked example of a data logger") {
+    auto const r = example("german_logger");
+    auto const& s = r.data.scenarios.at(0);
+    CHECK(s.name == "steps");
+    CHECK(s.duration == 1.9);
+    CHECK(s.measurements.size() == 378);
+    CHECK(noted(r.protocol, "no reading") == std::vector<std::size_t>{125, 126, 255});
+    CHECK(noted(r.protocol, "skipped") == std::vector<std::size_t>{1, 2, 4});
+    // The readings are on a grid of 0.5 rpm, with up to 1.2 rpm of noise.
+    auto const& p = r.protocol.bounds.at(0).scenarios.at(0).second;
+    CHECK_THAT(p.quantum, WithinRel(0.5 * 0.10471975511966, 1e-6));
+    CHECK(p.bound > 1.45 * 0.1047);
+    temporary_folder const folder;
+    write_import(r, folder.path() / "out");
+    CHECK(read_dataset(folder.path() / "out", r.names).scenarios.size() == 1);
+}
+
+TEST_CASE("the worked example of a serial stream") {
+    auto const r = example("serial_stream");
+    REQUIRE(r.data.scenarios.size() == 2);
+    CHECK(r.data.scenarios[0].duration == 3.99); // through the wrap of the clock
+    CHECK(r.data.scenarios[1].duration == 1.49);
+    auto const& p = r.protocol;
+    CHECK(noted(p, "not as many cells") == std::vector<std::size_t>{1, 43, 80, 374});
+    CHECK(noted(p, "repeats the line") == std::vector<std::size_t>{224});
+    CHECK(noted(p, "counter wraps from 65530 to 4") == std::vector<std::size_t>{157});
+    CHECK(noted(p, "gap from 454 to 764 ms: the inputs") == std::vector<std::size_t>{203});
+    CHECK(noted(p, "does not go on from it alone") == std::vector<std::size_t>{294});
+    CHECK(noted(p, "restart: time goes from 2454 back to 120 ms: a new") ==
+          std::vector<std::size_t>{376});
+    CHECK(noted(p, "possible range") == std::vector<std::size_t>{274});
+    CHECK(noted(p, "may be cut") == std::vector<std::size_t>{526});
+    // The encoder is followed through its end: 65000 + 4000 sin(1.3 t) counts.
+    double largest = 0;
+    for (auto const& m : r.data.scenarios[0].measurements)
+        if (m.channel == 1) largest = std::max(largest, upper(m.bound));
+    CHECK_THAT(largest, WithinAbs(69000 * 0.001533980787885641, 0.01));
+    temporary_folder const folder;
+    write_import(r, folder.path() / "out");
+    CHECK(read_dataset(folder.path() / "out", r.names).scenarios.size() == 2);
+}
+
+TEST_CASE("docs/importing.md quotes what the examples give") {
+    std::string const root{SIVID_SOURCE_DIR};
+    auto const page = read_text(root + "/docs/importing.md");
+    std::string shown, files;
+    for (auto const* name : {"german_logger", "serial_stream"}) {
+        shown += example(name).protocol.text();
+        for (auto const* file : {"/mapping.json", "/motor.csv", "/pendulum.log"})
+            if (auto const path = root + "/examples/import/" + name + file; fs::exists(path))
+                files += read_text(path);
+    }
+    std::size_t quoted = 0;
+    for (auto const& line : lines_of(page)) {
+        for (auto const* head :
+             {"  dropped: ", "  changed: ", "  decided: ", "  assumed: ", "scenario "})
+            if (line.text.starts_with(head)) {
+                CAPTURE(line.text);
+                CHECK(shown.find(line.text) != std::string::npos);
+                ++quoted;
+            }
+        auto const digits = std::min(line.text.find_first_not_of("0123456789"), line.text.size());
+        if (digits > 3 && digits < line.text.size() &&
+            (line.text[digits] == ',' || line.text[digits] == ';')) { // a line of a recorded file
+            CAPTURE(line.text);
+            CHECK(files.find(line.text) != std::string::npos);
+            ++quoted;
+        }
+    }
+    CHECK(quoted > 10);
+    CHECK(page.find(read_text(root + "/examples/import/arduino/mapping.json")) !=
+          std::string::npos);
+    // The table's mapping stands there in full.
+    auto const from = page.find("```json\n") + 8;
+    auto const in_page = parse_json("page", page.substr(from, page.find("```\n", from) - from));
+    auto const in_file = read_json(root + "/examples/import/german_logger/mapping.json");
+    CHECK(in_page.at("scenarios").elements().size() == in_file.at("scenarios").elements().size());
+    CHECK(in_page.at("id").string() == in_file.at("id").string());
+    auto const factor = [](json_value const& j) {
+        return j.at("scenarios")
+            .elements()[0]
+            .at("channels")
+            .at("omega")
+            .at("factor")
+            .elements()[1]
+            .number();
+    };
+    CHECK(factor(in_page) == factor(in_file));
+}

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/paving/search/frontier.hpp>
+
+#include <sivid/paving/search/detail/hull_rest.hpp>
+
+#include "support/catch.hpp"
+#include "support/models.hpp"
+
+using namespace sivid;
+using support::between;
+
+TEST_CASE("waiting boxes come by volume or by age, and their hull is known") {
+    using paving_detail::frontier;
+    for (auto const order : {search_order::largest_first, search_order::first_in}) {
+        frontier<int> waiting(order);
+        waiting.push(box{between(0, 1)}, 1, 0);
+        waiting.push(box{between(4, 6)}, 2, 0);
+        CHECK(waiting.volume() == 3);
+        auto const all = waiting.hull(box{between(-1, -1)});
+        CHECK(all[0].lower() == -1);
+        CHECK(all[0].upper() == 6);
+        bool const by_age = order == search_order::first_in;
+        CHECK(waiting.pop().volume == (by_age ? 1 : 2));
+        CHECK(waiting.pop().volume == (by_age ? 2 : 1));
+        CHECK(waiting.empty());
+    }
+}
+
+TEST_CASE("the side to split is the one with the strongest smear that is still wide enough") {
+    box const whole{between(0, 1), between(0, 10)};
+    box const x{between(0, 0.5), between(0, 1)};
+    using paving_detail::side_to_split;
+    CHECK(side_to_split(x, whole, {}, 0.01) == 0);
+    CHECK(side_to_split(x, whole, {1, 2}, 0.01) == 1);
+    CHECK(side_to_split(x, whole, {1, 2}, 0.2) == 0);
+    CHECK_FALSE(side_to_split(x, whole, {}, 0.6));
+}
+
+TEST_CASE("a hull rests at the second look in a row at which no side has shrunk") {
+    double wide = 8, high = 1;
+    std::size_t looks = 0;
+    auto const hull = [&] {
+        ++looks;
+        return box{between(0, wide), between(0, high)};
+    };
+    auto const always = [](box const&) { return true; };
+    paving_detail::hull_rest rest{.last = box{between(0, 8), between(0, 1)}};
+    CHECK_FALSE(rest(7, 0.02, hull, always));
+    CHECK(looks == 0);
+    CHECK_FALSE(rest(8, 0.02, hull, always)); // rests, once
+    CHECK_FALSE(rest(15, 0.02, hull, always));
+    CHECK(looks == 1);
+    high = 0.9; // a slanting sheet: what was cut at first left the hull as it was
+    CHECK_FALSE(rest(16, 0.02, hull, always));
+    wide = 4;
+    CHECK_FALSE(rest(32, 0.02, hull, always));
+    wide = 3.95;
+    CHECK_FALSE(rest(64, 0.02, hull, always));
+    CHECK_FALSE(rest(127, 0.02, hull, always));
+    CHECK(rest(128, 0.02, hull, always));
+    CHECK(rest(128, 0.02, hull, always)); // also when asked again
+    paving_detail::hull_rest never{.last = hull()};
+    CHECK_FALSE(never(1000, 0, hull, always));
+    CHECK_FALSE(never(4000, 0, hull, always));
+    // What nobody saw sharply does not rest, however long nothing moves.
+    paving_detail::hull_rest unseen{.last = hull()};
+    bool seen = false;
+    auto const held = [&](box const&) { return seen; };
+    for (std::size_t const tests : {8u, 16u, 32u, 64u})
+        CHECK_FALSE(unseen(tests, 0.02, hull, held));
+    seen = true;
+    CHECK_FALSE(unseen(127, 0.02, hull, held));
+    CHECK(unseen(128, 0.02, hull, held));
+}
+
+TEST_CASE("a face of a hull is held by what touches it") {
+    box const hull{between(0, 10), between(0, 1)};
+    paving_detail::open_faces open(hull, 0.02);
+    CHECK_FALSE(open.none());
+    open.close({between(0.3, 9), between(0.5, 0.6)}); // touches none
+    CHECK(open.touched_by({between(0.1, 1), between(0.5, 0.6)}));
+    open.close({between(0.2, 9.8), between(0.5, 0.6)});
+    CHECK_FALSE(open.touched_by({between(0, 10), between(0.5, 0.6)}));
+    CHECK(open.touched_by({between(3, 4), between(0, 0.1)}));
+    open.close({between(3, 4), between(0, 0.1)});
+    CHECK_FALSE(open.none());
+    open.close({between(3, 4), between(0.97, 0.979)});
+    CHECK_FALSE(open.none());
+    open.close({between(3, 4), between(0.97, 0.981)});
+    CHECK(open.none());
+}
