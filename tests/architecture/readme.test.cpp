@@ -251,3 +251,37 @@ TEST_CASE("each short program is whole in the guide, in at most 40 lines", "[rea
     }
     CHECK(programs >= 4);
 }
+
+TEST_CASE("entry points say what they throw, guarantee and cost", "[readme]") {
+    struct door {
+        char const *header, *function;
+    };
+    for (auto const& [header, function] :
+         {door{"paving/identify.hpp", "identify"}, door{"paving/invert.hpp", "invert"},
+          door{"paving/static_inversion.hpp", "invert_static"},
+          door{"paving/identifiability.hpp", "identifiability_of"},
+          door{"paving/inflation.hpp", "bound_inflation"},
+          door{"paving/outlier_budget.hpp", "smallest_outlier_budget"},
+          door{"enclosure/enclose.hpp", "enclose"}, door{"diagnosis/diagnose.hpp", "diagnose"},
+          door{"decision/prediction.hpp", "predict"}, door{"decision/verification.hpp", "verify"},
+          door{"decision/rank.hpp", "rank"},
+          door{"decision/measurement_ranking.hpp", "rank_measurements"},
+          door{"decision/gain_search.hpp", "find_gains"},
+          door{"decision/promised_width.hpp", "promise_widths"},
+          door{"decision/experiment_design.hpp", "design_experiment"},
+          door{"decision/experiment_design.hpp", "design_separation"},
+          door{"io/dataset.hpp", "read_dataset"},
+          door{"verifier/predict_from.hpp", "predict_from"}}) {
+        auto const text =
+            text_of_file(std::filesystem::path{SIVID_SOURCE_DIR} / "include/sivid" / header);
+        std::smatch found;
+        std::regex const declared(std::string{"\\n((///[^\\n]*\\n)+)[^/;{]*\\b"} + function +
+                                  "\\(");
+        CAPTURE(header, function);
+        REQUIRE(std::regex_search(text, found, declared));
+        for (auto const* word : {"@throws", "@guarantee", "@cost"}) {
+            CAPTURE(word);
+            CHECK(found[1].str().find(word) != std::string::npos);
+        }
+    }
+}

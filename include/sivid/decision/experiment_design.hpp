@@ -94,8 +94,9 @@ struct design_answer {
 /// @param problem  its inputs are replaced by those of each manoeuvre
 /// @param plan     what is measured, when, with which errors
 /// @param limits   what has to hold of the motion for all parameters and starts; may be null
-/// @throws std::invalid_argument
+/// @throws std::invalid_argument  for goals, inputs or errors that do not fit the model
 /// @guarantee  promises and limits are proved; that nothing better exists is not
+/// @cost  hundreds of simulations with sensitivities, integrations over parts for the best few
 [[nodiscard]] SIVID_DECL experiment_design design_experiment(prediction_problem const& problem,
                                                              std::vector<manoeuvre> const& menu,
                                                              planned_measurements const& plan,
@@ -106,9 +107,10 @@ struct design_answer {
 /// Seeks the manoeuvre of a menu whose data refute one of two models, whichever they are of: see
 /// `tell_apart`. Both have the same inputs and channels.
 /// @param limits_of_first, limits_of_second  what has to hold of the motions of each; may be null
-/// @throws std::invalid_argument
+/// @throws std::invalid_argument  for models of other inputs or channels, or unequal plans
 /// @guarantee  that the models are told apart, and that the limits are kept, is proved where it is
 ///             said; that no manoeuvre does is not
+/// @cost  as that of `design_experiment`, with pairs of parts of both models
 [[nodiscard]] SIVID_DECL experiment_design design_separation(prediction_problem const& first,
                                                              prediction_problem const& second,
                                                              std::vector<manoeuvre> const& menu,

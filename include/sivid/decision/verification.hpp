@@ -67,7 +67,8 @@ struct verification {
 /// instants. For a refutation single motions are enclosed, at points that the bounds suggest, and
 /// their parameters are proved feasible.
 /// @param what  read for `problem.model` (and for `direct->model`, which is the same)
-/// @throws std::invalid_argument
+/// @throws std::invalid_argument  for a problem without sets, or a requirement of another model
+/// @cost  one integration over all sets, and one for every two parts that are halved
 /// @guarantee  `proved`: at every instant, for every parameter in the sets. `refuted`: the witness
 ///             violates it and is feasible, both proved. Else the answer is open.
 [[nodiscard]] SIVID_DECL verification verify(prediction_problem const& problem,

@@ -13,7 +13,11 @@ namespace sivid {
 
 /// Says whether a model explains a campaign; if not, by how much it misses, and which effects of a
 /// catalogue explain what is missing.
-/// @guarantee  see `diagnosis`
+/// @throws std::invalid_argument  for an invalid problem
+/// @guarantee  what is called proved, certified, excluded or explained is a theorem under the
+///             assumptions listed; the rest is an estimate (`diagnosis`)
+/// @cost  a fit for each effect and each pair, validated runs for the best: seconds for three
+///        parameters and twenty effects, at most the budget
 [[nodiscard]] SIVID_DECL diagnosis_run diagnose(identification_problem problem,
                                                 std::vector<effect> catalogue,
                                                 diagnosis_options options = {});

@@ -100,6 +100,8 @@ private:
 /// @returns  `at` and `over` for any times of the proved span; where that ends early, `failure()`
 /// @throws std::invalid_argument  for boxes of other sizes, empty or unbounded, or a span that
 ///   ends before it begins
+/// @guarantee  every trajectory from the box of starts, for every parameter in its box and inputs
+///   within their error bounds, lies in what `at` and `over` return
 /// @cost  one integration; with Taylor models, one for each call of `at` and `observe_at`, too
 [[nodiscard]] inline enclosed_motion enclose(std::shared_ptr<flow const> f, box const& initial,
                                              box const& parameters, double from, double to,

@@ -29,9 +29,11 @@ struct enclosure_options {
     /// tolerance * (1 + |x_i|) + relative_tolerance * width of the enclosure of x_i.
     double tolerance = 1e-13;
     double relative_tolerance = 1e-4;
-    /// Steps are never shorter than this [s], except where an input's knot or the end is closer.
+    /// Steps are never shorter than this, except where an input's knot or the end is closer. Here
+    /// and below in the unit of time of the model. Runs of experiments (`run_options`) scale both
+    /// for records that last less than one unit, or more than a hundred.
     double minimum_step = 1e-7;
-    double maximum_step = 1.0; ///< [s]
+    double maximum_step = 1.0;
     std::size_t maximum_steps = 1'000'000;
     /// Give up when the enclosure of a state is wider than this many times the state's own range.
     double widest = 2.0;

@@ -8,7 +8,6 @@
 #include <sivid/number/interval.hpp>
 #include <sivid/paving/identification.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -40,16 +39,6 @@ struct explaining_motion {
     /// before, or nobody had the time to look.
     std::vector<std::vector<interval>> outputs;
 };
-
-namespace io_detail {
-
-inline double last_measurement(experiment const& e) {
-    double last = e.begin;
-    for (auto const& m : e.measurements) last = std::max(last, m.time);
-    return last;
-}
-
-} // namespace io_detail
 
 /// Encloses the motions of the parameters that best show why the data are consistent: the largest
 /// inside box (or the largest part around its middle whose tube alone shows it), else the witness,

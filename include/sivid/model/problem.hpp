@@ -19,10 +19,17 @@ namespace sivid {
 struct experiment {
     std::string name;
     std::vector<signal> inputs; ///< one per input of the model
-    double begin = 0;           ///< time of the initial state [s]
+    double begin = 0;           ///< time of the initial state, in the model's unit of time
     box initial;                ///< the states at `begin`; every start in the box is possible
     record measurements;
     std::size_t outliers = 0; ///< at most so many of the measurements may violate their bounds
+
+    /// Time of the last measurement; `begin` where there is none.
+    [[nodiscard]] double end() const {
+        double last = begin;
+        for (auto const& m : measurements) last = std::max(last, m.time);
+        return last;
+    }
 };
 
 /// What proofs take for granted of the inputs: that they are the recorded ones, or that they stay

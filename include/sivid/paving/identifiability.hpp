@@ -86,6 +86,7 @@ struct identifiability_options {
 ///   (`is_symmetry`).
 /// @param at  one side per parameter of the problem, within the prior or not
 /// @given     no delays; inputs count as recorded, whatever their error bounds
+/// @throws std::invalid_argument  for an invalid problem, or boxes of other sizes
 /// @guarantee  `least_rank` for all parameters and starts in the boxes; `most_rank` likewise; with
 ///             `tells_all_apart` the outputs are injective there (mean value theorem: averages of
 ///             the sensitivities lie in the enclosure); `proved` motions change no output anywhere

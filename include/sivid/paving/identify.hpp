@@ -9,7 +9,15 @@
 
 namespace sivid {
 
-/// Finds the parameters in the prior that can explain the data.
+/// Finds the parameters in the prior that can explain the data: those for which, in every
+/// experiment, some start in its box and inputs within their error bounds give outputs of which at
+/// most `outliers` leave their measured bounds.
+/// @param problem  times, states and parameters in the units of its model
+/// @returns  verdict, hulls, paving, identifiable combinations, a witness; `reason` says what ended
+///           the search. A budget that ends is no error
+/// @throws std::invalid_argument  for a problem that does not fit together (`require_valid` names
+///         what), or a state to resume from that is of another problem
+/// @throws unsound_environment    where interval arithmetic would prove nothing (`guard.hpp`)
 /// @guarantee  `consistent`: a parameter and starts exist; `inconsistent`: none in the whole prior;
 ///             `hull`, `paving`, `combinations` contain every feasible parameter; inside boxes are
 ///             feasible throughout. All under the listed assumptions.

@@ -71,6 +71,8 @@ template <class Keep>
 /// such bounds, the least is over them, too. lower > 1 proves that no parameter explains the
 /// data, upper <= 1 that one does.
 /// @param guess  where the upper bound may start; without it the search proposes points itself
+/// @returns  a factor without unit
+/// @throws std::invalid_argument  for an invalid problem
 /// @guarantee  `value` contains the inflation whenever the search ends
 /// @cost  dominated by integrations over boxes; some tens for a few parameters that the data fix
 [[nodiscard]] SIVID_DECL inflation_bound bound_inflation(identification_problem const& problem,

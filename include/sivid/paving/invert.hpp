@@ -15,6 +15,9 @@ namespace sivid {
 /// proved inside, proved outside, undecided, or still pending when the budget ends.
 /// @guarantee  the boxes cover the prior; every verdict is the test's proof. The result does not
 ///             depend on the number of threads, nor on interruptions (budgets of time excepted).
+/// @throws std::invalid_argument  for an empty or unbounded prior, or a state of another search;
+///         whatever the test throws
+/// @cost  one test for each box; boxes grow in number with the measure of the boundary
 /// @ref  Jaulin and Walter, Automatica 29 (1993): SIVIA; Chabert and Jaulin 2009 (contractors)
 template <set_test Test>
 [[nodiscard]] inversion invert(Test& test, box const& prior,

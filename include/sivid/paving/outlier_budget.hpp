@@ -31,9 +31,9 @@ struct smallest_budget : fewest_outliers {
 /// problem states do not matter.
 ///   Above: fits propose parameters, validated runs count what they violate. Below: branch and
 ///   bound over the prior (`outlier_count_search`).
+/// @throws std::invalid_argument  for an invalid problem
 /// @guarantee  both ends of every count are proved, whenever the search ends; `exact` counts are
-/// the
-///             smallest ones
+///             the smallest ones
 /// @cost  a fit for each outlier removed, and a set inversion with q-relaxed tests
 [[nodiscard]] SIVID_DECL smallest_budget smallest_outlier_budget(
     identification_problem const& problem, outlier_search_options const& options = {});

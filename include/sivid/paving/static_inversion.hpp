@@ -382,7 +382,14 @@ private:
     double uncertain_ = 0, allowed_ = 0;
 };
 
-/// Finds the parameters in the prior that satisfy the measurements.
+/// Finds the parameters p in the prior with g(t_k, p) within its bounds for all measurements k but
+/// as many as may be outliers.
+/// @throws std::invalid_argument  for a problem that does not fit together (it names what)
+/// @throws unsound_environment    where interval arithmetic would prove nothing (`guard.hpp`)
+/// @guarantee  the boxes and what is excluded cover the prior; inside boxes satisfy the measurements
+///             throughout, `hull` contains every parameter that does
+/// @cost  time and memory linear in the measurements, times the boxes; eight boxes or eight
+///        measurements at a time
 [[nodiscard]] inline flat_paving invert_static(static_problem const& problem,
                                                static_inversion_options options = {}) {
     return static_inversion<8>(problem, std::move(options))();

@@ -19,9 +19,11 @@ namespace sivid {
 /// @param margins those nodes: products are used only where they tell them, too
 /// @param file    of the result, for messages
 /// @throws input_error when the result contradicts itself, speaks of another problem (another
-/// model,
-///         other data, effects, budgets of outliers), has no digests, or leaves no parameter;
-///         std::invalid_argument for constants that cannot be set
+///         model, other data, effects, budgets of outliers), has no digests, or leaves no
+///         parameter; std::invalid_argument for constants that cannot be set
+/// @guarantee  the sets of the prediction hold every parameter that the result does not exclude;
+///             that what it excludes is excluded is for `identification_check` to prove
+/// @cost  reads and orders the boxes; proofs of feasible points are made when asked for
 [[nodiscard]] SIVID_DECL std::unique_ptr<stored_prediction>
 predict_from(identification_problem const& data, stored_identification const& stored,
              recorded_model const& model, std::vector<node_id> const& margins,

@@ -380,14 +380,35 @@ TEST_CASE("measurements at the begin, and several of one channel at one time") {
 }
 
 TEST_CASE("inputs that change fast may be followed in shorter steps than were asked for") {
+    auto const shortest = [](sivid::experiment const& e, double asked) {
+        return sivid::paving_detail::steps_for(e, {.minimum_step = asked}).minimum_step;
+    };
     sivid::experiment e;
-    CHECK(sivid::paving_detail::minimum_step_for(e, 1e-3) == 1e-3);
+    CHECK(shortest(e, 1e-3) == 1e-3);
     e.inputs = {sivid::sampled_signal({0, 0.05, 0.1}, {1, 2, 3}, sivid::interpolation::hold)};
-    CHECK_THAT(sivid::paving_detail::minimum_step_for(e, 1e-3), WithinRel(1e-3, 1e-12));
-    CHECK(sivid::paving_detail::minimum_step_for(e, 1e-6) == 1e-6);
+    CHECK_THAT(shortest(e, 1e-3), WithinRel(1e-3, 1e-12));
+    CHECK(shortest(e, 1e-6) == 1e-6);
     e.inputs.push_back(
         sivid::sampled_signal({0, 0.005, 0.01}, {1, 2, 3}, sivid::interpolation::linear));
-    CHECK_THAT(sivid::paving_detail::minimum_step_for(e, 1e-3), WithinRel(1e-5, 1e-12));
+    CHECK_THAT(shortest(e, 1e-3), WithinRel(1e-5, 1e-12));
     e.inputs = {sivid::sampled_signal({0, 1e-9, 1}, {1, 2, 3}, sivid::interpolation::linear)};
-    CHECK(sivid::paving_detail::minimum_step_for(e, 1e-3) == 1e-6);
+    CHECK(shortest(e, 1e-3) == 1e-6);
+}
+
+TEST_CASE("steps go with what a record lasts, where that is no ordinary number of units") {
+    using sivid::paving_detail::steps_for;
+    sivid::enclosure_options const asked{.minimum_step = 1e-3, .maximum_step = 1};
+    sivid::experiment e;
+    e.begin = 2;
+    for (double const lasts : {0.0, 1.0, 30.0, 100.0}) {
+        e.measurements = {{2 + lasts, 0, {0, 1}}};
+        CHECK(steps_for(e, asked).minimum_step == asked.minimum_step);
+        CHECK(steps_for(e, asked).maximum_step == asked.maximum_step);
+    }
+    e.measurements = {{2 + 0x1p-10, 0, {0, 1}}};
+    CHECK(steps_for(e, asked).minimum_step == asked.minimum_step * 0x1p-10);
+    CHECK(steps_for(e, asked).maximum_step == 1);
+    e.measurements.push_back({2 + 1e4, 0, {0, 1}});
+    CHECK(steps_for(e, asked).minimum_step == asked.minimum_step);
+    CHECK(steps_for(e, asked).maximum_step == 100);
 }

@@ -164,7 +164,8 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
                 why.component = i;
             }
         }
-        bool const shortest = h <= 4 * options_.minimum_step || (!smooth && h <= 1e-4);
+        bool const shortest = h <= 4 * options_.minimum_step ||
+                              (!smooth && h <= 1e-4 * std::min(1.0, options_.minimum_step / 1e-7));
         if (ratio > 1 && !shortest) {
             if (smooth && !options_.method && step.order < options_.order && ratio < 1e4) {
                 extra_order_ += 2;

@@ -64,7 +64,7 @@ inline explaining_motion enclose_motion(identification_problem const& problem, m
         auto const& s = problem.experiments[e];
         auto const f =
             std::make_shared<flow const>(problem.model, problem.choice, nominal(s.inputs));
-        double const end = last_measurement(s);
+        double const end = s.end();
         enclosure_options options;
         if (pieces > 0) options.maximum_step = (end - s.begin) / static_cast<double>(pieces);
         options.maximum_steps = steps_for(s, pieces);

@@ -113,7 +113,7 @@ private:
             return line;
         }
         auto const& s = problem_.experiments[e_];
-        double const end = io_detail::last_measurement(s);
+        double const end = s.end();
         std::vector<double> times;
         for (int k = 0; k <= 240; ++k) {
             times.push_back(s.begin + (end - s.begin) * k / 240);

@@ -120,8 +120,7 @@ with_slower_inputs(identification_problem const& problem, double period) {
     std::vector<double> ends;
     std::vector<bool> fast(inputs, false), recorded(inputs, true), held(inputs, true);
     for (auto const& e : problem.experiments) {
-        double end = e.begin;
-        for (auto const& m : e.measurements) end = std::max(end, m.time);
+        double const end = e.end();
         ends.push_back(end);
         for (std::size_t i = 0; i < inputs; ++i) {
             auto const* const u = std::get_if<sampled_signal>(&e.inputs[i]);

@@ -105,8 +105,7 @@ private:
         auto const e = windows.front()->experiment;
         auto options = options_.run;
         options.degree = degree_;
-        auto& shortest = options.enclosure.minimum_step;
-        shortest = minimum_step_for(problem_->experiments[e], shortest);
+        options.enclosure = steps_for(problem_->experiments[e], std::move(options.enclosure));
         std::vector<experiment> parts;
         for (auto const* w : windows) parts.push_back(part_of(*w));
         auto const answers = run_parts(*flows_[e], parts, result_.rest, options);

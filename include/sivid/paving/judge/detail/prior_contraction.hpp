@@ -63,8 +63,7 @@ inline window_contraction joined(window_contraction const& first, window_contrac
 inline double sample_period(identification_problem const& problem) {
     double least = HUGE_VAL;
     for (auto const& e : problem.experiments) {
-        double end = e.begin;
-        for (auto const& m : e.measurements) end = std::max(end, m.time);
+        double const end = e.end();
         for (auto const& s : e.inputs) {
             auto const* const u = std::get_if<sampled_signal>(&s);
             if (u == nullptr) continue;

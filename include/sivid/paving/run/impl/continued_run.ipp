@@ -20,8 +20,7 @@ SIVID_DECL std::unique_ptr<continued_run> make_continued_run(flow const& f, expe
                                                              run_options const& options) {
     using namespace paving_detail;
     auto const unknowns = unknown_count(e.initial, prior);
-    auto how = options.enclosure;
-    how.minimum_step = minimum_step_for(e, how.minimum_step);
+    auto const how = steps_for(e, options.enclosure);
     if (options.set == carried_set::taylor_model) {
         return std::make_unique<taylor_continuation>(f, e.begin, how, unknowns,
                                                      suggested_degree(unknowns));

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace sivid {
@@ -22,8 +23,13 @@ SIVID_DECL std::unique_ptr<experiment_run> make_run(flow const& f, experiment co
                                                     record const& samples, box const& initial,
                                                     box const& prior, run_options options) {
     using namespace paving_detail;
-    options.enclosure.minimum_step = minimum_step_for(e, options.enclosure.minimum_step);
     auto const unknowns = unknown_count(initial, prior);
+    auto const degree = degree_for(options, unknowns);
+    // Points one by one: where nothing is unknown there are no boxes to fill the lanes.
+    if (options.set == carried_set::taylor_model && options.make == nullptr &&
+        !options.enclosure.method && degree == 0)
+        return make_scalar_run(f, e, samples, initial, prior, options);
+    options.enclosure = steps_for(e, std::move(options.enclosure));
     // What uncertain inputs cost, no smaller box gives back.
     if (f.uncertain()) options.hopeless = 1e300;
     if (options.set == carried_set::taylor_model) {
@@ -32,12 +38,9 @@ SIVID_DECL std::unique_ptr<experiment_run> make_run(flow const& f, experiment co
             throw std::invalid_argument(
                 "run_options: Taylor models follow the method '" + options.enclosure.method->name +
                 "' with make = runge_kutta_run (sivid/paving/run/runge_kutta_run.hpp), else the "
-                "Taylor "
-                "series alone; sets of first order (carried_set::doubleton) take any method");
+                "Taylor series alone; sets of first order (carried_set::doubleton) take any "
+                "method");
         }
-        auto const degree = degree_for(options, unknowns);
-        // Points one by one: where nothing is unknown there are no boxes to fill the lanes.
-        if (degree == 0) return make_scalar_run(f, e, samples, initial, prior, options);
         return std::make_unique<taylor_run<lanes<8>>>(f, e, samples, options, unknowns, degree);
     }
     return std::make_unique<doubleton_run>(f, e, samples, options);

@@ -8,6 +8,7 @@
 #include <sivid/paving/run/detail/taylor_run.hpp>
 
 #include <memory>
+#include <utility>
 
 namespace sivid {
 
@@ -16,7 +17,7 @@ SIVID_DECL std::unique_ptr<experiment_run> make_scalar_run(flow const& f, experi
                                                            box const& initial, box const& prior,
                                                            run_options options) {
     using namespace paving_detail;
-    options.enclosure.minimum_step = minimum_step_for(e, options.enclosure.minimum_step);
+    options.enclosure = steps_for(e, std::move(options.enclosure));
     if (f.uncertain()) options.hopeless = 1e300;
     auto const unknowns = unknown_count(initial, prior);
     return std::make_unique<taylor_run<double>>(f, e, samples, options, unknowns,
