@@ -91,7 +91,7 @@ inline void print_holdout(sivid::diagnosis const& d) {
     if (d.answer != sivid::answer_kind::effects || d.causes.empty() || !d.causes.front().holdout)
         return;
     auto const& h = *d.causes.front().holdout;
-    std::cout << "  inflation on the hold-out data: "
+    std::cout << "  inflation on the held-out data: "
               << report::inflation_text(range_of(h.inflation_before)) << " without it, "
               << report::inflation_text(range_of(h.inflation_after)) << " with it";
     if (d.shrink_holdout && std::isfinite(d.shrink_holdout->lower()))

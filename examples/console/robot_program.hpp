@@ -135,7 +135,7 @@ inline int diagnose_folder(sivid::recorded_model const& model,
         std::filesystem::remove(out / name, none);
     }
     if (!kept.empty() && left() > 0 && !interrupted()) {
-        progress.note("judging by the hold-out data");
+        progress.note("judging by the held-out data");
         sivid::judge_by_holdout(run, kept, std::min(left(), 0.1 * budget), options.test, 120);
         write();
     }

@@ -41,7 +41,7 @@ TEST_CASE("diagnosis page: a full page says everything once it is known") {
                                    "yaw equation",
                                    "sensors r and psi",
                                    "S1: model as it is",
-                                   "H1 (hold-out): with rudder_lag",
+                                   "H1 (held out): with rudder_lag",
                                    "Missing in the sway equation",
                                    "explains (proved)",
                                    "excluded (proved)",

@@ -13,7 +13,7 @@ TEST_CASE("diagnosis figures: before and after stand side by side with one key")
     REQUIRE(f.panels.size() == 6);
     CHECK(f.panels[0].height() == f.panels[1].height());
     CHECK(f.panels[2].height() < f.panels[0].height());
-    CHECK_THAT(f.panels[5].str(), ContainsSubstring("H1 (hold-out): with rudder_lag"));
+    CHECK_THAT(f.panels[5].str(), ContainsSubstring("H1 (held out): with rudder_lag"));
     CHECK(misfit_figure({}).panels.empty());
 }
 

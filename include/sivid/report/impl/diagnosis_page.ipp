@@ -118,7 +118,7 @@ inline void add_comparison(page& out, diagnosis_view const& v) {
     table const t =
         c != nullptr && c->holdout ? holdout_table(*c->holdout, v.shrink_holdout) : table{};
     if (any(true) || !t.rows.empty()) {
-        out.section("On the hold-out data");
+        out.section("On the held-out data");
         out.add(t);
         table const rivals = holdout_candidates_table(v);
         if (!rivals.rows.empty()) out.subsection("Candidates side by side");

@@ -275,7 +275,7 @@ SIVID_DECL std::string banner_sentence(diagnosis_view const& v) {
     if (v.answer == answer_state::effects && !v.effects.empty()) {
         parts.push_back(answer_clause(v));
         parts.push_back(alternatives_clause(v));
-        parts.push_back(shrink_clause(v.shrink_holdout, "the hold-out data"));
+        parts.push_back(shrink_clause(v.shrink_holdout, "the held-out data"));
     } else if (v.answer == answer_state::open) {
         parts.push_back(open_clause(v));
         if (!v.confined.empty()) parts.push_back(confined_clause(v.confined.front()));

@@ -14,7 +14,7 @@ SIVID_DECL figure misfit_figure(diagnosis_view const& v) {
     std::vector<pair> maps;
     double largest = 0;
     for (compared_scenario const& s : v.scenarios) {
-        pair p{s.name + (s.holdout ? " (hold-out)" : ""), misfit_map(s.channels, false),
+        pair p{s.name + (s.holdout ? " (held out)" : ""), misfit_map(s.channels, false),
                misfit_map(s.channels, true)};
         largest = std::max({largest, largest_value(p.before), largest_value(p.after)});
         if (!p.before.times.empty() || !p.after.times.empty()) maps.push_back(std::move(p));
