@@ -29,7 +29,7 @@ TEST_CASE("diagnosis figures: motions and candidates") {
     auto const v = hovercraft_diagnosis().view();
     CHECK(motion_figure(v.scenarios[0]).panels.size() == 6);
     CHECK(motion_figure(v.scenarios[0]).caption.empty());
-    CHECK_THAT(motion_figure(v.scenarios[2]).caption, ContainsSubstring("Hold-out data"));
+    CHECK_THAT(motion_figure(v.scenarios[2]).caption, ContainsSubstring("Held-out data"));
     CHECK(motion_figure({}).panels.empty());
     auto const f = candidate_figure(v, 4);
     REQUIRE(f.panels.size() == 1);

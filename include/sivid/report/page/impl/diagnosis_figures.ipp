@@ -83,7 +83,7 @@ SIVID_DECL figure motion_figure(compared_scenario const& s) {
              .title = "Scenario " + s.name + (both ? ", before and after." : "."),
              .caption =
                  s.holdout
-                     ? "Hold-out data: neither the effect nor the parameters were chosen by them."
+                     ? "Held-out data: neither the effect nor the parameters were chosen by them."
                      : ""};
     for (comparison_series const& c : s.channels) {
         f.panels.push_back(draw_comparison_plot(c, {.title = c.name, .time = time}));
@@ -104,7 +104,11 @@ SIVID_DECL figure candidate_figure(diagnosis_view const& v, std::size_t most) {
             .title = "What is left of the gap with each candidate.",
             .caption = std::string{"Best first; the answer is set off. \xE2\x9C\x93 proved to "
                                    "explain all data, \xE2\x9C\x95 proved not to for any value in "
-                                   "the prior, ? open. \xE2\x89\x88 marks an estimate."} +
+                                   "the prior, ? open. \xE2\x89\x88 marks an estimate. A bar also "
+                                   "says what other error bounds would change. With all bounds "
+                                   "times a factor below its solid end the candidate is refuted; "
+                                   "times one above its hatched end it explains the data. Both "
+                                   "are proved."} +
                        (shown.size() < v.candidates.size()
                             ? " Shown are " + count_text(shown.size()) + " of " +
                                   count_text(v.candidates.size()) + " candidates."
