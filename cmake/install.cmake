@@ -19,6 +19,8 @@ function(sivid_install_pkgconfig component description requires)
         set(cflags " -I\${includedir}")
     elseif(component STREQUAL "parallel")
         set(cflags " -DSIVID_HAS_TBB=1")
+    elseif(component STREQUAL "cluster")
+        set(cflags " -DSIVID_HAS_MPI=1")
     endif()
     set(prefix "${CMAKE_INSTALL_PREFIX}")
     if(NOT IS_ABSOLUTE "${sivid_pkgconfig_dir}")
@@ -55,6 +57,8 @@ foreach(component IN LISTS sivid_components)
         sivid_install_pkgconfig(report "Reports of sivid" "sivid-io = ${PROJECT_VERSION}")
     elseif(component STREQUAL "parallel")
         sivid_install_pkgconfig(parallel "Threads for sivid, with oneTBB" "${of_this}, tbb")
+    elseif(component STREQUAL "cluster")
+        sivid_install_pkgconfig(cluster "Ranks of MPI for sivid (needs Boost.MPI, too)" "sivid-io = ${PROJECT_VERSION}")
     endif()
 
     set(file_set "")
@@ -80,6 +84,7 @@ configure_package_config_file(
 sivid_write_version_file("${PROJECT_BINARY_DIR}/sividConfigVersion.cmake" "${PROJECT_VERSION}")
 install(FILES "${PROJECT_BINARY_DIR}/sividConfig.cmake" "${PROJECT_BINARY_DIR}/sividConfigVersion.cmake"
         DESTINATION "${sivid_package_dir}" COMPONENT sivid_headers)
+install(FILES "${CMAKE_CURRENT_LIST_DIR}/find_mpi.cmake" DESTINATION "${sivid_package_dir}" COMPONENT sivid_headers)
 install(FILES "${CMAKE_CURRENT_LIST_DIR}/compiled.cmake" DESTINATION "${sivid_package_dir}" RENAME sivid_compiled.cmake
         COMPONENT sivid_headers)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CHANGELOG.md"

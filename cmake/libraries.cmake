@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # The header-only targets: sivid::sivid (core), and beside it sivid::io, sivid::verifier, sivid::importing, sivid::report,
-# sivid::parallel.
+# sivid::parallel, sivid::cluster.
 
 if(POLICY CMP0167)
     cmake_policy(SET CMP0167 NEW)   # BoostConfig.cmake of Boost itself
@@ -60,5 +60,15 @@ if(EXISTS "${sivid_include_dir}/sivid/parallel")
         target_compile_definitions(sivid_parallel INTERFACE SIVID_HAS_TBB=1)
     else()
         message(STATUS "sivid: oneTBB not found, sivid::parallel left out")
+    endif()
+endif()
+
+if(EXISTS "${sivid_include_dir}/sivid/cluster" AND TARGET sivid::io)
+    include("${CMAKE_CURRENT_LIST_DIR}/find_mpi.cmake")
+    if(sivid_mpi_libraries)
+        sivid_add_library(cluster FOLDERS cluster LINK sivid_io ${sivid_mpi_libraries})
+        target_compile_definitions(sivid_cluster INTERFACE SIVID_HAS_MPI=1)
+    else()
+        message(STATUS "sivid: MPI or Boost.MPI not found, sivid::cluster left out")
     endif()
 endif()

@@ -19,6 +19,8 @@ extern "C" inline void sivid_example_interrupt(int) {
     interrupted = 1;
     std::signal(SIGINT, SIG_DFL);
 }
+/// Batch systems and mpirun may say it more than once.
+extern "C" inline void sivid_example_interrupt_of_job(int) { interrupted = 1; }
 } // namespace detail
 
 /// From now on the first Ctrl-C asks for the result so far, the second one ends the program.

@@ -14,6 +14,10 @@
 #include <string>
 #include <vector>
 
+namespace console {
+class ranks; // "console/ranks.hpp"
+}
+
 /// The commands of the program `hovercraft`, one value of options each. Every command returns the
 /// exit code; it throws sivid::input_error, bad_request or sivid::output_error.
 namespace hovercraft_example {
@@ -40,8 +44,10 @@ struct identify_command {
     std::string picture;          ///< a channel to draw on its own; empty: none
     bool online = false;          ///< the measurements one after the other, as they would arrive
     bool identifiability = false; ///< what the data can tell about the parameters at all
+    std::size_t batches = 4; ///< sets of boxes learnt about at a time; the result depends on it
     bool quiet = false;
-    std::string command_line; ///< for the report's footer
+    std::string command_line;              ///< for the report's footer
+    console::ranks const* ranks = nullptr; ///< that share the search
 };
 [[nodiscard]] int run(identify_command const& command);
 
@@ -65,7 +71,8 @@ struct diagnose_command {
     double budget = 60;      ///< [s]
     std::size_t threads = 0; ///< 0: as many as the machine has
     bool quiet = false;
-    std::string command_line; ///< for the report's footer
+    std::string command_line;              ///< for the report's footer
+    console::ranks const* ranks = nullptr; ///< that share the fits
 };
 /// Ends with 0 whatever it finds, with `undecided` when the answer is open or it ended early.
 [[nodiscard]] int run(diagnose_command const& command);

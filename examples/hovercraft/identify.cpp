@@ -2,12 +2,16 @@
 #include "commands.hpp"
 #include "console/console.hpp"
 #include "console/program.hpp"
+#include "console/ranks.hpp"
 #include "console/result_files.hpp"
 #include "console/threads.hpp"
 #include "identifiability.hpp"
 #include "online.hpp"
 #include "posed_problem.hpp"
 
+#ifdef SIVID_HAS_MPI
+#include <sivid/cluster/identify.hpp>
+#endif
 #include <sivid/io/checkpoint.hpp>
 #include <sivid/io/checkpoint_reader.hpp>
 #include <sivid/io/dataset.hpp>
@@ -241,6 +245,47 @@ void require_fewer_outliers(sivid::identification_problem const& problem) {
     }
 }
 
+bool several(identify_command const& c) { return c.ranks != nullptr && c.ranks->several(); }
+bool helps(identify_command const& c) { return c.ranks != nullptr && c.ranks->helps(); }
+
+/// By all ranks. @param shared  receives what sharing took, for people
+sivid::identification identified(identify_command const& c,
+                                 sivid::identification_problem const& problem,
+                                 sivid::identify_options const& options, std::string const& digest,
+                                 std::string& shared) {
+#ifdef SIVID_HAS_MPI
+    if (several(c)) {
+        sivid::cluster::traffic spent;
+        auto found = sivid::cluster::identify(c.ranks->others(), problem, options, digest, &spent);
+        shared =
+            "  " + std::to_string(c.ranks->size()) + " ranks: " + std::to_string(spent.requests) +
+            " requests, " + std::to_string(spent.messages) + " messages, " +
+            console::text_of("%.3g MB, ",
+                             1e-6 * static_cast<double>(spent.bytes_sent + spent.bytes_received)) +
+            console::text_of("%.3g s of work ", spent.worked) +
+            console::text_of("in %.3g s\n", spent.asking);
+        return found;
+    }
+#endif
+    static_cast<void>(c);
+    static_cast<void>(digest);
+    static_cast<void>(shared);
+    return sivid::identify(problem, options);
+}
+/// What a rank that helps does.
+int help(identify_command const& c, sivid::identification_problem const& problem,
+         sivid::identify_options const& options, std::string const& digest) {
+#ifdef SIVID_HAS_MPI
+    sivid::cluster::help_identify(c.ranks->others(), problem, options, digest);
+#else
+    static_cast<void>(c);
+    static_cast<void>(problem);
+    static_cast<void>(options);
+    static_cast<void>(digest);
+#endif
+    return console::done;
+}
+
 sivid::online_options online_options_of(identify_command const& c) {
     sivid::online_options options;
     if (c.accuracy) {
@@ -274,15 +319,20 @@ int run(identify_command const& c) {
     if (c.online && c.fewest_outliers)
         throw bad_request("--outliers auto needs all measurements: it does not go with --online");
     require_fewer_outliers(problem);
-    console::prepare_folder(c.out);
+    if (c.online && several(c)) throw bad_request("--online is for one process, without mpirun");
+    if (!helps(c)) console::prepare_folder(c.out);
 
     // From here on the first Ctrl-C ends whatever is going on, and what is proved is written.
-    console::watch_interrupts();
+    if (c.ranks != nullptr) {
+        c.ranks->watch_interrupts();
+    } else {
+        console::watch_interrupts();
+    }
     auto const wanted = [] { return !console::interrupted(); };
     double const left = c.budget - seconds{std::chrono::steady_clock::now() - begun}.count();
     double const budget = std::max(0.0, left - seconds_of_tables(problem, c.budget));
     sivid::work_limit limit(budget, wanted);
-    console::progress_line progress(c.quiet);
+    console::progress_line progress(c.quiet || helps(c));
     sivid::identify_options options;
     options.algorithm = algorithm_of(c.algorithm);
     apply(c.how, options.test.run);
@@ -300,7 +350,7 @@ int run(identify_command const& c) {
         return !full;
     };
     std::optional<sivid::smallest_budget> fewest;
-    if (c.fewest_outliers) {
+    if (c.fewest_outliers && !helps(c)) {
         progress.note(title + ": how many outliers are needed");
         sivid::outlier_search_options least;
         least.seconds = 0.5 * budget;
@@ -312,7 +362,8 @@ int run(identify_command const& c) {
         options.search.seconds = std::max(0.0, options.search.seconds - fewest->seconds);
     }
     if (c.memory) options.search.memory = static_cast<std::size_t>(1e6 * *c.memory);
-    options.search.batches = 4; // whatever the threads, so that the result is the same
+    options.search.batches = c.batches; // whatever the threads, so that the result is the same
+    if (helps(c)) return help(c, problem, options, digest);
     options.search.workers = console::threads_for(c.threads);
     checkpoint_file checkpoint(c, c.checkpoint || c.resume
                                       ? sivid::problem_digest(problem, options, digest)
@@ -334,11 +385,12 @@ int run(identify_command const& c) {
         progress.note(std::string{"identifying "} + title + " (" + words_of(c.algorithm) +
                       ", at most " + report::duration_text(options.search.seconds) +
                       "; Ctrl-C stops early)");
+    std::string shared; // how the ranks shared the work
     // Without a witness any number of outliers may be needed: there is nothing to invert.
     auto found = fewest && !fewest->witness ? nothing_known(problem)
                  : c.online                 ? identify_online(problem, online_options_of(c), limit,
                                                               console::interrupted, std::cout)
-                                            : sivid::identify(problem, options);
+                                            : identified(c, problem, options, digest, shared);
     progress.finish();
     auto const name_reason = [&full](sivid::identification& of) {
         if (!full || of.reason != sivid::stop_reason::cancelled || console::interrupted()) return;
@@ -440,6 +492,7 @@ int run(identify_command const& c) {
         std::cout << "  what such data tell, " << view.identifiability_at << ":\n";
         for (auto const& line : view.identifiability) std::cout << "    " << line << "\n";
     }
+    std::cout << shared;
     checkpoint.finish(found.reason);
     return exit_code_of(found.verdict);
 }

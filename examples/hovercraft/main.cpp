@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: MIT
-// hovercraft identify | check | predict | verify | diagnose | generate | simulate | rank |
+// hovercraft identify | check | predict | verify | diagnose | fleet | generate | simulate | rank |
 // describe: the reference example on the command line.
 #include "commands.hpp"
 #include "console/decision_options.hpp"
+#include "console/fleet.hpp"
 #include "console/number_range.hpp"
 #include "console/parameter_ranges.hpp"
 #include "console/program.hpp"
+#include "console/ranks.hpp"
 
 #include <CLI/CLI.hpp>
 
 #include <charconv>
 #include <functional>
 #include <map>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -143,7 +147,8 @@ void add_enclosing(CLI::App& command, enclosing& how) {
 /// The program: what is parsed, then run by `action`.
 class program {
 public:
-    explicit program(std::string command_line) : line_{std::move(command_line)} {
+    program(std::string command_line, console::ranks const& ranks)
+        : line_{std::move(command_line)}, ranks_{&ranks} {
         app_.require_subcommand(1);
         add_identify();
         add_check();
@@ -152,6 +157,7 @@ public:
         add_decision("control", console::decision::control);
         add_decision("design", console::decision::design);
         add_diagnose();
+        add_fleet();
         add_generate();
         add_simulate();
         add_rank();
@@ -164,6 +170,10 @@ public:
         } catch (CLI::ParseError const& e) {
             return app_.exit(e) == 0 ? 0 : static_cast<int>(console::bad_input);
         }
+        auto const command = app_.get_subcommands().front()->get_name();
+        if (ranks_->several() && command != "identify" && command != "diagnose" &&
+            command != "fleet")
+            throw bad_request(command + " runs in one process: start it without mpirun");
         return action_();
     }
 
@@ -203,6 +213,11 @@ private:
         s->add_option("--threads", c.threads, "threads (0: all); the result does not depend on it")
             ->check(CLI::Range(0, 1024))
             ->capture_default_str();
+        s->add_option("--batches", c.batches,
+                      "sets of boxes that are learnt about at a time: the more, the more ranks or "
+                      "threads have work. The result depends on it, and not on these")
+            ->check(CLI::Range(1, 65536))
+            ->capture_default_str();
         s->add_option("--outliers", outliers_,
                       "outliers allowed in each scenario, instead of the data set's own fraction; "
                       "auto: the fewest that explain the data, with proof that fewer do not");
@@ -227,6 +242,7 @@ private:
                 read_outliers();
                 identify_.accuracy = accuracy_;
                 identify_.command_line = line_;
+                identify_.ranks = ranks_;
                 return run(identify_);
             };
         });
@@ -314,9 +330,67 @@ private:
             action_ = [this] {
                 diagnose_.craft = shared_.craft();
                 diagnose_.command_line = line_;
+                diagnose_.ranks = ranks_;
                 return run(diagnose_);
             };
         });
+    }
+
+    void add_fleet() {
+        auto* const s = app_.add_subcommand(
+            "fleet", "identify or diagnose many data sets, each by a process of its own, with one "
+                     "summary; what is finished is kept, so the same command goes on");
+        auto& c = fleet_;
+        s->add_option("what", fleet_of_, "identify or diagnose")
+            ->required()
+            ->check(CLI::IsMember({"identify", "diagnose"}));
+        s->add_option("folders", c.folders, "data sets, or folders of data sets")->required();
+        s->add_option("--out", c.out, "folder for fleet.csv, fleet.json and a folder for each")
+            ->required();
+        s->add_option("--jobs", c.jobs, "processes at once (of rank 0; the other ranks one each)")
+            ->check(CLI::Range(1, 1024))
+            ->capture_default_str();
+        s->add_option("--task", fleet_task_,
+                      "K/N: only every N-th data set, from the K-th on; for N machines or a job "
+                      "array. The summary has all that have a result by then");
+        s->add_option("--budget", fleet_budget_, "seconds for each data set")
+            ->check(console::number_between(0.0, 1e9));
+        s->add_option("--within", c.within, "seconds for all; what runs then is stopped")
+            ->check(console::number_between(0.0, 1e9));
+        s->add_option("--with-options", fleet_options_,
+                      "further options of the command, in one text: \"--accuracy 0.01\"");
+        s->add_flag("--again", c.again, "do what is finished, too");
+        s->add_flag("--quiet", c.quiet, "no progress");
+        s->callback([this] {
+            action_ = [this] {
+                fleet_.command = {fleet_of_};
+                if (fleet_budget_) {
+                    fleet_.options = {"--budget", console::text_of("%.17g", *fleet_budget_)};
+                }
+                std::istringstream words(fleet_options_);
+                for (std::string word; words >> word;) fleet_.options.push_back(word);
+                if (fleet_of_ == "diagnose" &&
+                    fleet_options_.find("--threads") == std::string::npos)
+                    fleet_.options.insert(fleet_.options.end(), {"--threads", "1"});
+                if (!fleet_task_.empty()) fleet_.task = read_task();
+                fleet_.all = ranks_;
+                return console::run_fleet(fleet_);
+            };
+        });
+    }
+    [[nodiscard]] std::pair<std::size_t, std::size_t> read_task() const {
+        std::size_t k = 0, n = 0;
+        auto const* const end = fleet_task_.data() + fleet_task_.size();
+        auto const first = std::from_chars(fleet_task_.data(), end, k);
+        bool good = first.ec == std::errc{} && first.ptr != end && *first.ptr == '/';
+        if (good) {
+            auto const second = std::from_chars(first.ptr + 1, end, n);
+            good = second.ec == std::errc{} && second.ptr == end && 1 <= k && k <= n;
+        }
+        if (!good)
+            throw bad_request(std::string{"--task: write K/N with K from 1 to N, not "} +
+                              sivid::in_quotes(fleet_task_));
+        return {k, n};
     }
 
     void add_generate() {
@@ -465,11 +539,15 @@ private:
 
     CLI::App app_{"Validated identification of a hovercraft"};
     std::string line_;
+    console::ranks const* ranks_;
     shared_text shared_;
     identify_command identify_;
     check_command check_;
     console::decision_command decision_;
     diagnose_command diagnose_;
+    console::fleet_command fleet_;
+    std::string fleet_of_, fleet_task_, fleet_options_;
+    std::optional<double> fleet_budget_;
     generate_command generate_;
     simulate_command simulate_;
     rank_command rank_;
@@ -484,7 +562,8 @@ private:
 } // namespace
 
 int main(int argc, char** argv) {
-    return console::guarded("hovercraft", [&] {
-        return program(console::command_line("hovercraft", argc, argv))(argc, argv);
+    auto const line = console::command_line("hovercraft", argc, argv);
+    return console::guarded_on_ranks("hovercraft", argc, argv, [&](console::ranks const& ranks) {
+        return program(line, ranks)(argc, argv);
     });
 }

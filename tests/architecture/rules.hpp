@@ -22,9 +22,9 @@ namespace architecture {
 
 namespace fs = std::filesystem;
 
-inline constexpr std::array<std::string_view, 14> floors{
+inline constexpr std::array<std::string_view, 15> floors{
     "number",   "space",     "measurement", "model",    "approximate", "enclosure", "paving",
-    "decision", "diagnosis", "io",          "verifier", "importing",   "report",    "parallel"};
+    "decision", "diagnosis", "io",          "verifier", "importing",   "report",    "parallel", "cluster"};
 inline constexpr std::size_t core_floors = 9;
 /// Headers outside of floors that each floor may include.
 inline constexpr std::array<std::string_view, 3> common{"sivid/version.hpp", "sivid/compiled.hpp",
@@ -92,14 +92,15 @@ inline bool package_allowed(std::string_view name, std::string_view floor, std::
     if (one_of({"mpfr.h", "mpfi.h", "gmp.h", "gmpxx.h", "boost/multiprecision/mpfr",
                 "boost/multiprecision/mpfi", "boost/multiprecision/gmp"}))
         return multiprecision;
-    if (one_of({"boost/mpi", "boost/serialization"})) return floor == "parallel";
+    if (one_of({"boost/mpi", "boost/serialization"})) return floor == "cluster";
     if (one_of({"boost/filesystem", "boost/program_options", "boost/regex", "boost/thread",
                 "boost/iostreams", "boost/log"}))
         return false; // these need compiled libraries
     if (one_of({"sivid/", "boost/", "Eigen/"})) return true;
     if (one_of({"nlohmann/"})) return floor == "io" || floor == "report";
     if (one_of({"fmt/"})) return floor == "number" && file == "format.hpp";
-    if (one_of({"tbb/", "oneapi/", "mpi.h"})) return floor == "parallel";
+    if (one_of({"mpi.h"})) return floor == "cluster";
+    if (one_of({"tbb/", "oneapi/"})) return floor == "parallel";
     if (name.find('/') != std::string_view::npos)
         return one_of({"sys/"}) && (floor == "io" || floor == "parallel");
     if (name.find('.') == std::string_view::npos) return true; // the standard library

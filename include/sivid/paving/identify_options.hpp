@@ -2,15 +2,21 @@
 #ifndef SIVID_PAVING_IDENTIFY_OPTIONS_HPP
 #define SIVID_PAVING_IDENTIFY_OPTIONS_HPP
 
+#include <sivid/approximate/approximate_fit.hpp>
+#include <sivid/paving/contract/window_contraction.hpp>
 #include <sivid/paving/identification_state.hpp>
 #include <sivid/paving/inversion_options.hpp>
 #include <sivid/paving/judge/data_test_options.hpp>
+#include <sivid/space/box.hpp>
 
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace sivid {
+
+class data_test;
 
 /// How the prior is searched.
 enum class algorithm {
@@ -48,6 +54,12 @@ struct identify_options {
     /// budgets and threads. The result is the one of an uninterrupted run, bit for bit, on the same
     /// program and kind of processor; proved it is on any.
     std::shared_ptr<identification_state const> resume = nullptr;
+    /// Searches in place of `invert`, with the same result: on many machines, say. It is told the
+    /// fit and the windows by which the test was prepared.
+    std::function<inversion(data_test&, box const& prior, inversion_options const&,
+                            std::optional<approximate_fit> const&,
+                            std::optional<window_contraction> const&)>
+        invert_by = nullptr;
 };
 
 } // namespace sivid

@@ -68,6 +68,26 @@ concept batch_set_test = learning_set_test<T> &&
 template <class T>
 concept concurrent_set_test = batch_set_test<T> && bool(T::concurrent);
 
+/// A box, and what is known of it.
+template <class Knowledge>
+struct posed_question {
+    box const* set = nullptr;
+    std::shared_ptr<Knowledge const> known = nullptr;
+};
+
+/// A batch test that is given many questions at once and has them answered elsewhere, `hands` at a
+/// time: the answers are those of `judge` and `learn`, in the order of the questions.
+template <class T>
+concept delegating_set_test = batch_set_test<T> &&
+    requires(T test, std::vector<posed_question<typename T::knowledge>> const& questions,
+             std::vector<std::vector<box>> const& sets) {
+    { test.judge_all(questions) } -> std::same_as<std::vector<assessment<typename T::knowledge>>>;
+    {
+        test.learn_all(sets)
+        } -> std::same_as<std::vector<std::vector<assessment<typename T::knowledge>>>>;
+    { test.hands() } -> std::convertible_to<std::size_t>;
+};
+
 /// A test that knows how many bytes its knowledge takes.
 template <class T>
 concept measured_set_test = requires(T test, typename T::knowledge const& known) {

@@ -6,7 +6,7 @@ get_filename_component(SOURCE_PATH "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE
 set(VCPKG_BUILD_TYPE release)   # headers only
 
 # What a feature does not ask for is not looked for, either.
-set(options "")
+set(options -DCMAKE_DISABLE_FIND_PACKAGE_MPI=ON)   # sivid::cluster is no feature here
 foreach(feature_package IN ITEMS io:nlohmann_json parallel:TBB)
     string(REPLACE ":" ";" pair "${feature_package}")
     list(GET pair 0 feature)
@@ -27,6 +27,7 @@ vcpkg_cmake_configure(
         -DSIVID_INSTALL=ON
         ${options}
     MAYBE_UNUSED_VARIABLES
+        CMAKE_DISABLE_FIND_PACKAGE_MPI
         CMAKE_REQUIRE_FIND_PACKAGE_TBB
         CMAKE_DISABLE_FIND_PACKAGE_TBB
 )

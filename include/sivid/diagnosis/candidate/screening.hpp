@@ -129,17 +129,38 @@ public:
             if (!known && find(effects) == nullptr) open.push_back(effects);
         }
         std::vector<std::optional<screened>> fitted(open.size());
-        std::mutex asking;
-        options_.workers(open.size(), [&](std::size_t k) {
-            if (!may_try(open[k], asking)) return;
-            auto s = fit(open[k]);
+        auto const keep = [&](std::size_t k, screened s, bool whole) {
             // Cut short, it says nothing of a candidate, but the model itself is needed.
             bool const first = open[k].empty() && !s.fit.parameters.empty();
-            if (in_time() || s.figures.explains() || first) fitted[k] = std::move(s);
+            if (whole || s.figures.explains() || first) fitted[k] = std::move(s);
+        };
+        std::mutex asking;
+        auto const elsewhere = fitted_elsewhere(open, asking, keep);
+        options_.workers(open.size(), [&](std::size_t k) {
+            if (elsewhere[k] || !may_try(open[k], asking)) return;
+            auto s = posed(open[k]);
+            s.fit = fit_candidate(s.problem, base_, best_part_of(open[k]), open[k].size(),
+                                  options_.go_on, s.silent);
+            take_figures(s);
+            keep(k, std::move(s), in_time());
         });
         for (auto& s : fitted) {
             if (s) tried_.push_back(std::move(*s));
         }
+    }
+
+    /// A candidate with its problem, not yet fitted.
+    [[nodiscard]] screened posed(std::vector<std::size_t> const& effects) const {
+        std::vector<effect> chosen;
+        for (auto const e : effects) chosen.push_back(catalogue_.at(e));
+        return {{effects, 0, {}, {}}, affected(base_, chosen), {}};
+    }
+    /// What `screening_options::fit_elsewhere` has to do; for any thread.
+    [[nodiscard]] made_fit make(wanted_fit const& w, std::function<bool()> const& go_on) const {
+        made_fit made;
+        made.fit = fit_candidate(posed(w.effects).problem, base_, w.part, w.effects.size(), go_on,
+                                 made.silent);
+        return made;
     }
 
     [[nodiscard]] screened const* find(std::vector<std::size_t> const& effects) const {
@@ -261,16 +282,40 @@ private:
     [[nodiscard]] bool in_time() const {
         return seconds() < options_.seconds && (!options_.go_on || options_.go_on());
     }
-    [[nodiscard]] screened fit(std::vector<std::size_t> const& effects) const {
-        std::vector<effect> chosen;
-        for (auto const e : effects) chosen.push_back(catalogue_[e]);
-        screened s{{effects, 0, {}, {}}, affected(base_, chosen), {}};
-        s.fit = fit_candidate(s.problem, base_, best_part_of(effects), effects.size(),
-                              options_.go_on, s.silent);
+    static void take_figures(screened& s) {
         s.figures.inflation = s.fit.inflation;
         s.figures.squares = s.fit.squares;
         s.figures.unknowns = s.problem.prior.size();
-        return s;
+    }
+    /// Has sets of effects of the plan fitted by others, who know no wider ones.
+    /// @returns  which
+    template <class Keep>
+    [[nodiscard]] std::vector<char> fitted_elsewhere(effect_sets const& open, std::mutex& asking,
+                                                     Keep const& keep) {
+        std::vector<char> which(open.size(), 0);
+        std::vector<std::size_t> whose;
+        std::vector<wanted_fit> wanted;
+        for (std::size_t k = 0; k < open.size() && options_.fit_elsewhere; ++k) {
+            // Then its parts are of the plan, too.
+            if (!std::all_of(open[k].begin(), open[k].end(),
+                             [this](std::size_t e) { return e < planned_; }))
+                continue;
+            which[k] = 1;
+            if (!may_try(open[k], asking)) continue;
+            whose.push_back(k);
+            wanted.push_back({open[k], best_part_of(open[k])});
+        }
+        if (wanted.empty()) return which;
+        auto made = options_.fit_elsewhere(wanted, [this] { return in_time(); });
+        for (std::size_t n = 0; n < whose.size(); ++n) {
+            if (!made[n]) continue;
+            auto s = posed(open[whose[n]]);
+            s.fit = std::move(made[n]->fit);
+            s.silent = made[n]->silent;
+            take_figures(s);
+            keep(whose[n], std::move(s), !made[n]->cut_short && in_time());
+        }
+        return which;
     }
     /// The likeliest candidate tried whose effects are all among these.
     [[nodiscard]] screened const* best_part_of(std::vector<std::size_t> const& effects) const {

@@ -7,6 +7,7 @@
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>
 #include <sivid/paving/contract/window_contraction.hpp>
+#include <sivid/paving/detail/posed_search.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/identify_options.hpp>
 #include <sivid/paving/invert.hpp>
@@ -16,7 +17,6 @@
 #include <sivid/paving/judge/witness.hpp>
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/detail/drawing.hpp>
-#include <sivid/paving/products/reduction.hpp>
 #include <sivid/paving/work_limit.hpp>
 
 #include <algorithm>
@@ -59,18 +59,21 @@ SIVID_DECL identification identify(identification_problem const& problem,
         options.resume ? options.resume->seconds + options.resume->search.seconds : 0;
     work_limit limit(options.search.seconds - earlier, options.search.keep_going);
     options.test = limited(std::move(options.test), limit);
-    auto working = problem;
+    auto const working = paving_detail::as_searched(problem, options.algorithm);
+    options.test = paving_detail::as_searched(std::move(options.test), options.algorithm);
     if (options.algorithm != algorithm::contracting) {
-        options.test.contract = false;
         options.search.order = search_order::first_in;
     } else {
         options.search.accuracy_of_hull = true;
         if (options.only_hulls) options.search.hull_gain = 0.02;
     }
-    if (options.algorithm == algorithm::report_1) {
-        for (auto& s : working.experiments) s.outliers = 0;
-    }
-    data_test test(working, options.test);
+    auto const structure = dependence_of(working);
+    paving_detail::posed_search searched(working, structure, options);
+    auto const& map = searched.map();
+    auto const& posed = searched.posed();
+    std::optional<data_test> in_parameters;
+    if (map) in_parameters.emplace(working, options.test);
+    auto& test = map ? *in_parameters : searched.unhindered();
     identification result(problem.prior);
     result.assumptions.push_back(input_assumption(problem.experiments));
     std::vector<box> starts;
@@ -79,50 +82,32 @@ SIVID_DECL identification identify(identification_problem const& problem,
                                     : fitter(working, limit)();
         if (!guess.parameters.empty()) {
             result.witness = verify_witness(test, working, guess.parameters, guess.starts);
-            for (std::size_t s = 0; s < guess.starts.size(); ++s) {
-                starts.push_back(point_within(working.experiments[s].initial, guess.starts[s]));
-            }
+            starts = paving_detail::starts_of(guess, working);
             result.guess = std::move(guess);
         }
     }
     auto const since_begin = [begin] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     };
-    auto const structure = dependence_of(working);
-    auto const map = options.algorithm == algorithm::contracting
-                         ? reduction::find(working, structure)
-                         : std::nullopt;
-    auto const& posed = map ? map->problem() : working;
-    std::optional<data_test> reduced;
-    if (map) reduced.emplace(posed, options.test);
     auto const fitted = !result.guess ? posed.prior
                         : map         ? map->forward(point_box(result.guess->parameters))
                                       : point_box(result.guess->parameters);
     auto windows = options.resume ? options.resume->windows : std::nullopt;
-    auto& unhindered = reduced ? *reduced : test;
+    auto& unhindered = searched.unhindered();
     auto const before = unhindered.integrations();
     if (!options.resume && options.algorithm == algorithm::contracting && limit()) {
         windows = paving_detail::contract_prior(unhindered, posed, fitted, starts, options, limit);
     }
     auto const asking = unhindered.integrations() - before; // the search finds what was answered
-    std::optional<identification_problem> narrowed;         // whose starts windows have contracted
-    std::optional<data_test> further;
+    searched.prepare(result.guess, windows);
+    auto const& asked = searched.asked();
+    auto& searching = searched.test();
+    if (result.guess) starts = paving_detail::starts_of(*result.guess, asked);
     if (windows) {
-        narrowed = paving_detail::narrowed_by(*windows, posed);
-        further.emplace(*narrowed, options.test);
-        further->set_rest(windows->rest);
         result.windows =
             window_effort{windows->windows, windows->longest, windows->seconds,
                           std::min(1.0, relative_volume(windows->rest, posed.prior).upper()),
                           windows->input_period};
-    }
-    auto const& asked = narrowed ? *narrowed : posed;
-    auto& searching = further ? *further : unhindered;
-    if (result.guess) {
-        for (std::size_t e = 0; e < starts.size(); ++e) {
-            starts[e] = point_within(asked.experiments[e].initial, result.guess->starts[e]);
-        }
-        searching.set_starts(starts);
     }
     double const spent = since_begin() + (options.resume ? options.resume->seconds : 0);
     options.search.seconds = std::max(0.0, options.search.seconds - spent);
@@ -139,7 +124,9 @@ SIVID_DECL identification identify(identification_problem const& problem,
     search.resume = nullptr;
     if (options.resume) search.resume = {options.resume, &options.resume->search};
     auto const integrated = searching.integrations();
-    auto found = invert(searching, posed.prior, search);
+    auto found = options.invert_by
+                     ? options.invert_by(searching, posed.prior, search, result.guess, windows)
+                     : invert(searching, posed.prior, search);
     // Not what was integrated but what the result stands on: resuming repeats some.
     result.integrations = found.cost + integrated - searching.integrations();
     if (windows) found.paving = within(found.paving, windows->rest); // boxes that still wait, too
@@ -208,11 +195,9 @@ SIVID_DECL identification identify(identification_problem const& problem,
             }
         }
     }
-    if (reduced) result.integrations += reduced->integrations();
-    if (further) {
-        result.integrations += further->integrations() + windows->windows + windows->integrations;
-    }
-    result.integrations += test.integrations() - asking;
+    result.integrations += searched.integrations() - asking;
+    if (in_parameters) result.integrations += in_parameters->integrations();
+    if (windows) result.integrations += windows->windows + windows->integrations;
     result.seconds = since_begin();
     if (options.resume) result.seconds += options.resume->seconds + options.resume->search.seconds;
     return result;

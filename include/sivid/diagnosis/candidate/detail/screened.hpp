@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,17 @@ struct screened {
     identification_problem problem;
     approximate_fit fit;
     bool silent = false; ///< no value of the effect's parameters moves a measured output
+};
+
+/// A candidate that is to be fitted.
+struct wanted_fit {
+    std::vector<std::size_t> effects; ///< of the catalogue
+    screened const* part = nullptr;   ///< the likeliest part of it that was fitted, if any
+};
+struct made_fit {
+    approximate_fit fit;
+    bool silent = false;
+    bool cut_short = false; ///< ended before it was done
 };
 
 /// Whether the residuals of two fits are the same, but for rounding.
@@ -51,6 +63,11 @@ struct screening_options {
     /// counts only if it explains the data. May be empty.
     std::function<bool()> go_on{};
     executor workers{}; ///< for candidates that do not build on each other
+    /// Fits candidates in place of the workers, with the same result: on many machines, say. Told
+    /// whether to go on, by its own thread; none where a fit was not begun. May be empty.
+    std::function<std::vector<std::optional<made_fit>>(std::vector<wanted_fit> const&,
+                                                       std::function<bool()> const& go_on)>
+        fit_elsewhere{};
 };
 
 } // namespace sivid

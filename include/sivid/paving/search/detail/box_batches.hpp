@@ -122,12 +122,16 @@ public:
     };
     [[nodiscard]] std::vector<lecture> learn(std::vector<std::vector<item>> const& sets) const {
         std::vector<lecture> result(sets.size());
+        std::vector<std::vector<box>> boxes(sets.size());
+        for (std::size_t k = 0; k < sets.size(); ++k) {
+            for (auto const& i : sets[k]) boxes[k].push_back(i.set);
+        }
+        auto answers = answers_about(boxes);
         for (std::size_t k = 0; k < sets.size(); ++k) {
             result[k].of = std::make_shared<lesson<knowledge>>();
-            for (auto const& i : sets[k]) result[k].of->boxes.push_back(i.set);
+            result[k].of->boxes = std::move(boxes[k]);
+            result[k].answers = std::move(answers[k]);
         }
-        in_parallel(sets.size(),
-                    [&](std::size_t k) { result[k].answers = test_->learn(result[k].of->boxes); });
         return result;
     }
 
@@ -160,20 +164,49 @@ private:
         }
     }
 
-    /// Judges the next box, and with several threads those after it.
+    /// By calls of `learn`, one for each set.
+    [[nodiscard]] std::vector<std::vector<answer>>
+    answers_about(std::vector<std::vector<box>> const& sets) const {
+        if constexpr (delegating_set_test<Test>) {
+            return test_->learn_all(sets);
+        } else {
+            std::vector<std::vector<answer>> result(sets.size());
+            in_parallel(sets.size(), [&](std::size_t k) { result[k] = test_->learn(sets[k]); });
+            return result;
+        }
+    }
+
+    /// How many boxes are judged at once, the next one and those after it.
+    [[nodiscard]] std::size_t ahead() const {
+        if constexpr (delegating_set_test<Test>) {
+            return 16 * test_->hands();
+        } else {
+            bool const alone = !concurrent_set_test<Test> || !workers_.run || workers_.threads < 2;
+            return alone ? 1 : 16 * workers_.threads;
+        }
+    }
     void look_ahead() {
-        bool const alone = !concurrent_set_test<Test> || !workers_.run || workers_.threads < 2;
-        auto ahead = waiting_->best(alone ? 1 : 16 * workers_.threads);
-        std::erase_if(ahead, [](item const* i) { return i->load.judged != nullptr; });
-        judge(ahead);
+        auto next = waiting_->best(ahead());
+        std::erase_if(next, [](item const* i) { return i->load.judged != nullptr; });
+        judge(next);
     }
     void judge(std::vector<item*> const& items) {
         remember(items);
-        in_parallel(items.size(), [&](std::size_t k) {
-            auto& load = items[k]->load;
-            auto const known = load.known ? load.known->found() : nullptr;
-            load.judged = std::make_shared<answer const>(test_->judge(items[k]->set, known));
-        });
+        std::vector<posed_question<knowledge>> questions;
+        for (auto const* i : items) {
+            questions.push_back({&i->set, i->load.known ? i->load.known->found() : nullptr});
+        }
+        if constexpr (delegating_set_test<Test>) {
+            auto says = test_->judge_all(questions);
+            for (std::size_t k = 0; k < items.size(); ++k) {
+                items[k]->load.judged = std::make_shared<answer const>(std::move(says[k]));
+            }
+        } else {
+            in_parallel(items.size(), [&](std::size_t k) {
+                items[k]->load.judged = std::make_shared<answer const>(
+                    test_->judge(*questions[k].set, questions[k].known));
+            });
+        }
     }
 
     /// Learns anew what these boxes knew before the search was interrupted.
@@ -186,9 +219,10 @@ private:
                 missing.push_back(from);
             }
         }
-        std::vector<std::vector<answer>> found(missing.size());
-        in_parallel(missing.size(),
-                    [&](std::size_t k) { found[k] = test_->learn(missing[k]->boxes); });
+        if (missing.empty()) return;
+        std::vector<std::vector<box>> boxes;
+        for (auto const* from : missing) boxes.push_back(from->boxes);
+        auto const found = answers_about(boxes);
         for (std::size_t k = 0; k < missing.size(); ++k) {
             for (auto const& use : missing[k]->uses) {
                 auto const part = use.lock();

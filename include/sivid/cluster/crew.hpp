@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_CLUSTER_CREW_HPP
+#define SIVID_CLUSTER_CREW_HPP
+
+#include <sivid/cluster/frame.hpp>
+#include <sivid/cluster/identity.hpp>
+#include <sivid/cluster/post.hpp>
+#include <sivid/cluster/wire.hpp>
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace sivid::cluster {
+
+/// A member that must not take part: another program, another problem.
+struct crew_mismatch : std::invalid_argument {
+    using std::invalid_argument::invalid_argument;
+};
+
+/// What handing out took.
+struct traffic {
+    std::size_t requests = 0;
+    std::size_t messages = 0;   ///< both ways
+    std::size_t bytes_sent = 0; ///< to members
+    std::size_t bytes_received = 0;
+    double asking = 0; ///< seconds in which the coordinator waited for answers
+    double worked = 0; ///< seconds of the processor that members worked on them, summed up
+};
+
+/// The coordinator's view of those who work for it. Requests go to whoever is free, or to the one
+/// they are meant for; a member is sent a second one while it works, so that it need not wait.
+/// Members join as soon as they have shown that they run the same program on the same problem.
+class crew {
+public:
+    struct task {
+        /// The request, written when it is known to whom.
+        std::function<std::string(std::size_t member)> request;
+        std::optional<std::size_t> meant_for = std::nullopt;
+    };
+    struct answer {
+        std::string body;
+        std::size_t member = 0;
+        double seconds = 0;     ///< of the processor that the member took
+        bool cut_short = false; ///< told to stop, it need not have finished
+    };
+    /// How tasks are handed out.
+    struct manner {
+        std::size_t ahead = 2; ///< requests that a member has at most, one of them being worked on
+        double patience = 10;  ///< seconds in which members may end what is no longer wanted
+        std::function<void(std::size_t task, answer const&)> arrived = nullptr;
+    };
+    /// By task; empty where none came before the patience ended.
+    using answers = std::vector<std::optional<answer>>;
+
+    /// @param members  all others of that post; is referred to
+    crew(post& members, identity who)
+        : post_(&members),
+          who_(std::move(who)),
+          present_(members.others()),
+          busy_(members.others()) {}
+    crew(crew const&) = delete;
+    crew& operator=(crew const&) = delete;
+
+    [[nodiscard]] std::size_t size() const { return present_.size(); }
+    /// Whether a member has shown that it may take part.
+    [[nodiscard]] bool is_present(std::size_t member) const { return present_[member] != 0; }
+    [[nodiscard]] sivid::cluster::traffic const& traffic() const { return traffic_; }
+
+    /// Tells all members what the work is about.
+    /// @param mine  what must be the same there, beside the program
+    void begin(std::string_view about, identity mine) {
+        expected_ = who_;
+        for (auto& p : mine.parts) expected_.parts.push_back(std::move(p));
+        wire_writer out;
+        out.put(about);
+        hello_ = out.take();
+        hail();
+    }
+
+    /// Has tasks done. Once `go_on` is false nothing more is handed out, members are told to stop,
+    /// and what they have by then is waited for.
+    /// @throws crew_mismatch, wire_error, std::runtime_error (a member's fault)
+    [[nodiscard]] answers ask(std::vector<task> const& tasks, std::function<bool()> const& go_on,
+                              manner const& how) {
+        auto const begin = clock::now();
+        if (stopped_ && go_on()) hail();
+        answers done(tasks.size());
+        std::size_t left = tasks.size();
+        std::deque<std::size_t> common;
+        std::vector<std::deque<std::size_t>> own(size());
+        for (std::size_t k = 0; k < tasks.size(); ++k) {
+            (tasks[k].meant_for ? own[*tasks[k].meant_for] : common).push_back(k);
+        }
+        std::map<std::uint64_t, std::size_t> sent; // numbers, and which task
+        std::optional<clock::time_point> end;
+        patience rest;
+        while (left > 0) {
+            for (std::size_t most = 1; most <= how.ahead && !stopped_; ++most) {
+                for (std::size_t m = 0; m < size(); ++m) {
+                    if (!present_[m] || busy_[m] >= most) continue;
+                    auto& list = own[m].empty() ? common : own[m];
+                    if (list.empty()) continue;
+                    auto const k = list.front();
+                    list.pop_front();
+                    sent[++number_] = k;
+                    ++busy_[m];
+                    ++traffic_.requests;
+                    send(m, {frame::kind::ask, number_, tasks[k].request(m)});
+                }
+            }
+            while (auto letter = post_->receive()) {
+                rest.renew();
+                auto got = taken(*letter);
+                if (!got) continue;
+                auto const which = sent.find(got->first);
+                if (which == sent.end()) continue; // waited for in vain, once
+                if (how.arrived) how.arrived(which->second, got->second);
+                done[which->second] = std::move(got->second);
+                sent.erase(which);
+                --left;
+            }
+            if (left == 0) break;
+            if (!stopped_ && !go_on()) stop();
+            if (stopped_) {
+                if (!end) {
+                    end = clock::now() + std::chrono::duration_cast<clock::duration>(
+                                             std::chrono::duration<double>(how.patience));
+                }
+                if (sent.empty() || clock::now() > *end) break;
+            }
+            rest.wait();
+        }
+        traffic_.asking += std::chrono::duration<double>(clock::now() - begin).count();
+        return done;
+    }
+
+    [[nodiscard]] answers ask(std::vector<task> const& tasks, std::function<bool()> const& go_on) {
+        return ask(tasks, go_on, manner{});
+    }
+
+    /// Tells all that what they work on is no longer wanted, until somebody asks for more.
+    void stop() {
+        stopped_ = true;
+        for (std::size_t m = 0; m < size(); ++m) send(m, {frame::kind::stop});
+    }
+    /// The service is over.
+    void end() {
+        for (std::size_t m = 0; m < size(); ++m) send(m, {frame::kind::end});
+    }
+
+private:
+    using clock = std::chrono::steady_clock;
+
+    void hail() {
+        for (std::size_t m = 0; m < size(); ++m) {
+            present_[m] = 0;
+            send(m, {frame::kind::hello, 0, hello_});
+        }
+        stopped_ = false;
+    }
+    void send(std::size_t to, frame const& f) {
+        auto bytes = to_bytes(f);
+        ++traffic_.messages;
+        traffic_.bytes_sent += bytes.size();
+        post_->send(to, std::move(bytes));
+    }
+    /// An answer and the number of its request.
+    [[nodiscard]] std::optional<std::pair<std::uint64_t, answer>> taken(post::letter const& l) {
+        ++traffic_.messages;
+        traffic_.bytes_received += l.bytes.size();
+        auto const name = post_->name_of(l.from);
+        frame f;
+        try {
+            f = frame_of(l.bytes);
+            if (f.what == frame::kind::welcome) {
+                wire_reader in(f.body);
+                auto const who = take_identity(in);
+                in.finish();
+                require_same(name, who);
+                present_[l.from] = true;
+                return std::nullopt;
+            }
+            if (f.what == frame::kind::answer) {
+                wire_reader in(f.body);
+                answer a;
+                a.member = l.from;
+                a.seconds = in.real();
+                a.cut_short = in.flag();
+                a.body = in.text();
+                in.finish();
+                if (busy_[l.from] > 0) --busy_[l.from];
+                traffic_.worked += a.seconds;
+                return std::pair{f.number, std::move(a)};
+            }
+        } catch (wire_error const& e) {
+            throw wire_error(name + ": " + e.what());
+        }
+        if (f.what == frame::kind::fault) throw std::runtime_error(name + ": " + f.body);
+        throw wire_error(name + ": a damaged message: of a kind that no member sends");
+    }
+    void require_same(std::string const& name, identity const& who) const {
+        auto const* const p = expected_.differing(who);
+        if (p == nullptr) return;
+        std::string theirs = "something else";
+        for (auto const& q : who.parts) {
+            if (q.what == p->what) theirs = q.value;
+        }
+        throw crew_mismatch(name + " differs from the coordinator in its " + p->what + " (" +
+                            theirs + ", not " + p->value + "): " + p->remedy);
+    }
+
+    post* post_;
+    identity who_, expected_;
+    std::vector<char> present_;     ///< whether a member has shown who it is
+    std::vector<std::size_t> busy_; ///< requests that a member has not answered
+    std::uint64_t number_ = 0;
+    std::string hello_; ///< what the work is about
+    bool stopped_ = false;
+    sivid::cluster::traffic traffic_;
+};
+
+} // namespace sivid::cluster
+
+#endif

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_CLUSTER_IDENTIFY_HPP
+#define SIVID_CLUSTER_IDENTIFY_HPP
+
+#include <sivid/approximate/approximate_fit.hpp>
+#include <sivid/cluster/box_server.hpp>
+#include <sivid/cluster/crew.hpp>
+#include <sivid/cluster/delegated_test.hpp>
+#include <sivid/cluster/identity.hpp>
+#include <sivid/cluster/member.hpp>
+#include <sivid/cluster/post.hpp>
+#include <sivid/cluster/wire.hpp>
+#include <sivid/cluster/working_crew.hpp>
+#include <sivid/io/result/problem_digest.hpp>
+#include <sivid/model/problem.hpp>
+#include <sivid/paving/contract/window_contraction.hpp>
+#include <sivid/paving/detail/posed_search.hpp>
+#include <sivid/paving/identify.hpp>
+#include <sivid/paving/invert.hpp>
+#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/products/dependence.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace sivid::cluster {
+
+/// Inverts with the help of others who have the same test (`box_server`).
+/// @guarantee  what `invert` with the test itself returns, bit for bit
+/// @throws what `crew::ask` throws
+template <batch_set_test Test>
+[[nodiscard]] inversion invert(crew& helpers, Test& test, box const& prior,
+                               inversion_options const& options) {
+    delegated_test<Test> handed_out(helpers, test);
+    return sivid::invert(handed_out, prior, options);
+}
+
+namespace identify_detail {
+
+/// What a member has to know of a search: budgets of outliers, the fit, what windows left.
+[[nodiscard]] inline std::string about(identification_problem const& problem,
+                                       std::optional<approximate_fit> const& fit,
+                                       std::optional<window_contraction> const& windows) {
+    wire_writer out;
+    out.put(std::uint64_t{problem.experiments.size()});
+    for (auto const& e : problem.experiments) out.put(std::uint64_t{e.outliers});
+    out.put(fit.has_value());
+    if (fit) {
+        out.put(fit->parameters);
+        for (auto const& x : fit->starts) out.put(x);
+    }
+    out.put(windows.has_value());
+    if (windows) {
+        out.put(windows->rest);
+        for (auto const& x : windows->starts) out.put(x);
+    }
+    return out.take();
+}
+
+[[nodiscard]] inline identity identity_of(identification_problem const& problem,
+                                          identify_options const& options,
+                                          std::string const& also) {
+    return {{{"problem", problem_digest(problem, options, also),
+              "give all ranks the same command and the same data"}}};
+}
+
+/// The test of a search on another machine.
+class search_server {
+public:
+    search_server(identification_problem problem, identify_options options, std::string also)
+        : problem_(std::move(problem)), options_(std::move(options)), also_(std::move(also)) {}
+
+    /// Makes the test as `about` says. @throws wire_error
+    [[nodiscard]] identity take_up(std::string_view about) {
+        wire_reader in(about);
+        auto const experiments = problem_.experiments.size();
+        wire_reader::require(in.count(8) == experiments, "it is of other experiments");
+        for (auto& e : problem_.experiments) e.outliers = static_cast<std::size_t>(in.number());
+        auto who = identity_of(problem_, options_, also_);
+        working_ = paving_detail::as_searched(problem_, options_.algorithm);
+        search_.emplace(working_, dependence_of(working_), options_);
+        std::optional<approximate_fit> fit;
+        if (in.flag()) {
+            fit.emplace();
+            fit->parameters = in.reals();
+            for (std::size_t e = 0; e < experiments; ++e) fit->starts.push_back(in.reals());
+        }
+        std::optional<window_contraction> windows;
+        auto const& prior = search_->posed().prior;
+        if (in.flag()) {
+            windows.emplace();
+            windows->rest = in.sides(prior.size());
+            for (auto const& e : problem_.experiments) {
+                windows->starts.push_back(in.sides(e.initial.size()));
+            }
+        }
+        in.finish();
+        search_->prepare(fit, windows);
+        boxes_.emplace(search_->test(), prior);
+        return who;
+    }
+    [[nodiscard]] std::string answer(std::string_view request) { return (*boxes_)(request); }
+
+private:
+    identification_problem problem_, working_;
+    identify_options options_;
+    std::string also_;
+    std::optional<paving_detail::posed_search> search_;
+    std::optional<box_server<data_test>> boxes_;
+};
+
+} // namespace identify_detail
+
+/// `sivid::identify` with the box search shared with others, who call `help_identify` for the same
+/// problem and options; this process works, too, in a thread of its own. The fit, windows and what
+/// completes the result are done here alone.
+/// @guarantee  what `sivid::identify` returns, bit for bit, whoever helps and however many; budgets
+///             and `keep_going` end the work of all. A resumed search may have others than before
+/// @param others  are referred to
+/// @param also    what else must be the same there: the digest of a data set, say
+/// @param spent   receives what handing out took, if given
+/// @throws crew_mismatch       when a member runs another program, or has another problem
+/// @throws wire_error          for a message that cannot be read
+/// @throws std::runtime_error  for what a member reports
+[[nodiscard]] inline identification identify(post& others, identification_problem const& problem,
+                                             identify_options options, std::string const& also = {},
+                                             traffic* spent = nullptr) {
+    bool asked = false;
+    auto const mine = identify_detail::identity_of(problem, options, also);
+    options.invert_by = [&](data_test& test, box const& prior, inversion_options const& search,
+                            std::optional<approximate_fit> const& fit,
+                            std::optional<window_contraction> const& windows) {
+        if (windows && windows->empty()) return sivid::invert(test, prior, search);
+        asked = true;
+        box_server<data_test> boxes(test, prior);
+        working_crew all(others, identify_detail::about(problem, fit, windows), mine,
+                         [&boxes](member&, std::string_view request) { return boxes(request); });
+        auto found = cluster::invert(all.helpers(), test, prior, search);
+        if (spent != nullptr) *spent = all.helpers().traffic();
+        return found;
+    };
+    auto found = sivid::identify(problem, std::move(options));
+    if (!asked) release(others);
+    return found;
+}
+
+/// Works for the one who identifies this problem, until the search is over.
+/// @throws wire_error  for a message that cannot be read
+inline void help_identify(post& coordinator, identification_problem const& problem,
+                          identify_options options, std::string const& also = {}) {
+    member self(coordinator, identity_of_program());
+    options.test = limited(std::move(options.test), [&self] { return self.wanted(); });
+    identify_detail::search_server server(problem, std::move(options), also);
+    self.serve({[&server](std::string_view about) { return server.take_up(about); },
+                [&server](std::string_view request) { return server.answer(request); }});
+}
+
+} // namespace sivid::cluster
+
+#endif

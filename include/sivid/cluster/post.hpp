@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_CLUSTER_POST_HPP
+#define SIVID_CLUSTER_POST_HPP
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace sivid::cluster {
+
+/// Carries messages to and from others, each of whom has a number from 0 on; what one of them sends
+/// arrives in its order. Used by one thread.
+class post {
+public:
+    struct letter {
+        std::size_t from = 0;
+        std::string bytes;
+    };
+
+    virtual ~post() = default;
+    [[nodiscard]] virtual std::size_t others() const = 0;
+    /// Does not wait for the other.
+    virtual void send(std::size_t to, std::string bytes) = 0;
+    /// What has arrived, if anything; does not wait.
+    [[nodiscard]] virtual std::optional<letter> receive() = 0;
+    /// For messages: `rank 3`.
+    [[nodiscard]] virtual std::string name_of(std::size_t other) const = 0;
+};
+
+/// Waits longer and longer, a millisecond at most, so that whoever works has the processor.
+class patience {
+public:
+    void wait() {
+        if (++rounds_ < 50) {
+            std::this_thread::yield();
+        } else {
+            std::this_thread::sleep_for(
+                std::chrono::microseconds(std::min<std::size_t>(20 * (rounds_ - 49), 1000)));
+        }
+    }
+    void renew() { rounds_ = 0; }
+
+private:
+    std::size_t rounds_ = 0;
+};
+
+/// Between threads of one process: the first to the others, and each of these to the first.
+class memory_post {
+    struct box_of_letters {
+        std::mutex mutex;
+        std::deque<post::letter> waiting;
+    };
+    using boxes = std::vector<std::shared_ptr<box_of_letters>>;
+
+    class end final : public post {
+    public:
+        end(std::shared_ptr<box_of_letters> in, boxes out, std::size_t sender)
+            : in_(std::move(in)), out_(std::move(out)), sender_(sender) {}
+        [[nodiscard]] std::size_t others() const override { return out_.size(); }
+        void send(std::size_t to, std::string bytes) override {
+            std::lock_guard const alone(out_[to]->mutex);
+            out_[to]->waiting.push_back({sender_, std::move(bytes)});
+        }
+        [[nodiscard]] std::optional<letter> receive() override {
+            std::lock_guard const alone(in_->mutex);
+            if (in_->waiting.empty()) return std::nullopt;
+            auto first = std::move(in_->waiting.front());
+            in_->waiting.pop_front();
+            return first;
+        }
+        [[nodiscard]] std::string name_of(std::size_t other) const override {
+            return std::string{"thread "} + std::to_string(other);
+        }
+
+    private:
+        std::shared_ptr<box_of_letters> in_;
+        boxes out_;
+        std::size_t sender_;
+    };
+
+public:
+    /// @param members  besides the first
+    explicit memory_post(std::size_t members) {
+        auto const centre = std::make_shared<box_of_letters>();
+        boxes all;
+        for (std::size_t k = 0; k < members; ++k) {
+            all.push_back(std::make_shared<box_of_letters>());
+            of_members.push_back(std::make_unique<end>(all.back(), boxes{centre}, k));
+        }
+        of_first = std::make_unique<end>(centre, all, 0);
+    }
+
+    std::unique_ptr<post> of_first;
+    std::vector<std::unique_ptr<post>> of_members;
+};
+
+/// Those of one post, then those of another.
+class joined_post final : public post {
+public:
+    /// @param first, second  are referred to
+    joined_post(post& first, post& second) : first_(&first), second_(&second) {}
+    [[nodiscard]] std::size_t others() const override {
+        return first_->others() + second_->others();
+    }
+    void send(std::size_t to, std::string bytes) override {
+        auto const n = first_->others();
+        if (to < n) return first_->send(to, std::move(bytes));
+        second_->send(to - n, std::move(bytes));
+    }
+    [[nodiscard]] std::optional<letter> receive() override {
+        if (auto got = first_->receive()) return got;
+        auto got = second_->receive();
+        if (got) got->from += first_->others();
+        return got;
+    }
+    [[nodiscard]] std::string name_of(std::size_t other) const override {
+        auto const n = first_->others();
+        return other < n ? first_->name_of(other) : second_->name_of(other - n);
+    }
+
+private:
+    post* first_;
+    post* second_;
+};
+
+} // namespace sivid::cluster
+
+#endif

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Candidates fitted by helpers: the diagnosis of one machine, word for word; requests that nobody
+// writes are refused.
+#include <sivid/cluster/diagnose.hpp>
+
+#include <sivid/io/diagnosis_json.hpp>
+
+#include "diagnosis/small_catalogue.hpp"
+#include "support/catch.hpp"
+
+#include <memory>
+#include <thread>
+#include <vector>
+
+using namespace sivid;
+
+namespace {
+
+std::string text_of(diagnosis_run run) {
+    run.result.seconds = 0;
+    return diagnosis_json(run.result, "small");
+}
+
+struct helpers {
+    cluster::memory_post office;
+    std::vector<std::thread> threads;
+
+    helpers(std::size_t count, identification_problem const& problem,
+            std::vector<effect> const& catalogue, std::string const& also = {})
+        : office(count) {
+        for (std::size_t k = 0; k < count; ++k) {
+            threads.emplace_back([this, k, problem, catalogue, also] {
+                cluster::help_diagnose(*office.of_members[k], problem, catalogue, also);
+            });
+        }
+    }
+    ~helpers() {
+        for (auto& t : threads) t.join(); // released by the diagnosis
+    }
+};
+
+} // namespace
+
+TEST_CASE("with helpers a diagnosis says the same") {
+    auto real = small_campaign::with_drag(0.3);
+    real.seen_position = small_campaign::with_scale(0.15).seen_position;
+    auto const problem = small_campaign::problem(real);
+    auto const catalogue = small_campaign::catalogue();
+    diagnosis_options options;
+    options.seconds = 600;
+    auto const alone = diagnose(problem, catalogue, options);
+    REQUIRE(alone.result.effects.size() == 2);
+    for (std::size_t const count : {2u}) {
+        helpers others(count, problem, catalogue);
+        cluster::traffic spent;
+        auto const shared =
+            cluster::diagnose(*others.office.of_first, problem, catalogue, options, {}, &spent);
+        CHECK(text_of(shared) == text_of(alone));
+        CHECK(spent.requests >= catalogue.size());
+        REQUIRE(shared.candidates.size() == alone.candidates.size());
+        for (std::size_t k = 0; k < alone.candidates.size(); ++k) {
+            CHECK(shared.candidates[k].fit.parameters == alone.candidates[k].fit.parameters);
+            CHECK(shared.candidates[k].silent == alone.candidates[k].silent);
+        }
+    }
+}
+
+TEST_CASE("a diagnosis refuses helpers with another catalogue, and keeps to its time") {
+    auto const problem = small_campaign::problem(small_campaign::with_drag(0.3));
+    auto const catalogue = small_campaign::catalogue();
+    diagnosis_options options;
+    options.seconds = 600;
+    {
+        auto fewer = catalogue;
+        fewer.pop_back();
+        helpers others(1, problem, fewer);
+        CHECK_THROWS_WITH(
+            (void)cluster::diagnose(*others.office.of_first, problem, catalogue, options),
+            ContainsSubstring("thread 0 differs"));
+    }
+    options.seconds = 0;
+    helpers others(1, problem, catalogue);
+    auto const none = cluster::diagnose(*others.office.of_first, problem, catalogue, options);
+    CHECK(none.result.interrupted);
+}
+
+TEST_CASE("requests for fits that nobody writes are refused") {
+    auto const problem = small_campaign::problem(small_campaign::with_drag(0.3));
+    auto const catalogue = small_campaign::catalogue();
+    cluster::diagnose_detail::candidate_server const server(problem, catalogue);
+    auto const wanted = [] { return true; };
+    auto const ask = [&](std::uint64_t effect, std::size_t parameters) {
+        cluster::wire_writer out;
+        out.put(std::uint64_t{1}).put(effect).put(true).put(std::uint64_t{0});
+        approximate_fit fit;
+        fit.parameters.assign(parameters, 1.0);
+        cluster::diagnose_detail::put(out, fit);
+        return server.answer(out.take(), wanted);
+    };
+    CHECK_THROWS_AS(ask(catalogue.size(), problem.prior.size()), cluster::wire_error);
+    CHECK_THROWS_AS(ask(0, problem.prior.size()), cluster::wire_error); // without residuals
+    CHECK_THROWS_AS(server.answer("?", wanted), cluster::wire_error);
+}

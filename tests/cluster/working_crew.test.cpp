@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/cluster/working_crew.hpp>
+
+#include "support/catch.hpp"
+
+#include <thread>
+
+using namespace sivid::cluster;
+
+TEST_CASE("alone or with others, a coordinator's own thread works, and all are let go") {
+    for (std::size_t const others : {0u, 2u}) {
+        memory_post office(others);
+        identity const mine{{{"task", "count", "-"}}};
+        std::vector<std::thread> threads;
+        for (std::size_t k = 0; k < others; ++k) {
+            threads.emplace_back([&, k] {
+                member m(*office.of_members[k], identity_of_program());
+                m.serve({[&](std::string_view) { return mine; },
+                         [](std::string_view text) { return std::string{text} + "there"; }});
+            });
+        }
+        std::size_t here = 0;
+        {
+            working_crew all(*office.of_first, "", mine, [](member& self, std::string_view text) {
+                CHECK(self.wanted());
+                return std::string{text} + "here";
+            });
+            CHECK(all.helpers().size() == others + 1);
+            std::vector<crew::task> tasks(40, {[](std::size_t) { return "done "; }});
+            for (auto const& a : all.helpers().ask(tasks, [] { return true; })) {
+                REQUIRE(a);
+                here += a->body == "done here" ? 1 : 0;
+                CHECK((a->body == "done here" || a->body == "done there"));
+            }
+        }
+        CHECK(here > 0);
+        if (others == 0) CHECK(here == 40);
+        for (auto& t : threads) t.join();
+    }
+}
+
+TEST_CASE("those who wait for work that never came are released") {
+    memory_post office(1);
+    std::thread helper([&] {
+        member m(*office.of_members[0], identity_of_program());
+        m.serve({});
+    });
+    release(*office.of_first);
+    helper.join();
+    CHECK_FALSE(office.of_first->receive());
+}
