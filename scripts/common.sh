@@ -58,5 +58,18 @@ configure_check() {
         -DSIVID_UNOPTIMISED_TESTS=report >/dev/null
 }
 
+# same_answer FILE FILE: two runs of tests/machines/identify_h3.cpp found the same verdict, hulls equal to 1e-5 (machines
+# contract plain arithmetic in their own way, so searches may part), and the true constants
+# (examples/hovercraft/data/h3/truth.json) in them.
+same_answer() {
+    awk 'BEGIN { split("0.22 0.04 0.30", truth) }
+        function off(a, b) { return (a > b ? a - b : b - a) > 1e-5 * a }
+        FNR == 1 { if (NR == 1) verdict = $1; else if ($1 != verdict) bad = 1; next }
+        NR == FNR { low[FNR] = $3; high[FNR] = $4; next }
+        { ++hulls; if (off(low[FNR], $3) || off(high[FNR], $4)) bad = 1
+          if (!($3 <= truth[FNR - 1] && truth[FNR - 1] <= $4)) bad = 1 }
+        END { exit bad || hulls != 3 }' "$1" "$2"
+}
+
 # Without a home folder ccache has no place of its own.
 [ -n "${HOME:-}" ] || export CCACHE_DISABLE=1

@@ -228,6 +228,23 @@ TEST_CASE("planted breaches are found") {
         tree.header("paving/fresh.hpp", "");
         CHECK_THAT(tree.findings(), ContainsSubstring("umbrella: include/sivid/paving/fresh.hpp"));
     }
+    SECTION("what only some compilers know") {
+        tree.header("number/low.hpp",
+                    "[[gnu::always_inline]] inline int f(int plasm) { return 1; }\n"
+                    "inline int g() { return 1; } // __builtin_expect\n");
+        CHECK(tree.findings() == "");
+        for (std::string const word :
+             {"typedef double v __attribute__((vector_size(16)));\n", "using w = __int128;\n",
+              "inline int h(int x) { return __builtin_ctz(x); }\n",
+              "inline void k() { asm(\"\"); }\n"}) {
+            tree.header("number/low.hpp", word);
+            CHECK_THAT(tree.findings(),
+                       ContainsSubstring("compiler: include/sivid/number/low.hpp"));
+        }
+        tree.header("number/detail/machine.hpp", "inline void k() { asm(\"\"); }\n");
+        tree.header("number/low.hpp", "");
+        CHECK(tree.findings() == "");
+    }
     SECTION("printing") {
         tree.header("number/low.hpp", "inline void f() { std::cerr << 1; }\n");
         CHECK_THAT(tree.findings(), ContainsSubstring("silence: include/sivid/number/low.hpp"));

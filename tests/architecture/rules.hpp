@@ -104,10 +104,35 @@ inline bool package_allowed(std::string_view name, std::string_view floor, std::
     if (name.find('/') != std::string_view::npos)
         return one_of({"sys/"}) && (floor == "io" || floor == "parallel");
     if (name.find('.') == std::string_view::npos) return true; // the standard library
+    if (one_of({"io.h", "process.h"})) return floor == "io";   // of Windows
     if (one_of({"unistd.h", "fcntl.h"})) return floor == "io" || floor == "parallel";
     static std::set<std::string_view> const processor{"immintrin.h", "emmintrin.h", "xmmintrin.h",
                                                       "arm_neon.h"};
     return processor.count(name) > 0;
+}
+
+/// What only some compilers know, in a line of a header that is not one of those that keep it
+/// apart, behind a condition and with a form in standard C++; "" if nothing. Attributes in brackets
+/// are standard: who does not know them passes them over.
+inline std::string_view compiler_word(std::string const& line, std::string_view name) {
+    static std::set<std::string_view> const apart{
+        "machine.hpp",     "vectors.hpp",         "wide_integer.hpp", "rounding.hpp",
+        "pack_target.hpp", "pack_elementary.hpp", "pack_avx2.hpp",    "pack_avx512.hpp",
+        "pack_sse2.hpp",   "pack_neon.hpp"};
+    if (starts_with(name, "sivid/number/") && apart.count(name.substr(name.rfind('/') + 1)) > 0)
+        return {};
+    auto const code = line.substr(0, line.find("//"));
+    for (std::string_view word :
+         {"__attribute__", "__builtin_", "__extension__", "__int128", "__asm__", "asm(", "asm ",
+          "__restrict", "__typeof__", "#pragma GCC"}) {
+        auto const at = code.find(word);
+        if (at == code.npos) continue;
+        bool const begins =
+            at == 0 ||
+            (std::isalnum(static_cast<unsigned char>(code[at - 1])) == 0 && code[at - 1] != '_');
+        if (begins) return word;
+    }
+    return {};
 }
 
 /// What the floors of the proofs may know of the floor `approximate`: what its fits and estimates
@@ -356,6 +381,8 @@ inline std::vector<finding> check(fs::path const& tree) {
                 if (line.find(word) != std::string::npos &&
                     line.find(std::string{"n"} + "printf(") == std::string::npos)
                     report("silence", std::string{"uses "}.append(word));
+            if (auto const word = compiler_word(line, name); !word.empty())
+                report("compiler", std::string{"uses "}.append(word));
             auto const target = included(line);
             if (target.empty()) continue;
             std::string const other = target.substr(1);

@@ -94,8 +94,8 @@ TEST_CASE("exponents are never cut off to integers") {
     CHECK(width(pow(make(4, 4), 0.5)) < 1e-14);
     CHECK(equal(pow(make(-2, -2), 3), make(-8, -8)));
     CHECK(equal(pow(make(-2, -2), 2u), make(4, 4)));
-    CHECK(equal(pow(make(-2, -2), 1L << 40), make(0, inf)));
-    CHECK(equal(pow(make(-2, -2), (1L << 40) + 1), everything()));
+    CHECK(equal(pow(make(-2, -2), 1LL << 40), make(0, inf)));
+    CHECK(equal(pow(make(-2, -2), (1LL << 40) + 1), everything()));
     STATIC_REQUIRE_FALSE(takes_real_exponent<double>);
     STATIC_REQUIRE(takes_real_exponent<int>);
 }

@@ -4,6 +4,7 @@
 #include "number/support.hpp"
 
 #include <cmath>
+#include <cstdint>
 
 using namespace sivid;
 
@@ -25,11 +26,16 @@ TEST_CASE("quarter turns in fixed point are as near as stated") {
         mpfr_div(turns.raw(), x.raw(), turns.raw(), MPFR_RNDN);
         mpfr_mul_2ui(turns.raw(), turns.raw(), 65, MPFR_RNDN);
         detail::wide_integer const got = detail::quarter_turns(value);
-        auto const high = static_cast<long>(got >> 64);
-        auto const low = static_cast<unsigned long>(got);
-        mpfr_set_si(error.raw(), high, MPFR_RNDN);
-        mpfr_mul_2ui(error.raw(), error.raw(), 64, MPFR_RNDN);
-        mpfr_add_ui(error.raw(), error.raw(), low, MPFR_RNDN);
+        mpfr_set_zero(error.raw(), 1);
+        for (int part = 0; part < 4; ++part) { // 32 bits at a time: `long` has no more everywhere
+            detail::wide_integer const rest = got >> 32 * (3 - part);
+            auto const bits = static_cast<std::uint32_t>(rest);
+            mpfr_mul_2ui(error.raw(), error.raw(), 32, MPFR_RNDN);
+            if (part == 0)
+                mpfr_set_si(error.raw(), static_cast<std::int32_t>(bits), MPFR_RNDN);
+            else
+                mpfr_add_ui(error.raw(), error.raw(), bits, MPFR_RNDN);
+        }
         mpfr_sub(error.raw(), error.raw(), turns.raw(), MPFR_RNDN);
         REQUIRE(std::fabs(mpfr_get_d(error.raw(), MPFR_RNDN)) <=
                 static_cast<double>(detail::turns_error));

@@ -2,22 +2,18 @@
 #ifndef SIVID_IO_FILE_SET_HPP
 #define SIVID_IO_FILE_SET_HPP
 
+#include <sivid/io/detail/disk.hpp>
 #include <sivid/io/text/durable_file.hpp>
 #include <sivid/io/text/printable_text.hpp>
 #include <sivid/io/text/text_file.hpp>
 
-#include <cerrno>
 #include <charconv>
-#include <csignal>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
-
-#include <unistd.h>
 
 namespace sivid {
 
@@ -44,7 +40,7 @@ public:
     file_set(file_set const&) = delete;
     file_set& operator=(file_set const&) = delete;
     ~file_set() {
-        for (auto const& f : files_) ::unlink(f.temporary.c_str());
+        for (auto const& f : files_) io_detail::disk::remove(f.temporary);
     }
 
     /// @param name  within the folder
@@ -56,7 +52,7 @@ public:
                                ": cannot be written: a folder has this name"};
         }
         auto temporary = target;
-        temporary += ".part" + std::to_string(::getpid());
+        temporary += ".part" + std::to_string(io_detail::disk::own_process());
         io_detail::write_to_disk(temporary, target, text);
         files_.push_back({std::move(target), std::move(temporary)});
     }
@@ -66,18 +62,17 @@ public:
     /// Gives all files their names.
     /// @throws output_error  when one cannot be renamed
     void commit() {
-        if (files_.size() > 1) ::unlink(files_.back().target.c_str());
-        for (auto const& file : dropped_) ::unlink(file.c_str());
+        if (files_.size() > 1) io_detail::disk::remove(files_.back().target);
+        for (auto const& file : dropped_) io_detail::disk::remove(file);
         for (auto const& f : files_) {
-            if (::rename(f.temporary.c_str(), f.target.c_str()) == 0) continue;
-            int const fault = errno;
-            throw output_error{printable_path(f.target.string()) +
-                               ": cannot be written: " + std::generic_category().message(fault)};
+            if (auto const fault = io_detail::disk::rename(f.temporary, f.target))
+                throw output_error{printable_path(f.target.string()) +
+                                   ": cannot be written: " + fault.message()};
         }
         remove_leftovers();
         files_.clear();
         dropped_.clear();
-        io_detail::sync_folder(folder_);
+        io_detail::disk::sync_folder(folder_);
     }
 
 private:
@@ -97,8 +92,8 @@ private:
                 auto const* const end = name.data() + name.size();
                 auto const read = std::from_chars(name.data() + begin.size(), end, process);
                 bool const ours = read.ec == std::errc{} && read.ptr == end && process > 0;
-                if (ours && ::kill(process, 0) != 0 && errno == ESRCH)
-                    ::unlink(entry.path().c_str());
+                if (ours && io_detail::disk::has_ended(process))
+                    io_detail::disk::remove(entry.path());
             }
         }
     }

@@ -5,73 +5,59 @@
 /// @file
 /// exp, expm1, log, log1p of an interval. All are increasing: the bounds come from the ends.
 
-#include <sivid/number/excess.hpp>
+#include <sivid/number/detail/functions_at.hpp>
 #include <sivid/number/interval.hpp>
-#include <sivid/number/rounding.hpp>
-
-#include <cmath>
 
 namespace sivid {
 
 namespace detail {
-
-/// A library function at x, kept between the changes of the rounding mode around it.
-/// @given  round-to-nearest is set
-template <class Function>
-[[gnu::always_inline]] inline double library(Function const& f, double x) noexcept {
-    return pinned(f(pinned(x)));
-}
-inline constexpr auto library_exp = [](double x) { return std::exp(x); };
-inline constexpr auto library_expm1 = [](double x) { return std::expm1(x); };
-inline constexpr auto library_log = [](double x) { return std::log(x); };
-inline constexpr auto library_log1p = [](double x) { return std::log1p(x); };
 
 constexpr double at_least(double x, double bound) noexcept { return x < bound ? bound : x; }
 constexpr double at_most(double x, double bound) noexcept { return x > bound ? bound : x; }
 
 inline double exp_down(double x) noexcept {
     if (x == 0.0) return 1.0;
-    double const y = step(library(library_exp, x), -excess::exp);
+    double const y = exp_at::down(x);
     return at_least(y, x > 0.0 ? 1.0 : 0.0);
 }
 inline double exp_up(double x) noexcept {
     if (x == 0.0) return 1.0;
-    double const y = step(library(library_exp, x), excess::exp);
+    double const y = exp_at::up(x);
     return x < 0.0 ? at_most(y, 1.0) : y;
 }
 // expm1(x) >= x everywhere; expm1(x) > -1.
 inline double expm1_down(double x) noexcept {
     if (x == 0.0) return 0.0;
-    return at_least(at_least(step(library(library_expm1, x), -excess::expm1), -1.0), x);
+    return at_least(at_least(expm1_at::down(x), -1.0), x);
 }
 inline double expm1_up(double x) noexcept {
     if (x == 0.0) return 0.0;
-    double const y = step(library(library_expm1, x), excess::expm1);
+    double const y = expm1_at::up(x);
     return x < 0.0 ? at_most(y, 0.0) : y;
 }
 inline double log_down(double x) noexcept {
     if (x <= 0.0) return -infinity;
     if (x == 1.0) return 0.0;
-    double const y = step(library(library_log, x), -excess::log);
+    double const y = log_at::down(x);
     return x > 1.0 ? at_least(y, 0.0) : y;
 }
 inline double log_up(double x) noexcept {
     if (x == infinity) return infinity;
     if (x == 1.0) return 0.0;
-    double const y = step(library(library_log, x), excess::log);
+    double const y = log_at::up(x);
     return x < 1.0 ? at_most(y, 0.0) : y;
 }
 inline double log1p_down(double x) noexcept {
     if (x <= -1.0) return -infinity;
     if (x == 0.0) return 0.0;
-    double const y = step(library(library_log1p, x), -excess::log1p);
+    double const y = log1p_at::down(x);
     return x > 0.0 ? at_least(y, 0.0) : y;
 }
 // log1p(x) <= x everywhere.
 inline double log1p_up(double x) noexcept {
     if (x == infinity) return infinity;
     if (x == 0.0) return 0.0;
-    return at_most(step(library(library_log1p, x), excess::log1p), x);
+    return at_most(log1p_at::up(x), x);
 }
 
 } // namespace detail

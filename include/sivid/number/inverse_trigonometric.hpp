@@ -6,12 +6,10 @@
 /// asin, acos, atan, atan2 of intervals.
 
 #include <sivid/number/arithmetic.hpp>
-#include <sivid/number/excess.hpp>
+#include <sivid/number/detail/functions_at.hpp>
 #include <sivid/number/exponential.hpp>
 #include <sivid/number/interval.hpp>
 #include <sivid/number/rounding.hpp>
-
-#include <cmath>
 
 namespace sivid {
 
@@ -20,10 +18,6 @@ namespace detail {
 // Neighbouring doubles around pi/2 and pi: pi = 3.243f6a8885a308d313...p0 (hexadecimal).
 inline constexpr double half_pi_down = 0x1.921fb54442d18p+0, half_pi_up = 0x1.921fb54442d19p+0;
 inline constexpr double pi_down = 0x1.921fb54442d18p+1, pi_up = 0x1.921fb54442d19p+1;
-
-inline constexpr auto library_asin = [](double x) { return std::asin(x); };
-inline constexpr auto library_acos = [](double x) { return std::acos(x); };
-inline constexpr auto library_atan = [](double x) { return std::atan(x); };
 
 constexpr double clamp(double x, double lo, double hi) noexcept {
     return x < lo ? lo : x > hi ? hi : x;
@@ -37,9 +31,8 @@ double upper_half_angle(double y, double x) noexcept {
     if (is_zero(y)) return x > 0.0 ? 0.0 : up ? pi_up : pi_down;
     if (is_zero(x) || is_infinite(y)) return up ? half_pi_up : half_pi_down;
     if (is_infinite(x)) return x > 0.0 ? 0.0 : up ? pi_up : pi_down;
-    double const angle = pinned(std::atan2(pinned(y), pinned(x)));
-    double const moved = step(angle, up ? excess::atan2 : -excess::atan2);
-    return x > 0.0 ? clamp(moved, 0.0, half_pi_up) : clamp(moved, half_pi_down, pi_up);
+    double const angle = up ? atan2_at::up(y, x) : atan2_at::down(y, x);
+    return x > 0.0 ? clamp(angle, 0.0, half_pi_up) : clamp(angle, half_pi_down, pi_up);
 }
 
 /// atan2 on y >= 0 without the origin, y not inside {0} when x is {0}.
@@ -92,8 +85,8 @@ inline interval asin(interval const& x, bool& cut) noexcept {
             if (t.lower() < -1.0 || t.upper() > 1.0) left = true;
             if (t.upper() < -1.0 || t.lower() > 1.0) return detail::empty_interval();
             double const a = detail::at_least(t.lower(), -1.0), b = detail::at_most(t.upper(), 1.0);
-            double const lo = detail::step(detail::library(detail::library_asin, a), -excess::asin);
-            double const hi = detail::step(detail::library(detail::library_asin, b), excess::asin);
+            double const lo = detail::asin_at::down(a);
+            double const hi = detail::asin_at::up(b);
             constexpr double bound = detail::half_pi_up;
             return detail::unchecked_interval(a == 0.0 ? 0.0 : detail::clamp(lo, -bound, bound),
                                               b == 0.0 ? 0.0 : detail::clamp(hi, -bound, bound));
@@ -111,8 +104,8 @@ inline interval acos(interval const& x, bool& cut) noexcept {
             if (t.lower() < -1.0 || t.upper() > 1.0) left = true;
             if (t.upper() < -1.0 || t.lower() > 1.0) return detail::empty_interval();
             double const a = detail::at_least(t.lower(), -1.0), b = detail::at_most(t.upper(), 1.0);
-            double const lo = detail::step(detail::library(detail::library_acos, b), -excess::acos);
-            double const hi = detail::step(detail::library(detail::library_acos, a), excess::acos);
+            double const lo = detail::acos_at::down(b);
+            double const hi = detail::acos_at::up(a);
             return detail::unchecked_interval(
                 b == 1.0 ? 0.0 : detail::clamp(lo, 0.0, detail::pi_up),
                 a == 1.0 ? 0.0 : detail::clamp(hi, 0.0, detail::pi_up));
@@ -126,8 +119,8 @@ inline interval atan(interval const& x) noexcept {
         [](interval const& t) {
             if (is_empty(t)) return t;
             double const a = t.lower(), b = t.upper();
-            double const lo = detail::step(detail::library(detail::library_atan, a), -excess::atan);
-            double const hi = detail::step(detail::library(detail::library_atan, b), excess::atan);
+            double const lo = detail::atan_at::down(a);
+            double const hi = detail::atan_at::up(b);
             constexpr double bound = detail::half_pi_up;
             return detail::unchecked_interval(a == 0.0 ? 0.0 : detail::clamp(lo, -bound, bound),
                                               b == 0.0 ? 0.0 : detail::clamp(hi, -bound, bound));

@@ -2,52 +2,16 @@
 #ifndef SIVID_NUMBER_LANES_HPP
 #define SIVID_NUMBER_LANES_HPP
 
-#include <sivid/number/detail/pack_target.hpp>
+#include <sivid/number/detail/vectors.hpp>
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 
-#if SIVID_PACK_AVX2
-#include <immintrin.h>
-#elif SIVID_MACHINE_X86_64
-#include <emmintrin.h>
-#endif
-
 namespace sivid {
 inline namespace SIVID_PACK_TARGET {
-
-namespace lanes_detail {
-inline constexpr std::size_t vector_bytes = SIVID_PACK_AVX512 ? 64 : SIVID_PACK_AVX2 ? 32 : 16;
-typedef double vector __attribute__((vector_size(vector_bytes)));
-typedef std::int64_t vector_mask __attribute__((vector_size(vector_bytes)));
-inline constexpr std::size_t per_vector = vector_bytes / sizeof(double);
-
-/// Bit l in lane l.
-inline vector_mask lane_bits() {
-    vector_mask m{};
-    for (std::size_t l = 0; l < per_vector; ++l) m[l] = std::int64_t{1} << l;
-    return m;
-}
-/// Bit l is the sign of lane l.
-inline std::uint64_t sign_bits(vector_mask m) {
-#if SIVID_PACK_AVX512
-    return _mm512_movepi64_mask(std::bit_cast<__m512i>(m));
-#elif SIVID_PACK_AVX2
-    return static_cast<std::uint64_t>(_mm256_movemask_pd(std::bit_cast<__m256d>(m)));
-#elif SIVID_MACHINE_X86_64
-    return static_cast<std::uint64_t>(_mm_movemask_pd(std::bit_cast<__m128d>(m)));
-#else
-    std::uint64_t bits = 0;
-    for (std::size_t l = 0; l < per_vector; ++l)
-        bits |= static_cast<std::uint64_t>(m[l]) >> 63 << l;
-    return bits;
-#endif
-}
-} // namespace lanes_detail
 
 /// One truth value for each of W lanes.
 template <std::size_t W>
@@ -154,8 +118,8 @@ public:
     [[nodiscard, gnu::always_inline]] static lanes abs(lanes const& a) {
         lanes r;
         for (std::size_t p = 0; p < parts; ++p) {
-            auto const bits = std::bit_cast<lanes_detail::vector_mask>(a.parts_[p]);
-            r.parts_[p] = std::bit_cast<vector>(bits & std::numeric_limits<std::int64_t>::max());
+            auto const bits = lanes_detail::bits_of(a.parts_[p]);
+            r.parts_[p] = lanes_detail::vector_of(bits & std::numeric_limits<std::int64_t>::max());
         }
         return r;
     }

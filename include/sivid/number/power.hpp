@@ -6,11 +6,10 @@
 /// sqr, sqrt, pown, pow, hypot of intervals.
 
 #include <sivid/number/arithmetic.hpp>
-#include <sivid/number/excess.hpp>
+#include <sivid/number/detail/functions_at.hpp>
 #include <sivid/number/interval.hpp>
 #include <sivid/number/rounding.hpp>
 
-#include <cmath>
 #include <concepts>
 #include <utility>
 
@@ -41,8 +40,8 @@ inline interval sqrt(interval const& x, bool& cut) noexcept {
 
 namespace detail {
 
-/// Bounds of t^n on t >= 0, n >= 1. Up to n = 4 by rounded products (exact when they are), else by
-/// the library. The result for infinity is infinite.
+/// Bounds of t^n on t >= 0, n >= 1. Up to n = 4 by rounded products (exact when they are), else
+/// as real powers. The result for infinity is infinite.
 inline double pown_down(double t, unsigned n) noexcept {
     if (n == 1 || is_zero(t) || is_infinite(t) || t == 1.0) return t;
     double const square = n <= 4 ? mul_down(t, t) : 0.0;
@@ -50,8 +49,7 @@ inline double pown_down(double t, unsigned n) noexcept {
     if (n == 3) return mul_down(square, t);
     if (n == 4) return mul_down(square, square);
     nearest_mode const mode;
-    double const y =
-        step(pinned(std::pow(pinned(t), pinned(static_cast<double>(n)))), -excess::pow);
+    double const y = pow_at::down(t, static_cast<double>(n));
     double const least = t > 1.0 ? 1.0 : 0.0;
     return y < least ? least : y;
 }
@@ -62,7 +60,7 @@ inline double pown_up(double t, unsigned n) noexcept {
     if (n == 3) return mul_up(square, t);
     if (n == 4) return mul_up(square, square);
     nearest_mode const mode;
-    double const y = step(pinned(std::pow(pinned(t), pinned(static_cast<double>(n)))), excess::pow);
+    double const y = pow_at::up(t, static_cast<double>(n));
     return t < 1.0 && y > 1.0 ? 1.0 : y;
 }
 
@@ -74,14 +72,13 @@ inline interval positive_pown(interval const& x, unsigned n) noexcept {
                               hi < 0.0 ? -pown_down(-hi, n) : pown_up(hi, n));
 }
 
-/// Reciprocal powers for n >= 1: the library's pow(t, -n) keeps full accuracy where t^n overflows.
+/// Reciprocal powers for n >= 1: a real power t^-n keeps full accuracy where t^n overflows.
 inline double negative_pown_down(double t, unsigned n) noexcept {
     if (t == 1.0) return 1.0;
     if (is_zero(t)) return infinity;
     if (n == 1) return div_down(1.0, t);
     nearest_mode const mode;
-    double const y =
-        step(pinned(std::pow(pinned(t), pinned(-static_cast<double>(n)))), -excess::pow);
+    double const y = pow_at::down(t, -static_cast<double>(n));
     double const least = t < 1.0 ? 1.0 : 0.0;
     return y < least ? least : y;
 }
@@ -91,8 +88,7 @@ inline double negative_pown_up(double t, unsigned n) noexcept {
     if (is_infinite(t)) return 0.0;
     if (n == 1) return div_up(1.0, t);
     nearest_mode const mode;
-    double const y =
-        step(pinned(std::pow(pinned(t), pinned(-static_cast<double>(n)))), excess::pow);
+    double const y = pow_at::up(t, -static_cast<double>(n));
     return t > 1.0 && y > 1.0 ? 1.0 : y;
 }
 
@@ -128,6 +124,17 @@ inline interval pown(interval const& x, int n, bool& cut) noexcept {
 
 namespace detail {
 
+/// s^t for s >= 0, exact where its limit is 0, 1 or infinite.
+inline bounds_at power_at(double s, double t) noexcept {
+    if (s == 1.0 || t == 0.0) return {1.0, 1.0};
+    if (is_zero(s) || is_infinite(t)) [[unlikely]] {
+        bool const grows = is_zero(s) ? t < 0.0 : (s > 1.0) == (t > 0.0);
+        double const limit = grows ? infinity : 0.0;
+        return {limit, limit};
+    }
+    return pow_at::both(s, t);
+}
+
 /// pow as below.
 inline interval nearest_pow(interval const& x, interval const& y, bool& cut) noexcept {
     if (is_empty(x) || is_empty(y)) return empty_interval();
@@ -138,12 +145,9 @@ inline interval nearest_pow(interval const& x, interval const& y, bool& cut) noe
     double lo = infinity, hi = 0.0;
     for (double const s : {xl, x.upper()}) {
         for (double const t : {y.lower(), y.upper()}) {
-            double const p = pinned(std::pow(pinned(s), pinned(t)));
-            bool const exact = s == 1.0 || t == 0.0 || is_zero(s) || is_infinite(t);
-            double const below = exact ? p : step(p, -excess::pow);
-            double const above = exact ? p : step(p, excess::pow);
-            lo = below < lo ? below : lo;
-            hi = above > hi ? above : hi;
+            bounds_at const p = power_at(s, t);
+            lo = p.lower < lo ? p.lower : lo;
+            hi = p.upper > hi ? p.upper : hi;
         }
     }
     if (lo < 0.0) lo = 0.0;
@@ -161,8 +165,7 @@ inline interval nearest_pow(interval const& x, interval const& y, bool& cut) noe
 
 /// \f$ \{s^t : s \in x, t \in y, s > 0 \text{ or } (s = 0, t > 0)\} \f$; sets `cut` if pairs are
 /// left out. ln(s^t) = t ln s is bilinear, so the extremes are at the corners; at corners out of
-/// the domain the library's pow returns the limits that are needed. Max excess: `excess::pow`
-/// floats a side.
+/// the domain the limits are taken. Max excess: `excess::pow` floats a side.
 inline interval pow(interval const& x, interval const& y, bool& cut) noexcept {
     return detail::in_nearest_mode_cut(cut, detail::nearest_pow, x, y);
 }

@@ -221,7 +221,24 @@ template <direction D>
     return directed_mul<D>(a, b);
 }
 
-#if SIVID_MACHINE_X86_64
+#if !SIVID_MACHINE_X86_64
+
+/// Residual a b - p of a rounded product p, of the right sign in every rounding mode; exact for p 0
+/// or 2^-960 <= |p| <= 2^1020 and |a|, |b| below 2^1020. Heads of 26 bits, as below.
+[[gnu::always_inline]] inline double product_residual(double a, double b, double p) noexcept {
+    auto const head = [](double x) {
+        return std::bit_cast<double>((bits(x) + (std::uint64_t{1} << 26)) &
+                                     ~((std::uint64_t{1} << 27) - 1));
+    };
+    double const ah = head(a), bh = head(b);
+    double const al = opaque(a - ah), bl = opaque(b - bh);
+    double r = opaque(ah * bh) - p;
+    r = opaque(r) + opaque(ah * bl);
+    r = opaque(r) + opaque(al * bh);
+    return opaque(r) + opaque(al * bl);
+}
+
+#else
 
 /// Residual a b - p of rounded products p, of the right sign in every rounding mode; exact for
 /// 2^-960 <= |p| <= 2^1020 and |a|, |b| below 2^1023, else anything or NaN.

@@ -3,22 +3,20 @@
 #define SIVID_NUMBER_TRIGONOMETRIC_HPP
 
 /// @file
-/// sin, cos, tan of an interval. Values at the ends come from the library; which extrema or poles
-/// lie between them is decided in integers.
+/// sin, cos, tan of an interval. Which extrema or poles lie between the ends is decided in
+/// integers.
 
-#include <sivid/number/excess.hpp>
+#include <sivid/number/detail/functions_at.hpp>
+#include <sivid/number/detail/wide_integer.hpp>
 #include <sivid/number/exponential.hpp>
 #include <sivid/number/interval.hpp>
 #include <sivid/number/rounding.hpp>
 
-#include <cmath>
 #include <cstdint>
 
 namespace sivid {
 
 namespace detail {
-
-__extension__ typedef __int128 wide_integer;
 
 /// Fixed point with 64 fractional bits.
 inline constexpr wide_integer fixed_one = wide_integer{1} << 64;
@@ -70,16 +68,11 @@ inline arc arc_of(interval const& x) noexcept {
     return {lo, hi, hi - lo >= 4 * fixed_one};
 }
 
-inline constexpr auto library_sin = [](double x) { return std::sin(x); };
-inline constexpr auto library_cos = [](double x) { return std::cos(x); };
-inline constexpr auto library_tan = [](double x) { return std::tan(x); };
-
-/// Values at both ends, widened, and extended to the extrema that may lie between.
+/// Bounds at both ends, extended to the extrema that may lie between.
 /// `phase`: quarter turns of the maximum; the minimum is half a turn away.
 /// @given  round-to-nearest is set
 template <class Function>
-interval wave(Function const& f, int excess_floats, interval const& x, int phase) noexcept {
-    double lo, hi;
+interval wave(interval const& x, int phase) noexcept {
     bool has_maximum = false, has_minimum = false;
     if (!is_point(x)) {
         arc const between = arc_of(x);
@@ -88,13 +81,12 @@ interval wave(Function const& f, int excess_floats, interval const& x, int phase
         has_minimum = may_contain_turn(between.lo, between.hi, phase + 2, 2);
         if (has_maximum && has_minimum) return unchecked_interval(-1.0, 1.0);
     }
-    double const first = library(f, x.lower());
-    double const second = is_point(x) ? first : library(f, x.upper());
-    lo = first < second ? first : second;
-    hi = first < second ? second : first;
-    lo = has_minimum ? -1.0 : at_least(step(lo, -excess_floats), -1.0);
-    hi = has_maximum ? 1.0 : at_most(step(hi, excess_floats), 1.0);
-    return unchecked_interval(lo, hi);
+    bounds_at const first = Function::both(x.lower());
+    bounds_at const second = is_point(x) ? first : Function::both(x.upper());
+    double const lo = first.lower < second.lower ? first.lower : second.lower;
+    double const hi = first.upper < second.upper ? second.upper : first.upper;
+    return unchecked_interval(has_minimum ? -1.0 : at_least(lo, -1.0),
+                              has_maximum ? 1.0 : at_most(hi, 1.0));
 }
 
 } // namespace detail
@@ -104,7 +96,7 @@ inline interval sin(interval const& x) noexcept {
     return detail::in_nearest_mode(
         [](interval const& t) {
             if (is_empty(t)) return t;
-            interval const y = detail::wave(detail::library_sin, excess::sin, t, 1);
+            interval const y = detail::wave<detail::sin_at>(t, 1);
             // |sin t| <= |t|
             if (t.lower() >= 0.0 && t.upper() <= 1.5)
                 return detail::unchecked_interval(detail::at_least(y.lower(), 0.0),
@@ -123,7 +115,7 @@ inline interval cos(interval const& x) noexcept {
         [](interval const& t) {
             if (is_empty(t)) return t;
             if (t.lower() == 0.0 && t.upper() == 0.0) return detail::unchecked_interval(1.0, 1.0);
-            return detail::wave(detail::library_cos, excess::cos, t, 0);
+            return detail::wave<detail::cos_at>(t, 0);
         },
         x);
 }
@@ -143,11 +135,9 @@ inline interval tan(interval const& x, bool& cut) noexcept {
                 }
             }
             // No pole between the ends: increasing.
-            double const lo = detail::library(detail::library_tan, t.lower());
-            double const hi = detail::library(detail::library_tan, t.upper());
-            return detail::unchecked_interval(
-                t.lower() == 0.0 ? 0.0 : detail::step(lo, -excess::tan),
-                t.upper() == 0.0 ? 0.0 : detail::step(hi, excess::tan));
+            double const lo = detail::tan_at::down(t.lower()), hi = detail::tan_at::up(t.upper());
+            return detail::unchecked_interval(t.lower() == 0.0 ? 0.0 : lo,
+                                              t.upper() == 0.0 ? 0.0 : hi);
         },
         x);
 }

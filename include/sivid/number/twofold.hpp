@@ -35,14 +35,16 @@ struct sum_and_error {
     a = opaque(a);
     b = opaque(b);
     double const p = opaque(a * b);
-#if SIVID_FUSED || !SIVID_MACHINE_X86_64
-    double const error = std::fma(a, b, -p);
+#if SIVID_FUSED
+    double const error = fused(a, b, -p);
 #elif SIVID_EMBEDDED_ROUNDING
     double const error = _mm_cvtsd_f64(
         _mm_fmsub_round_sd(_mm_set_sd(a), _mm_set_sd(b), _mm_set_sd(p), _MM_FROUND_CUR_DIRECTION));
-#else
+#elif SIVID_MACHINE_X86_64
     double const error =
         _mm_cvtsd_f64(product_residual(_mm_set_sd(a), _mm_set_sd(b), _mm_set_sd(p)));
+#else
+    double const error = product_residual(a, b, p);
 #endif
     return {p, std::abs(p) >= 1e-288 ? error : 0.0};
 }

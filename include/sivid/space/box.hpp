@@ -3,6 +3,7 @@
 #define SIVID_SPACE_BOX_HPP
 
 #include <sivid/number/interval_traits.hpp>
+#include <sivid/number/rounding.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -143,10 +144,10 @@ template <single_interval I>
     for (std::size_t i = 0; i < where.size(); ++i) {
         // By a little of the width, lest a bound of 0 give a denormal number.
         double const off = 0x1p-50 * traits::width(where[i]);
-        double const lo = std::max(traits::lower(where[i]) + off,
-                                   std::nextafter(traits::lower(where[i]), HUGE_VAL));
-        double const hi = std::min(traits::upper(where[i]) - off,
-                                   std::nextafter(traits::upper(where[i]), -HUGE_VAL));
+        double const lo =
+            std::max(traits::lower(where[i]) + off, detail::next_up(traits::lower(where[i])));
+        double const hi =
+            std::min(traits::upper(where[i]) - off, detail::next_down(traits::upper(where[i])));
         result[i] = lo <= hi ? traits::point(std::clamp(x[i], lo, hi)) : where[i];
     }
     return result;
@@ -180,14 +181,12 @@ namespace detail {
 template <class I>
 [[nodiscard]] double first_double(I const& s) {
     double const lo = interval_traits<I>::lower(s);
-    return std::isfinite(lo) && !interval_traits<I>::contains(s, lo) ? std::nextafter(lo, HUGE_VAL)
-                                                                     : lo;
+    return std::isfinite(lo) && !interval_traits<I>::contains(s, lo) ? detail::next_up(lo) : lo;
 }
 template <class I>
 [[nodiscard]] double last_double(I const& s) {
     double const hi = interval_traits<I>::upper(s);
-    return std::isfinite(hi) && !interval_traits<I>::contains(s, hi) ? std::nextafter(hi, -HUGE_VAL)
-                                                                     : hi;
+    return std::isfinite(hi) && !interval_traits<I>::contains(s, hi) ? detail::next_down(hi) : hi;
 }
 } // namespace detail
 

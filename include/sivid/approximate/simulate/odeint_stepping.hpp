@@ -24,9 +24,13 @@
 
 // What Odeint has to know of the state.
 namespace boost::numeric::odeint {
+/// Boost 1.74 asks for its own truth, 1.92 for that of the standard library.
 template <>
 struct is_resizeable<sivid::simulation_state> : boost::true_type {
     static bool const value = true;
+    struct type : boost::true_type {
+        constexpr operator std::true_type() const noexcept { return {}; }
+    };
 };
 template <>
 struct same_size_impl<sivid::simulation_state, sivid::simulation_state> {

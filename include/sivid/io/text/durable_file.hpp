@@ -2,6 +2,7 @@
 #ifndef SIVID_IO_TEXT_DURABLE_FILE_HPP
 #define SIVID_IO_TEXT_DURABLE_FILE_HPP
 
+#include <sivid/io/detail/disk.hpp>
 #include <sivid/io/text/printable_text.hpp>
 #include <sivid/io/text/text_file.hpp>
 
@@ -11,9 +12,6 @@
 #include <string>
 #include <string_view>
 #include <system_error>
-
-#include <fcntl.h>
-#include <unistd.h>
 
 namespace sivid {
 
@@ -25,31 +23,23 @@ inline void write_to_disk(std::filesystem::path const& temporary,
                           std::filesystem::path const& meant_for, std::string_view text) {
     int handle = -1;
     auto const fail = [&](int fault) {
-        if (handle >= 0) ::close(handle);
-        ::unlink(temporary.c_str());
+        if (handle >= 0) disk::close(handle);
+        disk::remove(temporary);
         throw output_error{printable_path(meant_for.string()) +
                            ": cannot be written: " + std::generic_category().message(fault) +
                            "; check permissions and space"};
     };
-    handle = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    handle = disk::create(temporary);
     if (handle < 0) fail(errno);
     while (!text.empty()) {
-        auto const written = ::write(handle, text.data(), text.size());
+        auto const written = disk::write(handle, text);
         if (written < 0 && errno != EINTR) fail(errno);
         if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
     }
-    if (::fsync(handle) != 0) fail(errno);
-    int const closed = ::close(handle);
+    if (disk::sync(handle) != 0) fail(errno);
+    int const closed = disk::close(handle);
     handle = -1;
     if (closed != 0) fail(errno);
-}
-
-/// Names on the disk, too; file systems that cannot sync a folder have none to lose.
-inline void sync_folder(std::filesystem::path const& folder) {
-    int const names = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (names < 0) return;
-    (void)::fsync(names);
-    ::close(names);
 }
 
 } // namespace io_detail
@@ -64,14 +54,13 @@ inline void write_durably(std::filesystem::path const& file, std::string_view te
     auto temporary = file;
     temporary += ".part";
     io_detail::write_to_disk(temporary, file, text);
-    if (::rename(temporary.c_str(), file.c_str()) != 0) {
-        int const fault = errno;
-        ::unlink(temporary.c_str());
+    if (auto const fault = io_detail::disk::rename(temporary, file)) {
+        io_detail::disk::remove(temporary);
         throw output_error{printable_path(file.string()) +
-                           ": cannot be written: " + std::generic_category().message(fault)};
+                           ": cannot be written: " + fault.message()};
     }
-    io_detail::sync_folder(file.has_parent_path() ? file.parent_path()
-                                                  : std::filesystem::path{"."});
+    io_detail::disk::sync_folder(file.has_parent_path() ? file.parent_path()
+                                                        : std::filesystem::path{"."});
 }
 
 } // namespace sivid

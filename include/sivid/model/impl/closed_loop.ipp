@@ -10,6 +10,7 @@
 #include <sivid/model/graph/differentiate.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/number/nearest_text.hpp>
+#include <sivid/number/rounding.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -175,7 +176,7 @@ SIVID_DECL void closed_loop::sampled(double period, double delay) {
     if (!(period > 0) || !std::isfinite(period) || !(delay >= 0) || !std::isfinite(delay))
         throw std::invalid_argument("control law: it needs a sampling period above 0 and a delay "
                                     "of 0 or more, both finite");
-    age_ = std::nextafter(period + delay, HUGE_VAL);
+    age_ = detail::next_up(period + delay);
 }
 
 SIVID_DECL void closed_loop::slew(std::string_view input, double limit) {

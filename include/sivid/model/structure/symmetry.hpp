@@ -5,6 +5,7 @@
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/graph/normal_form.hpp>
 #include <sivid/model/graph/rewrite.hpp>
+#include <sivid/number/detail/wide_integer.hpp>
 
 #include <cmath>
 #include <cstddef>
@@ -44,25 +45,25 @@ struct small_fraction {
     }
     /// @returns nothing where integers would overflow
     static std::optional<small_fraction> product(small_fraction x, small_fraction y) {
-        std::int64_t a = 0, b = 0;
-        if (__builtin_mul_overflow(x.above, y.above, &a) ||
-            __builtin_mul_overflow(x.below, y.below, &b) || !limited(a) || !limited(b)) {
-            return std::nullopt;
-        }
-        return of(a, b);
+        auto const a = limited(detail::checked_product(x.above, y.above)),
+                   b = limited(detail::checked_product(x.below, y.below));
+        if (!a || !b) return std::nullopt;
+        return of(*a, *b);
     }
     static std::optional<small_fraction> sum(small_fraction x, small_fraction y) {
-        std::int64_t a = 0, b = 0, both = 0, below = 0;
-        if (__builtin_mul_overflow(x.above, y.below, &a) ||
-            __builtin_mul_overflow(y.above, x.below, &b) || __builtin_add_overflow(a, b, &both) ||
-            __builtin_mul_overflow(x.below, y.below, &below) || !limited(both) || !limited(below)) {
-            return std::nullopt;
-        }
-        return of(both, below);
+        auto const a = detail::checked_product(x.above, y.below),
+                   b = detail::checked_product(y.above, x.below),
+                   below = limited(detail::checked_product(x.below, y.below));
+        if (!a || !b || !below) return std::nullopt;
+        auto const above = limited(detail::checked_sum(*a, *b));
+        if (!above) return std::nullopt;
+        return of(*above, *below);
     }
 
 private:
-    static bool limited(std::int64_t x) { return x > -(std::int64_t{1} << 62); }
+    static std::optional<std::int64_t> limited(std::optional<std::int64_t> x) {
+        return x && *x > -(std::int64_t{1} << 62) ? x : std::nullopt;
+    }
 };
 
 /// Fractions as coefficients and all other nodes as factors, which are taken for independent: what

@@ -2,6 +2,8 @@
 #ifndef SIVID_NUMBER_DETAIL_ALIGNED_BLOCKS_HPP
 #define SIVID_NUMBER_DETAIL_ALIGNED_BLOCKS_HPP
 
+#include <sivid/number/detail/vectors.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -79,25 +81,6 @@ private:
 
     static inline constinit thread_local lists lists_{};
 };
-
-/// Copies whole cache lines from one aligned block to another.
-[[gnu::always_inline]] inline void copy_lines(void* to, void const* from, std::size_t lines) {
-    typedef double some __attribute__((vector_size(32), may_alias));
-    auto* const y = static_cast<some*>(to);
-    auto const* const x = static_cast<some const*>(from);
-    for (std::size_t i = 0; i < 2 * lines; i += 2) {
-        some const a = x[i], b = x[i + 1];
-        y[i] = a;
-        y[i + 1] = b;
-    }
-}
-
-/// Fills whole cache lines with zeros.
-[[gnu::always_inline]] inline void clear_lines(void* to, std::size_t lines) {
-    typedef double some __attribute__((vector_size(32), may_alias));
-    auto* const y = static_cast<some*>(to);
-    for (std::size_t i = 0; i < 2 * lines; i += 2) y[i] = y[i + 1] = some{};
-}
 
 /// Numbers that are needed for a while; zeros at first.
 template <class C>

@@ -139,7 +139,7 @@ inline void divide_columns(monomial_space const& space, double model_up, double 
     column_layout const column{terms, degree};
     auto const size = [](vector const& x) {
         constexpr auto all = std::numeric_limits<std::int64_t>::max(); // but the sign
-        return reinterpret_cast<vector>(reinterpret_cast<vector_mask>(x) & (vector_mask{} + all));
+        return vector_of(bits_of(x) & (vector_mask{} + all));
     };
     auto const* from = reinterpret_cast<stored_vector const*>(totals);
     auto* to = reinterpret_cast<stored_vector*>(result);
@@ -167,13 +167,11 @@ inline void divide_columns(monomial_space const& space, double model_up, double 
         vector const r =
             ((lost * up + tiny) / divisor + norm * (divisor == 1 ? 0 : unit)) * model_up + tiny;
         // Products of a size near the overflow have lost far more than that.
-        auto const known = reinterpret_cast<vector_mask>((norm < largest) & (lost < 1e280));
+        auto const known = vector_mask((norm < largest) & (lost < 1e280));
         vector const never = vector{} + std::numeric_limits<double>::infinity();
         to[column.above() * parts] = above;
         to[column.whole_norm() * parts] = norm;
-        to[column.radius() * parts] =
-            reinterpret_cast<vector>((reinterpret_cast<vector_mask>(r) & known) |
-                                     (reinterpret_cast<vector_mask>(never) & ~known));
+        to[column.radius() * parts] = vector_of((bits_of(r) & known) | (bits_of(never) & ~known));
     }
 }
 

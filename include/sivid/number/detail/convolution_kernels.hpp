@@ -48,15 +48,15 @@ struct row_convolution {
 inline namespace SIVID_PACK_TARGET {
 namespace product_detail {
 
+using lanes_detail::bits_of;
+using lanes_detail::loose_mask;
+using lanes_detail::loose_vector;
 using lanes_detail::per_vector;
+using lanes_detail::stored_vector;
 using lanes_detail::vector;
 using lanes_detail::vector_mask;
+using lanes_detail::vector_of;
 inline constexpr std::size_t row_parts = row_layout::at_once / per_vector; ///< vectors of a sum
-typedef double stored_vector __attribute__((vector_size(lanes_detail::vector_bytes), may_alias));
-typedef double loose_vector
-    __attribute__((vector_size(lanes_detail::vector_bytes), aligned(8), may_alias));
-typedef std::int64_t loose_mask
-    __attribute__((vector_size(lanes_detail::vector_bytes), aligned(8), may_alias));
 
 /// Zeros, then all bits, then zeros, as many of each as a vector has.
 inline constexpr std::array<std::int64_t, 3 * per_vector> ramp = [] {
@@ -66,11 +66,7 @@ inline constexpr std::array<std::int64_t, 3 * per_vector> ramp = [] {
 }();
 
 [[gnu::always_inline]] inline vector masked(vector const& x, vector_mask const& used) {
-    return reinterpret_cast<vector>(reinterpret_cast<vector_mask>(x) & used);
-}
-template <std::size_t... I>
-[[gnu::always_inline]] inline vector backward(vector const& x, std::index_sequence<I...>) {
-    return __builtin_shufflevector(x, x, (per_vector - 1 - I)...);
+    return vector_of(bits_of(x) & used);
 }
 /// first, first + 1, ...
 [[gnu::always_inline]] inline vector counted(std::size_t first) {
@@ -112,12 +108,12 @@ void convolve_rows(monomial_space const& space, double* totals, row_convolution 
         double const* const p = c.a + first;
         double const* const q = c.b + static_cast<std::ptrdiff_t>(c.k) -
                                 static_cast<std::ptrdiff_t>(first + per_vector - 1);
-        auto const read = [&](std::size_t i) __attribute__((always_inline)) {
+        auto const read = [&](std::size_t i) SIVID_INLINED_LAMBDA {
             // Copies: bound to references, the numbers would count as aligned.
             vector const forward(*reinterpret_cast<loose_vector const*>(p + i * c.pitch_a));
             vector const other(*reinterpret_cast<loose_vector const*>(q + i * c.pitch_b));
             left[i] = masked(forward, used);
-            right[i] = masked(backward(other, std::make_index_sequence<per_vector>{}), used);
+            right[i] = masked(lanes_detail::backward(other), used);
         };
         if constexpr (in_registers) {
             [&]<std::size_t... I>(std::index_sequence<I...>) { (read(I), ...); }
@@ -162,53 +158,20 @@ using convolution_function = void (*)(monomial_space const&, double* totals,
     });
 }
 
-/// The sum of each of as many vectors as one has lanes.
-template <class Vector>
-[[gnu::always_inline]] inline Vector across(Vector const* x) {
-    constexpr std::size_t count = sizeof(Vector) / sizeof(double);
-    if constexpr (count == 2) {
-        return __builtin_shufflevector(x[0], x[1], 0, 2) +
-               __builtin_shufflevector(x[0], x[1], 1, 3);
-    } else if constexpr (count == 4) {
-        Vector two[2];
-        for (std::size_t i = 0; i < 2; ++i) {
-            two[i] = __builtin_shufflevector(x[2 * i], x[2 * i + 1], 0, 4, 2, 6) +
-                     __builtin_shufflevector(x[2 * i], x[2 * i + 1], 1, 5, 3, 7);
-        }
-        return __builtin_shufflevector(two[0], two[1], 0, 1, 4, 5) +
-               __builtin_shufflevector(two[0], two[1], 2, 3, 6, 7);
-    } else {
-        Vector two[4], four[2];
-        for (std::size_t i = 0; i < 4; ++i) {
-            Vector const y = x[2 * i], z = x[2 * i + 1];
-            two[i] = __builtin_shufflevector(y, z, 0, 8, 2, 10, 4, 12, 6, 14) +
-                     __builtin_shufflevector(y, z, 1, 9, 3, 11, 5, 13, 7, 15);
-        }
-        for (std::size_t i = 0; i < 2; ++i) {
-            Vector const y = two[2 * i], z = two[2 * i + 1];
-            four[i] = __builtin_shufflevector(y, z, 0, 1, 8, 9, 4, 5, 12, 13) +
-                      __builtin_shufflevector(y, z, 2, 3, 10, 11, 6, 7, 14, 15);
-        }
-        return __builtin_shufflevector(four[0], four[1], 0, 1, 2, 3, 8, 9, 10, 11) +
-               __builtin_shufflevector(four[0], four[1], 4, 5, 6, 7, 12, 13, 14, 15);
-    }
-}
-
 /// The eight partial sums of each row added up, pair by pair.
 inline void add_up_rows(std::size_t terms, double const* totals, double* result) {
-    static_assert(row_parts == 1 || row_parts == 2 || row_parts == 4);
+    static_assert(row_parts == 1 || row_parts == 2 || row_parts == 4 || row_parts == 8);
     auto const* sum = reinterpret_cast<stored_vector const*>(totals);
     for (std::size_t g = 0; g < terms + 2; g += per_vector, sum += per_vector * row_parts) {
         vector row[per_vector];
         for (std::size_t i = 0; i < per_vector; ++i) {
-            row[i] = sum[i * row_parts];
-            if constexpr (row_parts == 2) row[i] += sum[i * row_parts + 1];
-            if constexpr (row_parts == 4) {
-                row[i] = (row[i] + sum[i * row_parts + 1]) +
-                         (sum[i * row_parts + 2] + sum[i * row_parts + 3]);
-            }
+            auto const* const own = sum + i * row_parts;
+            row[i] = own[0];
+            if constexpr (row_parts == 2) row[i] += own[1];
+            if constexpr (row_parts >= 4) row[i] = (row[i] + own[1]) + (own[2] + own[3]);
+            if constexpr (row_parts == 8) row[i] += (own[4] + own[5]) + (own[6] + own[7]);
         }
-        *reinterpret_cast<loose_vector*>(result + g) = across(row);
+        *reinterpret_cast<loose_vector*>(result + g) = lanes_detail::across(row);
     }
 }
 

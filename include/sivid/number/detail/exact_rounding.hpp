@@ -131,6 +131,13 @@ template <direction D>
     if (signs_differ(a, 1.0)) return std::numeric_limits<double>::quiet_NaN();
     return rounded<D>(false, root_of(significand_of(a)));
 }
+/// A double with the sign of a b + c: what std::fma is good for in residuals, without the C
+/// library. 0 where the sum is, or where it is not a number.
+[[nodiscard]] constexpr double sign_of_fused(double a, double b, double c) noexcept {
+    double const lo = exactly_rounded_product<direction::down>(a, b),
+                 hi = exactly_rounded_product<direction::up>(a, b);
+    return lo >= -c && hi > -c ? 1.0 : hi <= -c && lo < -c ? -1.0 : 0.0;
+}
 /// A whole number.
 template <direction D>
 [[nodiscard]] constexpr double exactly_rounded_integer(bool negative, std::uint64_t n) noexcept {

@@ -22,6 +22,7 @@ inline constexpr eight any{-3.7, -0.9, -0.01, 0.01, 0.6, 1.3, 2.57, 10.27},
     positive{0.003, 0.4, 0.99, 1.5, 2.0, 7.25, 100.1, 1e10},
     above_one{1.001, 1.1, 1.5, 2.0, 3.75, 20.5, 1e3, 1e9},
     unit{-0.95, -0.5, -0.01, 0.003, 0.3, 0.7, 0.9, 0.999},
+    far{-1e+300, -1e+22, -3.7e+09, 1048577.25, 2.5e+07, 1e+15, 6.02e+23, 1.5e+200},
     second{0.7, -3.13, 2.3, -0.43, 3.1, 0.17, 7.39, 1.9};
 
 /// Ascending arguments, and the greatest double below each value (by MPFR; none is a double).
@@ -56,6 +57,18 @@ inline constexpr values tan_values{
     any,
     {-0x1.3fdd037da3554p-1, -0x1.4299ba9c2a139p+0, -0x1.47b0e05625f97p-7, 0x1.47b0e05625f96p-7,
      0x1.5e472e03a280bp-1, 0x1.cd11b1696e97ep+1, -0x1.4953d8f23eecep-1, 0x1.209ec67e57d1ep+0}};
+inline constexpr values far_sin_values{
+    far,
+    {0x1.a2c16b010e385p-1, 0x1.b453ab76bf397p-1, -0x1.78e220dca3012p-2, 0x1.ffef292a2d12ep-1,
+     -0x1.de01f480b7c81p-2, 0x1.b76f88136ceb9p-1, -0x1.dab50e1935ccp-1, 0x1.bbff0b318511ep-1}};
+inline constexpr values far_cos_values{
+    far,
+    {-0x1.2699022adc4c1p-1, 0x1.0be2cef01c8f3p-1, -0x1.dc0f86b84ee2ap-1, -0x1.069e8f04d583dp-6,
+     -0x1.c4caea726bc17p-1, -0x1.06c154609d33fp-1, 0x1.7fa6aa98c663ep-2, -0x1.fdf2433f6202ep-2}};
+inline constexpr values far_tan_values{
+    far,
+    {-0x1.6be411f37ac77p+0, 0x1.a0f79c1b6b257p+0, 0x1.9555dff011cd4p-2, -0x1.f307e4279a3c3p+5,
+     0x1.0e418d2ec8fcbp-1, -0x1.ac23600a95be5p+0, -0x1.3cc264e70a143p+1, -0x1.bdc8c9ec008f6p+0}};
 inline constexpr values asin_values{
     unit,
     {-0x1.40d41159f340ap+0, -0x1.0c152382d7366p-1, -0x1.47af7a68f8eefp-7, 0x1.8937726e4cfc7p-9,
@@ -176,8 +189,12 @@ template <class T>
     typename T::mask cut{};
     if (!holds<T>(exp_values, [](I const& x) { return T::exp(x); })) return "exp";
     if (!holds<T>(expm1_values, [](I const& x) { return T::expm1(x); })) return "expm1";
-    if (!holds<T>(sin_values, [](I const& x) { return T::sin(x); })) return "sin";
-    if (!holds<T>(cos_values, [](I const& x) { return T::cos(x); })) return "cos";
+    if (!holds<T>(sin_values, [](I const& x) { return T::sin(x); }) ||
+        !holds<T>(far_sin_values, [](I const& x) { return T::sin(x); }))
+        return "sin";
+    if (!holds<T>(cos_values, [](I const& x) { return T::cos(x); }) ||
+        !holds<T>(far_cos_values, [](I const& x) { return T::cos(x); }))
+        return "cos";
     if (!holds<T>(atan_values, [](I const& x) { return T::atan(x); })) return "atan";
     if (!holds<T>(sinh_values, [](I const& x) { return T::sinh(x); })) return "sinh";
     if (!holds<T>(cosh_values, [](I const& x) { return T::cosh(x); })) return "cosh";
@@ -186,7 +203,9 @@ template <class T>
     if (!holds<T>(sqr_values, [](I const& x) { return T::sqr(x); })) return "sqr";
     if (!holds<T>(log_values, [&](I const& x) { return T::log(x, cut); })) return "log";
     if (!holds<T>(log1p_values, [&](I const& x) { return T::log1p(x, cut); })) return "log1p";
-    if (!holds<T>(tan_values, [&](I const& x) { return T::tan(x, cut); })) return "tan";
+    if (!holds<T>(tan_values, [&](I const& x) { return T::tan(x, cut); }) ||
+        !holds<T>(far_tan_values, [&](I const& x) { return T::tan(x, cut); }))
+        return "tan";
     if (!holds<T>(asin_values, [&](I const& x) { return T::asin(x, cut); })) return "asin";
     if (!holds<T>(acos_values, [&](I const& x) { return T::acos(x, cut); })) return "acos";
     if (!holds<T>(acosh_values, [&](I const& x) { return T::acosh(x, cut); })) return "acosh";

@@ -15,16 +15,33 @@
 /// The last needs neither assembler nor a header of the processor, and is chosen on any machine by
 /// `SIVID_PORTABLE_ARITHMETIC` (the same in all files of a program: `interval` is another type).
 
+#include <cfenv>
+#include <cmath> // defines __GLIBC__ where it applies
+#include <cstdint>
+#include <limits>
+
+/// Whether elementary functions of `interval` are sivid's own (detail/own_functions.hpp) and not
+/// those of the C library: where nobody has measured the library's errors, and wherever
+/// `SIVID_OWN_FUNCTIONS` is defined (the same in all files of a program: `interval` is another
+/// type).
+#if defined(SIVID_OWN_FUNCTIONS) || !defined(__GLIBC__) || defined(__UCLIBC__)
+#define SIVID_TRUSTS_LIBRARY 0
+#define SIVID_NAMED(name) name##_own
+#else
+#define SIVID_TRUSTS_LIBRARY 1
+#define SIVID_NAMED(name) name
+#endif
+
 #if defined(SIVID_PORTABLE_ARITHMETIC)
-#define SIVID_MACHINE portable
+#define SIVID_MACHINE SIVID_NAMED(portable)
 #elif defined(__x86_64__)
 #define SIVID_MACHINE_X86_64 1
-#define SIVID_MACHINE x86_64
+#define SIVID_MACHINE SIVID_NAMED(x86_64)
 #elif defined(__aarch64__) && defined(__ARM_NEON) && !defined(__AARCH64EB__)
 #define SIVID_MACHINE_ARM64 1
-#define SIVID_MACHINE arm64
+#define SIVID_MACHINE SIVID_NAMED(arm64)
 #else
-#define SIVID_MACHINE portable
+#define SIVID_MACHINE SIVID_NAMED(portable)
 #endif
 #ifndef SIVID_MACHINE_X86_64
 #define SIVID_MACHINE_X86_64 0
@@ -47,10 +64,6 @@
 #define SIVID_FUSED 0
 #endif
 
-#include <cfenv>
-#include <cmath>
-#include <cstdint>
-#include <limits>
 #if SIVID_MACHINE_X86_64
 #include <xmmintrin.h>
 #endif
@@ -93,6 +106,17 @@ inline std::uint64_t pinned(std::uint64_t x) noexcept {
     return kept;
 }
 
+#endif
+
+#if SIVID_FUSED
+/// a b + c by one instruction, without optimisation too.
+[[gnu::always_inline]] inline double fused(double a, double b, double c) noexcept {
+#if defined(__GNUC__)
+    return __builtin_fma(a, b, c);
+#else
+    return std::fma(a, b, c);
+#endif
+}
 #endif
 
 /// Neither flushed nor read as zero.

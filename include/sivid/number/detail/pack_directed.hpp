@@ -14,10 +14,10 @@
 /// are only handed on by value (docs/numbers.md, Compilers). Functions with aggregates by reference
 /// therefore hand on copies of their members where what they call is larger.
 
+#include <sivid/number/detail/exact_rounding.hpp>
 #include <sivid/number/detail/pack_target.hpp>
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 
 namespace sivid::simd {
@@ -55,14 +55,14 @@ template <class V>
     return (((ah * bh - p) + ah * bl) + al * bh) + al * bl;
 }
 
-/// a b + c rounded once, one lane at a time: for the rare lanes that Dekker's product cannot serve.
+/// The sign of a b + c, one lane at a time: for the rare lanes that Dekker's product cannot serve.
 template <class V>
-[[nodiscard]] V fused_by_lanes(V a, V b, V c) noexcept {
+[[nodiscard]] V sign_by_lanes(V a, V b, V c) noexcept {
     std::array<double, V::lanes> x, y, z;
     a.store(x.data());
     b.store(y.data());
     c.store(z.data());
-    for (std::size_t i = 0; i < V::lanes; ++i) x[i] = std::fma(x[i], y[i], z[i]);
+    for (std::size_t i = 0; i < V::lanes; ++i) x[i] = detail::sign_of_fused(x[i], y[i], z[i]);
     return V::load(x.data());
 }
 
@@ -162,7 +162,7 @@ private:
                     y = b * select(abs(b) < one, scale, one);
             V const scaled =
                 (p * select(abs(a) < one, scale, one)) * select(abs(b) < one, scale, one);
-            r = select(tiny, V::fused ? fma(x, y, -scaled) : fused_by_lanes(x, y, -scaled), r);
+            r = select(tiny, V::fused ? fma(x, y, -scaled) : sign_by_lanes(x, y, -scaled), r);
         }
         return r;
     }
@@ -175,7 +175,7 @@ private:
             auto const huge = (max(abs(a), abs(b)) > V(0x1p990)) | (abs(p) > V(0x1p1000));
             if (huge.bits() == 0) [[likely]]
                 return r;
-            return select(huge, fused_by_lanes(a, b, -p), r);
+            return select(huge, sign_by_lanes(a, b, -p), r);
         }
     }
 
@@ -195,7 +195,7 @@ private:
             auto const huge = (max(abs(q), abs(b)) > V(0x1p990)) | (abs(a) > V(0x1p990));
             if (huge.bits() == 0) [[likely]]
                 return r;
-            return select(huge, -fused_by_lanes(q, b, -a), r);
+            return select(huge, -sign_by_lanes(q, b, -a), r);
         }
     }
 

@@ -55,13 +55,7 @@ public:
     }
     /// Opaque, so that a compiler cannot fuse the product with a later sum.
     friend vector_portable operator*(vector_portable a, vector_portable b) noexcept {
-#if defined(SIVID_REGISTER)
-        double product = a.v_ * b.v_;
-        __asm__("" : SIVID_REGISTER(product));
-        return vector_portable{product};
-#else
         return vector_portable{detail::opaque(a.v_ * b.v_)};
-#endif
     }
     friend vector_portable operator/(vector_portable a, vector_portable b) noexcept {
         return vector_portable{a.v_ / b.v_};
@@ -69,13 +63,13 @@ public:
     friend vector_portable operator-(vector_portable a) noexcept { return vector_portable{-a.v_}; }
     friend vector_portable fma(vector_portable a, vector_portable b, vector_portable c) noexcept {
 #if SIVID_FUSED
-        return vector_portable{std::fma(a.v_, b.v_, c.v_)};
+        return vector_portable{detail::fused(a.v_, b.v_, c.v_)};
 #else
         return a * b + c;
 #endif
     }
     friend vector_portable sqrt(vector_portable a) noexcept {
-        return vector_portable{std::sqrt(a.v_)};
+        return vector_portable{detail::plain_sqrt(a.v_)};
     }
     friend vector_portable abs(vector_portable a) noexcept {
         return vector_portable{std::fabs(a.v_)};

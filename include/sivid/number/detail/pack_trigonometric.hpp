@@ -84,25 +84,31 @@ template <class V>
     return {{r, sin_tail}, {c.head, cos_tail}};
 }
 
-/// Bounds of sin(x + shift pi/2), shift 0 or 1, and the monotone piece of x: the sine rises on
-/// piece p, from (p - 1/2) pi to (p + 1/2) pi, for even p, and falls for odd p. piece = p + 1.5
-/// 2^52.
+/// Bounds of sin(x + shift pi/2), shift 0 or 1, for the reduced x.
 template <class V>
-struct wave_end {
-    V lo, hi, piece;
-};
-template <class V>
-[[nodiscard]] wave_end<V> wave_kernel(V x, double shift) noexcept {
+[[nodiscard, gnu::always_inline]] inline bounds<V> wave_bounds(turn_argument<V> const& a,
+                                                               double shift) noexcept {
     using d = directed<V>;
-    turn_argument<V> const a = reduce_turns(x);
     sine_pair<V> const y = sine_kernel(a);
     V const turns = a.turns + V(shift);
     auto const use_cos = bit_is_set<0>(turns), negative = bit_is_set<1>(turns);
     V const head = negate_where(negative, select(use_cos, y.cos.head, y.sin.head));
     V const tail = negate_where(negative, select(use_cos, y.cos.tail, y.sin.tail));
     V const margin = fma(V(kernel_error::sin_cos * unit_roundoff), abs(head), V(least_double));
-    return {d::add_down(head, tail - margin), d::add_up(head, tail + margin),
-            half_turn(quadrant(a), 1.0 + shift)};
+    return {d::add_down(head, tail - margin), d::add_up(head, tail + margin)};
+}
+
+/// The same and the monotone piece of x: the sine rises on piece p, from (p - 1/2) pi to (p + 1/2)
+/// pi, for even p, and falls for odd p. piece = p + 1.5 2^52.
+template <class V>
+struct wave_end {
+    V lo, hi, piece;
+};
+template <class V>
+[[nodiscard]] wave_end<V> wave_kernel(V x, double shift) noexcept {
+    turn_argument<V> const a = reduce_turns(x);
+    bounds<V> const y = wave_bounds(a, shift);
+    return {y.lo, y.hi, half_turn(quadrant(a), 1.0 + shift)};
 }
 
 /// The range of sin(t + shift pi/2) over [lo, hi], both ends within the limit.

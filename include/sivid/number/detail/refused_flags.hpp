@@ -5,6 +5,10 @@
 /// @file
 /// Refuses builds in which interval arithmetic would not prove anything.
 
+#include <cfloat>
+#include <limits>
+#include <stdexcept>
+
 #if defined(__FAST_MATH__)
 #error "sivid: -ffast-math breaks every inclusion; compile without it"
 #endif
@@ -20,15 +24,18 @@
 #if defined(__NO_SIGNED_ZEROS__)
 #error "sivid: -fno-signed-zeros is part of fast-math; compile without it"
 #endif
+#if defined(_M_FP_FAST)
+#error "sivid: /fp:fast breaks every inclusion; compile without it"
+#endif
 #if (defined(__x86_64__) || defined(__i386__)) && !defined(__SSE2_MATH__)
 #error "sivid: x87 arithmetic rounds twice; compile with -mfpmath=sse"
 #endif
-#if !defined(__FLT_EVAL_METHOD__) || __FLT_EVAL_METHOD__ != 0
+#if defined(__MINGW32__) && defined(__AVX__) && !defined(__clang__)
+#error "sivid: g++ for Windows misaligns vectors of AVX (GCC bug 54412); compile for SSE2"
+#endif
+#if !defined(FLT_EVAL_METHOD) || FLT_EVAL_METHOD != 0
 #error "sivid: doubles must be evaluated as doubles (FLT_EVAL_METHOD == 0)"
 #endif
-
-#include <limits>
-#include <stdexcept>
 
 namespace sivid {
 

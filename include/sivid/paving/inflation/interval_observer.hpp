@@ -7,6 +7,7 @@
 #include <sivid/model/graph/program.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/number/pack_traits.hpp>
+#include <sivid/number/rounding.hpp>
 #include <sivid/paving/response/misfit.hpp>
 
 #include <algorithm>
@@ -200,11 +201,11 @@ private:
             slices = std::max<std::size_t>(slices - 1, 1);
         }
     }
-    static double up(double x) { return std::nextafter(x, detail::infinity); }
+    static double up(double x) { return detail::next_up(x); }
     static double down(double x) { return -up(-x); }
     /// The end of a line, rounded up.
     static double end_above(double x, double slope, double t0, double t1) {
-        return up(std::fma(slope, slope >= 0 ? up(t1 - t0) : down(t1 - t0), x));
+        return detail::add_up(x, detail::mul_up(slope, slope >= 0 ? up(t1 - t0) : down(t1 - t0)));
     }
     static double end_below(double x, double slope, double t0, double t1) {
         return -end_above(-x, -slope, t0, t1);

@@ -3,6 +3,7 @@
 #define SIVID_PAVING_RESPONSE_MISFIT_HPP
 
 #include <sivid/number/interval_traits.hpp>
+#include <sivid/number/rounding.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -19,10 +20,8 @@ struct measured_ends {
     /// @given  bounded
     explicit measured_ends(interval const& bound) : lower(bound.lower()), upper(bound.upper()) {
         if (!(bound.lower() < bound.upper())) return;
-        lower = interval_traits<interval>::bounds(bound.lower(),
-                                                  std::nextafter(bound.lower(), detail::infinity));
-        upper = interval_traits<interval>::bounds(std::nextafter(bound.upper(), -detail::infinity),
-                                                  bound.upper());
+        lower = interval_traits<interval>::bounds(bound.lower(), detail::next_up(bound.lower()));
+        upper = interval_traits<interval>::bounds(detail::next_down(bound.upper()), bound.upper());
     }
 };
 

@@ -4,6 +4,7 @@
 
 #include <sivid/decision/design/detail/promise_types.hpp>
 #include <sivid/decision/motion/motion_cover.hpp>
+#include <sivid/number/rounding.hpp>
 #include <sivid/paving/contract/lifted_program.hpp>
 #include <sivid/paving/response/difference_response.hpp>
 #include <sivid/paving/work_limit.hpp>
@@ -116,7 +117,7 @@ private:
         : options_(options), limit_(options.seconds, options.keep_going) {
         options_.run.enclosure.keep_going = limit_;
         plan.for_each([this](double, std::size_t, double e) { // it may be a decimal just above
-            twice_.push_back(2 * std::nextafter(e, HUGE_VAL));
+            twice_.push_back(2 * detail::next_up(e));
         });
     }
     [[nodiscard]] bool two_models() const { return motions_.size() == 2; }

@@ -5,6 +5,7 @@
 #include <sivid/decision/requirement/robustness.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/number/rounding.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -53,8 +54,8 @@ struct directed_sum {
         if (!std::isfinite(down)) return;
         double const part = down - a;
         double const lost = (a - (down - part)) + (b - part);
-        if (lost < 0) down = std::nextafter(down, -HUGE_VAL);
-        if (lost > 0) up = std::nextafter(up, HUGE_VAL);
+        if (lost < 0) down = detail::next_down(down);
+        if (lost > 0) up = detail::next_up(up);
     }
 };
 
