@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "catalogue.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
+#include <limits>
 
 namespace withheld {
 
@@ -71,11 +74,24 @@ std::string plain_name(std::string_view name) {
     return std::string{name.substr(0, name.size() - (name.ends_with(wider) ? wider.size() : 0))};
 }
 
+double onset_in(std::string_view name, std::string_view scenario) {
+    auto at = name.find('@');
+    if (at == std::string_view::npos) return 0;
+    while (at < name.size()) {
+        auto const end = std::min(name.find('+', at + 1), name.size());
+        auto const one = name.substr(at + 1, end - at - 1);
+        auto const when = one.find(">=");
+        if (one.substr(0, when) == scenario)
+            return when == one.npos
+                       ? 0
+                       : std::strtod(std::string{one.substr(when + 2)}.c_str(), nullptr);
+        at = end;
+    }
+    return std::numeric_limits<double>::infinity();
+}
+
 bool acts_in(std::string_view name, std::string_view scenario) {
-    auto const at = name.find('@');
-    if (at == std::string_view::npos) return true;
-    auto const listed = '+' + std::string{name.substr(at + 1)} + '+';
-    return listed.find('+' + std::string{scenario} + '+') != std::string::npos;
+    return std::isfinite(onset_in(name, scenario));
 }
 
 std::string six_digits(double value) {

@@ -28,11 +28,14 @@ struct effect {
 
 std::vector<effect> const& catalogue();
 /// Null for an unknown name. "NAME_wider" is NAME over a prior four times as wide: ends at 0, or
-/// where the effect vanishes, stay. "NAME@S4+S5" is NAME in these scenarios only.
+/// where the effect vanishes, stay. "NAME@S4+S5" is NAME in these scenarios only,
+/// "NAME@S4>=1.5+S5" one that begins in S4 at 1.5 s.
 effect const* effect_named(std::string_view name);
 /// Without "_wider" and "@S4+S5".
 std::string plain_name(std::string_view name);
-/// Whether an effect of this name acts in a scenario.
+/// When an effect of this name begins in a scenario: 0 at its start, infinity never.
+double onset_in(std::string_view name, std::string_view scenario);
+/// Whether it acts there at all.
 bool acts_in(std::string_view name, std::string_view scenario);
 
 /// Draws a size into `e`; `scale` 1 is normal, 1/3 weak. `largest_rudder` is the largest angle that

@@ -134,6 +134,7 @@ private:
     void witness(told_cause const& c) {
         auto const values = member(member(c.about, "witness"), "parameters");
         if (c.verdict == "explains") hulls(member(c.about, "parameters"), values);
+        onsets(c);
         auto const answer = member(*d_, "answer");
         bool const answered =
             member(answer, "kind") == "effects" && names_in(member(answer, "effects")) == c.effects;
@@ -149,6 +150,21 @@ private:
                 (over->lower > at->upper + digits || over->upper < at->lower - digits))
                 add("holdout", joined(c.effects) + ' ' + when + ", at the witness " + text_of(*at) +
                                    ", over all fits " + text_of(*over));
+        }
+    }
+
+    /// The onsets that the name says explain the data: they lie in their windows.
+    void onsets(told_cause const& c) {
+        auto const all = member(c.about, "onsets");
+        for (auto const& [scenario, about] : all.items()) {
+            auto const window = hull_in(about);
+            auto const value = value_in(member(about, "value"));
+            bool const named =
+                value && std::any_of(c.effects.begin(), c.effects.end(),
+                                     [&](auto& e) { return onset_in(e, scenario) == *value; });
+            if (!named || (window && !window->contains(*value, digits)))
+                add("onset", joined(c.effects) + " in " + scenario +
+                                 (window ? ' ' + text_of(*window) : std::string{}));
         }
     }
 

@@ -138,12 +138,57 @@ void judge_parameters(label const& l, json const& cause, judgement& j) {
     }
 }
 
+/// Fits that explain the data with the effects of a cause. Where the truth begins later and a cause
+/// names its effect with onsets, whatever they are, hulls hold whenever it begins: the truth is
+/// one.
+std::vector<known_fit> comparable(label const& l, known_fits const& known, json const& cause) {
+    auto all = known.all();
+    auto const effects = names_in(member(cause, "effects"));
+    bool const named = effects.size() == 1 && l.effects.size() == 1 &&
+                       plain_name(*effects.begin()) == l.effects.front().first;
+    if (!named || member(cause, "onsets").empty()) return all;
+    known_fit truth{effects, l.number("fit_true").value_or(1.0), l.constants_true};
+    auto const* known_effect = effect_named(*effects.begin());
+    auto const& values = l.effects.front().second;
+    for (std::size_t i = 0; i < values.size() && i < known_effect->parameters.size(); ++i) {
+        auto const& p = known_effect->parameters[i];
+        if (values[i] < p.lo || values[i] > p.hi) return all;
+        truth.values[*effects.begin() + '.' + std::string{p.name}] = values[i];
+    }
+    all.push_back(std::move(truth));
+    return all;
+}
+
+/// Whether a window of onsets, out of a whole scenario, holds the true one.
+bool holds_onset(bounds const& window, bounds const& all, double truth) {
+    bool const never = truth >= all.upper && window.upper >= all.upper;
+    return never || window.contains(std::max(truth, all.lower), 1e-9);
+}
+
+/// The true onsets lie in their windows, if the truth explains the data.
+void judge_onsets(label const& l, std::vector<known_fit> const& known, json const& cause,
+                  judgement& j) {
+    auto const onsets = member(cause, "onsets");
+    auto const& truth = known.back();
+    if (truth.effects != names_in(member(cause, "effects")) || truth.inflation > 1 - 1e-6) return;
+    for (auto const& [scenario, about] : onsets.items()) {
+        auto const window = hull_in(about);
+        auto const all = bounds_in(member(about, "prior"));
+        if (!window || !all) continue;
+        double const at = true_onset(l, scenario);
+        j.onset_windows.push_back((window->upper - window->lower) / (all->upper - all->lower));
+        j.proof(holds_onset(*window, *all, at), "onset",
+                scenario + " in " + text_of(*window) + ", in truth " + short_text(at));
+    }
+}
+
 /// Hulls contain every value that explains the data: those of the truth and of the fits known.
-void judge_hulls(known_fits const& known, json const& hulls, names const& effects, judgement& j) {
+void judge_hulls(std::vector<known_fit> const& known, json const& hulls, names const& effects,
+                 judgement& j) {
     for (auto const& [name, range] : hulls.items()) {
         auto const hull = hull_in(range);
         if (!hull) continue;
-        for (auto const& f : known.all()) {
+        for (auto const& f : known) {
             auto const value = f.values.find(name);
             bool const comparable = f.effects == effects && f.inflation <= 1 - 1e-6;
             if (!comparable || value == f.values.end()) continue;
@@ -168,7 +213,13 @@ void judge_causes(label const& l, known_fits const& known, json const& d, judgem
                 j.truth_explains = true;
                 judge_parameters(l, c, j);
             }
-            judge_hulls(known, member(c, "parameters"), effects, j);
+            auto const fits = comparable(l, known, c);
+            judge_hulls(fits, member(c, "parameters"), effects, j);
+            judge_onsets(l, fits, c, j);
+            auto const answer = member(d, "answer");
+            if (member(answer, "kind") == "effects" &&
+                names_in(member(answer, "effects")) == effects)
+                judge_hulls(fits, member(answer, "constants"), effects, j);
         }
         if (verdict == "excluded")
             j.proof(!explains && !(least && *least <= 1 - 1e-6), "excluded", joined(effects));
@@ -216,8 +267,7 @@ judgement judge(label const& l, json const& d, json const& baseline) {
     judge_relations(l, d, j);
     judge_places(l, d, j);
     judge_causes(l, known, d, j);
-    if (kind != "unexplained" && kind != "open")
-        judge_hulls(known, member(answer, "constants"), names_in(member(answer, "effects")), j);
+    if (kind == "none") judge_hulls(known.all(), member(answer, "constants"), {}, j);
     judge_shrink(l, d, j);
     j.withdrawn = member(d, "withdrawn").size();
     j.contradictions = contradictions_in(d);

@@ -39,6 +39,7 @@ struct judgement {
     std::optional<double> shrink_lower, shrink_upper, shrink_true;           // on hold-out data
     std::size_t witnesses_checked = 0, rates_checked = 0, hulls_checked = 0;
     std::size_t intervals = 0, intervals_hold = 0; // of the true effects' parameters
+    std::vector<double> onset_windows;             // widths, in shares of the scenario's time
     std::optional<double> seconds;
 
     /// Counts a proof, and remembers it when it is false.

@@ -153,7 +153,7 @@ std::string complaints(std::vector<judgement> const& all) {
 }
 
 std::string measures(std::vector<judgement> const& all) {
-    std::vector<double> width, slack, shrink, shrink_error, seconds;
+    std::vector<double> width, slack, shrink, shrink_error, seconds, onsets;
     counted relations, certified, sound, shrink_held, parts;
     std::size_t witnesses = 0, rates = 0, hulls = 0, intervals = 0, hold = 0, contradictory = 0,
                 withdrawn = 0;
@@ -166,6 +166,7 @@ std::string measures(std::vector<judgement> const& all) {
         intervals += j.intervals;
         hold += j.intervals_hold;
         if (j.part_right) parts.add(*j.part_right);
+        onsets.insert(onsets.end(), j.onset_windows.begin(), j.onset_windows.end());
         if (j.seconds) seconds.push_back(*j.seconds);
         if (j.inflation_lower && j.inflation_upper && *j.inflation_lower > 0)
             width.push_back(*j.inflation_upper / *j.inflation_lower);
@@ -200,6 +201,7 @@ std::string measures(std::vector<judgement> const& all) {
          << "missing rates simulated:         " << rates << '\n'
          << "explaining values held to hulls: " << hulls << '\n'
          << "the part that stands alone found: " << parts.text() << '\n'
+         << "windows of onsets / scenario:    " << spread(onsets) << '\n'
          << "files that contradict themselves: " << contradictory << " of " << all.size() << '\n'
          << "claims that the program withdrew: " << withdrawn << '\n'
          << "effect parameters in their intervals: " << hold << '/' << intervals << '\n';

@@ -56,10 +56,16 @@ channels start_of(scenario const& plan, json const& witness) {
     return start;
 }
 
-/// Effects that act in some scenarios only are none in the others.
+/// Effects that act in some scenarios only are none in the others, and begin where they are said
+/// to.
 void switch_off(world& w, json const& cause, std::string const& scenario) {
     for (auto const& name : names_in(member(cause, "effects"))) {
-        if (acts_in(name, scenario)) continue;
+        double const onset = onset_in(name, scenario);
+        if (onset == 0) continue;
+        if (std::isfinite(onset)) {
+            begin_effects_at(w, onset); // such an effect stands alone
+            continue;
+        }
         for (auto const& p : effect_named(name)->parameters)
             w.e.*p.member = effect_values{}.*p.member;
     }

@@ -147,6 +147,7 @@ inline bool may_include_approximate(std::string_view other, std::string_view inc
         {"sivid/paving/impl/inflation.ipp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/candidate/screening.hpp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/candidate/detail/candidate_fit.hpp", {"fit/fit.hpp", "fit/thinned.hpp"}},
+        {"sivid/diagnosis/detail/onset_fit.hpp", {"fit/fit.hpp", "fit/thinned.hpp"}},
         {"sivid/diagnosis/hold_out/holdout_judgement.hpp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/claim/claim_review.hpp", {"fit/campaign.hpp"}},
         {"sivid/diagnosis/gap/impl/confined_gap.ipp", {"fit/fit.hpp"}},

@@ -51,6 +51,34 @@ TEST_CASE("effects are switched on in the experiments in which they act") {
     CHECK(second[0] == fitter(base).at({1.1}, {{0, 0}, {0, 0.5}}).residuals[0]);
 }
 
+TEST_CASE("an effect that begins later is none before, and acts from then on") {
+    auto const base = small_campaign::problem();
+    CHECK(measured_time(base.experiments[0]).lower() == 0);
+    CHECK(measured_time(base.experiments[0]).upper() == 4);
+    auto const drag = effects::linear_damping("drag", "v", {0_dec, 0.5_dec});
+    auto const at = [&base](effect const& e) {
+        auto const problem = affected(base, {e});
+        problem.require_valid();
+        return fitter(problem).at({1.1, 0.3}, {{0, 0}, {0, 0.5}}).residuals;
+    };
+    auto const without = fitter(base).at({1.1}, {{0, 0}, {0, 0.5}}).residuals;
+    auto const always = at(drag);
+    double const never = 9;
+    for (double const t : {1.0, 1.23}) { // a sample, between two
+        auto const some = at(only_within(drag, {"E1", "E2"}, {t, never}));
+        auto const data = sorted(base.experiments[0].measurements);
+        for (std::size_t k = 0; k < data.size(); ++k) {
+            CAPTURE(t, data[k].time);
+            double const off = std::abs(some[0][k] - without[0][k]);
+            CHECK((data[k].time <= t ? off < 1e-6 : off > 1e-3));
+        }
+        CHECK_THAT(some[1].back(), Catch::Matchers::WithinAbs(without[1].back(), 1e-6));
+    }
+    // At its begin or before: the same as always, by the same model.
+    CHECK(at(only_within(drag, {"E1", "E2"}, {0, -1})) == always);
+    CHECK(at(only_within(drag, {"E1", "E2"}, {effect::from_start, effect::from_start})) == always);
+}
+
 TEST_CASE("starts of added states follow the parameters they depend on") {
     auto base = small_campaign::problem();
     auto p = affected(base, {effects::input_lag("lag", "u", "N", {0.1_dec, 1_dec}, 5),

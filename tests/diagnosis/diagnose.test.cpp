@@ -255,6 +255,60 @@ TEST_CASE("an effect that acts in some experiments only is found with them") {
     for (auto const& e : late.effects) CHECK(e.find("late@") == std::string::npos);
 }
 
+TEST_CASE("an effect that begins later is found, and the windows hold its onsets") {
+    struct expectation {
+        small_campaign::truth real;
+        std::string effect;
+        double value;
+        std::vector<double> onsets;
+    };
+    for (auto const& [real, effect, value, onsets] :
+         {expectation{small_campaign::with_slope(0.4), "slope", 0.4, {1, 2.05, 0.513}},
+          {small_campaign::with_drag(0.6), "quadratic", 0.6, {0.8, 1.234, 1.9}},
+          {small_campaign::with_slope(-0.5), "slope", -0.5, {0, 1.5, 9}}}) {
+        auto p = small_campaign::problem();
+        p.experiments.clear();
+        for (std::size_t e = 0; e < onsets.size(); ++e) {
+            small_campaign::truth later;
+            later.missing = [&, begin = onsets[e], force = real.missing](double t, double v,
+                                                                         double u) {
+                return t >= begin ? force(t, v, u) : 0;
+            };
+            p.experiments.push_back(small_campaign::experiment(e, later));
+        }
+        auto const d = diagnose(p, small_campaign::catalogue(), {}).result;
+        CAPTURE(effect);
+        for (auto const& c : find_contradictions(d)) FAIL_CHECK(c.claim + ": " + c.reason);
+        CHECK(d.gap == gap_verdict::certified);
+        REQUIRE(d.answer == answer_kind::effects);
+        REQUIRE(d.effects.size() == 1);
+        CAPTURE(d.effects[0]);
+        CHECK(d.effects[0].starts_with(effect + "@E1"));
+        auto const& c = d.causes.front();
+        CHECK(c.verdict == cause_verdict::explains);
+        REQUIRE(c.parameters.size() == 1);
+        REQUIRE(c.parameters[0].hull);
+        CHECK(contains(*c.parameters[0].hull, value));
+        CHECK_FALSE(c.onsets.empty());
+        for (auto const& o : c.onsets) {
+            CAPTURE(o.name, o.value);
+            double const truth = onsets[static_cast<std::size_t>(o.name[1] - '1')];
+            REQUIRE((o.hull && o.prior));
+            CHECK(contains(*o.hull, std::min(truth, 4.0)));
+            CHECK(contains(*o.hull, o.value));
+            CHECK(std::abs(o.value - std::min(truth, 4.0)) < 0.3);
+            CHECK(width(*o.hull) < width(*o.prior));
+        }
+        CHECK_FALSE(d.next);
+    }
+    // From the start on, or not at all, there is no onset to be named.
+    for (auto const& real : {small_campaign::with_slope(0.4), small_campaign::truth{}}) {
+        auto const d = run(real).result;
+        for (auto const& e : d.effects) CHECK(e == "slope");
+        for (auto const& c : d.causes) CHECK(c.onsets.empty());
+    }
+}
+
 TEST_CASE("what no catalogue has stays unexplained") {
     small_campaign::truth gust;
     gust.missing = [](double t, double, double) { return t > 1 && t < 1.6 ? 1.5 : 0.0; };

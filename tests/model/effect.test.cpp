@@ -176,6 +176,27 @@ TEST_CASE("an effect in some experiments only has a switch and is none where tha
     CHECK_THROWS_AS(with(tank{}, only_within(lag, {"S1"})), std::invalid_argument);
 }
 
+TEST_CASE("an effect that begins later has the time in its name, which reads back") {
+    for (double const t : {1.5, 0.1, 1.0 / 3, 1234567.25, 1e-7, -2.5, 0.0}) {
+        auto const e = only_within(doubled("a"), {"E2", "E4"}, {t, effect::from_start});
+        CHECK(e.has_onset());
+        auto const read = effects_named({doubled("a")}, {e.name}).front();
+        CHECK(read.name == e.name);
+        CHECK(read.only_in == e.only_in);
+        CHECK(read.since == e.since);
+        CHECK(with(tank{}, read).about.inputs[1].name == e.name);
+    }
+    auto const e = only_within(doubled("a"), {"E2", "E4"}, {1.5, effect::from_start});
+    CHECK(e.name == "a@E2>=1.5+E4");
+    CHECK(effects_named({doubled("a")}, {"a_wider@E2>=2"}).front().parameters[0].widened == 4);
+    CHECK_FALSE(effects_named({doubled("a")}, {"a@E2+E4"}).front().has_onset());
+    CHECK_FALSE(doubled("a").has_onset());
+    for (auto const* bad : {"a@E2>=", "a@E2>=soon", "a@E2>=1.5s"}) {
+        CHECK_THROWS_WITH(effects_named({doubled("a")}, {bad}),
+                          ContainsSubstring("is no time in seconds"));
+    }
+}
+
 TEST_CASE("mistakes in effects are named") {
     auto const with_input = [](std::string const& name) {
         effect e;

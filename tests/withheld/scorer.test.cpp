@@ -12,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <cstdlib>
 
 using namespace withheld;
@@ -442,6 +443,55 @@ TEST_CASE("missing rates and offsets of sensors against the truth") {
     l.effects[0].second = {0.05};
     CHECK(found("input", "delta", 0.0499, 0.0501, "S4").empty());
     CHECK(found("input", "W", 1, 2, "S4") == strings{"missing"});
+}
+
+TEST_CASE("an effect that begins later is held to its windows") {
+    CHECK(onset_in("wind", "S1") == 0);
+    CHECK(onset_in("wind@S1>=0.25+S3", "S1") == 0.25);
+    CHECK(onset_in("wind@S1>=0.25+S3", "S3") == 0);
+    CHECK(std::isinf(onset_in("wind@S1>=0.25+S3", "S2")));
+    CHECK(plain_name("wind_wider@S1>=0.25") == "wind");
+    auto l = labelled("onset", {"quadratic_yaw_damping"});
+    l.effects[0].second = {0.1};
+    l.more["onsets"] = "S1=0.5 S2=2";
+    l.more["fit_true"] = "0.95";
+    std::string const name = "quadratic_yaw_damping@S1>=0.5+S2>=1.9";
+    auto const told = [&](double from, double to, double least, double most) {
+        auto d = answering({name});
+        d["causes"] = {{{"effects", {name}},
+                        {"verdict", "explains"},
+                        {"inflation", {0.9, 0.95}},
+                        {"onsets",
+                         {{"S1", {{"value", 0.5}, {"hull", {0.4, 0.6}}, {"prior", {0, 1}}}},
+                          {"S2", {{"value", 1.9}, {"hull", {from, to}}, {"prior", {0, 4}}}}}},
+                        {"parameters", {{name + ".k", {least, most}}}}}};
+        return kinds_of(judge(l, d).false_proofs);
+    };
+    CHECK(told(1.8, 2.1, 0.05, 0.15).empty());
+    CHECK(told(1.8, 1.99, 0.05, 0.15) == strings{"onset"});
+    CHECK(told(2.01, 2.1, 0.05, 0.15) == strings{"onset"});
+    CHECK(told(1.8, 2.1, 0.11, 0.15) == strings{"hull"});
+    l.more["onsets"] = "S1=0.5 S2=inf";
+    CHECK(told(1.8, 4, 0.05, 0.15).empty()); // perhaps never
+    CHECK(told(1.8, 3.9, 0.05, 0.15) == strings{"onset"});
+    // Another effect is another question; so is a truth that outliers hide.
+    l.effects[0].first = "dry_yaw_friction";
+    CHECK(told(1.8, 1.99, 0.11, 0.15).empty());
+    l.effects[0].first = "quadratic_yaw_damping";
+    l.more["fit_true"] = "1.2";
+    CHECK(told(1.8, 1.99, 0.11, 0.15).empty());
+    // The file itself: a value outside of its window, or other than in the name.
+    auto d = answering({name});
+    d["causes"] = {
+        {{"effects", {name}},
+         {"verdict", "explains"},
+         {"inflation", {0.9, 0.95}},
+         {"onsets", {{"S2", {{"value", 1.9}, {"hull", {1.95, 2}}, {"prior", {0, 4}}}}}}}};
+    CHECK(kinds_of(contradictions_in(d)) == strings{"onset"});
+    d["causes"][0]["onsets"]["S2"]["hull"] = {1.8, 2};
+    CHECK(contradictions_in(d).empty());
+    d["causes"][0]["onsets"]["S2"]["value"] = 1.85;
+    CHECK(kinds_of(contradictions_in(d)) == strings{"onset"});
 }
 
 TEST_CASE("an effect in some scenarios is named with them, and held to them") {

@@ -192,6 +192,10 @@ struct cause {
     std::optional<holdout_figures> holdout;
     std::vector<std::string> untouched{}; ///< refuted equations that it leaves as they are
     std::string excluded_by{}; ///< the refuted equation that excludes it; empty: its whole prior
+    /// When the effect begins, by scenario, where it does so later than some of them: the values
+    /// explain the data. `hull`: proved, whenever it begins in the others; `prior`: all the
+    /// scenario.
+    std::vector<named_estimate> onsets{};
 };
 
 enum class answer_kind {

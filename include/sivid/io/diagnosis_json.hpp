@@ -134,6 +134,17 @@ private:
         }
         json_.end_array();
     }
+    /// {"S1": {"value": t, "hull": [lower, upper], "prior": [begin, end]}, ...}
+    void onsets(std::vector<named_estimate> const& all) {
+        json_.key("onsets").begin_object();
+        for (auto const& o : all) {
+            json_.key(o.name).begin_object(one_line).key("value").nearest(o.value);
+            maybe("hull", o.hull);
+            maybe("prior", o.prior);
+            json_.end_object();
+        }
+        json_.end_object();
+    }
     void witness(std::optional<named_witness> const& w) {
         json_.key("witness");
         if (!w) {
@@ -188,6 +199,7 @@ private:
             json_.key("score").nearest(c.score);
             hulls("parameters", c.parameters);
             values("estimates", c.parameters);
+            onsets(c.onsets);
             witness(c.witness);
             strings("assumptions", c.assumptions);
             strings("untouched", c.untouched);

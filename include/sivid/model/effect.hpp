@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -61,6 +62,14 @@ struct effect {
     /// has a switch, an input of its name that is 1 where it acts and else 0; no delay and no state
     /// of its own.
     std::vector<std::string> only_in{};
+    /// When it begins in each of these [s], from then on it acts; none: at their start.
+    std::vector<double> since{};
+
+    /// Whether it begins in some experiment later than that does.
+    [[nodiscard]] bool has_onset() const {
+        return std::any_of(since.begin(), since.end(), [](double t) { return t > from_start; });
+    }
+    static constexpr double from_start = -std::numeric_limits<double>::infinity();
 };
 
 /// What an effect sees of a model under construction and may change. Names are the model's own;
@@ -112,12 +121,16 @@ private:
 /// The effect with priors four times as wide, under its name and "_wider".
 [[nodiscard]] SIVID_DECL effect widened(effect e);
 
-/// The effect in these experiments only, under its name and "@S4+S5".
-[[nodiscard]] SIVID_DECL effect only_within(effect e, std::vector<std::string> experiments);
+/// The effect in these experiments only, under its name and "@S4+S5"; "@S4>=1.5+S5" where it begins
+/// in S4 at 1.5 s.
+/// @param since  for each of them, `effect::from_start` or a time [s]; none: all from the start
+[[nodiscard]] SIVID_DECL effect only_within(effect e, std::vector<std::string> experiments,
+                                            std::vector<double> since = {});
 
 /// Those of a catalogue that have these names, in the order of the names; `widened` ones, and those
 /// `only_within` some experiments, too.
-/// @throws std::invalid_argument  for a name that the catalogue lacks
+/// @throws std::invalid_argument  for a name that the catalogue lacks, and an onset that is no
+/// number
 [[nodiscard]] SIVID_DECL std::vector<effect> effects_named(std::vector<effect> const& catalogue,
                                                            std::vector<std::string> const& names);
 

@@ -124,3 +124,29 @@ TEST_CASE("slices of inputs are no wider than they must be") {
     CHECK(shifted.error_bound(shifted.piece(1.25), 1.25) == 0);
     CHECK(shifted.approximate(1.25) == 1);
 }
+
+TEST_CASE("a switch lies within its slice for every onset in it") {
+    support::draws d(11);
+    for (int n = 0; n < 2000; ++n) {
+        double const begin = d.uniform(-1.0, 1.0), end = begin + d.uniform(0.0, 3.0);
+        auto const time = [&] {
+            auto const which = d.below(6);
+            return which == 0 ? begin : which == 1 ? end : d.uniform(begin - 0.5, end + 0.5);
+        };
+        double a = time(), b = d.below(4) == 0 ? a : time();
+        if (b < a) std::swap(a, b);
+        auto const wide = switched_within(begin, end, interval(a, b));
+        double const onset = d.below(3) == 0 ? a : d.below(2) == 0 ? b : d.uniform(a, b);
+        INFO("onset " << onset << " in " << a << " to " << b << ", seen " << begin << " to "
+                      << end);
+        for (double const t : {begin, end, a, b, onset, d.uniform(begin, end)}) {
+            if (t < begin || t > end) continue;
+            require_within(wide, t, t >= onset ? 1 : 0);
+            if (b >= end) require_within(wide, t, 0); // never
+            // No wider than it must be.
+            auto const k = wide.piece(t);
+            bool const open = wide.error_bound(k, t) > 0;
+            CHECK((!open || (t >= a && (t < b || b >= end))));
+        }
+    }
+}

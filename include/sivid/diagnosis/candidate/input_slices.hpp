@@ -36,6 +36,16 @@ namespace sivid {
 [[nodiscard]] SIVID_DECL sampled_signal delayed_within(sampled_signal const& u, double begin,
                                                        double end, interval const& delays);
 
+/// A switch that goes from 0 to 1 at a time within `onset` and stays there, as a held input with
+/// error bounds: 0 before, anything from 0 to 1 within, 1 after.
+/// @given  begin <= end; onset is not empty
+/// @guarantee  for every onset in the interval the switch (1 from the onset on) lies within the
+///             result from `begin` to `end`; where the interval reaches to `end`, so does one that
+///             stays 0
+/// @cost  three samples at most
+[[nodiscard]] SIVID_DECL sampled_signal switched_within(double begin, double end,
+                                                        interval const& onset);
+
 } // namespace sivid
 
 #ifndef SIVID_COMPILED

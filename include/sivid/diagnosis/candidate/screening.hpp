@@ -8,6 +8,7 @@
 #include <sivid/diagnosis/candidate/candidate.hpp>
 #include <sivid/diagnosis/candidate/detail/candidate_fit.hpp>
 #include <sivid/diagnosis/candidate/detail/screened.hpp>
+#include <sivid/diagnosis/detail/onset_fit.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 
 #include <algorithm>
@@ -117,6 +118,39 @@ public:
         try_all(wanted);
     }
 
+    /// Tries single effects of the plan as such that begin in each experiment at a time of its own,
+    /// and adds those that explain the data so. Those with delays or states of their own are left
+    /// out.
+    void try_onsets() {
+        std::vector<onset_fit> searches;
+        for (auto const& one : singles()) {
+            auto const* always = find(one);
+            if (always == nullptr || remembers(always->problem.model, base_.model)) continue;
+            searches.emplace_back(base_, catalogue_[one.front()], always->fit.parameters,
+                                  [this] { return in_time(); });
+        }
+        std::mutex asking;
+        options_.workers(searches.size(), [&](std::size_t k) {
+            if (may_try(searches[k].name() + " from a time on", asking)) searches[k].look_roughly();
+        });
+        std::stable_sort(searches.begin(), searches.end(),
+                         [](auto const& a, auto const& b) { return a.squares() < b.squares(); });
+        constexpr std::ptrdiff_t most = 4;
+        if (std::ssize(searches) > most) searches.erase(searches.begin() + most, searches.end());
+        options_.workers(searches.size(), [&](std::size_t k) {
+            if (in_time()) searches[k].look_closely();
+        });
+        for (auto& found : searches) {
+            if (!found.explains()) continue;
+            screened s{{{}, 0, {}, {}}, found.problem(), found.fit()};
+            s.figures.effects = {index_of_effect(catalogue_, found.begun())};
+            s.figures.inflation = s.fit.inflation;
+            s.figures.squares = s.fit.squares;
+            s.figures.unknowns = s.problem.prior.size() + found.onsets().size();
+            if (find(s.figures.effects) == nullptr) tried_.push_back(std::move(s));
+        }
+    }
+
     /// Fits one set of effects, unless that was done.
     void try_one(std::vector<std::size_t> const& effects) { try_all({effects}); }
 
@@ -137,7 +171,7 @@ public:
         std::mutex asking;
         auto const elsewhere = fitted_elsewhere(open, asking, keep);
         options_.workers(open.size(), [&](std::size_t k) {
-            if (elsewhere[k] || !may_try(open[k], asking)) return;
+            if (elsewhere[k] || !may_try(name_of(open[k]), asking)) return;
             auto s = posed(open[k]);
             s.fit = fit_candidate(s.problem, base_, best_part_of(open[k]), open[k].size(),
                                   options_.go_on, s.silent);
@@ -272,10 +306,9 @@ private:
         for (auto const e : effects) name += (name.empty() ? "" : " + ") + catalogue_[e].name;
         return name.empty() ? "the model itself" : name;
     }
-    [[nodiscard]] bool may_try(std::vector<std::size_t> const& effects, std::mutex& asking) {
+    [[nodiscard]] bool may_try(std::string const& name, std::mutex& asking) {
         std::lock_guard const alone(asking);
-        stopped_ =
-            stopped_ || !in_time() || (options_.progress && !options_.progress(name_of(effects)));
+        stopped_ = stopped_ || !in_time() || (options_.progress && !options_.progress(name));
         return !stopped_;
     }
     /// For any thread.
@@ -301,7 +334,7 @@ private:
                              [this](std::size_t e) { return e < planned_; }))
                 continue;
             which[k] = 1;
-            if (!may_try(open[k], asking)) continue;
+            if (!may_try(name_of(open[k]), asking)) continue;
             whose.push_back(k);
             wanted.push_back({open[k], best_part_of(open[k])});
         }

@@ -87,18 +87,34 @@ private:
         if (!(c.inflation.upper() <= 1)) return;
         if (!effort_->go_on("bounding the effect's parameters")) return;
         effect_hull_options options;
-        options.test = effort_->test();
-        options.seconds = effort_->seconds_of(options_->hulls);
-        options.boxes = options_->hulls.boxes;
-        options.keep_going = [this] { return effort_->go_on(); };
         std::vector<effect> effects;
         for (auto const e : s.figures.effects) effects.push_back(run_->catalogue[e]);
-        auto const hulls = effect_hulls(run_->base, effects, options);
+        bool const later = effects.size() == 1 && effects.front().has_onset();
+        auto const& most = later ? options_->onsets : options_->hulls;
+        options.test = effort_->test();
+        options.seconds = effort_->seconds_of(most);
+        options.boxes = most.boxes;
+        options.keep_going = [this] { return effort_->go_on(); };
+        auto const hulls = later ? bound_onsets(effects.front(), c, options)
+                                 : effect_hulls(run_->base, effects, options);
         auto const own = run_->base.prior.size();
         for (std::size_t k = 0; k < c.parameters.size(); ++k) {
             c.parameters[k].hull = hulls[own + k];
         }
         run_->answer_hull = hulls;
+    }
+
+    /// When the effect begins; and hulls that hold whenever that is.
+    [[nodiscard]] box bound_onsets(effect const& e, cause& c, effect_hull_options const& options) {
+        auto const found = hulls_with_onsets(run_->base, e, options);
+        for (std::size_t k = 0; k < e.only_in.size(); ++k) {
+            if (!(e.since[k] > effect::from_start)) continue;
+            auto const& all = run_->base.experiments;
+            auto const s = index_of(all, e.only_in[k], "experiment");
+            c.onsets.push_back(
+                {all[s].name, "s", e.since[k], found.onsets[s], measured_time(all[s])});
+        }
+        return found.parameters;
     }
 
     /// Candidates that leave a refuted relation as it is, by those that no candidate contradicts.

@@ -6,6 +6,20 @@
 
 namespace sivid {
 
+namespace diagnosis_detail {
+/// A formula where it stays as it is, so that the model folds; a held input with a knot where the
+/// effect begins.
+inline signal switch_of(effect const& e, experiment const& x) {
+    auto const& in = e.only_in;
+    auto const k = static_cast<std::size_t>(std::find(in.begin(), in.end(), x.name) - in.begin());
+    if (k < e.since.size() && e.since[k] > x.begin) {
+        return sampled_signal({x.begin, e.since[k]}, {0, 1}, interpolation::hold);
+    }
+    double const on = k < in.size() ? 1 : 0;
+    return analytic_signal::from([on](auto const&) { return on; });
+}
+} // namespace diagnosis_detail
+
 SIVID_DECL identification_problem affected(identification_problem const& base,
                                            std::vector<effect> const& effects) {
     identification_problem result{with(base.model, effects), base.choice, {}, base.experiments};
@@ -15,9 +29,7 @@ SIVID_DECL identification_problem affected(identification_problem const& base,
             auto const e = std::find_if(effects.begin(), effects.end(), [&](effect const& other) {
                 return other.name == inputs[k].name;
             });
-            auto const& in = e->only_in;
-            double const on = std::find(in.begin(), in.end(), x.name) == in.end() ? 0 : 1;
-            x.inputs.push_back(analytic_signal::from([on](auto const&) { return on; }));
+            x.inputs.push_back(diagnosis_detail::switch_of(*e, x));
         }
     }
     std::vector<interval> prior(base.prior.begin(), base.prior.end());

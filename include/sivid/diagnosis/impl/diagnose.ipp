@@ -154,7 +154,9 @@ private:
             (void)answer_by_proof(d);
         }
         bool const alone = going && unanswered(d.answer);
-        if (alone && try_confined(tried)) {
+        for (auto const with_switches :
+             {&diagnostician::try_confined, &diagnostician::try_onsets}) {
+            if (!going || !unanswered(d.answer) || !(this->*with_switches)(tried)) continue;
             order = try_candidates(tried, 0.2 * options_.verdict_share);
             going = candidate_verdicts(run_, order, effort_, options_).verify();
             (void)answer_by_proof(d);
@@ -195,11 +197,22 @@ private:
         }
         return tried.candidates().size() > before;
     }
+    /// Effects that begin in the midst of experiments.
+    /// @returns  whether some explain the data
+    [[nodiscard]] bool try_onsets(screening& tried) {
+        std::vector<std::string> names;
+        for (auto const& e : run_.base.experiments) names.push_back(e.name);
+        if (!run_.result.tried.complete() || !can_stand_in_a_name(names)) return false;
+        auto const before = tried.candidates().size();
+        kept_ = (0.1 * options_.onsets.share + 0.2 * options_.verdict_share) * options_.seconds;
+        tried.try_onsets();
+        return tried.candidates().size() > before;
+    }
     [[nodiscard]] static bool can_stand_in_a_name(std::vector<std::string> const& scenarios) {
         constexpr std::size_t most = 8;
         return scenarios.size() <= most &&
                std::all_of(scenarios.begin(), scenarios.end(), [](std::string const& s) {
-                   return s.find_first_of("@+,") == std::string::npos;
+                   return s.find_first_of("@+,>") == std::string::npos;
                });
     }
     [[nodiscard]] std::vector<std::size_t> closest_singles(std::size_t most) const {

@@ -5,12 +5,33 @@
 #include <sivid/model/change/copy_equations.hpp>
 #include <sivid/model/effect.hpp>
 
+#include <array>
+#include <charconv>
 #include <string_view>
 
 namespace sivid {
 
 namespace detail {
 inline constexpr std::string_view wider = "_wider";
+
+/// A time as people write it, which reads back as the same double.
+inline std::string time_text(double t) {
+    std::array<char, 400> text{};
+    auto const end =
+        std::to_chars(text.data(), text.data() + text.size(), t, std::chars_format::fixed);
+    return {text.data(), end.ptr};
+}
+
+/// Cuts the onset off "S4>=1.5"; the start where there is none.
+inline double onset_in(std::string& experiment) {
+    auto const at = experiment.find(">=");
+    if (at == std::string::npos) return effect::from_start;
+    auto const text = experiment.substr(at + 2);
+    auto const t = parse_nearest(text);
+    if (!t) throw std::invalid_argument("effect: '" + text + "' is no time in seconds");
+    experiment.resize(at);
+    return *t;
+}
 
 /// Splits "NAME@S4+S5"; without experiments the name as it is.
 inline std::vector<std::string> experiments_in(std::string& name) {
@@ -47,15 +68,20 @@ SIVID_DECL effect widened(effect e) {
     return e;
 }
 
-SIVID_DECL effect only_within(effect e, std::vector<std::string> experiments) {
+SIVID_DECL effect only_within(effect e, std::vector<std::string> experiments,
+                              std::vector<double> since) {
     std::string names, words;
-    for (auto const& x : experiments) {
-        names += (names.empty() ? "@" : "+") + x;
-        words += (words.empty() ? ", in " : ", ") + x;
+    for (std::size_t k = 0; k < experiments.size(); ++k) {
+        bool const later = k < since.size() && since[k] > effect::from_start;
+        auto const at = later ? detail::time_text(since[k]) : std::string{};
+        names += (names.empty() ? "@" : "+") + experiments[k] + (later ? ">=" + at : "");
+        words += (words.empty() ? ", in " : ", ") + experiments[k] +
+                 (later ? " from " + at + " s on" : "");
     }
     e.name += names;
     if (!e.about.empty()) e.about += words + " only";
     e.only_in = std::move(experiments);
+    e.since = std::move(since);
     return e;
 }
 
@@ -65,14 +91,16 @@ SIVID_DECL std::vector<effect> effects_named(std::vector<effect> const& catalogu
     for (auto name : names) {
         bool known = std::any_of(catalogue.begin(), catalogue.end(),
                                  [&](effect const& e) { return e.name == name; });
-        auto const within = known ? std::vector<std::string>{} : detail::experiments_in(name);
+        auto within = known ? std::vector<std::string>{} : detail::experiments_in(name);
+        std::vector<double> since;
+        for (auto& x : within) since.push_back(detail::onset_in(x));
         known = std::any_of(catalogue.begin(), catalogue.end(),
                             [&](effect const& e) { return e.name == name; });
         bool const wider = !known && name.ends_with(detail::wider);
         if (wider) name.resize(name.size() - detail::wider.size());
         auto const& found = catalogue[index_of(catalogue, name, "effect")];
         result.push_back(wider ? widened(found) : found);
-        if (!within.empty()) result.back() = only_within(result.back(), within);
+        if (!within.empty()) result.back() = only_within(result.back(), within, since);
     }
     return result;
 }

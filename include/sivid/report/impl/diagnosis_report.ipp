@@ -69,6 +69,12 @@ inline candidate_view drawn(cause const& c, std::map<std::string, interval> cons
             }
         }
     }
+    for (named_estimate const& o : c.onsets) { // the witness begins there
+        auto e = o;
+        e.name = "onset in " + o.name;
+        out.parameters.push_back(drawn(e, priors));
+        out.parameters.back().verified = c.verdict == cause_verdict::explains;
+    }
     if (c.witness) {
         witness_view w{.parameters = drawn(c.witness->parameters)};
         for (auto const& s : c.witness->starts) w.initial.push_back({s.scenario, drawn(s.states)});

@@ -14,6 +14,7 @@
 #include <sivid/paving/work_limit.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -45,22 +46,38 @@ public:
         return over_lags(whole);
     }
 
+    /// Of the only effect, whenever it begins.
+    /// @param likely  when, for each experiment: onsets next to it are not tried
+    [[nodiscard]] onset_hulls over_onsets(std::vector<double> const& likely) {
+        auto const whole = affected(*base_, *effects_);
+        onset_hulls known{whole.prior, {}};
+        for (auto const& x : whole.experiments) known.onsets.push_back(measured_time(x));
+        // What is excluded at all mostly is so by few boxes.
+        for (double const most : {1.0 / 200, 1.0 / 50, 1.0 / 12}) {
+            if (!cut_onsets(whole, known, likely, most)) break;
+        }
+        return known;
+    }
+
 private:
     // Shares of the boxes and of the time that is left.
     static constexpr double of_late_slice = 1.0 / 32;
     static constexpr double of_quick_slice = 1.0 / 8;
+    static constexpr double of_onset_hull = 1.0 / 80;
+    static constexpr double of_time = 1.0 / 4;
 
     /// What a problem leaves of its prior; nothing when it explains nothing. Without a fit, which
     /// excludes nothing.
-    /// @param share  of the boxes, and of the time that is left
-    [[nodiscard]] std::optional<box> hull_of(identification_problem const& problem, double share) {
+    /// @param share  of the boxes, and of the time that is left where that has no share of its own
+    [[nodiscard]] std::optional<box> hull_of(identification_problem const& problem, double share,
+                                             std::optional<double> time = std::nullopt) {
         if (problem.prior.size() == 0) return problem.prior;
         auto const map = reduction::find(problem, dependence_of(problem));
         auto const& posed = map ? map->problem() : problem;
         data_test test(posed, limited(options_->test, limit_));
         inversion_options search{
             .accuracy_of_hull = true, .hull_gain = 0.02, .keep_outside = false};
-        search.seconds = share * limit_.seconds();
+        search.seconds = time.value_or(share) * limit_.seconds();
         search.boxes = static_cast<std::size_t>(share * static_cast<double>(options_->boxes));
         search.keep_going = limit_;
         auto const paving = invert(test, posed.prior, search).paving;
@@ -145,10 +162,78 @@ private:
         }
         return hulls.size() == 0 ? nothing_of(whole.prior) : hulls;
     }
-    [[nodiscard]] static double end_of(experiment const& e) {
-        double end = e.begin;
-        for (auto const& m : e.measurements) end = std::max(end, m.time);
-        return end;
+    [[nodiscard]] static double end_of(experiment const& e) { return measured_time(e).upper(); }
+
+    /// The problem with each switch open over what is known of its onset, for the experiments of
+    /// which that is much and one more.
+    [[nodiscard]] static identification_problem
+    switched(identification_problem const& whole, onset_hulls const& known,
+             std::size_t one = static_cast<std::size_t>(-1)) {
+        auto result = whole;
+        result.prior = known.parameters;
+        result.experiments.clear();
+        for (std::size_t s = 0; s < known.onsets.size(); ++s) {
+            auto x = whole.experiments[s];
+            auto const all = measured_time(x);
+            if (s != one && !(width(known.onsets[s]) < 0.5 * width(all))) continue;
+            x.inputs.back() = switched_within(x.begin, all.upper(), known.onsets[s]);
+            result.experiments.push_back(std::move(x));
+        }
+        start_added_states(result);
+        return result;
+    }
+    /// Cuts onsets off at both ends, as long as some are excluded.
+    /// @param most  share of the boxes for each attempt
+    /// @returns  false where nothing explains the data
+    bool cut_onsets(identification_problem const& whole, onset_hulls& known,
+                    std::vector<double> const& likely, double most) {
+        struct side {
+            std::size_t experiment;
+            bool late;
+            double share; ///< of what is far from the likely onset
+        };
+        constexpr double least = 1.0 / 32;
+        std::vector<side> sides; // late ones come easily: no effect before them
+        for (bool const late : {true, false}) {
+            for (std::size_t s = 0; s < known.onsets.size(); ++s)
+                sides.push_back({s, late, late ? 1 : 4 * least});
+        }
+        for (bool open = true; open && limit_();) {
+            bool moved = false;
+            open = false;
+            for (auto& [s, late, share] : sides) {
+                while (cut_onsets(whole, known, s, likely[s], late, share, most)) {
+                    moved = true;
+                    share = std::min(1.0, 2 * share);
+                }
+                open |= share > least;
+                share = std::max(least, share / 2);
+            }
+            open |= moved;
+            auto const all = switched(whole, known);
+            if (!moved || !limit_() || all.experiments.empty()) continue;
+            auto const left = hull_of(all, of_onset_hull, of_time);
+            known.parameters = left ? *left : nothing_of(whole.prior);
+            if (!left) return false;
+        }
+        return true;
+    }
+    /// Cuts onsets of one experiment off at an end, this share of those far from the likely one.
+    /// @returns  whether they were excluded
+    [[nodiscard]] bool cut_onsets(identification_problem const& whole, onset_hulls& known,
+                                  std::size_t s, double likely, bool late, double share,
+                                  double most_boxes) {
+        auto const all = measured_time(whole.experiments[s]);
+        auto const now = known.onsets[s];
+        double const end = late ? now.upper() : now.lower();
+        double const most = 0.875 * (std::clamp(likely, now.lower(), now.upper()) - end);
+        double const cut = end + share * most;
+        if (!(std::abs(cut - end) > options_->accuracy * width(all)) || !limit_()) return false;
+        auto slice = known;
+        slice.onsets[s] = late ? interval(cut, end) : interval(end, cut);
+        if (hull_of(switched(whole, slice, s), most_boxes, of_time)) return false;
+        known.onsets[s] = late ? interval(now.lower(), cut) : interval(cut, now.upper());
+        return true;
     }
 
     /// Where the time constant of a lag may be 0, short ones are excluded as inputs with errors, if
@@ -211,6 +296,26 @@ private:
 SIVID_DECL box effect_hulls(identification_problem const& base, std::vector<effect> const& effects,
                             effect_hull_options const& options) {
     return diagnosis_detail::hulls_by_slices(base, effects, options)();
+}
+
+SIVID_DECL onset_hulls hulls_with_onsets(identification_problem const& base, effect e,
+                                         effect_hull_options const& options) {
+    std::vector<double> likely;
+    std::vector<std::string> names;
+    for (auto const& x : base.experiments) {
+        auto const& in = e.only_in;
+        auto const k =
+            static_cast<std::size_t>(std::find(in.begin(), in.end(), x.name) - in.begin());
+        bool const never = !in.empty() && k == in.size();
+        likely.push_back(never                ? detail::infinity
+                         : k < e.since.size() ? e.since[k]
+                                              : effect::from_start);
+        names.push_back(x.name);
+    }
+    e.only_in = std::move(names); // the switch is set for each slice
+    e.since.clear();
+    std::vector<effect> const effects{std::move(e)};
+    return diagnosis_detail::hulls_by_slices(base, effects, options).over_onsets(likely);
 }
 
 } // namespace sivid

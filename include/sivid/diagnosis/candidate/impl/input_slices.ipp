@@ -186,6 +186,20 @@ SIVID_DECL sampled_signal delayed_within(sampled_signal const& u, double begin, 
     return std::move(result).take();
 }
 
+SIVID_DECL sampled_signal switched_within(double begin, double end, interval const& onset) {
+    std::vector<double> times, values, errors;
+    auto const from = [&](double t, double value, double error) {
+        times.push_back(t);
+        values.push_back(value);
+        errors.push_back(error);
+    };
+    double const first = std::max(begin, onset.lower()), last = onset.upper();
+    if (first > begin) from(begin, 0, 0);
+    if (first < last || last >= end) from(first, 0.5, 0.5);
+    if (last < end) from(std::max(begin, last), 1, 0);
+    return {std::move(times), std::move(values), interpolation::hold, std::move(errors)};
+}
+
 } // namespace sivid
 
 #endif
