@@ -23,8 +23,9 @@ namespace architecture {
 namespace fs = std::filesystem;
 
 inline constexpr std::array<std::string_view, 15> floors{
-    "number",   "space",     "measurement", "model",    "approximate", "enclosure", "paving",
-    "decision", "diagnosis", "io",          "verifier", "importing",   "report",    "parallel", "cluster"};
+    "number",    "space",     "measurement", "model",     "approximate",
+    "enclosure", "paving",    "decision",    "diagnosis", "io",
+    "verifier",  "importing", "report",      "parallel",  "cluster"};
 inline constexpr std::size_t core_floors = 9;
 /// Headers outside of floors that each floor may include.
 inline constexpr std::array<std::string_view, 3> common{"sivid/version.hpp", "sivid/compiled.hpp",
@@ -147,7 +148,7 @@ inline bool may_include_approximate(std::string_view other, std::string_view inc
         {"sivid/paving/impl/inflation.ipp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/candidate/screening.hpp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/candidate/detail/candidate_fit.hpp", {"fit/fit.hpp", "fit/thinned.hpp"}},
-        {"sivid/diagnosis/detail/onset_fit.hpp", {"fit/fit.hpp", "fit/thinned.hpp"}},
+        {"sivid/diagnosis/candidate/detail/onset_fit.hpp", {"fit/fit.hpp", "fit/thinned.hpp"}},
         {"sivid/diagnosis/hold_out/holdout_judgement.hpp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/claim/claim_review.hpp", {"fit/campaign.hpp"}},
         {"sivid/diagnosis/gap/impl/confined_gap.ipp", {"fit/fit.hpp"}},

@@ -14,10 +14,10 @@
 #include <sivid/io/result/problem_digest.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/contract/window_contraction.hpp>
-#include <sivid/paving/detail/posed_search.hpp>
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/detail/posed_search.hpp>
 #include <sivid/paving/products/dependence.hpp>
 
 #include <cstddef>

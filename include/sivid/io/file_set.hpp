@@ -2,7 +2,7 @@
 #ifndef SIVID_IO_FILE_SET_HPP
 #define SIVID_IO_FILE_SET_HPP
 
-#include <sivid/io/detail/disk.hpp>
+#include <sivid/io/text/detail/disk.hpp>
 #include <sivid/io/text/durable_file.hpp>
 #include <sivid/io/text/printable_text.hpp>
 #include <sivid/io/text/text_file.hpp>

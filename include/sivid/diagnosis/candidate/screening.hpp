@@ -7,8 +7,8 @@
 #include <sivid/diagnosis/candidate/beyond_prior.hpp>
 #include <sivid/diagnosis/candidate/candidate.hpp>
 #include <sivid/diagnosis/candidate/detail/candidate_fit.hpp>
+#include <sivid/diagnosis/candidate/detail/onset_fit.hpp>
 #include <sivid/diagnosis/candidate/detail/screened.hpp>
-#include <sivid/diagnosis/detail/onset_fit.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 
 #include <algorithm>

@@ -7,12 +7,12 @@
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>
 #include <sivid/paving/contract/window_contraction.hpp>
-#include <sivid/paving/detail/posed_search.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/identify_options.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/judge/core_box.hpp>
 #include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/detail/posed_search.hpp>
 #include <sivid/paving/judge/detail/prior_contraction.hpp>
 #include <sivid/paving/judge/witness.hpp>
 #include <sivid/paving/products/dependence.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_DIAGNOSIS_DETAIL_ONSET_FIT_HPP
-#define SIVID_DIAGNOSIS_DETAIL_ONSET_FIT_HPP
+#ifndef SIVID_DIAGNOSIS_CANDIDATE_DETAIL_ONSET_FIT_HPP
+#define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_ONSET_FIT_HPP
 
 #include <sivid/approximate/approximate_fit.hpp>
 #include <sivid/approximate/fit/fit.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_PAVING_DETAIL_POSED_SEARCH_HPP
-#define SIVID_PAVING_DETAIL_POSED_SEARCH_HPP
+#ifndef SIVID_PAVING_JUDGE_DETAIL_POSED_SEARCH_HPP
+#define SIVID_PAVING_JUDGE_DETAIL_POSED_SEARCH_HPP
 
 #include <sivid/approximate/approximate_fit.hpp>
 #include <sivid/model/problem.hpp>

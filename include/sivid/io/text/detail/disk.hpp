@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_IO_DETAIL_DISK_HPP
-#define SIVID_IO_DETAIL_DISK_HPP
+#ifndef SIVID_IO_TEXT_DETAIL_DISK_HPP
+#define SIVID_IO_TEXT_DETAIL_DISK_HPP
 
 /// @file
 /// What files need of the operating system beyond the standard library: POSIX, or Windows.
