@@ -19,9 +19,7 @@ namespace sivid {
 
 /// The time that an experiment tells of: from its begin to its last measurement.
 [[nodiscard]] inline interval measured_time(experiment const& e) {
-    double end = e.begin;
-    for (auto const& m : e.measurements) end = std::max(end, m.time);
-    return interval(e.begin, end);
+    return interval(e.begin, e.end());
 }
 
 /// Sets the initial ranges of the states that effects added, for the parameters in the prior.

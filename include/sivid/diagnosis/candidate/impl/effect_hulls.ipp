@@ -145,7 +145,7 @@ private:
                 auto& e = problem.experiments[s];
                 e.inputs[delay.index] =
                     delayed_within(std::get<sampled_signal>(as_recorded.inputs[delay.index]),
-                                   e.begin, end_of(e), now.range);
+                                   e.begin, e.end(), now.range);
             }
             start_added_states(problem);
             auto const left = hull_of(problem, of_late_slice);
@@ -162,8 +162,6 @@ private:
         }
         return hulls.size() == 0 ? nothing_of(whole.prior) : hulls;
     }
-    [[nodiscard]] static double end_of(experiment const& e) { return measured_time(e).upper(); }
-
     /// The problem with each switch open over what is known of its onset, for the experiments of
     /// which that is much and one more.
     [[nodiscard]] static identification_problem
@@ -280,7 +278,7 @@ private:
         for (auto& e : late.experiments) {
             auto const* const recorded = std::get_if<sampled_signal>(&e.inputs[input]);
             if (recorded == nullptr) return std::nullopt;
-            e.inputs[input] = lagged_within(*recorded, e.begin, end_of(e), longest, lag.rests);
+            e.inputs[input] = lagged_within(*recorded, e.begin, e.end(), longest, lag.rests);
         }
         return affected(late, others);
     }
