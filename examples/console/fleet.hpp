@@ -8,11 +8,11 @@
 #include "console/program.hpp"
 #include "console/ranks.hpp"
 
-#include <sivid/cluster/crew.hpp>
 #include <sivid/cluster/identity.hpp>
-#include <sivid/cluster/member.hpp>
-#include <sivid/cluster/post.hpp>
+#include <sivid/cluster/transport.hpp>
 #include <sivid/cluster/wire.hpp>
+#include <sivid/cluster/worker.hpp>
+#include <sivid/cluster/worker_pool.hpp>
 #include <sivid/io/text/sha256.hpp>
 
 #include <chrono>
@@ -48,9 +48,9 @@ namespace detail {
 
 /// Works on tasks of the list for whoever coordinates, until the service is over.
 inline void work_on(std::vector<fleet_task> const& list, std::string const& digest,
-                    sivid::cluster::post& coordinator, sivid::cluster::identity const& who) {
+                    sivid::cluster::transport& coordinator, sivid::cluster::identity const& who) {
     namespace cluster = sivid::cluster;
-    cluster::member self(coordinator, who);
+    cluster::worker self(coordinator, who);
     self.serve({[&digest](std::string_view) {
                     return cluster::identity{
                         {{"list of data sets", digest, "give all ranks the same command"}}};
@@ -109,13 +109,13 @@ inline int run_fleet(fleet_command const& c) {
     progress.note(std::to_string(open.size()) + " data sets to work on, " +
                   std::to_string(finished) + " finished before");
     // Threads of this process that start one process each, and the other ranks.
-    cluster::memory_post inside(c.jobs);
-    cluster::post* others = inside.of_first.get();
+    cluster::memory_transport inside(c.jobs);
+    cluster::transport* others = inside.of_first.get();
 #ifdef SIVID_HAS_MPI
-    std::optional<cluster::joined_post> joined;
+    std::optional<cluster::joined_transport> joined;
     if (several) others = &joined.emplace(*inside.of_first, c.all->others());
 #endif
-    cluster::crew helpers(*others, who);
+    cluster::worker_pool helpers(*others, who);
     std::vector<std::thread> threads;
     auto const end_all = [&] {
         helpers.stop();
@@ -126,9 +126,9 @@ inline int run_fleet(fleet_command const& c) {
         helpers.begin("", {{{"list of data sets", digest, "give all ranks the same command"}}});
         for (std::size_t k = 0; k < c.jobs; ++k) {
             threads.emplace_back(
-                [&, k] { detail::work_on(list, digest, *inside.of_members[k], who); });
+                [&, k] { detail::work_on(list, digest, *inside.of_workers[k], who); });
         }
-        std::vector<cluster::crew::task> tasks;
+        std::vector<cluster::worker_pool::task> tasks;
         for (auto const k : open) {
             tasks.push_back({[&, k](std::size_t) {
                 cluster::wire_writer out;
@@ -136,10 +136,10 @@ inline int run_fleet(fleet_command const& c) {
             }});
         }
         std::size_t count = 0;
-        cluster::crew::manner how;
+        cluster::worker_pool::manner how;
         how.ahead = 1; // a second one would wait for a long first one
         how.patience = 120;
-        how.arrived = [&](std::size_t task, cluster::crew::answer const& a) {
+        how.arrived = [&](std::size_t task, cluster::worker_pool::answer const& a) {
             progress.note(std::to_string(++count) + " of " + std::to_string(open.size()) + ": " +
                           list[open[task]].name() + ": " + a.body);
         };

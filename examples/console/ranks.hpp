@@ -48,7 +48,7 @@ public:
     [[nodiscard]] std::size_t size() const { return world_ ? world_->size() : 1; }
     [[nodiscard]] std::size_t rank() const { return world_ ? world_->rank() : 0; }
     /// Of the others, or for them rank 0. @given  there are several
-    [[nodiscard]] sivid::cluster::post& others() const { return world_->others(); }
+    [[nodiscard]] sivid::cluster::transport& others() const { return world_->others(); }
     [[noreturn]] static void end_all(int code) { sivid::cluster::mpi_world::end_all(code); }
 #else
     [[nodiscard]] static std::size_t size() { return 1; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A search whose boxes a crew answers for: bit for bit the search of one, by any crew.
+// A search whose boxes a pool of workers answers for: bit for bit the search of one, by any pool.
 #include <sivid/cluster/delegated_test.hpp>
 #include <sivid/cluster/identify.hpp>
 
@@ -14,20 +14,20 @@
 
 using namespace sivid;
 using namespace sivid::cluster;
-using cluster_test::crew_in_threads;
 using cluster_test::ring_prior;
 using cluster_test::ring_test;
+using cluster_test::workers_in_threads;
 
 namespace {
 
 /// Members with a test of their own each.
-struct ring_crew {
+struct ring_workers {
     std::vector<std::unique_ptr<ring_test>> tests;
-    std::unique_ptr<crew_in_threads> all;
+    std::unique_ptr<workers_in_threads> all;
 
-    explicit ring_crew(std::size_t members) {
-        for (std::size_t k = 0; k < members; ++k) tests.push_back(std::make_unique<ring_test>());
-        all = std::make_unique<crew_in_threads>(members, [this](std::size_t k, member& m) {
+    explicit ring_workers(std::size_t workers) {
+        for (std::size_t k = 0; k < workers; ++k) tests.push_back(std::make_unique<ring_test>());
+        all = std::make_unique<workers_in_threads>(workers, [this](std::size_t k, worker& m) {
             tests[k]->keep_going = [&m] { return m.wanted(); };
             box_server<ring_test> boxes(*tests[k], ring_prior());
             m.serve({[](std::string_view) { return identity{}; },
@@ -66,7 +66,7 @@ inversion_options options_of(support::draws& d) {
 
 } // namespace
 
-TEST_CASE("a crew of 1 to 5 finds what one finds, box for box and step for step") {
+TEST_CASE("a pool of 1 to 5 workers finds what one finds, box for box and step for step") {
     static_assert(delegating_set_test<delegated_test<ring_test>>);
     static_assert(interruptible_set_test<delegated_test<ring_test>>);
     support::draws d(7301);
@@ -74,18 +74,18 @@ TEST_CASE("a crew of 1 to 5 finds what one finds, box for box and step for step"
         auto options = options_of(d);
         ring_test alone;
         auto const expected = text_of(sivid::invert(alone, ring_prior(), options));
-        for (std::size_t const members : {1u, 2u, 3u, 5u}) {
-            CAPTURE(round, members, options.batches);
-            ring_crew crew(members);
+        for (std::size_t const workers : {1u, 2u, 3u, 5u}) {
+            CAPTURE(round, workers, options.batches);
+            ring_workers ring(workers);
             ring_test own;
-            auto const found = cluster::invert(crew.all->helpers, own, ring_prior(), options);
+            auto const found = cluster::invert(ring.all->helpers, own, ring_prior(), options);
             CHECK(text_of(found) == expected);
             CHECK(own.learnt == 0);
         }
     }
 }
 
-TEST_CASE("stopped and resumed by other crews, the states and the end are those of one") {
+TEST_CASE("stopped and resumed by other worker pools, the states and the end are those of one") {
     support::draws d(7302);
     for (int round = 0; round < 4; ++round) {
         auto options = options_of(d);
@@ -107,9 +107,9 @@ TEST_CASE("stopped and resumed by other crews, the states and the end are those 
             one.checkpoint = [&](search_state const& s) {
                 next_of_one = std::make_shared<search_state const>(s);
             };
-            ring_crew crew(1 + d.below(4));
+            ring_workers ring(1 + d.below(4));
             ring_test own, of_one;
-            auto const found = cluster::invert(crew.all->helpers, own, ring_prior(), now);
+            auto const found = cluster::invert(ring.all->helpers, own, ring_prior(), now);
             auto const by_one = sivid::invert(of_one, ring_prior(), one);
             if (part == 4) CHECK(text_of(found) == expected);
             REQUIRE((next != nullptr) == (next_of_one != nullptr));
@@ -130,13 +130,13 @@ TEST_CASE("a memory budget counts what one machine would hold") {
     ring_test alone;
     auto const by_one = sivid::invert(alone, ring_prior(), options);
     CHECK(by_one.reason == stop_reason::memory_budget);
-    ring_crew crew(3);
+    ring_workers ring(3);
     ring_test own;
-    CHECK(text_of(cluster::invert(crew.all->helpers, own, ring_prior(), options)) ==
+    CHECK(text_of(cluster::invert(ring.all->helpers, own, ring_prior(), options)) ==
           text_of(by_one));
 }
 
-TEST_CASE("interrupted at any moment, a search with a crew loses nothing") {
+TEST_CASE("interrupted at any moment, a search with workers loses nothing") {
     support::draws d(7303);
     auto options = options_of(d);
     options.boxes = 1200;
@@ -152,7 +152,7 @@ TEST_CASE("interrupted at any moment, a search with a crew loses nothing") {
     };
     int interruptions = 0;
     for (int run = 0; run < 500; ++run) {
-        ring_crew crew(2);
+        ring_workers ring(2);
         ring_test own;
         auto questions = d.below(200);
         own.keep_going = [&questions] { return questions == 0 ? false : --questions > 0; };
@@ -160,7 +160,7 @@ TEST_CASE("interrupted at any moment, a search with a crew loses nothing") {
         now.resume = state;
         now.keep_going = own.keep_going;
         if (run == 499 || run % 10 == 9) own.keep_going = now.keep_going = nullptr;
-        auto const found = cluster::invert(crew.all->helpers, own, ring_prior(), now);
+        auto const found = cluster::invert(ring.all->helpers, own, ring_prior(), now);
         if (found.reason == stop_reason::box_budget) {
             CHECK(text_of(found) == expected);
             break;

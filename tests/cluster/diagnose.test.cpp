@@ -22,7 +22,7 @@ std::string text_of(diagnosis_run run) {
 }
 
 struct helpers {
-    cluster::memory_post office;
+    cluster::memory_transport office;
     std::vector<std::thread> threads;
 
     helpers(std::size_t count, identification_problem const& problem,
@@ -30,7 +30,7 @@ struct helpers {
         : office(count) {
         for (std::size_t k = 0; k < count; ++k) {
             threads.emplace_back([this, k, problem, catalogue, also] {
-                cluster::help_diagnose(*office.of_members[k], problem, catalogue, also);
+                cluster::help_diagnose(*office.of_workers[k], problem, catalogue, also);
             });
         }
     }

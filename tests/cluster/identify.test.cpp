@@ -17,15 +17,15 @@ using support::draws;
 namespace {
 
 struct helpers {
-    std::unique_ptr<cluster::memory_post> office;
+    std::unique_ptr<cluster::memory_transport> office;
     std::vector<std::thread> threads;
 
     helpers(std::size_t count, identification_problem const& problem,
             identify_options const& options, std::string const& also = {})
-        : office(std::make_unique<cluster::memory_post>(count)) {
+        : office(std::make_unique<cluster::memory_transport>(count)) {
         for (std::size_t k = 0; k < count; ++k) {
             threads.emplace_back([this, k, &problem, &options, also] {
-                cluster::help_identify(*office->of_members[k], problem, options, also);
+                cluster::help_identify(*office->of_workers[k], problem, options, also);
             });
         }
     }

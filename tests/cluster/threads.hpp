@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A crew whose members are threads of the test.
+// A pool whose workers are threads of the test.
 #ifndef SIVID_TESTS_CLUSTER_THREADS_HPP
 #define SIVID_TESTS_CLUSTER_THREADS_HPP
 
-#include <sivid/cluster/crew.hpp>
 #include <sivid/cluster/identity.hpp>
-#include <sivid/cluster/member.hpp>
-#include <sivid/cluster/post.hpp>
+#include <sivid/cluster/transport.hpp>
+#include <sivid/cluster/worker.hpp>
+#include <sivid/cluster/worker_pool.hpp>
 
 #include <cstddef>
 #include <exception>
@@ -19,39 +19,39 @@ namespace cluster_test {
 
 using namespace sivid::cluster;
 
-class crew_in_threads {
+class workers_in_threads {
 public:
-    crew_in_threads(
-        std::size_t members, std::function<void(std::size_t, member&)> const& work,
+    workers_in_threads(
+        std::size_t workers, std::function<void(std::size_t, worker&)> const& work,
         std::function<identity(std::size_t)> const& who =
             [](std::size_t) { return identity_of_program(); })
-        : office(members), helpers(*office.of_first, identity_of_program()) {
-        for (std::size_t k = 0; k < members; ++k) {
+        : office(workers), helpers(*office.of_first, identity_of_program()) {
+        for (std::size_t k = 0; k < workers; ++k) {
             threads_.emplace_back([this, k, work, mine = who(k)] {
                 try {
-                    member m(*office.of_members[k], mine);
+                    worker m(*office.of_workers[k], mine);
                     work(k, m);
                 } catch (std::exception const&) { // what it says was tested elsewhere
                 }
             });
         }
     }
-    crew_in_threads(crew_in_threads const&) = delete;
-    crew_in_threads& operator=(crew_in_threads const&) = delete;
-    ~crew_in_threads() {
+    workers_in_threads(workers_in_threads const&) = delete;
+    workers_in_threads& operator=(workers_in_threads const&) = delete;
+    ~workers_in_threads() {
         helpers.stop();
         helpers.end();
         for (auto& t : threads_) t.join();
     }
     /// Until something is thrown, ten seconds at most.
-    void ask_for_ever(std::vector<crew::task> const& tasks) {
+    void ask_for_ever(std::vector<worker_pool::task> const& tasks) {
         auto const end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
         while (std::chrono::steady_clock::now() < end)
             (void)helpers.ask(tasks, [] { return true; });
     }
 
-    memory_post office;
-    crew helpers;
+    memory_transport office;
+    worker_pool helpers;
 
 private:
     std::vector<std::thread> threads_;

@@ -27,7 +27,7 @@ enum class box_request : std::uint64_t {
 };
 
 /// Answers about boxes by a test, and keeps what it learns: knowledge (megabytes) never travels.
-/// The coordinator names lessons by numbers, and sends their boxes along where a member does not
+/// The coordinator names lessons by numbers, and sends their boxes along where a worker does not
 /// have them: learning from the same boxes gives the same, bit for bit.
 template <batch_set_test Test>
 class box_server {

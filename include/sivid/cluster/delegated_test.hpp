@@ -3,8 +3,8 @@
 #define SIVID_CLUSTER_DELEGATED_TEST_HPP
 
 #include <sivid/cluster/box_server.hpp>
-#include <sivid/cluster/crew.hpp>
 #include <sivid/cluster/wire.hpp>
+#include <sivid/cluster/worker_pool.hpp>
 #include <sivid/paving/set_test.hpp>
 #include <sivid/space/box.hpp>
 
@@ -20,24 +20,24 @@
 
 namespace sivid::cluster {
 
-/// A test whose questions a crew answers (`box_server`): a search with it finds what it finds with
-/// the test itself, bit for bit, whoever answers what. Knowledge stays with the member that learnt
-/// it; here are its number and size.
-///   A box is judged by a member that has the lesson of the boxes around it. Where one member would
+/// A test whose questions a pool of workers answers (`box_server`): a search with it finds what it
+/// finds with the test itself, bit for bit, whoever answers what. Knowledge stays with the worker
+/// that learnt it; here are its number and size.
+///   A box is judged by a worker that has the lesson of the boxes around it. Where one worker would
 /// have to judge much more than others, another learns the lesson, too, once as much time was
 /// lost as that takes.
 template <batch_set_test Test>
 class delegated_test {
     struct lesson {
         std::vector<box> boxes;
-        std::vector<char> had;  ///< by member
+        std::vector<char> had;  ///< by worker
         std::vector<char> used; ///< by box: whether somebody still refers to what was learnt of it
         double seconds = 0;     ///< that learning it took
         double lost = 0;        ///< seconds for which those who have it were waited for
     };
     struct registry {
         std::map<std::uint64_t, lesson> lessons;
-        /// By member: what it need not keep any longer.
+        /// By worker: what it need not keep any longer.
         std::vector<std::vector<std::pair<std::uint64_t, std::size_t>>> forgotten;
 
         void clear(typename std::map<std::uint64_t, lesson>::iterator l) {
@@ -73,13 +73,13 @@ public:
     };
     using answer = assessment<knowledge>;
 
-    /// @param own  the test that all members have, here; is referred to, as is the crew
-    delegated_test(crew& helpers, Test& own) : crew_(&helpers), own_(&own) {
+    /// @param own  the test that all workers have, here; is referred to, as is the pool
+    delegated_test(worker_pool& helpers, Test& own) : pool_(&helpers), own_(&own) {
         all_->forgotten.resize(helpers.size());
     }
 
     [[nodiscard]] std::size_t at_once() const { return own_->at_once(); }
-    [[nodiscard]] std::size_t hands() const { return crew_->size(); }
+    [[nodiscard]] std::size_t hands() const { return pool_->size(); }
     /// What `paving_detail::bytes_of` adds to it is subtracted: budgets count what one machine
     /// would hold.
     [[nodiscard]] std::size_t bytes(knowledge const& known) const {
@@ -108,13 +108,13 @@ public:
 
     [[nodiscard]] std::vector<std::vector<answer>>
     learn_all(std::vector<std::vector<box>> const& sets) {
-        std::vector<crew::task> tasks;
+        std::vector<worker_pool::task> tasks;
         auto const first = next_;
         next_ += sets.size();
         for (std::size_t k = 0; k < sets.size(); ++k) {
-            tasks.push_back({[this, &sets, k, first](std::size_t member) {
+            tasks.push_back({[this, &sets, k, first](std::size_t worker) {
                 wire_writer out;
-                put_forgotten(out, member);
+                put_forgotten(out, worker);
                 out.put(static_cast<std::uint64_t>(box_request::learn));
                 put_boxes(out, first + k, sets[k]);
                 return out.take();
@@ -136,15 +136,15 @@ public:
     judge_all(std::vector<posed_question<knowledge>> const& questions) {
         std::vector<answer> result;
         for (auto const& q : questions) result.push_back(nothing_about(*q.set));
-        std::vector<share> shares(crew_->size());
+        std::vector<share> shares(pool_->size());
         deal(questions, shares);
-        std::vector<crew::task> tasks;
+        std::vector<worker_pool::task> tasks;
         std::vector<share const*> whose;
         for (std::size_t m = 0; m < shares.size(); ++m) {
             if (shares[m].questions.empty()) continue;
             whose.push_back(&shares[m]);
-            tasks.push_back({[this, &questions, &of = shares[m]](std::size_t member) {
-                                 return request(questions, of, member);
+            tasks.push_back({[this, &questions, &of = shares[m]](std::size_t worker) {
+                                 return request(questions, of, worker);
                              },
                              m});
         }
@@ -160,13 +160,13 @@ public:
                 if (in.flag()) result[q].knowledge = questions[q].known;
             }
             in.finish();
-            for (auto const number : whose[k]->lessons) forget_rest(number, said[k]->member);
+            for (auto const number : whose[k]->lessons) forget_rest(number, said[k]->worker);
         }
         return result;
     }
 
 private:
-    struct share { ///< of a member
+    struct share { ///< of a worker
         std::vector<std::size_t> questions;
         std::vector<std::uint64_t> lessons; ///< to be learnt first
     };
@@ -176,20 +176,20 @@ private:
         a.blind = true;
         return a;
     }
-    [[nodiscard]] crew::answers asked(std::vector<crew::task> const& tasks) {
-        auto said = crew_->ask(tasks, [this] { return !cancelled(); });
+    [[nodiscard]] worker_pool::answers asked(std::vector<worker_pool::task> const& tasks) {
+        auto said = pool_->ask(tasks, [this] { return !cancelled(); });
         for (auto const& s : said) cut_short_ = cut_short_ || !s || s->cut_short;
         return said;
     }
     /// Of a lesson that was learnt again only what is still in use is to be kept.
-    void forget_rest(std::uint64_t number, std::size_t member) {
+    void forget_rest(std::uint64_t number, std::size_t worker) {
         auto const& used = all_->lessons.at(number).used;
         for (std::size_t place = 0; place < used.size(); ++place) {
-            if (used[place] == 0) all_->forgotten[member].emplace_back(number, place);
+            if (used[place] == 0) all_->forgotten[worker].emplace_back(number, place);
         }
     }
-    void put_forgotten(wire_writer& out, std::size_t member) {
-        auto& list = all_->forgotten[member];
+    void put_forgotten(wire_writer& out, std::size_t worker) {
+        auto& list = all_->forgotten[worker];
         out.put(std::uint64_t{list.size()});
         for (auto const& [number, place] : list) out.put(number).put(std::uint64_t{place});
         list.clear();
@@ -199,14 +199,15 @@ private:
         for (auto const& x : list) out.put(x);
     }
 
-    [[nodiscard]] std::vector<answer> read_lesson(crew::answer const& said, std::uint64_t number,
+    [[nodiscard]] std::vector<answer> read_lesson(worker_pool::answer const& said,
+                                                  std::uint64_t number,
                                                   std::vector<box> const& about) {
         wire_reader in(said.body);
         std::vector<answer> result;
         auto& l = all_->lessons[number];
         l.boxes = about;
-        l.had.assign(crew_->size(), 0);
-        l.had[said.member] = 1;
+        l.had.assign(pool_->size(), 0);
+        l.had[said.worker] = 1;
         l.seconds = said.seconds;
         l.used.assign(about.size(), 0);
         for (auto const& x : about) {
@@ -243,7 +244,7 @@ private:
             if (!questions[q].known) continue;
             auto& l = all_->lessons.at(questions[q].known->number);
             auto who = *least([&l](std::size_t m) { return l.had[m] != 0; });
-            auto const idle = least([this](std::size_t m) { return crew_->is_present(m); });
+            auto const idle = least([this](std::size_t m) { return pool_->is_present(m); });
             if (idle && load[*idle] < load[who]) {
                 l.lost += std::min(each, load[who] - load[*idle]);
                 if (l.lost > l.seconds && l.had[*idle] == 0) {
@@ -259,9 +260,9 @@ private:
         }
     }
     [[nodiscard]] std::string request(std::vector<posed_question<knowledge>> const& questions,
-                                      share const& of, std::size_t member) {
+                                      share const& of, std::size_t worker) {
         wire_writer out;
-        put_forgotten(out, member);
+        put_forgotten(out, worker);
         out.put(static_cast<std::uint64_t>(box_request::judge));
         out.put(std::uint64_t{of.lessons.size()});
         for (auto const l : of.lessons) put_boxes(out, l, all_->lessons.at(l).boxes);
@@ -273,7 +274,7 @@ private:
         return out.take();
     }
 
-    crew* crew_;
+    worker_pool* pool_;
     Test* own_;
     std::shared_ptr<registry> all_ = std::make_shared<registry>();
     std::uint64_t next_ = 1; ///< lesson

@@ -3,12 +3,12 @@
 #define SIVID_CLUSTER_DIAGNOSE_HPP
 
 #include <sivid/approximate/approximate_fit.hpp>
-#include <sivid/cluster/crew.hpp>
 #include <sivid/cluster/identity.hpp>
-#include <sivid/cluster/member.hpp>
-#include <sivid/cluster/post.hpp>
+#include <sivid/cluster/transport.hpp>
 #include <sivid/cluster/wire.hpp>
-#include <sivid/cluster/working_crew.hpp>
+#include <sivid/cluster/worker.hpp>
+#include <sivid/cluster/worker_pool.hpp>
+#include <sivid/cluster/working_coordinator.hpp>
 #include <sivid/diagnosis/candidate/detail/screened.hpp>
 #include <sivid/diagnosis/candidate/screening.hpp>
 #include <sivid/diagnosis/diagnose.hpp>
@@ -117,19 +117,20 @@ private:
 /// @param also    what else must be the same there
 /// @param spent   receives what handing out took, if given
 /// @throws what `cluster::identify` throws
-[[nodiscard]] inline diagnosis_run diagnose(post& others, identification_problem const& problem,
+[[nodiscard]] inline diagnosis_run diagnose(transport& others,
+                                            identification_problem const& problem,
                                             std::vector<effect> const& catalogue,
                                             diagnosis_options options, std::string const& also = {},
                                             traffic* spent = nullptr) {
     using namespace diagnose_detail;
     candidate_server const here(problem, catalogue);
-    working_crew all(others, {}, diagnose_detail::identity_of(problem, catalogue, also),
-                     [&here](member& self, std::string_view request) {
-                         return here.answer(request, [&self] { return self.wanted(); });
-                     });
+    working_coordinator all(others, {}, diagnose_detail::identity_of(problem, catalogue, also),
+                            [&here](worker& self, std::string_view request) {
+                                return here.answer(request, [&self] { return self.wanted(); });
+                            });
     options.screening.fit_elsewhere = [&](std::vector<wanted_fit> const& wanted,
                                           std::function<bool()> const& go_on) {
-        std::vector<crew::task> tasks;
+        std::vector<worker_pool::task> tasks;
         for (auto const& w : wanted) {
             tasks.push_back({[&w](std::size_t) {
                 wire_writer out;
@@ -142,7 +143,7 @@ private:
                 return out.take();
             }});
         }
-        crew::manner how;
+        worker_pool::manner how;
         how.ahead = 1; // fits take from a tenth of a second to a minute
         auto const said = all.helpers().ask(tasks, go_on, how);
         std::vector<std::optional<made_fit>> made(said.size());
@@ -164,10 +165,10 @@ private:
 
 /// Fits candidates for the one who diagnoses this problem, until the diagnosis is over.
 /// @throws wire_error  for a message that cannot be read
-inline void help_diagnose(post& coordinator, identification_problem const& problem,
+inline void help_diagnose(transport& coordinator, identification_problem const& problem,
                           std::vector<effect> const& catalogue, std::string const& also = {}) {
     diagnose_detail::candidate_server const candidates(problem, catalogue);
-    member self(coordinator, identity_of_program());
+    worker self(coordinator, identity_of_program());
     self.serve(
         {[&](std::string_view) { return diagnose_detail::identity_of(problem, catalogue, also); },
          [&](std::string_view request) {

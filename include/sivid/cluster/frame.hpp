@@ -12,14 +12,14 @@
 
 namespace sivid::cluster {
 
-/// A message between the coordinator and a member of its crew.
+/// A message between the coordinator and a worker of its pool.
 struct frame {
     enum class kind : std::uint8_t {
-        hello,   ///< to a member: who the coordinator is, what it works on
-        welcome, ///< back: who the member is
+        hello,   ///< to a worker: who the coordinator is, what it works on
+        welcome, ///< back: who the worker is
         ask,     ///< a request
         answer,  ///< to the request with that number
-        fault,   ///< back: the member cannot go on; why
+        fault,   ///< back: the worker cannot go on; why
         stop,    ///< what is asked for is no longer wanted: end it soon
         end      ///< the service is over
     };

@@ -4,13 +4,13 @@
 
 #include <sivid/approximate/approximate_fit.hpp>
 #include <sivid/cluster/box_server.hpp>
-#include <sivid/cluster/crew.hpp>
 #include <sivid/cluster/delegated_test.hpp>
 #include <sivid/cluster/identity.hpp>
-#include <sivid/cluster/member.hpp>
-#include <sivid/cluster/post.hpp>
+#include <sivid/cluster/transport.hpp>
 #include <sivid/cluster/wire.hpp>
-#include <sivid/cluster/working_crew.hpp>
+#include <sivid/cluster/worker.hpp>
+#include <sivid/cluster/worker_pool.hpp>
+#include <sivid/cluster/working_coordinator.hpp>
 #include <sivid/io/result/problem_digest.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/contract/window_contraction.hpp>
@@ -31,9 +31,9 @@ namespace sivid::cluster {
 
 /// Inverts with the help of others who have the same test (`box_server`).
 /// @guarantee  what `invert` with the test itself returns, bit for bit
-/// @throws what `crew::ask` throws
+/// @throws what `worker_pool::ask` throws
 template <batch_set_test Test>
-[[nodiscard]] inversion invert(crew& helpers, Test& test, box const& prior,
+[[nodiscard]] inversion invert(worker_pool& helpers, Test& test, box const& prior,
                                inversion_options const& options) {
     delegated_test<Test> handed_out(helpers, test);
     return sivid::invert(handed_out, prior, options);
@@ -41,7 +41,7 @@ template <batch_set_test Test>
 
 namespace identify_detail {
 
-/// What a member has to know of a search: budgets of outliers, the fit, what windows left.
+/// What a worker has to know of a search: budgets of outliers, the fit, what windows left.
 [[nodiscard]] inline std::string about(identification_problem const& problem,
                                        std::optional<approximate_fit> const& fit,
                                        std::optional<window_contraction> const& windows) {
@@ -123,10 +123,11 @@ private:
 /// @param others  are referred to
 /// @param also    what else must be the same there: the digest of a data set, say
 /// @param spent   receives what handing out took, if given
-/// @throws crew_mismatch       when a member runs another program, or has another problem
+/// @throws worker_mismatch       when a worker runs another program, or has another problem
 /// @throws wire_error          for a message that cannot be read
-/// @throws std::runtime_error  for what a member reports
-[[nodiscard]] inline identification identify(post& others, identification_problem const& problem,
+/// @throws std::runtime_error  for what a worker reports
+[[nodiscard]] inline identification identify(transport& others,
+                                             identification_problem const& problem,
                                              identify_options options, std::string const& also = {},
                                              traffic* spent = nullptr) {
     bool asked = false;
@@ -137,8 +138,9 @@ private:
         if (windows && windows->empty()) return sivid::invert(test, prior, search);
         asked = true;
         box_server<data_test> boxes(test, prior);
-        working_crew all(others, identify_detail::about(problem, fit, windows), mine,
-                         [&boxes](member&, std::string_view request) { return boxes(request); });
+        working_coordinator all(
+            others, identify_detail::about(problem, fit, windows), mine,
+            [&boxes](worker&, std::string_view request) { return boxes(request); });
         auto found = cluster::invert(all.helpers(), test, prior, search);
         if (spent != nullptr) *spent = all.helpers().traffic();
         return found;
@@ -150,9 +152,9 @@ private:
 
 /// Works for the one who identifies this problem, until the search is over.
 /// @throws wire_error  for a message that cannot be read
-inline void help_identify(post& coordinator, identification_problem const& problem,
+inline void help_identify(transport& coordinator, identification_problem const& problem,
                           identify_options options, std::string const& also = {}) {
-    member self(coordinator, identity_of_program());
+    worker self(coordinator, identity_of_program());
     options.test = limited(std::move(options.test), [&self] { return self.wanted(); });
     identify_detail::search_server server(problem, std::move(options), also);
     self.serve({[&server](std::string_view about) { return server.take_up(about); },

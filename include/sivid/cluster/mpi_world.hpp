@@ -2,7 +2,7 @@
 #ifndef SIVID_CLUSTER_MPI_WORLD_HPP
 #define SIVID_CLUSTER_MPI_WORLD_HPP
 
-#include <sivid/cluster/post.hpp>
+#include <sivid/cluster/transport.hpp>
 
 #include <cstddef>
 #include <cstdlib>
@@ -26,7 +26,7 @@ namespace sivid::cluster {
 ///   else cluster::help_identify(world.others(), problem, options);
 /// One for a program. Only the thread that made it uses it.
 class mpi_world {
-    class mail final : public post {
+    class mail final : public transport {
     public:
         explicit mail(boost::mpi::communicator const& ranks) : ranks_(ranks) {}
         ~mail() override {
@@ -92,7 +92,7 @@ public:
     [[nodiscard]] std::size_t rank() const { return static_cast<std::size_t>(ranks_.rank()); }
     [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(ranks_.size()); }
     /// For rank 0 all others, for these rank 0.
-    [[nodiscard]] post& others() { return *mail_; }
+    [[nodiscard]] transport& others() { return *mail_; }
     /// Ends all ranks.
     [[noreturn]] static void end_all(int code) {
         boost::mpi::environment::abort(code);

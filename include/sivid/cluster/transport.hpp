@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_CLUSTER_POST_HPP
-#define SIVID_CLUSTER_POST_HPP
+#ifndef SIVID_CLUSTER_TRANSPORT_HPP
+#define SIVID_CLUSTER_TRANSPORT_HPP
 
 #include <algorithm>
 #include <chrono>
@@ -18,14 +18,14 @@ namespace sivid::cluster {
 
 /// Carries messages to and from others, each of whom has a number from 0 on; what one of them sends
 /// arrives in its order. Used by one thread.
-class post {
+class transport {
 public:
     struct letter {
         std::size_t from = 0;
         std::string bytes;
     };
 
-    virtual ~post() = default;
+    virtual ~transport() = default;
     [[nodiscard]] virtual std::size_t others() const = 0;
     /// Does not wait for the other.
     virtual void send(std::size_t to, std::string bytes) = 0;
@@ -53,14 +53,14 @@ private:
 };
 
 /// Between threads of one process: the first to the others, and each of these to the first.
-class memory_post {
+class memory_transport {
     struct box_of_letters {
         std::mutex mutex;
-        std::deque<post::letter> waiting;
+        std::deque<transport::letter> waiting;
     };
     using boxes = std::vector<std::shared_ptr<box_of_letters>>;
 
-    class end final : public post {
+    class end final : public transport {
     public:
         end(std::shared_ptr<box_of_letters> in, boxes out, std::size_t sender)
             : in_(std::move(in)), out_(std::move(out)), sender_(sender) {}
@@ -87,26 +87,26 @@ class memory_post {
     };
 
 public:
-    /// @param members  besides the first
-    explicit memory_post(std::size_t members) {
+    /// @param workers  besides the first
+    explicit memory_transport(std::size_t workers) {
         auto const centre = std::make_shared<box_of_letters>();
         boxes all;
-        for (std::size_t k = 0; k < members; ++k) {
+        for (std::size_t k = 0; k < workers; ++k) {
             all.push_back(std::make_shared<box_of_letters>());
-            of_members.push_back(std::make_unique<end>(all.back(), boxes{centre}, k));
+            of_workers.push_back(std::make_unique<end>(all.back(), boxes{centre}, k));
         }
         of_first = std::make_unique<end>(centre, all, 0);
     }
 
-    std::unique_ptr<post> of_first;
-    std::vector<std::unique_ptr<post>> of_members;
+    std::unique_ptr<transport> of_first;
+    std::vector<std::unique_ptr<transport>> of_workers;
 };
 
-/// Those of one post, then those of another.
-class joined_post final : public post {
+/// Those of one transport, then those of another.
+class joined_transport final : public transport {
 public:
     /// @param first, second  are referred to
-    joined_post(post& first, post& second) : first_(&first), second_(&second) {}
+    joined_transport(transport& first, transport& second) : first_(&first), second_(&second) {}
     [[nodiscard]] std::size_t others() const override {
         return first_->others() + second_->others();
     }
@@ -127,8 +127,8 @@ public:
     }
 
 private:
-    post* first_;
-    post* second_;
+    transport* first_;
+    transport* second_;
 };
 
 } // namespace sivid::cluster

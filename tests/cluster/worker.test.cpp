@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a member does by itself; with its coordinator: crew.test.cpp.
-#include <sivid/cluster/member.hpp>
+// What a worker does by itself; with its coordinator: worker_pool.test.cpp.
+#include <sivid/cluster/worker.hpp>
 
 #include "support/catch.hpp"
 
@@ -8,8 +8,8 @@
 
 using namespace sivid::cluster;
 
-TEST_CASE("a member answers what it is asked once it has taken the work up, until the end") {
-    memory_post office(1);
+TEST_CASE("a worker answers what it is asked once it has taken the work up, until the end") {
+    memory_transport office(1);
     auto& coordinator = *office.of_first;
     std::string told;
     int answers = 0;
@@ -28,7 +28,7 @@ TEST_CASE("a member answers what it is asked once it has taken the work up, unti
     coordinator.send(0, to_bytes({frame::kind::ask, 2, "question"}));
     coordinator.send(0, to_bytes({frame::kind::end, 0, {}}));
     coordinator.send(0, to_bytes({frame::kind::ask, 3, "too late"}));
-    member m(*office.of_members[0], identity_of_program());
+    worker m(*office.of_workers[0], identity_of_program());
     CHECK(m.wanted());
     m.serve(work);
     CHECK(told == "this");
@@ -52,13 +52,13 @@ TEST_CASE("a member answers what it is asked once it has taken the work up, unti
 }
 
 TEST_CASE("a stop that arrives with what it stops is not lost") {
-    memory_post office(1);
+    memory_transport office(1);
     auto& coordinator = *office.of_first;
     wire_writer about;
     about.put(std::string_view{""});
     auto const hello = about.take();
     std::vector<bool> wanted;
-    member m(*office.of_members[0], identity_of_program());
+    worker m(*office.of_workers[0], identity_of_program());
     service const work{[](std::string_view) { return identity{}; },
                        [&](std::string_view) {
                            wanted.push_back(m.wanted());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A coordinator and its crew in threads: everything is done once, whoever does it; strangers,
+// A coordinator and its workers in threads: everything is done once, whoever does it; strangers,
 // faults and damaged messages end the work with words.
-#include <sivid/cluster/crew.hpp>
-#include <sivid/cluster/member.hpp>
+#include <sivid/cluster/worker.hpp>
+#include <sivid/cluster/worker_pool.hpp>
 
 #include "cluster/threads.hpp"
 #include "support/catch.hpp"
@@ -11,7 +11,7 @@
 #include <chrono>
 
 using namespace sivid::cluster;
-using cluster_test::crew_in_threads;
+using cluster_test::workers_in_threads;
 using namespace std::chrono_literals;
 
 namespace {
@@ -22,8 +22,8 @@ service const echo{[](std::string_view) {
                    [](std::string_view text) { return std::string{text} + "!"; }};
 identity const of_echo{{{"task", "echo", "ask for the same"}}};
 
-std::vector<crew::task> tasks(std::size_t count) {
-    std::vector<crew::task> result;
+std::vector<worker_pool::task> tasks(std::size_t count) {
+    std::vector<worker_pool::task> result;
     for (std::size_t k = 0; k < count; ++k)
         result.push_back({[k](std::size_t) { return std::to_string(k); }});
     return result;
@@ -32,9 +32,9 @@ auto const always = [] { return true; };
 
 } // namespace
 
-TEST_CASE("all tasks are done, by any number of members, again and again") {
-    for (std::size_t const members : {1u, 2u, 5u}) {
-        crew_in_threads all(members, [](std::size_t, member& m) { m.serve(echo); });
+TEST_CASE("all tasks are done, by any number of workers, again and again") {
+    for (std::size_t const workers : {1u, 2u, 5u}) {
+        workers_in_threads all(workers, [](std::size_t, worker& m) { m.serve(echo); });
         all.helpers.begin("about", of_echo);
         for (std::size_t const count : {0u, 1u, 3u, 200u}) {
             auto const done = all.helpers.ask(tasks(count), always);
@@ -42,28 +42,28 @@ TEST_CASE("all tasks are done, by any number of members, again and again") {
             for (std::size_t k = 0; k < count; ++k) {
                 REQUIRE(done[k]);
                 CHECK(done[k]->body == std::to_string(k) + "!");
-                CHECK(done[k]->member < members);
+                CHECK(done[k]->worker < workers);
                 CHECK_FALSE(done[k]->cut_short);
             }
         }
         auto const& t = all.helpers.traffic();
         CHECK(t.requests == 204);
-        CHECK(t.messages >= 2 * 204 + members + 1); // some may not have shown themselves
-        CHECK(t.messages <= 2 * 204 + 2 * members);
+        CHECK(t.messages >= 2 * 204 + workers + 1); // some may not have shown themselves
+        CHECK(t.messages <= 2 * 204 + 2 * workers);
         CHECK(t.bytes_sent > 204 * 8);
         CHECK(t.worked >= 0);
     }
 }
 
-TEST_CASE("what is meant for a member is done by that member") {
-    crew_in_threads all(3, [](std::size_t k, member& m) {
+TEST_CASE("what is meant for a worker is done by that worker") {
+    workers_in_threads all(3, [](std::size_t k, worker& m) {
         auto mine = echo;
         mine.answer = [k](std::string_view) { return std::to_string(k); };
         m.serve(mine);
     });
     all.helpers.begin("", of_echo);
     (void)all.helpers.ask(tasks(100), always); // all have shown themselves, or none is needed
-    std::vector<crew::task> meant;
+    std::vector<worker_pool::task> meant;
     for (std::size_t m = 0; m < 3; ++m) {
         for (int n = 0; n < 7; ++n) meant.push_back({[](std::size_t) { return ""; }, m});
     }
@@ -73,9 +73,9 @@ TEST_CASE("what is meant for a member is done by that member") {
 
 TEST_CASE("strangers are told apart and named") {
     for (bool const program : {true, false}) {
-        crew_in_threads all(
+        workers_in_threads all(
             2,
-            [program](std::size_t k, member& m) {
+            [program](std::size_t k, worker& m) {
                 auto mine = echo;
                 if (k == 1 && !program)
                     mine.take_up = [](std::string_view) {
@@ -95,9 +95,9 @@ TEST_CASE("strangers are told apart and named") {
     }
 }
 
-TEST_CASE("a member's fault is told with its words") {
+TEST_CASE("a worker's fault is told with its words") {
     for (bool const at_begin : {true, false}) {
-        crew_in_threads all(1, [at_begin](std::size_t, member& m) {
+        workers_in_threads all(1, [at_begin](std::size_t, worker& m) {
             auto mine = echo;
             (at_begin ? mine.answer : mine.answer) = [](std::string_view) -> std::string {
                 throw std::runtime_error("no such box");
@@ -115,18 +115,18 @@ TEST_CASE("a member's fault is told with its words") {
 }
 
 TEST_CASE("damaged messages, and such as nobody sends, are refused by both sides") {
-    memory_post office(1);
-    crew helpers(*office.of_first, identity_of_program());
+    memory_transport office(1);
+    worker_pool helpers(*office.of_first, identity_of_program());
     helpers.begin("", of_echo);
     auto const good = to_bytes({frame::kind::answer, 1, {}});
     for (auto const& bytes :
          {std::string{}, std::string{"hello"}, good.substr(0, 20), good + "x",
           to_bytes({frame::kind::ask, 1, {}}), to_bytes({frame::kind::welcome, 0, "??"}), good}) {
-        office.of_members[0]->send(0, bytes);
+        office.of_workers[0]->send(0, bytes);
         CHECK_THROWS_AS(helpers.ask(tasks(1), always), wire_error);
     }
-    member m(*office.of_members[0], identity_of_program());
-    while (office.of_members[0]->receive()) {
+    worker m(*office.of_workers[0], identity_of_program());
+    while (office.of_workers[0]->receive()) {
     }
     office.of_first->send(0, "what?");
     CHECK_THROWS_AS(m.serve(echo), wire_error);
@@ -134,9 +134,9 @@ TEST_CASE("damaged messages, and such as nobody sends, are refused by both sides
     CHECK_THROWS_AS(m.serve(echo), wire_error);
 }
 
-TEST_CASE("told to stop, members end soon and say so, and nobody waits for the silent for ever") {
+TEST_CASE("told to stop, workers end soon and say so, and nobody waits for the silent for ever") {
     std::atomic<int> finished = 0;
-    crew_in_threads all(2, [&finished](std::size_t, member& m) {
+    workers_in_threads all(2, [&finished](std::size_t, worker& m) {
         auto mine = echo;
         mine.answer = [&](std::string_view) {
             while (m.wanted()) std::this_thread::sleep_for(1ms);

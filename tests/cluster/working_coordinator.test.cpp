@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/cluster/working_crew.hpp>
+#include <sivid/cluster/working_coordinator.hpp>
 
 #include "support/catch.hpp"
 
@@ -9,24 +9,25 @@ using namespace sivid::cluster;
 
 TEST_CASE("alone or with others, a coordinator's own thread works, and all are let go") {
     for (std::size_t const others : {0u, 2u}) {
-        memory_post office(others);
+        memory_transport office(others);
         identity const mine{{{"task", "count", "-"}}};
         std::vector<std::thread> threads;
         for (std::size_t k = 0; k < others; ++k) {
             threads.emplace_back([&, k] {
-                member m(*office.of_members[k], identity_of_program());
+                worker m(*office.of_workers[k], identity_of_program());
                 m.serve({[&](std::string_view) { return mine; },
                          [](std::string_view text) { return std::string{text} + "there"; }});
             });
         }
         std::size_t here = 0;
         {
-            working_crew all(*office.of_first, "", mine, [](member& self, std::string_view text) {
-                CHECK(self.wanted());
-                return std::string{text} + "here";
-            });
+            working_coordinator all(*office.of_first, "", mine,
+                                    [](worker& self, std::string_view text) {
+                                        CHECK(self.wanted());
+                                        return std::string{text} + "here";
+                                    });
             CHECK(all.helpers().size() == others + 1);
-            std::vector<crew::task> tasks(40, {[](std::size_t) { return "done "; }});
+            std::vector<worker_pool::task> tasks(40, {[](std::size_t) { return "done "; }});
             for (auto const& a : all.helpers().ask(tasks, [] { return true; })) {
                 REQUIRE(a);
                 here += a->body == "done here" ? 1 : 0;
@@ -40,9 +41,9 @@ TEST_CASE("alone or with others, a coordinator's own thread works, and all are l
 }
 
 TEST_CASE("those who wait for work that never came are released") {
-    memory_post office(1);
+    memory_transport office(1);
     std::thread helper([&] {
-        member m(*office.of_members[0], identity_of_program());
+        worker m(*office.of_workers[0], identity_of_program());
         m.serve({});
     });
     release(*office.of_first);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/cluster/post.hpp>
+#include <sivid/cluster/transport.hpp>
 
 #include "support/catch.hpp"
 
@@ -8,16 +8,16 @@
 using namespace sivid::cluster;
 
 TEST_CASE("letters between threads arrive in their order, at whom they are for") {
-    memory_post office(3);
+    memory_transport office(3);
     auto& first = *office.of_first;
     CHECK(first.others() == 3);
-    CHECK(office.of_members[1]->others() == 1);
+    CHECK(office.of_workers[1]->others() == 1);
     CHECK_FALSE(first.receive());
-    std::thread member([&] {
+    std::thread worker([&] {
         patience rest;
         for (int seen = 0; seen < 100;) {
-            if (auto l = office.of_members[1]->receive()) {
-                office.of_members[1]->send(0, l->bytes + "!");
+            if (auto l = office.of_workers[1]->receive()) {
+                office.of_workers[1]->send(0, l->bytes + "!");
                 ++seen;
             } else {
                 rest.wait();
@@ -36,20 +36,20 @@ TEST_CASE("letters between threads arrive in their order, at whom they are for")
             rest.wait();
         }
     }
-    member.join();
-    CHECK_FALSE(office.of_members[0]->receive());
-    CHECK_FALSE(office.of_members[2]->receive());
+    worker.join();
+    CHECK_FALSE(office.of_workers[0]->receive());
+    CHECK_FALSE(office.of_workers[2]->receive());
 }
 
-TEST_CASE("two posts joined are one, the others of the second behind those of the first") {
-    memory_post a(1), b(2);
-    joined_post both(*a.of_first, *b.of_first);
+TEST_CASE("two transports joined are one, the others of the second behind those of the first") {
+    memory_transport a(1), b(2);
+    joined_transport both(*a.of_first, *b.of_first);
     CHECK(both.others() == 3);
     both.send(0, "a0");
     both.send(2, "b1");
-    CHECK(a.of_members[0]->receive()->bytes == "a0");
-    CHECK(b.of_members[1]->receive()->bytes == "b1");
-    b.of_members[0]->send(0, "from b0");
+    CHECK(a.of_workers[0]->receive()->bytes == "a0");
+    CHECK(b.of_workers[1]->receive()->bytes == "b1");
+    b.of_workers[0]->send(0, "from b0");
     auto const l = both.receive();
     REQUIRE(l);
     CHECK(l->from == 1);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_CLUSTER_MEMBER_HPP
-#define SIVID_CLUSTER_MEMBER_HPP
+#ifndef SIVID_CLUSTER_WORKER_HPP
+#define SIVID_CLUSTER_WORKER_HPP
 
 #include <sivid/cluster/frame.hpp>
 #include <sivid/cluster/identity.hpp>
-#include <sivid/cluster/post.hpp>
+#include <sivid/cluster/transport.hpp>
 #include <sivid/cluster/wire.hpp>
 
 #include <algorithm>
@@ -22,20 +22,20 @@
 
 namespace sivid::cluster {
 
-/// What a member of a crew does.
+/// What a worker of a pool does.
 struct service {
     /// Takes the work up, from what the coordinator says of it, and names what must be the same as
     /// there: a digest of the problem, say.
     std::function<identity(std::string_view about)> take_up;
-    /// Answers a request. Work that `member::wanted` has ended is answered, too, as far as it got.
+    /// Answers a request. Work that `worker::wanted` has ended is answered, too, as far as it got.
     std::function<std::string(std::string_view request)> answer;
 };
 
 /// One that works for a coordinator.
-class member {
+class worker {
 public:
-    /// @param coordinator  the only other of that post; is referred to
-    member(post& coordinator, identity who) : post_(&coordinator), who_(std::move(who)) {}
+    /// @param coordinator  the only other of that transport; is referred to
+    worker(transport& coordinator, identity who) : transport_(&coordinator), who_(std::move(who)) {}
 
     /// False once the coordinator no longer wants what is being worked on; what a running
     /// integration asks (`keep_going`). By any thread; messages are taken in by the one that
@@ -74,7 +74,7 @@ public:
             } else if (next.what == frame::kind::ask) {
                 if (serving) serving = guarded([&] { reply(work, next); });
             } else if (!is_stop(next)) {
-                throw wire_error("a damaged message: of a kind that nobody sends to a member");
+                throw wire_error("a damaged message: of a kind that nobody sends to a worker");
             }
         }
     }
@@ -83,7 +83,7 @@ private:
     using clock = std::chrono::steady_clock;
 
     [[nodiscard]] static bool is_stop(frame const& f) { return f.what == frame::kind::stop; }
-    void send(frame const& f) const { post_->send(0, to_bytes(f)); }
+    void send(frame const& f) const { transport_->send(0, to_bytes(f)); }
 
     void welcome(service const& work, std::string_view told) {
         wire_reader in(told);
@@ -120,13 +120,13 @@ private:
         }
     }
     void take_in() const {
-        while (auto letter = post_->receive()) {
+        while (auto letter = transport_->receive()) {
             waiting_.push_back(frame_of(letter->bytes));
             if (is_stop(waiting_.back())) wanted_ = false; // at once, whatever waits before it
         }
     }
 
-    post* post_;
+    transport* transport_;
     identity who_;
     std::thread::id own_;
     // What has been asked for so far.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_CLUSTER_CREW_HPP
-#define SIVID_CLUSTER_CREW_HPP
+#ifndef SIVID_CLUSTER_WORKER_POOL_HPP
+#define SIVID_CLUSTER_WORKER_POOL_HPP
 
 #include <sivid/cluster/frame.hpp>
 #include <sivid/cluster/identity.hpp>
-#include <sivid/cluster/post.hpp>
+#include <sivid/cluster/transport.hpp>
 #include <sivid/cluster/wire.hpp>
 
 #include <chrono>
@@ -22,8 +22,8 @@
 
 namespace sivid::cluster {
 
-/// A member that must not take part: another program, another problem.
-struct crew_mismatch : std::invalid_argument {
+/// A worker that must not take part: another program, another problem.
+struct worker_mismatch : std::invalid_argument {
     using std::invalid_argument::invalid_argument;
 };
 
@@ -31,52 +31,52 @@ struct crew_mismatch : std::invalid_argument {
 struct traffic {
     std::size_t requests = 0;
     std::size_t messages = 0;   ///< both ways
-    std::size_t bytes_sent = 0; ///< to members
+    std::size_t bytes_sent = 0; ///< to workers
     std::size_t bytes_received = 0;
     double asking = 0; ///< seconds in which the coordinator waited for answers
-    double worked = 0; ///< seconds of the processor that members worked on them, summed up
+    double worked = 0; ///< seconds of the processor that workers worked on them, summed up
 };
 
 /// The coordinator's view of those who work for it. Requests go to whoever is free, or to the one
-/// they are meant for; a member is sent a second one while it works, so that it need not wait.
+/// they are meant for; a worker is sent a second one while it works, so that it need not wait.
 /// Members join as soon as they have shown that they run the same program on the same problem.
-class crew {
+class worker_pool {
 public:
     struct task {
         /// The request, written when it is known to whom.
-        std::function<std::string(std::size_t member)> request;
+        std::function<std::string(std::size_t worker)> request;
         std::optional<std::size_t> meant_for = std::nullopt;
     };
     struct answer {
         std::string body;
-        std::size_t member = 0;
-        double seconds = 0;     ///< of the processor that the member took
+        std::size_t worker = 0;
+        double seconds = 0;     ///< of the processor that the worker took
         bool cut_short = false; ///< told to stop, it need not have finished
     };
     /// How tasks are handed out.
     struct manner {
-        std::size_t ahead = 2; ///< requests that a member has at most, one of them being worked on
-        double patience = 10;  ///< seconds in which members may end what is no longer wanted
+        std::size_t ahead = 2; ///< requests that a worker has at most, one of them being worked on
+        double patience = 10;  ///< seconds in which workers may end what is no longer wanted
         std::function<void(std::size_t task, answer const&)> arrived = nullptr;
     };
     /// By task; empty where none came before the patience ended.
     using answers = std::vector<std::optional<answer>>;
 
-    /// @param members  all others of that post; is referred to
-    crew(post& members, identity who)
-        : post_(&members),
+    /// @param workers  all others of that transport; is referred to
+    worker_pool(transport& workers, identity who)
+        : transport_(&workers),
           who_(std::move(who)),
-          present_(members.others()),
-          busy_(members.others()) {}
-    crew(crew const&) = delete;
-    crew& operator=(crew const&) = delete;
+          present_(workers.others()),
+          busy_(workers.others()) {}
+    worker_pool(worker_pool const&) = delete;
+    worker_pool& operator=(worker_pool const&) = delete;
 
     [[nodiscard]] std::size_t size() const { return present_.size(); }
-    /// Whether a member has shown that it may take part.
-    [[nodiscard]] bool is_present(std::size_t member) const { return present_[member] != 0; }
+    /// Whether a worker has shown that it may take part.
+    [[nodiscard]] bool is_present(std::size_t worker) const { return present_[worker] != 0; }
     [[nodiscard]] sivid::cluster::traffic const& traffic() const { return traffic_; }
 
-    /// Tells all members what the work is about.
+    /// Tells all workers what the work is about.
     /// @param mine  what must be the same there, beside the program
     void begin(std::string_view about, identity mine) {
         expected_ = who_;
@@ -87,9 +87,9 @@ public:
         hail();
     }
 
-    /// Has tasks done. Once `go_on` is false nothing more is handed out, members are told to stop,
+    /// Has tasks done. Once `go_on` is false nothing more is handed out, workers are told to stop,
     /// and what they have by then is waited for.
-    /// @throws crew_mismatch, wire_error, std::runtime_error (a member's fault)
+    /// @throws worker_mismatch, wire_error, std::runtime_error (a worker's fault)
     [[nodiscard]] answers ask(std::vector<task> const& tasks, std::function<bool()> const& go_on,
                               manner const& how) {
         auto const begin = clock::now();
@@ -118,7 +118,7 @@ public:
                     send(m, {frame::kind::ask, number_, tasks[k].request(m)});
                 }
             }
-            while (auto letter = post_->receive()) {
+            while (auto letter = transport_->receive()) {
                 rest.renew();
                 auto got = taken(*letter);
                 if (!got) continue;
@@ -172,13 +172,14 @@ private:
         auto bytes = to_bytes(f);
         ++traffic_.messages;
         traffic_.bytes_sent += bytes.size();
-        post_->send(to, std::move(bytes));
+        transport_->send(to, std::move(bytes));
     }
     /// An answer and the number of its request.
-    [[nodiscard]] std::optional<std::pair<std::uint64_t, answer>> taken(post::letter const& l) {
+    [[nodiscard]] std::optional<std::pair<std::uint64_t, answer>>
+    taken(transport::letter const& l) {
         ++traffic_.messages;
         traffic_.bytes_received += l.bytes.size();
-        auto const name = post_->name_of(l.from);
+        auto const name = transport_->name_of(l.from);
         frame f;
         try {
             f = frame_of(l.bytes);
@@ -193,7 +194,7 @@ private:
             if (f.what == frame::kind::answer) {
                 wire_reader in(f.body);
                 answer a;
-                a.member = l.from;
+                a.worker = l.from;
                 a.seconds = in.real();
                 a.cut_short = in.flag();
                 a.body = in.text();
@@ -206,7 +207,7 @@ private:
             throw wire_error(name + ": " + e.what());
         }
         if (f.what == frame::kind::fault) throw std::runtime_error(name + ": " + f.body);
-        throw wire_error(name + ": a damaged message: of a kind that no member sends");
+        throw wire_error(name + ": a damaged message: of a kind that no worker sends");
     }
     void require_same(std::string const& name, identity const& who) const {
         auto const* const p = expected_.differing(who);
@@ -215,14 +216,14 @@ private:
         for (auto const& q : who.parts) {
             if (q.what == p->what) theirs = q.value;
         }
-        throw crew_mismatch(name + " differs from the coordinator in its " + p->what + " (" +
-                            theirs + ", not " + p->value + "): " + p->remedy);
+        throw worker_mismatch(name + " differs from the coordinator in its " + p->what + " (" +
+                              theirs + ", not " + p->value + "): " + p->remedy);
     }
 
-    post* post_;
+    transport* transport_;
     identity who_, expected_;
-    std::vector<char> present_;     ///< whether a member has shown who it is
-    std::vector<std::size_t> busy_; ///< requests that a member has not answered
+    std::vector<char> present_;     ///< whether a worker has shown who it is
+    std::vector<std::size_t> busy_; ///< requests that a worker has not answered
     std::uint64_t number_ = 0;
     std::string hello_; ///< what the work is about
     bool stopped_ = false;
