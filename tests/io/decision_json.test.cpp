@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/io/decision_json.hpp>
+#include <sivid/verifier/predict_from.hpp>
 
 #include "io/stored_result.hpp"
 #include "support/catch.hpp"

@@ -48,6 +48,12 @@ struct oscillator {
     }
 };
 
+identify_options hulls_alone() {
+    identify_options options;
+    options.only_hulls = true;
+    return options;
+}
+
 } // namespace
 
 TEST_CASE("a model may count in any unit of time") {
@@ -63,7 +69,7 @@ TEST_CASE("a model may count in any unit of time") {
         }
         box const prior{interval(0.1 / unit, 3 / unit), interval(0.5, 2)};
         auto const found =
-            identify({record_model<growth>(), {{"r", "K"}, {}}, prior, {e}}, {.only_hulls = true});
+            identify({record_model<growth>(), {{"r", "K"}, {}}, prior, {e}}, hulls_alone());
         CAPTURE(unit);
         CHECK(found.verdict == verdict::consistent);
         CHECK(contains(found.hull[0], r / unit));
@@ -99,8 +105,8 @@ TEST_CASE("records of milliseconds and of hours with inputs are carried as those
         }
         box const prior{interval(3.2 / (unit * unit), 4.8 / (unit * unit)),
                         interval(0.2 / unit, 0.4 / unit)};
-        auto const found = identify({record_model<oscillator>(), {{"k", "d"}, {}}, prior, {e}},
-                                    {.only_hulls = true});
+        auto const found =
+            identify({record_model<oscillator>(), {{"k", "d"}, {}}, prior, {e}}, hulls_alone());
         CAPTURE(unit);
         CHECK(found.verdict == verdict::consistent);
         CHECK(contains(found.hull[0], k / (unit * unit)));
