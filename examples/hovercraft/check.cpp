@@ -68,6 +68,7 @@ std::vector<sivid::check_finding> work(sivid::identification_problem const& prob
 } // namespace
 
 int run(check_command const& c) {
+    console::watch_interrupts(); // reading a large result takes a while, too
     auto const stored = sivid::read_identification(c.result);
     if (c.dataset.empty() && stored.source_folder.empty())
         throw bad_request("the result does not say where its data set is: give --dataset");
@@ -94,7 +95,6 @@ int run(check_command const& c) {
     if (!own_budget)
         std::cout << "  note: the outlier budget is the result's, not the data set's\n";
 
-    console::watch_interrupts();
     sivid::identification_check_options options;
     options.all = c.all;
     options.sample = c.sample;
