@@ -66,7 +66,7 @@ TEST_CASE(
     "with a rank killed by kill -9 the job ends, and fewer ranks finish it with the same bits") {
     temporary_folder const folder;
     auto const data = uncertain_starts(folder);
-    words const more{"--boxes", "1500"};
+    words const more{"--boxes", "6000"}; // still at work when the first checkpoint is seen
     auto const alone = folder.path() / "alone";
     auto const expected = run_alone(identify(data, alone, more));
     auto const saving = more + words{"--checkpoint", "0.01", "--resume"};
@@ -76,10 +76,12 @@ TEST_CASE(
         {
             temporary_folder const own;
             job const j(4, identify(data, out, saving), own.path());
+            auto all = processes_of(out, 4); // before there is a checkpoint: a look at /proc takes time
+            for (int k = 0; k < 3000 && all[victim] == 0; ++k, all = processes_of(out, 4))
+                std::this_thread::sleep_for(10ms);
+            REQUIRE(all[victim] != 0);
             for (int k = 0; k < 30000 && !fs::exists(out / "checkpoint.txt"); ++k)
                 std::this_thread::sleep_for(1ms);
-            auto const all = processes_of(out, 4);
-            REQUIRE(all[victim] != 0);
             CHECK(::kill(all[victim], SIGKILL) == 0);
             auto const end = j.wait_at_most(60);
             CHECK(end.code != 0);

@@ -10,8 +10,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <vector>
 
 using namespace sivid;
@@ -339,6 +341,20 @@ TEST_CASE("the memory budget ends a search, which goes on with a larger one") {
     CHECK(complete.bytes() == paved * (sizeof(paved_box) + 2 * sizeof(interval)));
 }
 
+namespace {
+
+/// A ring whose test takes its time, so that checkpoints fall between.
+struct slow_ring {
+    ring set;
+
+    assessment<> operator()(box const& b) {
+        std::this_thread::sleep_for(std::chrono::microseconds{100});
+        return set(b);
+    }
+};
+
+} // namespace
+
 TEST_CASE("checkpoints come at the interval and hold a search that can go on") {
     ring test{1, 2};
     inversion_options o;
@@ -351,7 +367,8 @@ TEST_CASE("checkpoints come at the interval and hold a search that can go on") {
     saving.checkpoint = [&](search_state const& s) {
         saved.push_back(std::make_shared<search_state const>(s));
     };
-    check_same(invert(test, square, saving), whole);
+    slow_ring slow{test};
+    check_same(invert(slow, square, saving), whole);
     REQUIRE(saved.size() > 2);
     for (auto const& s : saved) {
         CHECK_NOTHROW(s->require_valid());
