@@ -21,7 +21,7 @@
 
 #ifdef SIVID_COMPILED
 
-#include <sivid/number/detail/pack_target.hpp>
+#include <sivid/number/pack/detail/pack_target.hpp>
 
 #include <string> // the macros of the standard library
 

@@ -19,6 +19,8 @@ namespace architecture {
 /// Folders within a floor, lowest first: a header in one includes none that stands in a higher one.
 /// Headers at the top of the floor are its doors, what programs name; every room may use them.
 inline std::map<std::string_view, std::vector<std::string_view>> const rooms{
+    {"number", {"rounding", "text", "pack", "elementary", "polynomial"}},
+    {"space", {"exact", "linear_program", "frame"}},
     {"model", {"graph", "structure", "series", "change"}},
     {"approximate", {"simulate", "fit", "place"}},
     {"enclosure",

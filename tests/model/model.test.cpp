@@ -64,3 +64,10 @@ TEST_CASE("a functor is recorded with its names, units and graph") {
     CHECK(contains(support::evaluate(m.g, {m.rate[0]}, where).outputs[0], 0.0));
     CHECK(support::evaluate(m.g, {m.observe[0]}, where).outputs[0].lower() == 6);
 }
+
+TEST_CASE("a vec is an aggregate that structured bindings take apart") {
+    vec<double, 3> const x{1, 2, 4};
+    auto const& [a, b, c] = x;
+    CHECK(a + 10 * b + 100 * c == 421);
+    STATIC_REQUIRE(std::is_aggregate_v<vec<double, 3>>);
+}

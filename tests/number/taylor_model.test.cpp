@@ -3,8 +3,8 @@
 #include "support/rounding_modes.hpp"
 #include "support/taylor_models.hpp"
 
-#include <sivid/number/bernstein.hpp>
 #include <sivid/number/decimal.hpp>
+#include <sivid/number/polynomial/bernstein.hpp>
 #include <sivid/number/taylor_model.hpp>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A kernel that is broken, as a compiler might: every solver has to refuse.
-#include <sivid/number/detail/pack_elementary.hpp>
 #include <sivid/number/pack.hpp>
+#include <sivid/number/pack/detail/pack_elementary.hpp>
 
 namespace sivid::simd {
 template <>

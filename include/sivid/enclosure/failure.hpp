@@ -6,7 +6,7 @@
 #include <sivid/enclosure/options.hpp>
 #include <sivid/model/graph/operation.hpp>
 #include <sivid/number/decimal.hpp>
-#include <sivid/number/nearest_text.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <cstddef>
 #include <limits>

@@ -4,7 +4,7 @@
 
 #include <sivid/number/impl/decimal.ipp>
 #include <sivid/number/impl/decimal_output.ipp>
-#include <sivid/number/impl/decimal_text.ipp>
-#include <sivid/number/impl/kernel_trial.ipp>
+#include <sivid/number/pack/impl/kernel_trial.ipp>
+#include <sivid/number/text/impl/decimal_text.ipp>
 
 #endif

@@ -4,7 +4,7 @@
 
 #include <sivid/measurement/detail/local_residual.hpp>
 #include <sivid/measurement/quantisation.hpp>
-#include <sivid/number/nearest_text.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/model/graph/graph_listing.hpp>
 #include <sivid/model/model.hpp>
-#include <sivid/number/nearest_text.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cstddef>

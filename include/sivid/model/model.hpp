@@ -7,7 +7,6 @@
 #include <sivid/model/graph/formula_text.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/number/decimal.hpp>
-#include <sivid/space/vec.hpp>
 
 #include <array>
 #include <cmath>
@@ -22,6 +21,11 @@
 #include <vector>
 
 namespace sivid {
+
+/// A fixed-length tuple of scalars, the shape in which a model's functor receives and returns its
+/// states, inputs and outputs: `auto const& [u, v, r] = x;`
+template <class T, std::size_t N>
+using vec = std::array<T, N>;
 
 /// A named quantity with its unit: an input or an output channel of a model.
 struct quantity {

@@ -7,9 +7,9 @@
 /// nearest to it. Reading gives the tightest enclosure, writing rounds outward.
 
 #include <sivid/compiled.hpp>
-#include <sivid/number/decimal_text.hpp>
 #include <sivid/number/interval.hpp>
 #include <sivid/number/rounding.hpp>
+#include <sivid/number/text/decimal_text.hpp>
 
 #include <array>
 #include <concepts>

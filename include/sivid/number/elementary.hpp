@@ -8,11 +8,11 @@
 /// argument `bool& cut` set it if some part was left out; a proof that needs the function
 /// everywhere must look.
 
-#include <sivid/number/exponential.hpp>
-#include <sivid/number/hyperbolic.hpp>
-#include <sivid/number/inverse_trigonometric.hpp>
-#include <sivid/number/piecewise.hpp>
-#include <sivid/number/power.hpp>
-#include <sivid/number/trigonometric.hpp>
+#include <sivid/number/elementary/exponential.hpp>
+#include <sivid/number/elementary/hyperbolic.hpp>
+#include <sivid/number/elementary/inverse_trigonometric.hpp>
+#include <sivid/number/elementary/piecewise.hpp>
+#include <sivid/number/elementary/power.hpp>
+#include <sivid/number/elementary/trigonometric.hpp>
 
 #endif

@@ -3,7 +3,7 @@
 #define SIVID_NUMBER_FEW_DIGITS_HPP
 
 #include <sivid/number/decimal.hpp>
-#include <sivid/number/nearest_text.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cmath>

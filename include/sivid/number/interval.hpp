@@ -9,9 +9,9 @@
 /// A plain double stands for its exact value. The empty set has NaN bounds; an infinite bound means
 /// unbounded, infinity itself is never a member.
 
-#include <sivid/number/detail/opaque_rounding.hpp>
-#include <sivid/number/detail/refused_flags.hpp>
 #include <sivid/number/rounding.hpp>
+#include <sivid/number/rounding/detail/opaque_rounding.hpp>
+#include <sivid/number/rounding/detail/refused_flags.hpp>
 
 #include <boost/numeric/interval/arith.hpp>
 #include <boost/numeric/interval/checking.hpp>

@@ -19,15 +19,15 @@
 /// or DAZ. Arithmetic (with sqr, sqrt, pown, hypot), and all that AVX-512 does, needs these two
 /// off: `require_sound_environment` rejects them at the entry of a solver.
 
-#include <sivid/number/detail/pack_avx2.hpp>
-#include <sivid/number/detail/pack_avx512.hpp>
-#include <sivid/number/detail/pack_elementary.hpp>
-#include <sivid/number/detail/pack_neon.hpp>
-#include <sivid/number/detail/pack_portable.hpp>
-#include <sivid/number/detail/pack_sse2.hpp>
-#include <sivid/number/detail/refused_flags.hpp>
 #include <sivid/number/interval.hpp>
 #include <sivid/number/interval_traits.hpp>
+#include <sivid/number/pack/detail/pack_avx2.hpp>
+#include <sivid/number/pack/detail/pack_avx512.hpp>
+#include <sivid/number/pack/detail/pack_elementary.hpp>
+#include <sivid/number/pack/detail/pack_neon.hpp>
+#include <sivid/number/pack/detail/pack_portable.hpp>
+#include <sivid/number/pack/detail/pack_sse2.hpp>
+#include <sivid/number/rounding/detail/refused_flags.hpp>
 
 #include <array>
 #include <cstddef>

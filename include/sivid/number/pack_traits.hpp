@@ -6,9 +6,9 @@
 /// `interval_traits` of packs: those of the vocabulary type in every lane. Masks and relations have
 /// one bit for each lane, lane 0 the lowest.
 
-#include <sivid/number/detail/pack_elementary.hpp>
 #include <sivid/number/interval_traits.hpp>
 #include <sivid/number/pack.hpp>
+#include <sivid/number/pack/detail/pack_elementary.hpp>
 
 #include <array>
 #include <cstddef>

@@ -13,8 +13,8 @@
 /// Rare operands (subnormal, overflow) take the slow way: on x86-64 through MXCSR, elsewhere
 /// through integers (detail/exact_rounding.hpp). So outside x86-64 no directed mode is ever needed.
 
-#include <sivid/number/detail/exact_rounding.hpp>
-#include <sivid/number/detail/machine.hpp>
+#include <sivid/number/rounding/detail/exact_rounding.hpp>
+#include <sivid/number/rounding/detail/machine.hpp>
 
 #include <bit>
 #include <cstdint>

@@ -2,8 +2,8 @@
 #ifndef SIVID_NUMBER_TAYLOR_MODEL_HPP
 #define SIVID_NUMBER_TAYLOR_MODEL_HPP
 
-#include <sivid/number/detail/taylor_model_class.hpp>
-#include <sivid/number/detail/taylor_model_product.hpp>
+#include <sivid/number/polynomial/detail/taylor_model_class.hpp>
+#include <sivid/number/polynomial/detail/taylor_model_product.hpp>
 
 #include <algorithm>
 #include <cmath>

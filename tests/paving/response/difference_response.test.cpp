@@ -5,7 +5,7 @@
 #include "support/models.hpp"
 #include "support/random.hpp"
 
-#include <sivid/number/monomial_space.hpp>
+#include <sivid/number/polynomial/monomial_space.hpp>
 #include <sivid/paving/contract/lifted_program.hpp>
 
 #include <cmath>

@@ -3,7 +3,7 @@
 #define SIVID_APPROXIMATE_FIT_MINIMAX_HPP
 
 #include <sivid/approximate/fit/descent.hpp>
-#include <sivid/space/minimax_lp.hpp>
+#include <sivid/space/linear_program/minimax_lp.hpp>
 
 #include <algorithm>
 #include <cmath>

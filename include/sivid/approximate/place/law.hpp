@@ -5,7 +5,7 @@
 #include <sivid/approximate/place/knot_trace.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/model.hpp>
-#include <sivid/number/nearest_text.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cmath>

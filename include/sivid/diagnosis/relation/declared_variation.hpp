@@ -7,7 +7,7 @@
 #include <sivid/diagnosis/relation/model_variation.hpp>
 #include <sivid/diagnosis/relation/state_samples.hpp>
 #include <sivid/model/graph/graph_range.hpp>
-#include <sivid/number/nearest_text.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cmath>

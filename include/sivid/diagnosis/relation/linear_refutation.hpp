@@ -3,7 +3,7 @@
 #define SIVID_DIAGNOSIS_RELATION_LINEAR_REFUTATION_HPP
 
 #include <sivid/number/interval_traits.hpp>
-#include <sivid/space/dual_simplex.hpp>
+#include <sivid/space/linear_program/dual_simplex.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -11,7 +11,7 @@
 #include <sivid/model/problem.hpp>
 #include <sivid/model/unit.hpp>
 #include <sivid/number/decimal_output.hpp>
-#include <sivid/number/nearest_text.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/model/unit.hpp>
-#include <sivid/number/nearest_text.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cmath>

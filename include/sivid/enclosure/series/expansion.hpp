@@ -5,7 +5,7 @@
 #include <sivid/enclosure/flow.hpp>
 #include <sivid/enclosure/series/detail/variation_columns.hpp>
 #include <sivid/model/series/series.hpp>
-#include <sivid/number/lanes.hpp>
+#include <sivid/number/pack/lanes.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/space/matrix.hpp>
 

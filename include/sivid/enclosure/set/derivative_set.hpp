@@ -3,8 +3,8 @@
 #define SIVID_ENCLOSURE_SET_DERIVATIVE_SET_HPP
 
 #include <sivid/space/box.hpp>
+#include <sivid/space/frame/orthogonal_frame.hpp>
 #include <sivid/space/matrix.hpp>
-#include <sivid/space/orthogonal_frame.hpp>
 
 #include <Eigen/Core>
 

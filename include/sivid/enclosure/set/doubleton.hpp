@@ -4,8 +4,8 @@
 
 #include <sivid/enclosure/failure.hpp>
 #include <sivid/space/box.hpp>
+#include <sivid/space/frame/orthogonal_frame.hpp>
 #include <sivid/space/matrix.hpp>
-#include <sivid/space/orthogonal_frame.hpp>
 
 #include <Eigen/Core>
 

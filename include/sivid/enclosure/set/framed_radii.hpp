@@ -2,7 +2,7 @@
 #ifndef SIVID_ENCLOSURE_SET_FRAMED_RADII_HPP
 #define SIVID_ENCLOSURE_SET_FRAMED_RADII_HPP
 
-#include <sivid/space/orthogonal_frame.hpp>
+#include <sivid/space/frame/orthogonal_frame.hpp>
 
 #include <Eigen/Core>
 

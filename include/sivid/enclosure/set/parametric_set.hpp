@@ -4,9 +4,9 @@
 
 #include <sivid/enclosure/failure.hpp>
 #include <sivid/enclosure/normalised_unknowns.hpp>
-#include <sivid/number/taylor_model_functions.hpp>
+#include <sivid/number/polynomial/taylor_model_functions.hpp>
 #include <sivid/space/box.hpp>
-#include <sivid/space/common_frame.hpp>
+#include <sivid/space/frame/common_frame.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #ifndef SIVID_ENCLOSURE_STEP_PERTURBATION_BOUND_HPP
 #define SIVID_ENCLOSURE_STEP_PERTURBATION_BOUND_HPP
 
-#include <sivid/number/lanes.hpp>
+#include <sivid/number/pack/lanes.hpp>
 
 #include <algorithm>
 #include <cmath>

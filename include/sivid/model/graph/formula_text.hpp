@@ -3,7 +3,7 @@
 #define SIVID_MODEL_GRAPH_FORMULA_TEXT_HPP
 
 #include <sivid/model/graph/graph.hpp>
-#include <sivid/number/nearest_text.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <cstddef>
 #include <string>

@@ -7,7 +7,7 @@
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/number/decimal_output.hpp>
-#include <sivid/number/nearest_text.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -9,8 +9,8 @@
 #include <sivid/model/change/copy_equations.hpp>
 #include <sivid/model/graph/differentiate.hpp>
 #include <sivid/model/graph/rewrite.hpp>
-#include <sivid/number/nearest_text.hpp>
 #include <sivid/number/rounding.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <sivid/model/graph/arithmetic.hpp>
 #include <sivid/model/series/detail/series_storage.hpp>
-#include <sivid/number/taylor_model_functions.hpp>
+#include <sivid/number/polynomial/taylor_model_functions.hpp>
 
 #include <array>
 #include <cmath>

@@ -3,7 +3,7 @@
 #define SIVID_MODEL_SERIES_TWOFOLD_ARITHMETIC_HPP
 
 #include <sivid/model/graph/arithmetic.hpp>
-#include <sivid/number/twofold.hpp>
+#include <sivid/number/rounding/twofold.hpp>
 
 #include <cstddef>
 

@@ -6,7 +6,7 @@
 #include <sivid/model/graph/normal_form.hpp>
 #include <sivid/model/structure/combination.hpp>
 #include <sivid/model/unit.hpp>
-#include <sivid/space/integer_span.hpp>
+#include <sivid/space/exact/integer_span.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -5,7 +5,7 @@
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/graph/normal_form.hpp>
 #include <sivid/model/graph/rewrite.hpp>
-#include <sivid/number/detail/wide_integer.hpp>
+#include <sivid/number/elementary/detail/wide_integer.hpp>
 
 #include <cmath>
 #include <cstddef>

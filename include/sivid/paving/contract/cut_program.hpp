@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_CONTRACT_CUT_PROGRAM_HPP
 #define SIVID_PAVING_CONTRACT_CUT_PROGRAM_HPP
 
-#include <sivid/space/constraint_blocks.hpp>
+#include <sivid/space/linear_program/constraint_blocks.hpp>
 
 #include <cstddef>
 #include <utility>

@@ -4,7 +4,7 @@
 
 #include <sivid/paving/contract/inflation_certificate.hpp>
 #include <sivid/paving/response/local_response.hpp>
-#include <sivid/space/constraint_blocks.hpp>
+#include <sivid/space/linear_program/constraint_blocks.hpp>
 
 #include <algorithm>
 #include <cmath>

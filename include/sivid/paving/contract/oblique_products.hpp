@@ -4,7 +4,7 @@
 
 #include <sivid/paving/contract/detail/lifted_block.hpp>
 #include <sivid/paving/response/combined_polynomial.hpp>
-#include <sivid/space/constraint_blocks.hpp>
+#include <sivid/space/linear_program/constraint_blocks.hpp>
 
 #include <algorithm>
 #include <cmath>

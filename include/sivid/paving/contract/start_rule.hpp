@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_CONTRACT_START_RULE_HPP
 #define SIVID_PAVING_CONTRACT_START_RULE_HPP
 
-#include <sivid/space/minimax_lp.hpp>
+#include <sivid/space/linear_program/minimax_lp.hpp>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>

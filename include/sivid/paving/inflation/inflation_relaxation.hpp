@@ -8,7 +8,7 @@
 #include <sivid/paving/response/misfit.hpp>
 #include <sivid/paving/response/response.hpp>
 #include <sivid/space/box.hpp>
-#include <sivid/space/minimax_lp.hpp>
+#include <sivid/space/linear_program/minimax_lp.hpp>
 
 #include <algorithm>
 #include <cmath>

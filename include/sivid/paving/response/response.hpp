@@ -4,7 +4,7 @@
 
 #include <sivid/enclosure/normalised_unknowns.hpp>
 #include <sivid/number/interval.hpp>
-#include <sivid/number/monomial_space.hpp>
+#include <sivid/number/polynomial/monomial_space.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>

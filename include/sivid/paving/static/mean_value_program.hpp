@@ -5,7 +5,7 @@
 #include <sivid/paving/contract/cut_program.hpp>
 #include <sivid/paving/response/linear_contraction.hpp>
 #include <sivid/space/box.hpp>
-#include <sivid/space/minimax_lp.hpp>
+#include <sivid/space/linear_program/minimax_lp.hpp>
 
 #include <algorithm>
 #include <cmath>

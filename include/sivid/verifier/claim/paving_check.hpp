@@ -4,7 +4,7 @@
 
 #include <sivid/approximate/fit/counterexample.hpp>
 #include <sivid/io/text/exact_decimal.hpp>
-#include <sivid/number/nearest_text.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 #include <sivid/verifier/claim/detail/identification_check_options.hpp>
 #include <sivid/verifier/claim/detail/point_judgement.hpp>
 #include <sivid/verifier/claim/identification_consistency.hpp>

@@ -6,8 +6,8 @@
 #include <sivid/decision/design/detail/small_run.hpp>
 #include <sivid/paving/contract/cut_program.hpp>
 #include <sivid/paving/response/response.hpp>
-#include <sivid/space/constraint_blocks.hpp>
-#include <sivid/space/minimax_lp.hpp>
+#include <sivid/space/linear_program/constraint_blocks.hpp>
+#include <sivid/space/linear_program/minimax_lp.hpp>
 
 #include <algorithm>
 #include <cmath>

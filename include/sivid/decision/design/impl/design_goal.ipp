@@ -9,7 +9,7 @@
 #include <sivid/measurement/signal.hpp>
 #include <sivid/model/parameter_choice.hpp>
 #include <sivid/model/structure/find_combinations.hpp>
-#include <sivid/space/integer_span.hpp>
+#include <sivid/space/exact/integer_span.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -5,7 +5,7 @@
 #include <sivid/decision/requirement/detail/requirement_numbers.hpp>
 #include <sivid/decision/requirement/detail/requirement_types.hpp>
 #include <sivid/number/decimal.hpp>
-#include <sivid/number/nearest_text.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cctype>

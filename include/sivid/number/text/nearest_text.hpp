@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_NUMBER_TEXT_NEAREST_TEXT_HPP
+#define SIVID_NUMBER_TEXT_NEAREST_TEXT_HPP
+
+#include <array>
+#include <charconv>
+#include <string>
+
+namespace sivid {
+
+/// x to so many significant digits, without trailing zeros: 0.25, 1e-05, -3, nan. Rounded to
+/// nearest, so it is for names and estimates; bounds are printed by `to_decimal_lower` and
+/// `to_decimal_upper`.
+[[nodiscard]] inline std::string nearest_text(double x, int digits) {
+    std::array<char, 64> text{};
+    auto const end = std::to_chars(text.data(), text.data() + text.size(), x,
+                                   std::chars_format::general, digits);
+    return {text.data(), end.ptr};
+}
+
+/// The shortest decimal that reads back as the same double.
+[[nodiscard]] inline std::string nearest_text(double x) {
+    std::array<char, 64> text{};
+    auto const end = std::to_chars(text.data(), text.data() + text.size(), x);
+    return {text.data(), end.ptr};
+}
+
+} // namespace sivid
+
+#endif
