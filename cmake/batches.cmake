@@ -1,41 +1,73 @@
 # SPDX-License-Identifier: MIT
 # sivid_compile_in_batches(<target> <source>...): compiles the sources of a target several at a time, since most of the
-# time goes into what they include. Each stands in a namespace of its own, so that their local names do not meet; what
+# time goes into what they include. Sources that follow each other in one folder stand together, so that a batch includes
+# what its folder needs and no more. Each stands in a namespace of its own, so that their local names do not meet; what
 # they include therefore stands first, outside of it. Sources that define macros or specialise templates are left alone.
 
 option(SIVID_BATCHES "Compile tests in batches: a third of the time; off, each source is an object of its own" ON)
+set(SIVID_BATCH_SIZE 12 CACHE STRING "Sources in a batch at most: more take less time and more memory")
+mark_as_advanced(SIVID_BATCH_SIZE)
+
+# The include lines of a source with their conditions; names beside it are made absolute.
+function(sivid_include_lines result source)
+    get_filename_component(folder "${source}" DIRECTORY)
+    set(includes "")
+    # Brackets and semicolons are special in lists: lines are taken one by one from the text.
+    file(READ "${source}" text)
+    string(REGEX MATCHALL "\n#[ ]*(include|if|ifdef|ifndef|elif|else|endif)[^\n]*" lines "${text}")
+    foreach(line IN LISTS lines)
+        string(REGEX REPLACE ".*#include \"([^\"]+)\".*" "\\1" name "${line}")
+        if(EXISTS "${folder}/${name}")
+            string(REPLACE "\"${name}\"" "\"${folder}/${name}\"" line "${line}")
+        endif()
+        string(APPEND includes "${line}")
+    endforeach()
+    set(${result} "${includes}" PARENT_SCOPE)
+endfunction()
 
 function(sivid_compile_in_batches target)
     if(NOT SIVID_BATCHES)
         return()
     endif()
-    set(prelude "// What the sources of ${target} include, under their conditions.\n#pragma once\n")
-    foreach(source IN LISTS ARGN)
-        get_filename_component(source "${source}" ABSOLUTE)
-        file(STRINGS "${source}" alone REGEX "^#define|^#if.*[\\]$|^template ?<>|^(inline )?namespace [a-z_:]+ {" LIMIT_COUNT 1)
-        if(alone)
-            set_source_files_properties("${source}" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    set(batch 0)
+    set(held 0)       # sources in the batch that is being filled
+    set(last_folder "")
+    set(head "// What the sources of this batch include, under their conditions.\n")
+    set(includes "${head}")
+    set(bodies "")
+    foreach(source IN LISTS ARGN ITEMS "")
+        set(alone "")
+        set(folder "")
+        if(source)
+            get_filename_component(source "${source}" ABSOLUTE)
+            get_filename_component(folder "${source}" DIRECTORY)
+            file(STRINGS "${source}" alone REGEX "^#define|^#if.*[\\]$|^template ?<>|^(inline )?namespace [a-z_:]+ {"
+                 LIMIT_COUNT 1)
+        endif()
+        math(EXPR half "${SIVID_BATCH_SIZE} / 2")
+        set(full OFF)
+        if(NOT source OR held EQUAL SIVID_BATCH_SIZE OR
+           (held GREATER_EQUAL half AND NOT folder STREQUAL last_folder))
+            set(full ON)
+        endif()
+        if(full AND held GREATER 0)
+            set(file "${CMAKE_CURRENT_BINARY_DIR}/${target}_batch_${batch}.cpp")
+            file(CONFIGURE OUTPUT "${file}" CONTENT "@includes@\n@bodies@" @ONLY)
+            target_sources(${target} PRIVATE "${file}")
+            math(EXPR batch "${batch} + 1")
+            set(held 0)
+            set(includes "${head}")
+            set(bodies "")
+        endif()
+        if(NOT source OR alone)
             continue()
         endif()
-        get_filename_component(folder "${source}" DIRECTORY)
-        # Brackets and semicolons are special in lists: lines are taken one by one from the text.
-        file(READ "${source}" text)
-        string(REGEX MATCHALL "\n#[ ]*(include|if|ifdef|ifndef|elif|else|endif)[^\n]*" lines "${text}")
-        foreach(line IN LISTS lines)
-            string(REGEX REPLACE ".*#include \"([^\"]+)\".*" "\\1" name "${line}")
-            if(EXISTS "${folder}/${name}")
-                string(REPLACE "\"${name}\"" "\"${folder}/${name}\"" line "${line}")
-            endif()
-            string(APPEND prelude "${line}")
-        endforeach()
+        sivid_include_lines(lines "${source}")
+        string(APPEND includes "${lines}\n")
+        string(APPEND bodies "namespace source_${held} {\n#include \"${source}\"\n}\n")
+        set_source_files_properties("${source}" PROPERTIES HEADER_FILE_ONLY ON)
+        math(EXPR held "${held} + 1")
+        set(last_folder "${folder}")
     endforeach()
-    set(header "${CMAKE_CURRENT_BINARY_DIR}/${target}_includes.hpp")
-    file(CONFIGURE OUTPUT "${header}" CONTENT "@prelude@\n" @ONLY)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${ARGN})
-    set_target_properties(${target} PROPERTIES
-        UNITY_BUILD ON
-        UNITY_BUILD_BATCH_SIZE 12
-        UNITY_BUILD_UNIQUE_ID sivid_source
-        UNITY_BUILD_CODE_BEFORE_INCLUDE "#include \"${header}\"\nnamespace sivid_source {"
-        UNITY_BUILD_CODE_AFTER_INCLUDE "}")
 endfunction()
