@@ -8,7 +8,6 @@
 #include "sensitivities.hpp"
 
 #include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
-#include <sivid/enclosure/taylor/parametric_cover.hpp>
 #include <sivid/enclosure/tube.hpp>
 #include <sivid/number/decimal.hpp>
 

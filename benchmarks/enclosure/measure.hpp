@@ -4,8 +4,9 @@
 #ifndef SIVID_BENCHMARKS_ENCLOSURE_MEASURE_HPP
 #define SIVID_BENCHMARKS_ENCLOSURE_MEASURE_HPP
 
+#include "parametric_cover.hpp"
+
 #include <sivid/approximate/simulate/simulate.hpp>
-#include <sivid/enclosure/taylor/parametric_cover.hpp>
 #include <sivid/enclosure/tube.hpp>
 
 #include <algorithm>
@@ -174,14 +175,14 @@ void measure(std::size_t variables, std::size_t degree, problem const& p, settin
     constexpr std::size_t width = sivid::lane_traits<C>::count;
     if (!asked.wants(p.name)) return;
     auto const options = s.options();
-    sivid::cover_options const choice{.first_halvings = s.halvings};
-    sivid::parametric_cover result;
+    cover_options const choice{.first_halvings = s.halvings};
+    parametric_cover result;
     double best = HUGE_VAL;
     double total = 0;
     for (int run = 0; run < 25 && (run < 3 || total < 1); ++run) {
         auto const begin = std::chrono::steady_clock::now();
-        result = sivid::cover<C>(variables, degree, *p.flow, options, p.initial, p.parameters, 0,
-                                 p.end, choice);
+        result = cover<C>(variables, degree, *p.flow, options, p.initial, p.parameters, 0, p.end,
+                          choice);
         double const t = seconds_since(begin);
         best = std::min(best, t);
         total += t;

@@ -162,7 +162,6 @@
 #include <sivid/enclosure/stiff/invariant_box.hpp>
 #include <sivid/enclosure/stiff/matrix_exponential.hpp>
 #include <sivid/enclosure/suggested_degree.hpp>
-#include <sivid/enclosure/taylor/parametric_cover.hpp>
 #include <sivid/enclosure/taylor/parametric_flow.hpp>
 #include <sivid/enclosure/taylor/parametric_runge_kutta.hpp>
 #include <sivid/enclosure/trajectory.hpp>

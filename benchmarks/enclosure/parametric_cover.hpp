@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_ENCLOSURE_TAYLOR_PARAMETRIC_COVER_HPP
-#define SIVID_ENCLOSURE_TAYLOR_PARAMETRIC_COVER_HPP
+#ifndef SIVID_BENCHMARKS_ENCLOSURE_PARAMETRIC_COVER_HPP
+#define SIVID_BENCHMARKS_ENCLOSURE_PARAMETRIC_COVER_HPP
 
 #include <sivid/enclosure/taylor/parametric_flow.hpp>
 
@@ -13,7 +13,8 @@
 #include <utility>
 #include <vector>
 
-namespace sivid {
+namespace benchmark {
+using namespace sivid;
 
 /// A part of a box of starts and parameters with the family that it leads to.
 struct covered_part {
@@ -174,6 +175,6 @@ template <class C = double>
     return result;
 }
 
-} // namespace sivid
+} // namespace benchmark
 
 #endif

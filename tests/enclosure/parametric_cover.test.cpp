@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
+#include "../../benchmarks/enclosure/parametric_cover.hpp"
 #include "support/catch.hpp"
 #include "support/flow_simulation.hpp"
 #include "support/models.hpp"
 #include "support/random.hpp"
-
-#include <sivid/enclosure/taylor/parametric_cover.hpp>
 
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
 using namespace sivid;
+using namespace benchmark;
 using support::between;
 using support::draws;
 
