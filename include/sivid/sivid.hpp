@@ -46,6 +46,7 @@
 #include <sivid/space/box.hpp>
 #include <sivid/space/box_cover.hpp>
 #include <sivid/space/box_lanes.hpp>
+#include <sivid/space/dense.hpp>
 #include <sivid/space/eigen_support.hpp>
 #include <sivid/space/exact/certified_rank.hpp>
 #include <sivid/space/exact/integer_span.hpp>

@@ -5,6 +5,16 @@
 #include <sivid/number/impl/decimal.ipp>
 #include <sivid/number/impl/decimal_output.ipp>
 #include <sivid/number/pack/impl/kernel_trial.ipp>
+#include <sivid/number/polynomial/detail/model_shape.hpp>
 #include <sivid/number/text/impl/decimal_text.ipp>
+
+#include <cstddef>
+
+namespace sivid {
+
+template model_shape<double> model_shape<double>::make(std::size_t, std::size_t);
+template model_shape<lanes<8>> model_shape<lanes<8>>::make(std::size_t, std::size_t);
+
+} // namespace sivid
 
 #endif

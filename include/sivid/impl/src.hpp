@@ -27,6 +27,7 @@
 #include <sivid/impl/paving_check.ipp>
 #include <sivid/impl/paving_further.ipp>
 #include <sivid/impl/paving_lanes.ipp>
+#include <sivid/impl/space.ipp>
 #include <sivid/impl/tube.ipp>
 
 #endif

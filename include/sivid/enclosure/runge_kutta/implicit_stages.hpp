@@ -3,6 +3,7 @@
 #define SIVID_ENCLOSURE_RUNGE_KUTTA_IMPLICIT_STAGES_HPP
 
 #include <sivid/enclosure/runge_kutta/detail/implicit_stages_class.hpp>
+#include <sivid/space/dense.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -98,7 +99,7 @@ Eigen::MatrixXd implicit_stages<T>::approximate_inverse(T const& step,
             }
         }
     }
-    return matrix.partialPivLu().inverse();
+    return sivid::approximate_inverse(matrix);
 }
 
 template <class T>

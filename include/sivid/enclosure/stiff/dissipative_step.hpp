@@ -3,6 +3,7 @@
 #define SIVID_ENCLOSURE_STIFF_DISSIPATIVE_STEP_HPP
 
 #include <sivid/enclosure/stiff/detail/dissipative_step_class.hpp>
+#include <sivid/space/dense.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -49,7 +50,7 @@ auto dissipative_step<I>::interpolate(double from, I const& h, std::vector<doubl
                 traits::mid(k->value[i * n + l]);
         }
     }
-    Eigen::MatrixXd const w = powers.partialPivLu().solve(slopes);
+    Eigen::MatrixXd const w = approximate_solution(powers, slopes);
     if (!w.allFinite()) return std::nullopt;
     path u(n);
     for (std::size_t l = 0; l < n; ++l) {

@@ -2,7 +2,9 @@
 #ifndef SIVID_PAVING_IDENTIFIABILITY_OUTPUT_SENSITIVITIES_HPP
 #define SIVID_PAVING_IDENTIFIABILITY_OUTPUT_SENSITIVITIES_HPP
 
-#include <sivid/enclosure/sensitivity/sensitivity_tube.hpp>
+#include <sivid/compiled.hpp>
+#include <sivid/enclosure/flow.hpp>
+#include <sivid/enclosure/options.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/identifiability/detail/unknown_quantity.hpp>
 #include <sivid/space/box.hpp>
@@ -25,23 +27,8 @@ namespace sivid {
 }
 
 /// The parameters and, with `starts`, the starts that are not known exactly.
-[[nodiscard]] inline std::vector<unknown_quantity>
-unknowns_of(identification_problem const& problem, bool starts) {
-    std::vector<unknown_quantity> result;
-    for (std::size_t j = 0; j < problem.prior.size(); ++j) {
-        if (is_known(problem.prior[j])) continue;
-        result.push_back({problem.choice.unknown[j], j, std::nullopt, problem.prior[j]});
-    }
-    for (std::size_t e = 0; starts && e < problem.experiments.size(); ++e) {
-        auto const& from = problem.experiments[e];
-        for (std::size_t i = 0; i < from.initial.size(); ++i) {
-            if (is_known(from.initial[i])) continue;
-            auto const& state = problem.model.about.states[i].name;
-            result.push_back({state + "(" + from.name + ")", i, e, from.initial[i]});
-        }
-    }
-    return result;
-}
+[[nodiscard]] SIVID_DECL std::vector<unknown_quantity>
+unknowns_of(identification_problem const& problem, bool starts);
 
 /// The derivatives of the measured outputs by some unknowns.
 struct output_sensitivities {
@@ -53,18 +40,7 @@ struct output_sensitivities {
 namespace paving_detail {
 
 /// What a change of one output is compared with: the half-widths of the bounds.
-inline std::vector<double> weights_of(record const& samples) {
-    double smallest = HUGE_VAL;
-    for (auto const& m : samples) {
-        if (rad(m.bound) > 0) smallest = std::fmin(smallest, rad(m.bound));
-    }
-    std::vector<double> result;
-    for (auto const& m : samples) {
-        double const error = rad(m.bound) > 0 ? rad(m.bound) : smallest;
-        result.push_back(std::isfinite(error) ? 1 / error : 1.0);
-    }
-    return result;
-}
+SIVID_DECL std::vector<double> weights_of(record const& samples);
 
 } // namespace paving_detail
 
@@ -93,34 +69,7 @@ public:
     /// @guarantee  holds for the recorded inputs
     /// @cost  one integration per experiment, and a step's derivative per time of measurement
     [[nodiscard]] output_sensitivities operator()(box const& parameters,
-                                                  std::vector<box> const& starts) const {
-        output_sensitivities result;
-        std::vector<std::vector<interval>> rows;
-        for (std::size_t e = 0; e < flows_.size(); ++e) {
-            auto const& samples = samples_[e];
-            if (samples.empty()) continue;
-            auto const& from = problem_->experiments[e];
-            auto const tube = integrate_with_sensitivities<interval>(
-                flows_[e], starts[e], parameters, from.begin, samples.back().time, options_);
-            auto const weights = paving_detail::weights_of(samples);
-            std::optional<interval_matrix<interval>> derivatives;
-            for (std::size_t k = 0; k < samples.size(); ++k) {
-                double const t = samples[k].time;
-                if (t > tube.states().end_time()) {
-                    result.missing += samples.size() - k;
-                    break;
-                }
-                if (k == 0 || t != samples[k - 1].time) derivatives = tube.observe_at(t);
-                rows.push_back(row_of(*derivatives, samples[k].channel, e));
-                result.weights.push_back(weights[k]);
-            }
-        }
-        result.values = interval_matrix<interval>(rows.size(), unknowns_.size());
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            for (std::size_t c = 0; c < unknowns_.size(); ++c) result.values(i, c) = rows[i][c];
-        }
-        return result;
-    }
+                                                  std::vector<box> const& starts) const;
 
 private:
     static record bounded(record const& samples) {
@@ -150,5 +99,9 @@ private:
 };
 
 } // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/paving/identifiability/impl/output_sensitivities.ipp>
+#endif
 
 #endif

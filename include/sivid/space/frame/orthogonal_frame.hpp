@@ -2,15 +2,14 @@
 #ifndef SIVID_SPACE_FRAME_ORTHOGONAL_FRAME_HPP
 #define SIVID_SPACE_FRAME_ORTHOGONAL_FRAME_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/space/detail/compiled_eigen.hpp>
 #include <sivid/space/matrix.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -69,27 +68,8 @@ template <class I>
 /// @param weights  the length of each column in the set to be carried, n values
 /// @cost  O(n^3)
 /// @ref   Lohner 1987 (QR with column pivoting by size); Nedialkov and Jackson 2001, section 3.
-[[nodiscard]] inline Eigen::MatrixXd orthogonal_axes(Eigen::MatrixXd const& a,
-                                                     std::vector<double> const& weights) {
-    auto const n = a.rows();
-    Eigen::MatrixXd const straight = Eigen::MatrixXd::Identity(n, n);
-    if (!a.allFinite()) return straight;
-    std::vector<Eigen::Index> order(static_cast<std::size_t>(n));
-    std::iota(order.begin(), order.end(), Eigen::Index{0});
-    std::vector<double> length(static_cast<std::size_t>(n));
-    for (Eigen::Index j = 0; j < n; ++j) {
-        auto const k = static_cast<std::size_t>(j);
-        length[k] = a.col(j).norm() * weights[k];
-        if (!(length[k] >= 0)) return straight;
-    }
-    std::stable_sort(order.begin(), order.end(), [&](Eigen::Index i, Eigen::Index j) {
-        return length[static_cast<std::size_t>(i)] > length[static_cast<std::size_t>(j)];
-    });
-    Eigen::MatrixXd sorted(n, n);
-    for (Eigen::Index j = 0; j < n; ++j) sorted.col(j) = a.col(order[static_cast<std::size_t>(j)]);
-    Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(sorted).householderQ();
-    return q.allFinite() ? q : straight;
-}
+[[nodiscard]] SIVID_DECL Eigen::MatrixXd orthogonal_axes(Eigen::MatrixXd const& a,
+                                                         std::vector<double> const& weights);
 
 /// `orthogonal_axes` with a proven inverse; the identity where that fails.
 /// @guarantee  `inverse` encloses the inverse of `axes`; no property of `a` is trusted.
@@ -105,5 +85,9 @@ template <class I>
 }
 
 } // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/space/frame/impl/orthogonal_frame.ipp>
+#endif
 
 #endif

@@ -9,7 +9,6 @@
 #include <sivid/model/series/series.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,6 @@
 #include <sivid/enclosure/stiff/matrix_exponential.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,8 @@
 #ifndef SIVID_NUMBER_POLYNOMIAL_DETAIL_MODEL_SHAPE_HPP
 #define SIVID_NUMBER_POLYNOMIAL_DETAIL_MODEL_SHAPE_HPP
 
+#include <sivid/compiled.hpp>
+#include <sivid/number/pack/lanes.hpp>
 #include <sivid/number/polynomial/detail/column_kernels.hpp>
 #include <sivid/number/polynomial/monomial_space.hpp>
 
@@ -70,30 +72,38 @@ private:
             return &model_shape<double>::of(variables, degree);
         }
     }
-    static model_shape make(std::size_t variables, std::size_t degree) {
-        auto const& s = monomial_space::of(variables, degree);
-        constexpr bool single = std::is_same_v<C, double>;
-        // Whole vectors of single coefficients: zeros behind the last one.
-        constexpr std::size_t group = single ? 8 : 1;
-        std::size_t const padded = s.terms() == 1 ? 1 : (s.terms() + group - 1) / group * group;
-        auto const count = static_cast<double>(s.terms() + degree * degree);
-        return {&s,
-                variables,
-                degree,
-                s.terms(),
-                padded,
-                padded + degree + 3,
-                ((padded + degree + 3) * sizeof(C) + 63) / 64,
-                s.firsts(),
-                static_cast<double>(s.longest_sum()),
-                1 + (4 * count + 64) * std::numeric_limits<double>::epsilon(),
-                product_detail::product_for<C>(variables, degree),
-                product_detail::norms_for<C>(variables, degree),
-                single ? product_detail::convolution_for(variables, degree) : nullptr,
-                single ? product_detail::columns_for(variables, degree) : nullptr,
-                single_shape(variables, degree)};
-    }
+    static model_shape make(std::size_t variables, std::size_t degree);
 };
+
+template <class C>
+model_shape<C> model_shape<C>::make(std::size_t variables, std::size_t degree) {
+    auto const& s = monomial_space::of(variables, degree);
+    constexpr bool single = std::is_same_v<C, double>;
+    // Whole vectors of single coefficients: zeros behind the last one.
+    constexpr std::size_t group = single ? 8 : 1;
+    std::size_t const padded = s.terms() == 1 ? 1 : (s.terms() + group - 1) / group * group;
+    auto const count = static_cast<double>(s.terms() + degree * degree);
+    return {&s,
+            variables,
+            degree,
+            s.terms(),
+            padded,
+            padded + degree + 3,
+            ((padded + degree + 3) * sizeof(C) + 63) / 64,
+            s.firsts(),
+            static_cast<double>(s.longest_sum()),
+            1 + (4 * count + 64) * std::numeric_limits<double>::epsilon(),
+            product_detail::product_for<C>(variables, degree),
+            product_detail::norms_for<C>(variables, degree),
+            single ? product_detail::convolution_for(variables, degree) : nullptr,
+            single ? product_detail::columns_for(variables, degree) : nullptr,
+            single_shape(variables, degree)};
+}
+
+#ifdef SIVID_COMPILED // every kernel comes with it
+extern template model_shape<double> model_shape<double>::make(std::size_t, std::size_t);
+extern template model_shape<lanes<8>> model_shape<lanes<8>>::make(std::size_t, std::size_t);
+#endif
 
 namespace product_detail {
 [[gnu::always_inline]] inline stored_vector& vector_at(double* p, std::size_t i) {

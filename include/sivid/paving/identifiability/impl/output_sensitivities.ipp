@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_IDENTIFIABILITY_IMPL_OUTPUT_SENSITIVITIES_IPP
+#define SIVID_PAVING_IDENTIFIABILITY_IMPL_OUTPUT_SENSITIVITIES_IPP
+
+#include <sivid/paving/identifiability/output_sensitivities.hpp>
+
+#include <sivid/enclosure/sensitivity/sensitivity_tube.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+namespace sivid {
+
+SIVID_DECL std::vector<unknown_quantity> unknowns_of(identification_problem const& problem,
+                                                     bool starts) {
+    std::vector<unknown_quantity> result;
+    for (std::size_t j = 0; j < problem.prior.size(); ++j) {
+        if (is_known(problem.prior[j])) continue;
+        result.push_back({problem.choice.unknown[j], j, std::nullopt, problem.prior[j]});
+    }
+    for (std::size_t e = 0; starts && e < problem.experiments.size(); ++e) {
+        auto const& from = problem.experiments[e];
+        for (std::size_t i = 0; i < from.initial.size(); ++i) {
+            if (is_known(from.initial[i])) continue;
+            auto const& state = problem.model.about.states[i].name;
+            result.push_back({state + "(" + from.name + ")", i, e, from.initial[i]});
+        }
+    }
+    return result;
+}
+
+} // namespace sivid
+
+namespace sivid {
+namespace paving_detail {
+
+SIVID_DECL std::vector<double> weights_of(record const& samples) {
+    double smallest = HUGE_VAL;
+    for (auto const& m : samples) {
+        if (rad(m.bound) > 0) smallest = std::fmin(smallest, rad(m.bound));
+    }
+    std::vector<double> result;
+    for (auto const& m : samples) {
+        double const error = rad(m.bound) > 0 ? rad(m.bound) : smallest;
+        result.push_back(std::isfinite(error) ? 1 / error : 1.0);
+    }
+    return result;
+}
+
+} // namespace paving_detail
+SIVID_DECL output_sensitivities sensitivity_runs::operator()(box const& parameters,
+                                                             std::vector<box> const& starts) const {
+    output_sensitivities result;
+    std::vector<std::vector<interval>> rows;
+    for (std::size_t e = 0; e < flows_.size(); ++e) {
+        auto const& samples = samples_[e];
+        if (samples.empty()) continue;
+        auto const& from = problem_->experiments[e];
+        auto const tube = integrate_with_sensitivities<interval>(
+            flows_[e], starts[e], parameters, from.begin, samples.back().time, options_);
+        auto const weights = paving_detail::weights_of(samples);
+        std::optional<interval_matrix<interval>> derivatives;
+        for (std::size_t k = 0; k < samples.size(); ++k) {
+            double const t = samples[k].time;
+            if (t > tube.states().end_time()) {
+                result.missing += samples.size() - k;
+                break;
+            }
+            if (k == 0 || t != samples[k - 1].time) derivatives = tube.observe_at(t);
+            rows.push_back(row_of(*derivatives, samples[k].channel, e));
+            result.weights.push_back(weights[k]);
+        }
+    }
+    result.values = interval_matrix<interval>(rows.size(), unknowns_.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        for (std::size_t c = 0; c < unknowns_.size(); ++c) result.values(i, c) = rows[i][c];
+    }
+    return result;
+}
+
+} // namespace sivid
+
+#endif
