@@ -61,10 +61,8 @@ inline int run_predict(sivid::recorded_model const& model,
                   << (channel.unit == "1" ? "" : " " + channel.unit) << "\n";
     }
     if (std::isfinite(found.excess))
-        std::cout << "  tubes at most "
-                  << report::rounded_text(std::max(0.0, found.excess), report::rounding::up,
-                                          {.significant = 2, .shift = 2})
-                  << " % wider than what these parameters reach\n";
+        std::cout << "  tubes at most " << report::wider_text(found.excess)
+                  << (found.excess < 1 ? " than" : " as") << " what these parameters reach\n";
     std::cout << "  " << report::duration_text(found.seconds) << ", " << found.parts << " parts, "
               << found.integrations
               << " validated integrations\n  written: " << (c.out / "prediction.html").string()

@@ -106,8 +106,8 @@ inline int run_fleet(fleet_command const& c) {
             open.push_back(k);
         }
     }
-    progress.note(std::to_string(open.size()) + " data sets to work on, " +
-                  std::to_string(finished) + " finished before");
+    progress.note(std::to_string(open.size()) + (open.size() == 1 ? " data set" : " data sets") +
+                  " to work on, " + std::to_string(finished) + " finished before");
     // Threads of this process that start one process each, and the other ranks.
     cluster::memory_transport inside(c.jobs);
     cluster::transport* others = inside.of_first.get();

@@ -138,7 +138,7 @@ inline int write_fleet_summary(std::vector<fleet_task> const& list,
         if (!r.high.empty()) std::cout << "; " << r.about << " [" << r.low << ", " << r.high << "]";
         std::cout << "\n";
     }
-    std::cout << rows.size() << " data sets";
+    std::cout << rows.size() << (rows.size() == 1 ? " data set" : " data sets");
     for (auto const& [what, count] : counts)
         std::cout << "; " << count << " " << sivid::printable_text(what, 200);
     std::cout << "\n"

@@ -96,3 +96,12 @@ TEST_CASE("a range all of whose points have a property is printed inward") {
     }
     CHECK(compared > 1000);
 }
+
+TEST_CASE("wider is said in percent, from twice on as a factor, rounded up") {
+    CHECK(wider_text(0.0119) == "1.2 % wider");
+    CHECK(wider_text(-0.1) == "0 % wider");
+    CHECK(wider_text(0.999) == "100 % wider");
+    CHECK(wider_text(1) == "2.1 times as wide");
+    CHECK(wider_text(1.33) == "2.4 times as wide");
+    CHECK(wider_text(2100) == "2200 times as wide");
+}

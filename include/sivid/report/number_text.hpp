@@ -43,6 +43,10 @@ SIVID_DECL std::string bound_text(double x, int quantum, int shift, int power, r
 /// A number rounded in the given direction to some significant digits.
 [[nodiscard]] SIVID_DECL std::string rounded_text(double x, rounding way, number_format f = {});
 
+/// How much wider one thing is than another, rounded up: "1.2 % wider", from twice on "2.4 times as
+/// wide". @param share  0 where they are of one width
+[[nodiscard]] SIVID_DECL std::string wider_text(double share);
+
 namespace detail {
 
 /// Ends of an interval that is not empty, each rounded its way.

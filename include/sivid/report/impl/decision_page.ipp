@@ -87,11 +87,7 @@ SIVID_DECL page prediction_page(stored_prediction const& about, prediction const
                      "parameters, more time (--budget) or a shorter scenario may help.");
     std::vector<card> cards;
     if (std::isfinite(found.excess))
-        cards.push_back({"wider than what is reached",
-                         "\xE2\x89\xA4 " +
-                             rounded_text(std::max(0.0, found.excess), rounding::up,
-                                          {.significant = 2, .shift = 2}) +
-                             " %",
+        cards.push_back({"against what is reached", "\xE2\x89\xA4 " + wider_text(found.excess),
                          "at the instants, by the parameters and starts themselves"});
     cards.push_back({"time", duration_text(found.seconds), ""});
     cards.push_back({"parts", count_text(found.parts), ""});

@@ -51,6 +51,14 @@ SIVID_DECL std::string rounded_text(double x, rounding way, number_format f) {
     return power == 0 ? text : text + power_text(power);
 }
 
+SIVID_DECL std::string wider_text(double share) {
+    if (share < 1)
+        return rounded_text(std::max(0.0, share), rounding::up, {.significant = 2, .shift = 2}) +
+               " % wider";
+    return rounded_text(std::nextafter(1 + share, HUGE_VAL), rounding::up, {.significant = 2}) +
+           " times as wide";
+}
+
 SIVID_DECL std::string outward_text(range const& r, number_format f) {
     if (is_empty(r)) {
         return "empty";
