@@ -20,6 +20,8 @@
 #include <sivid/impl/decision.ipp>
 #include <sivid/impl/diagnosis.ipp>
 #include <sivid/impl/enclosure.ipp>
+#include <sivid/impl/flow.ipp>
+#include <sivid/impl/flow_lanes.ipp>
 #include <sivid/impl/measurement.ipp>
 #include <sivid/impl/model.ipp>
 #include <sivid/impl/number.ipp>

@@ -3,7 +3,7 @@
 #define SIVID_IMPL_TUBE_IPP
 
 /// @file
-/// Tubes of doubles.
+/// Sets of first order and tubes of doubles.
 
 #include <sivid/enclosure/tube.hpp>
 
@@ -11,6 +11,9 @@
 
 namespace sivid {
 
+template class implicit_stages<interval>;
+template class dissipative_step<interval>;
+template class stepper<interval>;
 template tube<interval> integrate(std::shared_ptr<flow const>, box const&, box const&, double,
                                   double, enclosure_options const&);
 

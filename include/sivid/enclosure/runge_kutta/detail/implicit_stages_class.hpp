@@ -2,6 +2,7 @@
 #ifndef SIVID_ENCLOSURE_RUNGE_KUTTA_DETAIL_IMPLICIT_STAGES_CLASS_HPP
 #define SIVID_ENCLOSURE_RUNGE_KUTTA_DETAIL_IMPLICIT_STAGES_CLASS_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/enclosure/runge_kutta/detail/stage_arithmetic.hpp>
 #include <sivid/enclosure/runge_kutta/order_conditions.hpp>
 #include <sivid/enclosure/runge_kutta/tableau.hpp>
@@ -156,6 +157,10 @@ private:
     series<T> derivatives_;
     vector a_, c_;
 };
+
+#ifdef SIVID_COMPILED // members are, once
+extern template class implicit_stages<interval>;
+#endif
 
 } // namespace sivid
 

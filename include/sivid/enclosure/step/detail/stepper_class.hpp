@@ -2,6 +2,7 @@
 #ifndef SIVID_ENCLOSURE_STEP_DETAIL_STEPPER_CLASS_HPP
 #define SIVID_ENCLOSURE_STEP_DETAIL_STEPPER_CLASS_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/enclosure/failure.hpp>
 #include <sivid/enclosure/options.hpp>
 #include <sivid/enclosure/runge_kutta/implicit_runge_kutta.hpp>
@@ -187,6 +188,10 @@ private:
     double learned_ = 1;          ///< accepted over estimated step length
     std::size_t extra_order_ = 0; ///< what wide sets need above the centre's order
 };
+
+#ifdef SIVID_COMPILED // members are, once
+extern template class stepper<interval>;
+#endif
 
 } // namespace sivid
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_ENCLOSURE_STIFF_DETAIL_DISSIPATIVE_STEP_CLASS_HPP
 #define SIVID_ENCLOSURE_STIFF_DETAIL_DISSIPATIVE_STEP_CLASS_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/enclosure/runge_kutta/implicit_stages.hpp>
 #include <sivid/enclosure/stiff/invariant_box.hpp>
 #include <sivid/enclosure/stiff/matrix_exponential.hpp>
@@ -107,6 +108,10 @@ private:
     series<I> jacobian_;
     std::vector<double> nodes_;
 };
+
+#ifdef SIVID_COMPILED // members are, once
+extern template class dissipative_step<interval>;
+#endif
 
 } // namespace sivid
 

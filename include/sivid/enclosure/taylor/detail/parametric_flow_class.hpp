@@ -2,6 +2,7 @@
 #ifndef SIVID_ENCLOSURE_TAYLOR_DETAIL_PARAMETRIC_FLOW_CLASS_HPP
 #define SIVID_ENCLOSURE_TAYLOR_DETAIL_PARAMETRIC_FLOW_CLASS_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/enclosure/failure.hpp>
 #include <sivid/enclosure/options.hpp>
 #include <sivid/enclosure/series/detail/expansion_tail.hpp>
@@ -277,6 +278,11 @@ private:
     std::size_t flow_order_ = 3; ///< L
     std::size_t expanded_ = 0;   ///< L of `derivative_`
 };
+
+#ifdef SIVID_COMPILED // members are, once
+extern template class parametric_flow<taylor_model<double>>;
+extern template class parametric_flow<taylor_model<lanes<8>>>;
+#endif
 
 } // namespace sivid
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_ENCLOSURE_TAYLOR_DETAIL_PARAMETRIC_RUNGE_KUTTA_CLASS_HPP
 #define SIVID_ENCLOSURE_TAYLOR_DETAIL_PARAMETRIC_RUNGE_KUTTA_CLASS_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/enclosure/failure.hpp>
 #include <sivid/enclosure/options.hpp>
 #include <sivid/enclosure/runge_kutta/implicit_runge_kutta.hpp>
@@ -184,6 +185,11 @@ private:
     std::size_t steps_ = 0;
     std::optional<enclosure_failure> failure_;
 };
+
+#ifdef SIVID_COMPILED // members are, once
+extern template class parametric_runge_kutta<taylor_model<double>>;
+extern template class implicit_stages<taylor_model<double>>;
+#endif
 
 } // namespace sivid
 
