@@ -111,7 +111,7 @@ TEST_CASE("what is finished is kept, for the same data and the same command alon
     // Other data: anew.
     std::ofstream(data / "two" / "dataset.json", std::ios::app) << "\n";
     r = run(fleet(data, out));
-    CHECK_THAT(r.err, ContainsSubstring("1 data sets to work on"));
+    CHECK_THAT(r.err, ContainsSubstring("1 data set to work on"));
     CHECK(when("one") == first);
     CHECK(when("two") != second);
     // Another command: all.
@@ -159,7 +159,7 @@ TEST_CASE("a data set that fails does not stop the others, and is tried again") 
     std::ofstream(table) << good;
     r = run(fleet(data, out));
     CHECK(r.code == 0);
-    CHECK_THAT(r.err, ContainsSubstring("1 data sets to work on, 2 finished before"));
+    CHECK_THAT(r.err, ContainsSubstring("1 data set to work on, 2 finished before"));
 
     r = run(fleet(folder.path() / "nowhere", out));
     CHECK(r.code == 2);
