@@ -118,10 +118,12 @@ public:
     /// One proved step of the only lane, at most to `limit`.
     /// @throws std::invalid_argument when `limit` is not later than `time()`
     [[nodiscard]] bool step(double limit) requires(width == 1) {
-        if (!(limit > set_.time) && running_)
-            throw std::invalid_argument("parametric_flow: a step must go forward");
-        while (running_) {
-            if (advance(limit)) return true;
+        if constexpr (width == 1) { // clang before 16 instantiates it with the class of lanes, too
+            if (!(limit > set_.time) && running_)
+                throw std::invalid_argument("parametric_flow: a step must go forward");
+            while (running_) {
+                if (advance(limit)) return true;
+            }
         }
         return false;
     }
