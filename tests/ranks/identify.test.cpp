@@ -86,7 +86,10 @@ TEST_CASE(
             auto const end = j.wait_at_most(60);
             CHECK(end.code != 0);
             CHECK(end.code != 1000 + SIGKILL); // it ended by itself
-            CHECK_FALSE(fs::exists(out / "result.json"));
+            // mpirun tells the others to stop a second before it ends them: time enough for rank 0
+            // to write what is proved, which is then no more than that.
+            if (fs::exists(out / "result.json"))
+                CHECK(outcome(out).result["stop_reason"] == "cancelled");
         }
         std::this_thread::sleep_for(50ms);
         for (auto const pid : processes_of(out, 4)) CHECK(pid == 0); // nobody is left behind
