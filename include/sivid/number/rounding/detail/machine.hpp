@@ -183,7 +183,7 @@ inline constexpr control_word control_flush = 0x100'0001;
 
 #else
 
-/// A mode of <cfenv>. Flushing cannot be seen in it, only in its effect, and not be turned off.
+/// A mode of `cfenv`. Flushing cannot be seen in it, only in its effect, and not be turned off.
 using control_word = int;
 inline constexpr control_word control_rounding = -1, control_flush = 0;
 
