@@ -29,6 +29,7 @@ function(sivid_compile_in_batches target)
     if(NOT SIVID_BATCHES)
         return()
     endif()
+    math(EXPR half "${SIVID_BATCH_SIZE} / 2")
     set(batch 0)
     set(held 0)       # sources in the batch that is being filled
     set(last_folder "")
@@ -44,7 +45,6 @@ function(sivid_compile_in_batches target)
             file(STRINGS "${source}" alone REGEX "^#define|^#if.*[\\]$|^template ?<>|^(inline )?namespace [a-z_:]+ {"
                  LIMIT_COUNT 1)
         endif()
-        math(EXPR half "${SIVID_BATCH_SIZE} / 2")
         set(full OFF)
         if(NOT source OR held EQUAL SIVID_BATCH_SIZE OR
            (held GREATER_EQUAL half AND NOT folder STREQUAL last_folder))

@@ -76,7 +76,8 @@ TEST_CASE(
         {
             temporary_folder const own;
             job const j(4, identify(data, out, saving), own.path());
-            auto all = processes_of(out, 4); // before there is a checkpoint: a look at /proc takes time
+            auto all =
+                processes_of(out, 4); // before there is a checkpoint: a look at /proc takes time
             for (int k = 0; k < 3000 && all[victim] == 0; ++k, all = processes_of(out, 4))
                 std::this_thread::sleep_for(10ms);
             REQUIRE(all[victim] != 0);
@@ -88,8 +89,11 @@ TEST_CASE(
             CHECK(end.code != 1000 + SIGKILL); // it ended by itself
             // mpirun tells the others to stop a second before it ends them: time enough for rank 0
             // to write what is proved, which is then no more than that.
-            if (fs::exists(out / "result.json"))
+            if (fs::exists(out / "result.json")) {
                 CHECK(outcome(out).result["stop_reason"] == "cancelled");
+                auto const checked = run_alone({"check", out.string(), "--budget", "20"});
+                CHECK((checked.code == 0 || checked.code == 3)); // nothing is refuted
+            }
         }
         std::this_thread::sleep_for(50ms);
         for (auto const pid : processes_of(out, 4)) CHECK(pid == 0); // nobody is left behind

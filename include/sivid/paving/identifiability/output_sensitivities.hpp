@@ -13,9 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
-#include <optional>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 

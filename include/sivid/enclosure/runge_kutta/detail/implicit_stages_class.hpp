@@ -158,7 +158,7 @@ private:
     vector a_, c_;
 };
 
-#ifdef SIVID_COMPILED // members are, once
+#ifdef SIVID_COMPILED // its members are compiled once
 extern template class implicit_stages<interval>;
 #endif
 

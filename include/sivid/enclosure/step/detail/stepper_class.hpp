@@ -189,7 +189,7 @@ private:
     std::size_t extra_order_ = 0; ///< what wide sets need above the centre's order
 };
 
-#ifdef SIVID_COMPILED // members are, once
+#ifdef SIVID_COMPILED // its members are compiled once
 extern template class stepper<interval>;
 #endif
 

@@ -109,7 +109,7 @@ private:
     std::vector<double> nodes_;
 };
 
-#ifdef SIVID_COMPILED // members are, once
+#ifdef SIVID_COMPILED // its members are compiled once
 extern template class dissipative_step<interval>;
 #endif
 

@@ -281,7 +281,7 @@ private:
     std::size_t expanded_ = 0;   ///< L of `derivative_`
 };
 
-#ifdef SIVID_COMPILED // members are, once
+#ifdef SIVID_COMPILED // its members are compiled once
 extern template class parametric_flow<taylor_model<double>>;
 extern template class parametric_flow<taylor_model<lanes<8>>>;
 #endif

@@ -186,7 +186,7 @@ private:
     std::optional<enclosure_failure> failure_;
 };
 
-#ifdef SIVID_COMPILED // members are, once
+#ifdef SIVID_COMPILED // its members are compiled once
 extern template class parametric_runge_kutta<taylor_model<double>>;
 extern template class implicit_stages<taylor_model<double>>;
 #endif

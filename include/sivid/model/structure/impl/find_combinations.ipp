@@ -15,6 +15,7 @@
 #include <utility>
 
 namespace sivid {
+
 namespace model_detail {
 
 SIVID_DECL void collect_monomials(bound_model const& model, monomial_set& found) {
@@ -80,9 +81,6 @@ SIVID_DECL combination named_combination(std::vector<int> exponents, bound_model
 }
 
 } // namespace model_detail
-} // namespace sivid
-
-namespace sivid {
 
 SIVID_DECL dependence_structure find_combinations(std::vector<bound_model const*> const& models) {
     dependence_structure result;

@@ -17,6 +17,7 @@
 #include <vector>
 
 namespace sivid {
+
 namespace model_detail {
 
 /// A quotient of 64-bit integers in lowest terms.
@@ -119,9 +120,6 @@ SIVID_DECL bool jumps_along(bound_model const& model, model_motion const& motion
 }
 
 } // namespace model_detail
-} // namespace sivid
-
-namespace sivid {
 
 SIVID_DECL bool is_symmetry(bound_model const& model, model_motion const& motion) {
     using namespace model_detail;

@@ -31,9 +31,6 @@ SIVID_DECL std::vector<unknown_quantity> unknowns_of(identification_problem cons
     return result;
 }
 
-} // namespace sivid
-
-namespace sivid {
 namespace paving_detail {
 
 SIVID_DECL std::vector<double> weights_of(record const& samples) {

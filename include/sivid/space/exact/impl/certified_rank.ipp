@@ -15,6 +15,7 @@
 #include <vector>
 
 namespace sivid {
+
 namespace space_detail {
 
 /// A without the rows that say nothing: unbounded or empty ones.
@@ -53,9 +54,6 @@ SIVID_DECL double distance_from_identity(interval_matrix<interval> const& b, std
 }
 
 } // namespace space_detail
-} // namespace sivid
-
-namespace sivid {
 
 SIVID_DECL std::size_t certified_rank(interval_matrix<interval> const& a,
                                       std::vector<double> weights) {
