@@ -71,7 +71,7 @@ auto reference_rate(scenario const& s, hovercraft const& model = {}) {
     };
 }
 
-std::vector<signal> inputs_of(scenario const& s) {
+std::vector<sivid::signal> inputs_of(scenario const& s) {
     expression const rotor =
         s.rudder_moves ? expression(250) / 3 : expression(static_cast<double>(s.W));
     expression const pi(between(0x1.921fb54442d18p+1, 0x1.921fb54442d19p+1));

@@ -73,7 +73,7 @@ struct random_flow {
                 {"p0", "p1"}, {{"p2", support::between(-w, w)}, {"p3", support::between(-w, w)}}};
             equations = std::make_shared<flow const>(
                 model, choice,
-                std::vector<signal>{sampled_signal({0, 1}, {1, 0}, interpolation::hold)});
+                std::vector<sivid::signal>{sampled_signal({0, 1}, {1, 0}, interpolation::hold)});
         } catch (std::domain_error const&) {
             return false;
         }

@@ -32,8 +32,11 @@ struct outcome {
     bool operator==(outcome const&) const = default;
 };
 std::uint64_t bits_of(double x) {
-    return x != x ? std::bit_cast<std::uint64_t>(std::numeric_limits<double>::quiet_NaN())
-                  : std::bit_cast<std::uint64_t>(x == 0.0 ? 0.0 : x);
+    // A comparison of numbers could be moved to where subnormal ones are taken for zero.
+    constexpr std::uint64_t sign = std::uint64_t{1} << 63;
+    constexpr auto infinity = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity());
+    auto const bits = std::bit_cast<std::uint64_t>(x);
+    return bits == sign ? 0 : (bits & ~sign) > infinity ? infinity + 1 : bits;
 }
 std::string text(outcome const& o) {
     char line[120];
