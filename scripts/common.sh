@@ -49,12 +49,22 @@ job_count() {
     echo $(( cores < by_memory ? cores : by_memory ))
 }
 
-# configure_check: the build tree of scripts/check, whose name is then in $build.
+# need_check_packages: what all tests need.
+need_check_packages() {
+    need_packages g++ clang cmake make libboost-dev libeigen3-dev nlohmann-json3-dev libcli11-dev catch2 \
+        libmpfr-dev libmpfi-dev libgmp-dev libbenchmark-dev libtbb-dev libboost-mpi-dev openmpi-bin libopenmpi-dev \
+        pkg-config dpkg-dev file
+}
+
+# configure_check [ON]: the build tree of scripts/check, or (ON) of scripts/check-long; its name is then in $build.
 # -O1 with assertions: a third of the compile time of -O3, and Eigen checks its sizes. The numbers are tested at
-# every level by `ctest -C long -L long`. Tests that take no time to run are compiled at -O0.
+# every level by the long tests. Tests that take no time to run are compiled at -O0.
 configure_check() {
-    build=${BUILD_DIR:-build/check}
+    local long=${1:-OFF} name=check
+    [ "$long" = OFF ] || name=long
+    build=${BUILD_DIR:-build/$name}
     cmake -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 -DSIVID_WERROR=ON \
+        "-DSIVID_LONG_TESTS=$long" "-DSIVID_BUILD_BENCHMARKS=$long" \
         "-DSIVID_UNOPTIMISED_TESTS=architecture;importing;io;measurement;report;space;umbrella" >/dev/null
 }
 

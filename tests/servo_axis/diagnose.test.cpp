@@ -37,8 +37,7 @@ nlohmann::json const* cause_of(nlohmann::json const& d, nlohmann::json effects) 
 
 } // namespace
 
-TEST_CASE("the real axis: offset and friction explain most, the direction the rest",
-          "[servo_axis][real]") {
+TEST_CASE("the real axis: offset and friction explain most, the direction the rest", "[.long]") {
     if (!fs::exists(real_record() / "validation_200Hz.csv")) {
         WARN("skipped: the EMPS records are not there (docs/servo_axis.md says where to get them)");
         return;

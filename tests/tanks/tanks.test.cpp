@@ -77,7 +77,7 @@ TEST_CASE("water over a rim is lost but for its share", "[tanks]") {
     CHECK_THAT(level(1), WithinAbs(root(0.25), 0.05));
 }
 
-TEST_CASE("the real tanks: where, which, and what stays", "[tanks][real]") {
+TEST_CASE("the real tanks: where, which, and what stays", "[.long]") {
     if (!fs::exists(real_record() / "validation.csv")) {
         WARN("skipped: the records of the tanks are not there (docs/tanks.md says where to get "
              "them)");

@@ -79,7 +79,7 @@ void told_apart(std::string const& effect, std::string const& constants,
 
 } // namespace
 
-TEST_CASE("two causes of too little speed are told apart, whichever it is") {
+TEST_CASE("two causes of too little speed are told apart, whichever it is", "[.long]") {
     told_apart("linear_surge_damping(0.3)", "Sv=0.23 Sg=0.042 L=0.31", "S1", "1");
     told_apart("thrust_loss_with_speed(0.06)", "Sv=0.214 Sg=0.051 L=0.28", "S1", "2");
     told_apart("linear_surge_damping(0.17)", "Sv=0.241 Sg=0.038 L=0.33", "S1", "3");
