@@ -3,26 +3,34 @@
 
 #include "support/catch.hpp"
 
+#include <atomic>
+#include <chrono>
 #include <thread>
 
 using namespace sivid::cluster;
+using namespace std::chrono_literals;
 
 TEST_CASE("alone or with others, a coordinator's own thread works, and all are let go") {
     for (std::size_t const others : {0u, 2u}) {
         memory_transport office(others);
         identity const mine{{{"task", "count", "-"}}};
+        std::atomic<bool> at_work = false; // the others do not take all before
         std::vector<std::thread> threads;
         for (std::size_t k = 0; k < others; ++k) {
             threads.emplace_back([&, k] {
                 worker m(*office.of_workers[k], identity_of_program());
                 m.serve({[&](std::string_view) { return mine; },
-                         [](std::string_view text) { return std::string{text} + "there"; }});
+                         [&](std::string_view text) {
+                             while (!at_work) std::this_thread::sleep_for(1ms);
+                             return std::string{text} + "there";
+                         }});
             });
         }
         std::size_t here = 0;
         {
             working_coordinator all(*office.of_first, "", mine,
-                                    [](worker& self, std::string_view text) {
+                                    [&](worker& self, std::string_view text) {
+                                        at_work = true;
                                         CHECK(self.wanted());
                                         return std::string{text} + "here";
                                     });
