@@ -49,8 +49,8 @@ inline void write_identified_model(sivid::identification_problem const& problem,
                                    std::filesystem::path const& out, double seconds,
                                    std::string const& command, progress_line& progress) {
     namespace report = sivid::report;
-    if (problem.model.has_delays()) {
-        std::cout << "  ranges of its parameters: not proved, the model has a delay\n";
+    if (problem.model.has_memory()) {
+        std::cout << "  ranges of its parameters: not proved, the model has a delay or a play\n";
         return;
     }
     if (sivid::starts_follow_parameters(problem)) {

@@ -37,9 +37,10 @@ posed(sivid::dataset const& data, sivid::recorded_model const& model,
     } catch (std::invalid_argument const& e) {
         throw bad_request(e.what());
     }
-    if (problem.model.has_delays())
-        throw bad_request("an effect that delays cannot be joined here yet; `diagnose` bounds the "
-                          "delay of an input, and verifies delays at points");
+    if (problem.model.has_memory())
+        throw bad_request(
+            "an effect that delays, or a backlash, cannot be joined here yet; `diagnose` "
+            "bounds those of an input, and verifies them at points");
     if (sivid::starts_follow_parameters(problem))
         throw bad_request("these effects together begin where their parameters say, which an "
                           "identification cannot follow yet; `diagnose` tries them at points");

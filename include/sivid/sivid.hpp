@@ -59,6 +59,7 @@
 #include <sivid/space/linear_program/minimax_lp.hpp>
 #include <sivid/space/matrix.hpp>
 #include <sivid/measurement/error_bound.hpp>
+#include <sivid/measurement/played_signal.hpp>
 #include <sivid/measurement/quantisation.hpp>
 #include <sivid/measurement/record.hpp>
 #include <sivid/measurement/signal.hpp>
@@ -265,7 +266,7 @@
 #include <sivid/diagnosis/candidate/describe_candidate.hpp>
 #include <sivid/diagnosis/candidate/effect_hulls.hpp>
 #include <sivid/diagnosis/candidate/input_slices.hpp>
-#include <sivid/diagnosis/candidate/resolve_delays.hpp>
+#include <sivid/diagnosis/candidate/resolve_memory.hpp>
 #include <sivid/diagnosis/candidate/screening.hpp>
 #include <sivid/diagnosis/claim/candidate_verdicts.hpp>
 #include <sivid/diagnosis/claim/claim_review.hpp>

@@ -41,7 +41,7 @@ TEST_CASE("the smallest box around all sets") {
     CHECK(p.around()[0].lower() == 1);
     CHECK(p.around()[0].upper() == 5);
     auto q = p;
-    q.model.input_delays.push_back({});
+    q.model.input_memory.push_back({});
     CHECK_THROWS_WITH(q.require_valid(), ContainsSubstring("delay"));
 }
 

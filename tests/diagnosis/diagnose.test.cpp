@@ -175,12 +175,41 @@ TEST_CASE("a delay is found and its witness verified") {
     CHECK(d.causes.front().assumptions.size() == 1);
 }
 
-TEST_CASE("instruments that drift, are askew or clip are named") {
+TEST_CASE("backlash is found, its gap is bounded, and its witness verified") {
+    using namespace sivid::literals;
+    auto catalogue = small_campaign::catalogue();
+    catalogue.push_back(effects::input_backlash("gap", "u", "N", {0_dec, 0.5_dec}));
+    auto const d = diagnose(small_campaign::problem(small_campaign::with_play(0.2)), catalogue, {});
+    for (auto const& c : find_contradictions(d.result)) FAIL_CHECK(c.claim + ": " + c.reason);
+    CHECK(d.result.gap == gap_verdict::certified);
+    REQUIRE(d.result.effects == names{"gap"});
+    auto const& cause = d.result.causes.front();
+    CHECK(cause.verdict == cause_verdict::explains);
+    CHECK(cause.assumptions.empty());
+    REQUIRE(cause.parameters.size() == 1);
+    REQUIRE(cause.parameters[0].hull);
+    CHECK(contains(*cause.parameters[0].hull, 0.2));
+    CHECK(cause.parameters[0].hull->lower() > 0);
+    // Where the input is a formula no witness can be verified, and none is claimed.
+    auto formula = small_campaign::problem(small_campaign::with_play(0.2));
+    for (auto& e : formula.experiments)
+        e.inputs[0] = analytic_signal::from([](auto const& t) { return cos(2 * t); });
+    auto const open = diagnose(formula, catalogue, {}).result;
+    for (auto const& c : find_contradictions(open)) FAIL_CHECK(c.claim + ": " + c.reason);
+    for (auto const& c : open.causes) {
+        if (std::find(c.effects.begin(), c.effects.end(), "gap") == c.effects.end()) continue;
+        CHECK(c.verdict != cause_verdict::explains);
+    }
+}
+
+TEST_CASE("instruments that drift, are askew, clip or are mixed up are named") {
     using namespace sivid::literals;
     std::vector<effect> const instruments{
         effects::sensor_drift("v_drift", "v", "m/s^2", {-0.2_dec, 0.2_dec}),
         effects::sensor_rotation("askew", {"p", "v"}, {-0.5_dec, 0.5_dec}),
-        effects::sensor_saturation("v_clipped", "v", "m/s", {0.25_dec, 2_dec})};
+        effects::sensor_saturation("v_clipped", "v", "m/s", {0.25_dec, 2_dec}),
+        effects::sensor_swap("mixed", {"p", "v"}, {-0.2_dec, 1.2_dec}),
+        effects::sensor_scale("inverted", {"v"}, {-2.2_dec, 0.2_dec})};
     auto catalogue = small_campaign::catalogue();
     catalogue.insert(catalogue.end(), instruments.begin(), instruments.end());
     for (std::size_t k = 0; k < instruments.size(); ++k) {
@@ -189,9 +218,13 @@ TEST_CASE("instruments that drift, are askew or clip are named") {
             for (std::size_t n = 0; n + 1 < e.measurements.size(); n += 2) {
                 auto &p = e.measurements[n].bound, &v = e.measurements[n + 1].bound;
                 double const y = mid(p), z = mid(v), t = e.measurements[n].time;
-                double const seen_y = k == 1 ? std::cos(0.25) * y - std::sin(0.25) * z : y;
+                double const seen_y = k == 1   ? std::cos(0.25) * y - std::sin(0.25) * z
+                                      : k == 3 ? z
+                                               : y;
                 double const seen_z = k == 0   ? z + 0.05 * t
                                       : k == 1 ? std::sin(0.25) * y + std::cos(0.25) * z
+                                      : k == 3 ? y
+                                      : k == 4 ? -z
                                                : std::fmax(-0.5, std::fmin(z, 0.5));
                 p = interval(seen_y - 0.03, seen_y + 0.03);
                 v = interval(seen_z - 0.03, seen_z + 0.03);

@@ -54,6 +54,7 @@ struct truth {
     };
     std::function<double(double)> seen_position = [](double p) { return p; };
     double delay = 0; ///< of the input
+    double play = 0;  ///< half of a gap behind it
     int every = 100;  ///< milliseconds from one measurement to the next
 };
 
@@ -72,11 +73,19 @@ inline sivid::experiment experiment(std::size_t e, truth const& real) {
     double const v0 = e == 1 ? 0.5 : 0;
     result.initial = sivid::box{interval(0.0), interval(v0)};
     double p = 0, v = v0;
+    double const h = 1e-3;
+    std::vector<double> behind{u.approximate(0)}; // the play, every half step
+    for (int k = 1; k <= 8000; ++k) {
+        double const now = u.approximate(k * h / 2);
+        behind.push_back(std::clamp(behind.back(), now - real.play, now + real.play));
+    }
     auto const rate = [&](double t, double w) {
-        double const force = u.approximate(std::max(0.0, t - real.delay));
+        double const late = std::max(0.0, t - real.delay);
+        double const force = real.play > 0
+                                 ? behind[static_cast<std::size_t>(std::lround(2 * late / h))]
+                                 : u.approximate(late);
         return real.k * force - w / 4 + real.missing(t, w, force);
     };
-    double const h = 1e-3;
     for (int step = 1; step <= 4000; ++step) {
         double const t = (step - 1) * h;
         double const a1 = rate(t, v), a2 = rate(t + h / 2, v + h / 2 * a1);

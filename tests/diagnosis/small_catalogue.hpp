@@ -39,6 +39,12 @@ inline truth with_delay(double tau) {
     return t;
 }
 
+inline truth with_play(double b) {
+    truth t;
+    t.play = b;
+    return t;
+}
+
 } // namespace small_campaign
 
 #endif

@@ -104,7 +104,7 @@ void compare(std::vector<effect> const& effects, unsigned seed) {
             }
         }
         auto plain = model;
-        plain.input_delays.clear();
+        plain.input_memory.clear();
         plain.channel_delays.clear();
         double const W = d.uniform(0, 250), delta = d.uniform(-0.6, 0.6);
         auto const hold = [](double v) { return sampled_signal({0.0}, {v}, interpolation::hold); };
@@ -197,7 +197,7 @@ TEST_CASE("neutral effects change nothing") {
         if (e.name != "rudder_lag" && e.name != "motor_lag") some.push_back(e);
     }
     auto plain = with(record_model(hovercraft{}), some);
-    plain.input_delays.clear();
+    plain.input_memory.clear();
     plain.channel_delays.clear();
     std::vector<sivid::signal> const inputs{
         sampled_signal({0.0}, {80.0}, interpolation::hold),

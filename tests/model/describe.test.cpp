@@ -124,11 +124,15 @@ TEST_CASE("a bound model shows its unknown parameters and folds the rest") {
     CHECK_THAT(lines.values.at("y.second"), WithinRel(-std::sin(-0.75) / 1.5, 1e-12));
 }
 
-TEST_CASE("states of effects and delays are described") {
+TEST_CASE("states of effects, delays and plays are described") {
     auto m = record_model(all_operations{});
-    m.input_delays.push_back({0, 0});
+    m.input_memory.push_back({0, 0});
     m.channel_delays.push_back({1, 1});
     auto const text = describe(m);
     CHECK(text.find("input w         k\n") != std::string::npos);
     CHECK(text.find("channel second  c\n") != std::string::npos);
+    CHECK(text.find("plays") == std::string::npos);
+    m.input_memory[0].kind = memory_kind::play;
+    auto const behind = describe(m);
+    CHECK(behind.find("input w", behind.find("plays")) != std::string::npos);
 }

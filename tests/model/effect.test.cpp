@@ -98,12 +98,12 @@ TEST_CASE("delays are named, and binding refuses them") {
     late.on_inputs = [](effect_scope& m) { m.delay_input("u", 0); };
     late.on_channels = [](effect_scope& m) { m.delay_channel("y", 1); };
     auto const m = with(tank{}, late);
-    REQUIRE((m.input_delays.size() == 1 && m.channel_delays.size() == 1));
-    CHECK(m.input_delays[0].constant == 1);
+    REQUIRE((m.input_memory.size() == 1 && m.channel_delays.size() == 1));
+    CHECK(m.input_memory[0].constant == 1);
     CHECK(m.channel_delays[0].constant == 2);
     auto const hold = sampled_signal({0.0}, {1.0}, interpolation::hold);
     CHECK_THROWS_AS(bind(m, {}, {hold}), std::invalid_argument);
-    CHECK(with(m, {}).input_delays.size() == 1);
+    CHECK(with(m, {}).input_memory.size() == 1);
 }
 
 TEST_CASE("effects are picked from a catalogue by their names") {

@@ -78,7 +78,11 @@ TEST_CASE("effects of inputs") {
     CHECK(at(model, model.added_states[0].at_begin, 7, 0.5) == 7);
     auto const resting = with(cart{}, effects::input_lag("e", "u", "N", prior, 10, true));
     CHECK(at(resting, resting.added_states[0].at_begin, 7, 0.5) == 0);
-    CHECK(with(cart{}, effects::input_delay("e", "u", prior)).input_delays.size() == 1);
+    CHECK(with(cart{}, effects::input_delay("e", "u", prior)).input_memory.size() == 1);
+    auto const gap = with(cart{}, effects::input_backlash("e", "u", "N", prior));
+    REQUIRE(gap.input_memory.size() == 1);
+    CHECK(gap.input_memory[0].kind == memory_kind::play);
+    CHECK(gap.has_memory());
 }
 
 TEST_CASE("effects of equations") {
@@ -88,6 +92,12 @@ TEST_CASE("effects of equations") {
     CHECK(rate(effects::dry_friction("e", "x", "m/s^2", prior, 0_dec), 0, 1, 0.5) == 2.5);
     auto const smooth = effects::dry_friction("e", "x", "m/s^2", prior, 0.5_dec);
     CHECK(std::abs(rate(smooth, 0, 1, 0.5) - (2 + 0.5 / std::sqrt(2.0))) < 1e-15);
+    // At x = -0.5 with k = s = 0.5 and v = 1.
+    auto const stribeck =
+        effects::stribeck_friction("e", "x", "m/s^2", prior, prior, 1_dec, 0.5_dec);
+    CHECK(std::abs(rate(stribeck, 0, 1, 0.5) - (2 + 0.5 * (1 + std::exp(-0.25)) / std::sqrt(2.0))) <
+          1e-15);
+    CHECK(rate(stribeck, 0, 1, 0) == 2);
     CHECK(rate(effects::drift("e", "c", prior), 0, 1, 0.5) == 2 * (1 + 0.5 * 3));
 }
 
@@ -106,6 +116,19 @@ TEST_CASE("effects of sensors") {
     CHECK(std::abs(channel(askew, 1, 0.5) - (-0.5 * std::sin(0.5) + 2 * std::cos(0.5))) < 1e-15);
     CHECK(channel(askew, 1, 0) == 2);
     CHECK_THROWS_AS(effects::sensor_rotation("e", {"y"}, prior), std::invalid_argument);
+    // At x = -0.5: y + a cos x - b sin x, z + a sin x + b cos x with a = b = 0.5.
+    auto const arm = effects::sensor_lever_arm("e", {"y", "z"}, "x", "m", prior);
+    double const c = std::cos(-0.5), s = std::sin(-0.5);
+    CHECK(std::abs(channel(arm, 0, 0.5) - (-0.5 + 0.5 * (c - s))) < 1e-15);
+    CHECK(std::abs(channel(arm, 1, 0.5) - (2 + 0.5 * (c + s))) < 1e-15);
+    CHECK(channel(arm, 1, 0) == 2);
+    CHECK_THROWS_AS(effects::sensor_lever_arm("e", {"y"}, "x", "m", prior), std::invalid_argument);
+    auto const swapped = effects::sensor_swap("e", {"y", "z"}, prior);
+    CHECK(channel(swapped, 0, 1) == 2);
+    CHECK(channel(swapped, 1, 1) == -0.5);
+    CHECK(channel(swapped, 0, 0.5) == channel(swapped, 1, 0.5));
+    CHECK(channel(swapped, 1, 0) == 2);
+    CHECK_THROWS_AS(effects::sensor_swap("e", {"y", "z", "y"}, prior), std::invalid_argument);
     // What an instrument cannot show it cannot show however it is mounted and scaled.
     auto const both = with(cart{}, clipped, effects::sensor_scale("f", {"z"}, {1_dec, 1_dec}));
     CHECK(at(both, both.observe[1], 0, 0.5) == 0.5);

@@ -77,9 +77,9 @@ struct prediction_problem {
                 return std::isfinite(mag(side));
             });
         };
-        if (model.has_delays())
-            fail("the model has a delay by an unknown time, which cannot be enclosed; fix it at 0 "
-                 "or leave the effect out");
+        if (model.has_memory())
+            fail("the model has a delay or a play of unknown size, which cannot be enclosed; leave "
+                 "the effect out");
         if (!(end > 0) || !std::isfinite(end)) fail("the duration must be above 0 and finite");
         if (sets.empty()) fail("no parameters are left to predict for");
         for (auto const& s : sets) {

@@ -4,7 +4,7 @@
 
 #include <sivid/approximate/approximate_fit.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>
-#include <sivid/diagnosis/candidate/resolve_delays.hpp>
+#include <sivid/diagnosis/candidate/resolve_memory.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/gap/detail/verified_inflation.hpp>
 #include <sivid/paving/inflation.hpp>
@@ -21,9 +21,9 @@
 
 namespace sivid {
 
-/// Encloses the inflation at one point: parameters and delays are those of the guess, so are the
-/// starts but for those that follow from the parameters; inputs are those recorded. Where they have
-/// error bounds nothing is known from below.
+/// Encloses the inflation at one point: parameters, delays and plays are those of the guess, so are
+/// the starts but for those that follow from the parameters; inputs are those recorded. Where they
+/// have error bounds nothing is known from below.
 /// @param options  `options.witness` says how the runs are made
 /// @guarantee  upper <= 1: the parameters explain the data, under `assumptions`
 /// @cost  one validated run per experiment
@@ -32,6 +32,7 @@ namespace sivid {
                                                   data_test_options const& options = {}) {
     verified_inflation result;
     if (guess.parameters.size() != problem.prior.size()) return result;
+    if (plays_with_formulas(problem)) return result; // nothing is known
     auto at = problem;
     bool uncertain = false;
     for (auto& e : at.experiments) {
@@ -47,8 +48,12 @@ namespace sivid {
         starts.push_back(point_within(initial, guess.starts[s]));
         for (auto const& a : at.model.added_states) starts[s][a.state] = initial[a.state];
     }
-    auto const delayed = at.model.has_delays();
-    auto resolved = resolve_delays(at, p);
+    auto const& inputs = at.model.input_memory;
+    bool const delayed = !at.model.channel_delays.empty() ||
+                         std::any_of(inputs.begin(), inputs.end(), [](signal_memory const& m) {
+                             return m.kind == memory_kind::delay;
+                         });
+    auto resolved = resolve_memory(at, p);
     if (resolved.problem.prior.size() == 0) {
         // An identification needs an unknown: any constant that is fixed stands in for it.
         auto const& [name, value] = *resolved.problem.choice.fixed.begin();

@@ -94,6 +94,8 @@ public:
     /// @param at_begin  its initial value, in inputs (at the begin) and constants
     expression add_state(std::string const& name, std::string const& unit, double limit,
                          expression const& at_begin);
+    /// The model sees the input behind a play, whose half-width is the effect's k-th parameter.
+    void play_input(std::string const& name, std::size_t k = 0);
     /// The model sees the input late, by the effect's k-th parameter.
     void delay_input(std::string const& name, std::size_t k = 0);
     /// The channel shows the past, by the effect's k-th parameter.
@@ -108,6 +110,7 @@ private:
     }
 
     void begin(effect const& e, std::size_t first_parameter);
+    void remember(std::string const& input, std::size_t k, memory_kind kind);
     /// @throws std::invalid_argument for an effect that acts in some experiments only
     void acts_everywhere(char const* what) const;
 

@@ -29,6 +29,10 @@ SIVID_DECL effect input_delay(std::string const& name, std::string const& input,
 /// u - b above b, u + b below -b, else 0.
 SIVID_DECL effect input_dead_band(std::string const& name, std::string const& input,
                                   std::string const& unit, range const& b);
+/// Behind a gap of 2b (backlash, play): what follows the input rests until the gap has closed. It
+/// acts on the input as recorded, before other effects on it.
+SIVID_DECL effect input_backlash(std::string const& name, std::string const& input,
+                                 std::string const& unit, range const& b);
 /// First-order lag: d' = (u - d)/tau replaces u. tau = 0 is a limit, where the right-hand side is
 /// not defined.
 /// @param limit  of |d|, in the unit of the input
@@ -56,6 +60,11 @@ SIVID_DECL effect quadratic_damping(std::string const& name, std::string const& 
 /// x' - k x/sqrt(x^2 + s^2): dry friction, smooth within about the speed s of rest.
 SIVID_DECL effect dry_friction(std::string const& name, std::string const& state,
                                std::string const& unit, range const& k, decimal smooth_below);
+/// x' - (k + s e^(-(x/v)^2)) x/sqrt(x^2 + e^2): dry friction that is stronger by s near rest, and
+/// fades above the speed v (Stribeck); smooth within about the speed e of rest.
+SIVID_DECL effect stribeck_friction(std::string const& name, std::string const& state,
+                                    std::string const& unit, range const& k, range const& s,
+                                    decimal fades_above, decimal smooth_below);
 /// A constant that drifts: c (1 + k t).
 SIVID_DECL effect drift(std::string const& name, std::string const& constant, range const& k);
 
@@ -72,7 +81,18 @@ SIVID_DECL effect sensor_saturation(std::string const& name, std::string const& 
 /// two channels, of one unit.
 SIVID_DECL effect sensor_rotation(std::string const& name, std::vector<std::string> const& channels,
                                   range const& a);
-/// (1 + k) y, for all the channels of one instrument.
+/// An instrument of a position that sits beside the point which moves, at (a, b) in its frame:
+/// y + a cos h - b sin h and z + a sin h + b cos h for its two channels, with a heading h.
+/// @param arm  prior of a and of b
+SIVID_DECL effect sensor_lever_arm(std::string const& name,
+                                   std::vector<std::string> const& channels,
+                                   std::string const& heading, std::string const& unit,
+                                   range const& arm);
+/// Two channels of one unit that are mixed: y + k (z - y) and z + k (y - z); k = 1: their plugs are
+/// interchanged. A prior that goes a little beyond 1 keeps that value off its end.
+SIVID_DECL effect sensor_swap(std::string const& name, std::vector<std::string> const& channels,
+                              range const& k);
+/// (1 + k) y, for all the channels of one instrument; k = -2: a sign that is wrong.
 SIVID_DECL effect sensor_scale(std::string const& name, std::vector<std::string> const& channels,
                                range const& k);
 /// y(t - tau), and its value at the begin before, for all the channels of one instrument.

@@ -166,11 +166,17 @@ struct model_description {
     std::vector<constant> constants;
 };
 
-/// A pure delay by an unknown constant, which no graph in t, x, c, u can express: an input that
-/// acts late, or a channel that is seen late.
-struct time_delay {
+enum class memory_kind {
+    delay, ///< by so much time [s]
+    play   ///< of this half-width, in the unit of the input (see measurement/played_signal.hpp)
+};
+
+/// What depends on the past, which no graph in t, x, c, u can express: an input that acts late or
+/// behind a play, or a channel that is seen late.
+struct signal_memory {
     std::size_t index = 0;    ///< of the input or channel
-    std::size_t constant = 0; ///< of the delay among the model's constants, at least 0 [s]
+    std::size_t constant = 0; ///< of its size among the model's constants, at least 0
+    memory_kind kind = memory_kind::delay;
 };
 
 /// A state that an effect brought along, with its value at the begin of an experiment.
@@ -193,15 +199,16 @@ struct recorded_model {
     graph g;
     std::vector<node_id> rate;    ///< one node a state
     std::vector<node_id> observe; ///< one node a channel
-    /// The model sees input u(t - c) instead of u(t), and u at the begin before.
-    std::vector<time_delay> input_delays;
+    /// The model sees input u(t - c) instead of u(t), and u at the begin before; or u behind a
+    /// play.
+    std::vector<signal_memory> input_memory;
     /// The channel at t shows its value at t - c, and the one at the begin before.
-    std::vector<time_delay> channel_delays;
+    std::vector<signal_memory> channel_delays;
     std::vector<added_state> added_states; ///< of effects (see effect.hpp)
     std::vector<derived_constant> derived;
 
-    [[nodiscard]] bool has_delays() const {
-        return !input_delays.empty() || !channel_delays.empty();
+    [[nodiscard]] bool has_memory() const {
+        return !input_memory.empty() || !channel_delays.empty();
     }
 };
 

@@ -135,7 +135,7 @@ TEST_CASE("unknown delays of an input and of channels are fitted") {
         problem.model.about.constants.push_back({"tau", "s", literal{interval(0.0), 0.0}});
         auto const tau = problem.model.about.constants.size() - 1;
         if (input) {
-            problem.model.input_delays = {{1, tau}};
+            problem.model.input_memory = {{1, tau}};
         } else {
             problem.model.channel_delays = {{3, tau}, {4, tau}};
         }

@@ -11,7 +11,7 @@ TEST_CASE("a plain model keeps its delays and knows its derivatives") {
         {2, 3, 1}, [](auto const& t, auto const& x, auto const& p, auto const& u) {
             return std::vector{x[1] * x[0] + p[0], p[1] * u[0] + t + 0 * x[0]};
         });
-    model.input_delays = {{0, 2}};
+    model.input_memory = {{0, 2}};
     model.channel_delays = {{1, 1}};
     parameter_choice choice;
     choice.unknown = {"p2", "p0"};
@@ -21,9 +21,9 @@ TEST_CASE("a plain model keeps its delays and knows its derivatives") {
     CHECK(plain.states() == 2);
     CHECK(plain.parameters() == 2);
     CHECK(plain.channels() == 2);
-    REQUIRE(plain.input_delays().size() == 1);
-    CHECK(plain.input_delays()[0].unknown);
-    CHECK(plain.input_delays()[0].value({0.3, 7}) == 0.3);
+    REQUIRE(plain.input_memory().size() == 1);
+    CHECK(plain.input_memory()[0].unknown);
+    CHECK(plain.input_memory()[0].value({0.3, 7}) == 0.3);
     REQUIRE(plain.channel_delays().size() == 1);
     CHECK_FALSE(plain.channel_delays()[0].unknown);
     CHECK(plain.channel_delays()[0].value({0.3, 7}) == 0.25);

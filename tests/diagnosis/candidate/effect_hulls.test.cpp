@@ -46,6 +46,25 @@ TEST_CASE("the hull of a delay contains it, and excludes that there is none") {
     }
 }
 
+TEST_CASE("the hull of a play contains it, and excludes that there is none") {
+    std::vector<effect> const gap{effects::input_backlash("gap", "u", "N", {0_dec, 0.5_dec})};
+    for (double const b : {0.1, 0.3}) {
+        auto const hulls = effect_hulls(small_campaign::problem(small_campaign::with_play(b)), gap,
+                                        {.seconds = 60});
+        CAPTURE(b, hulls[0], hulls[1]);
+        REQUIRE(hulls.size() == 2);
+        CHECK(contains(hulls[0], 1.0));
+        CHECK(contains(hulls[1], b));
+        CHECK(hulls[1].lower() > 0);
+        CHECK(width(hulls[1]) < 0.2 * 0.5);
+        CHECK(width(hulls[0]) < 0.3);
+    }
+    auto const none = effect_hulls(small_campaign::problem(), gap, {.seconds = 20});
+    CHECK(none[1].lower() == 0);
+    auto const wrong = small_campaign::problem(small_campaign::with_drag(0.8));
+    CHECK(is_empty(effect_hulls(wrong, gap, {.seconds = 60})[1]));
+}
+
 TEST_CASE("the hull of a lag contains it, and excludes that there is none") {
     auto const hulls = effect_hulls(with_lag(0.4), lag(), {.seconds = 60});
     REQUIRE(hulls.size() == 2);

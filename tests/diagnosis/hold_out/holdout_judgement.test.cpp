@@ -21,7 +21,7 @@ holdout_judgement judged(small_campaign::truth const& real, std::vector<std::siz
     s.try_one(effects);
     auto const& fitted = s.candidates().front();
     auto bound = verify_at(fitted.problem, fitted.fit);
-    if (!fitted.problem.model.has_delays()) {
+    if (!fitted.problem.model.has_memory()) {
         auto const proved = bound_inflation(fitted.problem, &fitted.fit);
         bound = {proved.value, proved.witness, {}, proved.hull};
     }

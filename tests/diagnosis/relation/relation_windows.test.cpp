@@ -122,9 +122,9 @@ TEST_CASE("what stands in the way is said") {
     }
     SECTION("delays") {
         auto problem = pendulum_problem(d, {0, 1});
-        problem.model.input_delays.push_back({0, 0});
+        problem.model.input_memory.push_back({0, 0});
         relation_windows windows(problem, {});
-        CHECK(windows.obstacle(0) == "the model has delays");
+        CHECK(windows.obstacle(0) == "the model has delays or plays");
     }
     SECTION("a coefficient without bounds") {
         identification_problem problem{

@@ -308,7 +308,7 @@ TEST_CASE("what is not affine in fast exact inputs stays as it is") {
                interpolation::linear);
     CHECK_FALSE(with_slower_inputs(asked<5>(swinging), 0.02));
     auto delayed = asked<5>(fast);
-    delayed.model.input_delays.push_back({0, 0});
+    delayed.model.input_memory.push_back({0, 0});
     CHECK_FALSE(with_slower_inputs(delayed, 0.02));
     CHECK_THROWS_AS(with_slower_inputs(asked<5>(fast), 0), std::invalid_argument);
     CHECK_THROWS_AS(with_slower_inputs(asked<5>(fast), HUGE_VAL), std::invalid_argument);

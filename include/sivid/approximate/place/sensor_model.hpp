@@ -67,7 +67,7 @@ struct sensor_problem {
         auto const scale =
             g.leaf(operation::constant, add(fault + " scale", "1", interval(-0.6, 0.6)));
         bool const late = std::none_of(
-            model.channel_delays.begin(), model.channel_delays.end(), [&](time_delay const& d) {
+            model.channel_delays.begin(), model.channel_delays.end(), [&](signal_memory const& d) {
                 auto const& own = places[p].members;
                 return std::find(own.begin(), own.end(), d.index) != own.end();
             });

@@ -21,15 +21,16 @@ struct plain_derivative {
     std::size_t slot = 0; ///< of its value in the program's memory
 };
 
-/// A delay of an input or channel: by an unknown parameter or by a known time.
-struct plain_delay {
+/// A delay or play of an input, or a delay of a channel: of an unknown size or of a known one.
+struct plain_memory {
     std::size_t index = 0;     ///< of the input or channel
-    bool unknown = false;      ///< whether `parameter` is its duration, else `duration`
+    bool unknown = false;      ///< whether `parameter` is its size, else `size`
     std::size_t parameter = 0; ///< among the unknown parameters
-    double duration = 0;       ///< [s]
+    double size = 0;           ///< [s], or in the unit of the input
+    memory_kind kind = memory_kind::delay;
 
     [[nodiscard]] double value(std::vector<double> const& parameters) const {
-        return unknown ? parameters[parameter] : duration;
+        return unknown ? parameters[parameter] : size;
     }
 };
 
@@ -40,7 +41,8 @@ struct plain_function {
     std::vector<plain_derivative> by_state, by_parameter, by_input, by_time;
 };
 
-/// A model bound to constants and inputs for simulation with sensitivities. Delays are kept.
+/// A model bound to constants and inputs for simulation with sensitivities. Delays and plays are
+/// kept.
 class approximate_model {
 public:
     approximate_model(recorded_model const& model, parameter_choice const& choice,
@@ -51,20 +53,20 @@ public:
                                         " inputs, but " + std::to_string(inputs.size()) +
                                         " signals were given");
         }
-        input_delays_ = delays_of(model, choice, model.input_delays);
-        channel_delays_ = delays_of(model, choice, model.channel_delays);
+        input_memory_ = memory_of(model, choice, model.input_memory);
+        channel_delays_ = memory_of(model, choice, model.channel_delays);
         auto prompt = model;
-        prompt.input_delays.clear();
+        prompt.input_memory.clear();
         prompt.channel_delays.clear();
-        // A formula that acts late is no formula in t: it is kept as an input.
+        // A formula with a memory is no formula in t: it is kept as an input.
         auto seen = inputs;
-        for (auto const& d : input_delays_) {
+        for (auto const& d : input_memory_) {
             seen[d.index] = sampled_signal({0.0}, {0.0}, interpolation::linear);
         }
-        *this = approximate_model(sivid::bind(prompt, choice, seen), std::move(input_delays_),
+        *this = approximate_model(sivid::bind(prompt, choice, seen), std::move(input_memory_),
                                   std::move(channel_delays_));
     }
-    /// A model that is bound already; it has no delays.
+    /// A model that is bound already; it has no memory.
     explicit approximate_model(bound_model const& bound) : approximate_model(bound, {}, {}) {}
 
     [[nodiscard]] std::size_t states() const { return shape_.states; }
@@ -73,33 +75,36 @@ public:
     [[nodiscard]] program_shape const& shape() const { return shape_; }
     [[nodiscard]] plain_function const& rate() const { return rate_; }
     [[nodiscard]] plain_function const& observe() const { return observe_; }
-    [[nodiscard]] std::vector<plain_delay> const& input_delays() const { return input_delays_; }
-    [[nodiscard]] std::vector<plain_delay> const& channel_delays() const { return channel_delays_; }
-    /// Inputs whose values the programs read: sampled ones and late formulas.
+    [[nodiscard]] std::vector<plain_memory> const& input_memory() const { return input_memory_; }
+    [[nodiscard]] std::vector<plain_memory> const& channel_delays() const {
+        return channel_delays_;
+    }
+    /// Inputs whose values the programs read: sampled ones and formulas with a memory.
     [[nodiscard]] std::vector<std::size_t> const& used_inputs() const { return used_; }
 
 private:
-    approximate_model(bound_model const& bound, std::vector<plain_delay> of_inputs,
-                      std::vector<plain_delay> of_channels)
+    approximate_model(bound_model const& bound, std::vector<plain_memory> of_inputs,
+                      std::vector<plain_memory> of_channels)
         : shape_{bound.state_count(), bound.about.inputs.size(), bound.parameter_count()},
           channels_(bound.channel_count()),
           used_(bound.sampled),
-          input_delays_(std::move(of_inputs)),
+          input_memory_(std::move(of_inputs)),
           channel_delays_(std::move(of_channels)),
           rate_(function_of(bound, bound.rate, bound.rate_dx, bound.rate_dp)),
           observe_(function_of(bound, bound.observe, bound.observe_dx, bound.observe_dp)) {}
 
-    [[nodiscard]] static std::vector<plain_delay> delays_of(recorded_model const& model,
-                                                            parameter_choice const& choice,
-                                                            std::vector<time_delay> const& delays) {
-        std::vector<plain_delay> result;
+    [[nodiscard]] static std::vector<plain_memory>
+    memory_of(recorded_model const& model, parameter_choice const& choice,
+              std::vector<signal_memory> const& delays) {
+        std::vector<plain_memory> result;
         for (auto const& d : delays) {
             auto const& c = model.about.constants.at(d.constant);
-            plain_delay p;
+            plain_memory p;
             p.index = d.index;
-            p.duration = c.nominal.nearest;
+            p.kind = d.kind;
+            p.size = c.nominal.nearest;
             if (auto const f = choice.fixed.find(c.name); f != choice.fixed.end()) {
-                p.duration = mid(f->second);
+                p.size = mid(f->second);
             }
             for (std::size_t j = 0; j < choice.unknown.size(); ++j) {
                 if (choice.unknown[j] != c.name) continue;
@@ -147,7 +152,7 @@ private:
     program_shape shape_;
     std::size_t channels_ = 0;
     std::vector<std::size_t> used_;
-    std::vector<plain_delay> input_delays_, channel_delays_;
+    std::vector<plain_memory> input_memory_, channel_delays_;
     plain_function rate_, observe_;
 };
 

@@ -171,18 +171,18 @@ private:
             }
         }
     }
-    /// d y(t - tau) / d tau = -y'(t - tau), and likewise through a late input.
+    /// d y(t - tau) / d tau = -y'(t - tau), and likewise through an input with a memory.
     void look_late(output_request const& request, double t, double* row) {
         auto const& f = model().observe();
         auto const& memory = observe_memory_;
         auto const& column = rate_.layout().parameter_column;
-        for (auto const& d : model().input_delays()) {
+        for (auto const& d : model().input_memory()) {
             if (!d.unknown) continue;
             auto const c = column[d.parameter];
             for (auto const& e : f.by_input) {
                 if (e.row != request.channel || e.column != d.index) continue;
                 if (c == sensitivity_layout::none) continue;
-                row[c] -= memory[e.slot] * mesh_.slope(rate_.piece(), d.index);
+                row[c] += memory[e.slot] * mesh_.slope_by(d.kind, rate_.piece(), d.index);
             }
         }
         for (auto const& d : model().channel_delays()) {

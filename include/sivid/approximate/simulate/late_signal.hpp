@@ -2,19 +2,22 @@
 #ifndef SIVID_APPROXIMATE_SIMULATE_LATE_SIGNAL_HPP
 #define SIVID_APPROXIMATE_SIMULATE_LATE_SIGNAL_HPP
 
+#include <sivid/measurement/played_signal.hpp>
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/graph/plain_program.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <variant>
 #include <vector>
 
 namespace sivid {
 
-/// An input as a model with a delay sees it: u(t - delay), and u(begin) before. In plain doubles.
+/// An input as a model sees it that has a delay, u(t - delay) and u(begin) before, or a play. In
+/// plain doubles.
 class late_signal {
 public:
     late_signal(signal const& source, double begin) : begin_(begin) {
@@ -33,6 +36,23 @@ public:
     [[nodiscard]] bool jumps() const {
         return !is_formula_ && samples_.kind() == interpolation::hold;
     }
+    /// From now on the input behind a play of this half-width, until `end`.
+    void play(double half_width, double end) {
+        if (is_formula_) {
+            std::vector<double> times, values;
+            for (int k = 0; k <= fine; ++k) {
+                times.push_back(begin_ + (end - begin_) * k / fine);
+                values.push_back(at(0, times.back()));
+                if (!(end > begin_)) break;
+            }
+            samples_ = sampled_signal(std::move(times), std::move(values), interpolation::linear);
+            is_formula_ = false;
+        }
+        if (!recorded_) recorded_ = samples_;
+        auto behind = played(recorded_->nominal(), begin_, end, interval(half_width));
+        samples_ = std::move(behind.within);
+        by_play_ = std::move(behind.slope_by_width);
+    }
     /// Appends the knots within (from, to), late by `delay`.
     void knots(double delay, double from, double to, std::vector<double>& out) const {
         if (is_formula_) {
@@ -49,9 +69,9 @@ public:
         }
     }
 
-    /// A straight piece: value at its begin and slope.
+    /// A straight piece: value at its begin, slope, and slope by the half-width of a play.
     struct line {
-        double value = 0, slope = 0;
+        double value = 0, slope = 0, by_play = 0;
     };
     /// On (from, to), between neighbouring knots.
     [[nodiscard]] line on(double delay, double from, double to) {
@@ -64,7 +84,7 @@ public:
         auto const k = samples_.piece(middle);
         double const a = samples_.approximate_on(k, from - delay);
         double const b = samples_.approximate_on(k, to - delay);
-        return {a, to > from ? (b - a) / (to - from) : 0};
+        return {a, to > from ? (b - a) / (to - from) : 0, k < by_play_.size() ? by_play_[k] : 0};
     }
     /// At one time; after a jump.
     [[nodiscard]] double at(double delay, double t) {
@@ -74,12 +94,14 @@ public:
         formula_.run(memory_);
         return memory_[formula_.output(0)];
     }
-    /// Samples of formulas are fine enough that straight pieces do: the longest piece [s].
+    static constexpr int fine = 400; ///< straight pieces of a formula do
     [[nodiscard]] bool is_formula() const { return is_formula_; }
 
 private:
     double begin_;
     sampled_signal samples_;
+    std::optional<sampled_signal> recorded_; ///< before the play
+    std::vector<double> by_play_;            ///< slopes by its half-width, by piece
     plain_program formula_;
     std::vector<double> memory_;
     bool is_formula_ = false;

@@ -23,7 +23,7 @@ struct sensitivity_layout {
     std::vector<std::size_t> parameter_column; ///< one per parameter, `none` when held
     std::vector<std::size_t> start_column;     ///< one per state, `none` when held
     /// What has an additive d(t), piecewise linear between the simulator's knots: the rate of a
-    /// state (by its index), or an input (state count + its index; late inputs after the delay).
+    /// state (by its index), or an input (state count + its index; inputs with a memory behind it).
     /// The columns of knot k follow `first_disturbance` + k * disturbed.size().
     std::vector<std::size_t> disturbed;
     std::size_t first_disturbance = 0;
@@ -50,7 +50,7 @@ public:
             row_end_.push_back(k);
         }
         values_.resize(entries.size());
-        for (auto const& d : model_->input_delays()) late_inputs_ = late_inputs_ || d.unknown;
+        for (auto const& d : model_->input_memory()) late_inputs_ = late_inputs_ || d.unknown;
     }
 
     [[nodiscard]] approximate_model const& model() const { return *model_; }
@@ -147,13 +147,13 @@ public:
             auto const c = layout_->parameter_column[e.column];
             if (c != sensitivity_layout::none) dx[at(e.row, c)] += memory_[e.slot];
         }
-        for (auto const& d : model_->input_delays()) {
+        for (auto const& d : model_->input_memory()) {
             if (!d.unknown) continue;
             auto const c = layout_->parameter_column[d.parameter];
             if (c == sensitivity_layout::none) continue;
             for (auto const& e : rate.by_input) {
                 if (e.column != d.index) continue;
-                dx[at(e.row, c)] -= memory_[e.slot] * mesh_->slope(piece_, d.index);
+                dx[at(e.row, c)] += memory_[e.slot] * mesh_->slope_by(d.kind, piece_, d.index);
             }
         }
         auto const count = layout_->disturbed.size();
@@ -180,8 +180,8 @@ public:
     void shift_by_jumps(std::size_t k, simulation_state& x) {
         auto const& program = model_->rate().values;
         double const t = mesh_->time(k);
-        for (auto const& d : model_->input_delays()) {
-            if (!d.unknown || !mesh_->jumps(d.index)) continue;
+        for (auto const& d : model_->input_memory()) {
+            if (!d.unknown || d.kind != memory_kind::delay || !mesh_->jumps(d.index)) continue;
             auto const c = layout_->parameter_column[d.parameter];
             double const before = mesh_->input(k - 1, d.index, t);
             double const after = mesh_->input(k, d.index, t);

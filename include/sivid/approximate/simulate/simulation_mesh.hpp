@@ -20,8 +20,8 @@ struct output_request {
 };
 
 /// The times at which a simulation has to stop: knots of the inputs (late ones where the delay puts
-/// them), of disturbances, and the times at which the requested outputs are looked at. Between
-/// neighbours every input is a straight line.
+/// them, those of a play where it turns), of disturbances, and the times at which the requested
+/// outputs are looked at. Between neighbours every input is a straight line.
 class simulation_mesh {
 public:
     simulation_mesh(approximate_model const& model, std::vector<signal> const& inputs, double begin,
@@ -29,9 +29,10 @@ public:
         : model_(&model), begin_(begin), requests_(std::move(requests)), knots_(knots) {
         for (auto const& u : inputs) signals_.emplace_back(u, begin);
         input_delay_.assign(inputs.size(), 0.0);
+        play_.assign(inputs.size(), 0.0);
         channel_delay_.assign(model.channels(), 0.0);
         for (auto const i : model.used_inputs()) jumps_ = jumps_ || signals_[i].jumps();
-        for (auto const* list : {&model.input_delays(), &model.channel_delays()}) {
+        for (auto const* list : {&model.input_memory(), &model.channel_delays()}) {
             for (auto const& d : *list) moves_ = moves_ || d.unknown;
         }
     }
@@ -41,20 +42,24 @@ public:
     void place(std::vector<double> const& parameters) {
         if (!times_.empty() && !moves_) return;
         bool moved = times_.empty();
-        auto const set = [&](double& delay, double value) {
-            moved = moved || delay != value;
-            delay = value;
+        auto const set = [&](std::vector<double>& sizes, auto const& memory, memory_kind kind) {
+            auto const before = sizes;
+            std::fill(sizes.begin(), sizes.end(), 0.0);
+            for (auto const& m : memory) { // one behind the other: delays add up, and so do plays
+                if (m.kind == kind) sizes[m.index] += std::max(0.0, m.value(parameters));
+            }
+            moved = moved || sizes != before;
         };
-        for (auto const& d : model_->input_delays()) {
-            set(input_delay_[d.index], std::max(0.0, d.value(parameters)));
-        }
-        for (auto const& d : model_->channel_delays()) {
-            set(channel_delay_[d.index], std::max(0.0, d.value(parameters)));
-        }
+        set(input_delay_, model_->input_memory(), memory_kind::delay);
+        set(channel_delay_, model_->channel_delays(), memory_kind::delay);
+        set(play_, model_->input_memory(), memory_kind::play);
         if (!moved) return;
         double end = begin_;
         for (auto const& r : requests_) end = std::max(end, r.time);
         if (requests_.empty() && !knots_.empty()) end = std::max(end, knots_.back());
+        for (auto const& m : model_->input_memory()) {
+            if (m.kind == memory_kind::play) signals_[m.index].play(play_[m.index], end);
+        }
         times_ = {begin_, end};
         auto const within = [&](double t) {
             if (begin_ < t && t < end) times_.push_back(t);
@@ -64,7 +69,8 @@ public:
         for (auto const i : model_->used_inputs()) {
             signals_[i].knots(input_delay_[i], begin_, end, times_);
             if (!signals_[i].is_formula()) continue;
-            for (int k = 1; k < fine; ++k) within(begin_ + (end - begin_) * k / fine);
+            for (int k = 1; k < late_signal::fine; ++k)
+                within(begin_ + (end - begin_) * k / late_signal::fine);
         }
         std::sort(times_.begin(), times_.end());
         // Times that differ by rounding only are one.
@@ -84,7 +90,7 @@ public:
             for (std::size_t k = 0; k + 1 < times_.size(); ++k) {
                 lines_[k * n + i] = signals_[i].on(input_delay_[i], times_[k], times_[k + 1]);
             }
-            lines_[pieces() * n + i] = {signals_[i].at(input_delay_[i], end), 0};
+            lines_[pieces() * n + i] = {signals_[i].at(input_delay_[i], end), 0, 0};
         }
     }
 
@@ -102,6 +108,10 @@ public:
     [[nodiscard]] double slope(std::size_t k, std::size_t i) const {
         return lines_[k * signals_.size() + i].slope;
     }
+    /// Slope of the input by the size of a memory of this kind.
+    [[nodiscard]] double slope_by(memory_kind kind, std::size_t k, std::size_t i) const {
+        return kind == memory_kind::play ? lines_[k * signals_.size() + i].by_play : -slope(k, i);
+    }
     /// Whether some input jumps between its pieces.
     [[nodiscard]] bool jumps() const { return jumps_; }
     [[nodiscard]] bool jumps(std::size_t i) const { return signals_[i].jumps(); }
@@ -111,14 +121,12 @@ public:
     }
 
 private:
-    static constexpr int fine = 400; ///< pieces of a late formula
-
     approximate_model const* model_;
     double begin_;
     std::vector<output_request> requests_;
     std::vector<double> knots_;
     std::vector<late_signal> signals_;
-    std::vector<double> input_delay_, channel_delay_, times_;
+    std::vector<double> input_delay_, play_, channel_delay_, times_;
     std::vector<std::vector<std::size_t>> observed_;
     std::vector<late_signal::line> lines_; ///< [piece * inputs + input]
     bool jumps_ = false, moves_ = false;

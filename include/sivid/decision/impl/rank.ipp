@@ -314,9 +314,9 @@ SIVID_DECL interval ranking::overall(std::size_t parameter) const {
 SIVID_DECL ranking rank(identification_problem const& problem, rank_options const& options) {
     auto const begin = std::chrono::steady_clock::now();
     problem.require_valid();
-    if (problem.model.has_delays())
-        throw std::invalid_argument("rank: the model has a delay by an unknown time, which cannot "
-                                    "be enclosed; fix it at 0 or leave the effect out");
+    if (problem.model.has_memory())
+        throw std::invalid_argument("rank: the model has a delay or a play of unknown size, which "
+                                    "cannot be enclosed; leave the effect out");
     for (auto const& e : problem.experiments) {
         for (auto const& a : problem.model.added_states) {
             if (width(e.initial[a.state]) > 0)

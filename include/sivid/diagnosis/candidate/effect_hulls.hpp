@@ -17,7 +17,7 @@ namespace sivid {
 struct effect_hull_options {
     double seconds = 10;
     std::size_t boxes = 4000; ///< of the last search; a slice gets a share of them
-    /// A delay is told no more finely than this share of its prior.
+    /// A delay or a play is told no more finely than this share of its prior.
     double accuracy = 1.0 / 128;
     std::function<bool()> keep_going{}; ///< false ends it with what is proved until then
     data_test_options test{};
@@ -25,12 +25,14 @@ struct effect_hull_options {
 
 /// Encloses all parameters of a model with effects that explain the data: those of the model
 /// itself, then those of the effects.
-///   A delay has no enclosure over a range, and the equation of a lag is singular where its time
-/// constant is 0. Over a slice of their priors both are inputs with error bounds (`delayed_within`,
-/// `lagged_within`): slices that cannot explain the data are excluded, the hulls of the others are
-/// joined. Short time constants are such a slice; the others are an ordinary state.
+///   A delay or a play has no enclosure over a range, and the equation of a lag is singular where
+/// its time constant is 0. Over a slice of their priors they are inputs with error bounds
+/// (`delayed_within`, `played`, `lagged_within`): slices that cannot explain the data are excluded,
+/// the hulls of the others are joined. Short time constants are such a slice; the others are an
+/// ordinary state.
 /// @param base     without the effects
-/// @param effects  at most one with a delay of an input; delays of channels are left at their prior
+/// @param effects  at most one with a delay or a play of an input; delays of channels are left at
+/// their prior
 /// @guarantee  every parameter of `affected(base, effects)` that explains the data lies in the
 ///             result; empty when none does
 /// @throws std::invalid_argument  as `affected`

@@ -208,7 +208,7 @@ private:
     using clock = std::chrono::steady_clock;
 
     [[nodiscard]] static bool remembers(recorded_model const& with, recorded_model const& without) {
-        return with.input_delays.size() > without.input_delays.size() ||
+        return with.input_memory.size() > without.input_memory.size() ||
                with.channel_delays.size() > without.channel_delays.size() ||
                with.rate.size() > without.rate.size();
     }

@@ -69,7 +69,7 @@ private:
     /// The least inflation of the answer from below, and the box that its best parameters lie in.
     void sharpen_answer(screened const& s, cause& c) {
         auto& bound = run_->answer_bound;
-        if (!s.problem.model.has_delays()) {
+        if (!s.problem.model.has_memory()) {
             tighten(bound, s, effort_->search(s.problem, options_->answer));
         }
         c.inflation = bound.range;
@@ -154,7 +154,7 @@ private:
             auto const& s = candidate_of(k);
             auto& c = causes[k];
             if (c.verdict != cause_verdict::undecided) continue;
-            if (s.problem.model.has_delays()) continue;
+            if (s.problem.model.has_memory()) continue;
             // States of its own (a lag) are stiff near a time constant of 0, where runs take long
             // and exclude nothing.
             if (s.problem.model.rate.size() > run_->base.model.rate.size()) continue;

@@ -3,7 +3,7 @@
 #define SIVID_DIAGNOSIS_HOLD_OUT_HOLDOUT_JUDGEMENT_HPP
 
 #include <sivid/approximate/fit/fit.hpp>
-#include <sivid/diagnosis/candidate/resolve_delays.hpp>
+#include <sivid/diagnosis/candidate/resolve_memory.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/hold_out/detail/holdout_results.hpp>
 #include <sivid/diagnosis/holdout.hpp>
@@ -77,7 +77,7 @@ inline void add_tube(identification_problem const& judged, box const& parameters
     if (!known_starts) { // another start may do better
         result.at_witness = interval_traits<interval>::bounds(0, result.at_witness.upper());
     }
-    bool const delayed = judged.model.has_delays();
+    bool const delayed = judged.model.has_memory();
     if (!delayed && bound.witness) {
         inflation_bound fit{bound.range, bound.witness, bound.hull, 0, 0, 0};
         auto proved = holdout_inflation(fitted.problem, fit, judged, search);

@@ -85,7 +85,7 @@ private:
             find_places();
             announce();
         }
-        bool const provable = !base.problem.model.has_delays();
+        bool const provable = !base.problem.model.has_memory();
         if (provable && effort_.go_on("bounding the gap"))
             prove_gap(bound, base, effort_, options_.gap);
         know_gap();
@@ -316,7 +316,7 @@ private:
 
     /// The inflation of each scenario and each channel alone.
     void measure_parts() {
-        if (run_.base.model.has_delays()) return;
+        if (run_.base.model.has_memory()) return;
         auto const each = effort_.search(run_.base, options_.part);
         auto const& whole = run_.base_bound.range;
         double const end = effort_.left() - effort_.seconds_of({0, options_.parts_share});

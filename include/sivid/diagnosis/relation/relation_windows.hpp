@@ -62,8 +62,8 @@ public:
         for (auto const& e : problem.experiments) {
             if (e.outliers == 0 && !any_uncertain(e.inputs)) trusted.push_back(&e);
         }
-        if (problem.model.has_delays()) {
-            obstacle_ = "the model has delays";
+        if (problem.model.has_memory()) {
+            obstacle_ = "the model has delays or plays";
         } else if (trusted.empty()) {
             obstacle_ = "every experiment has an outlier budget or inputs with error bounds: no "
                         "window can be trusted";

@@ -63,7 +63,7 @@ private:
 ///             where the parameters of `base` have the same prior and its states the same starts
 [[nodiscard]] inline bool keeps_relation(recorded_model const& base, recorded_model const& changed,
                                          relation_finding const& f) {
-    if (base.has_delays() || changed.rate.size() < base.rate.size()) return false;
+    if (base.has_memory() || changed.rate.size() < base.rate.size()) return false;
     diagnosis_detail::same_expressions same(base.g, changed.g);
     auto equations = f.further;
     equations.push_back(f.equation);
@@ -72,15 +72,15 @@ private:
         if (!same(base.rate.at(i), changed.rate.at(i))) return false;
         rates.push_back(changed.rate[i]);
     }
-    auto const late = [](std::vector<time_delay> const& delays, std::size_t index) {
+    auto const late = [](std::vector<signal_memory> const& delays, std::size_t index) {
         return std::any_of(delays.begin(), delays.end(),
-                           [index](time_delay const& d) { return d.index == index; });
+                           [index](signal_memory const& d) { return d.index == index; });
     };
     auto const used = operands_of(changed.g, rates);
     for (std::size_t k = 0; k < used.size(); ++k) {
         auto const& n = changed.g.nodes()[k];
         if (used[k] && n.op == operation::input &&
-            late(changed.input_delays, static_cast<std::size_t>(n.index))) {
+            late(changed.input_memory, static_cast<std::size_t>(n.index))) {
             return false;
         }
     }

@@ -87,7 +87,8 @@ inline void describe(canonical_text& t, recorded_model const& m) {
     }
     describe(t, m.g);
     t("rate", m.rate)("observe", m.observe);
-    for (auto const& d : m.input_delays) t("input delay", d.index, d.constant);
+    for (auto const& d : m.input_memory)
+        t(d.kind == memory_kind::play ? "input play" : "input delay", d.index, d.constant);
     for (auto const& d : m.channel_delays) t("channel delay", d.index, d.constant);
     for (auto const& s : m.added_states) t("added state", s.state, s.at_begin);
     for (auto const& d : m.derived) t("derived constant", d.constant, d.value, d.always);

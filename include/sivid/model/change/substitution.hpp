@@ -81,17 +81,17 @@ substituted(recorded_model const& model, std::vector<std::string> const& replace
         });
         result.derived.push_back({position[d.constant], value, d.always || follows_replaced});
     }
-    auto const moved = [&](std::vector<time_delay> delays) {
+    auto const moved = [&](std::vector<signal_memory> delays) {
         for (auto& d : delays) {
             if (position[d.constant] >= constants.size()) {
-                throw std::invalid_argument("substituted: the delay '" + old[d.constant].name +
-                                            "' must stay a constant");
+                throw std::invalid_argument("substituted: the delay or play '" +
+                                            old[d.constant].name + "' must stay a constant");
             }
             d.constant = position[d.constant];
         }
         return delays;
     };
-    result.input_delays = moved(model.input_delays);
+    result.input_memory = moved(model.input_memory);
     result.channel_delays = moved(model.channel_delays);
     for (std::size_t j = 0; show && j < replaced.size(); ++j) {
         result.about.channels.push_back({replaced[j], old[gone[j]].unit});

@@ -14,9 +14,9 @@ SIVID_DECL bound_model bind(recorded_model const& model, parameter_choice const&
                                     std::to_string(about.inputs.size()) + " inputs, but " +
                                     std::to_string(inputs.size()) + " signals were given");
     }
-    if (model.has_delays()) {
+    if (model.has_memory()) {
         throw std::invalid_argument("model '" + about.name +
-                                    "' has delays; fix them and shift the signals first");
+                                    "' has delays or plays; fix them and change the signals first");
     }
     bound_model result;
     result.about = about;

@@ -76,21 +76,23 @@ namespace model_detail {
 SIVID_DECL std::string describe(recorded_model const& model) {
     using namespace model_detail;
     auto const& about = model.about;
-    std::vector<std::vector<std::string>> constants, delays;
+    std::vector<std::vector<std::string>> constants, delays, plays;
     for (auto const& c : about.constants) {
         constants.push_back({c.name, "= " + graph_listing::literal_text(c.nominal),
                              bracketed(c.unit),
                              c.formula.empty() ? "" : "= " + c.formula + ", rounded"});
     }
-    for (auto const& d : model.input_delays) {
-        delays.push_back({"input " + about.inputs[d.index].name, about.constants[d.constant].name});
+    for (auto const& d : model.input_memory) {
+        (d.kind == memory_kind::play ? plays : delays)
+            .push_back({"input " + about.inputs[d.index].name, about.constants[d.constant].name});
     }
     for (auto const& d : model.channel_delays) {
         delays.push_back(
             {"channel " + about.channels[d.index].name, about.constants[d.constant].name});
     }
     return "model " + about.name + "\n" + describe_names(about) + section("constants", constants) +
-           (delays.empty() ? "" : section("delays", delays)) + describe_graph(graph_listing(model));
+           (delays.empty() ? "" : section("delays", delays)) +
+           (plays.empty() ? "" : section("plays", plays)) + describe_graph(graph_listing(model));
 }
 
 SIVID_DECL std::string describe(bound_model const& model) {

@@ -140,10 +140,18 @@ SIVID_DECL void effect_scope::acts_everywhere(char const* what) const {
                                 "' acts in some experiments only and " + "cannot have " + what);
 }
 
+SIVID_DECL void effect_scope::remember(std::string const& input, std::size_t k, memory_kind kind) {
+    acts_everywhere(kind == memory_kind::play ? "a play" : "a delay");
+    model_->input_memory.push_back(
+        {index_of(model_->about.inputs, input, "input"), first_parameter_ + k, kind});
+}
+
 SIVID_DECL void effect_scope::delay_input(std::string const& name, std::size_t k) {
-    acts_everywhere("a delay");
-    model_->input_delays.push_back(
-        {index_of(model_->about.inputs, name, "input"), first_parameter_ + k});
+    remember(name, k, memory_kind::delay);
+}
+
+SIVID_DECL void effect_scope::play_input(std::string const& name, std::size_t k) {
+    remember(name, k, memory_kind::play);
 }
 
 SIVID_DECL void effect_scope::delay_channel(std::string const& name, std::size_t k) {
@@ -184,7 +192,7 @@ SIVID_DECL recorded_model with(recorded_model const& base, std::vector<effect> e
                      [](effect const& a, effect const& b) { return a.order < b.order; });
     recorded_model result;
     result.about = base.about;
-    result.input_delays = base.input_delays;
+    result.input_memory = base.input_memory;
     result.channel_delays = base.channel_delays;
     std::vector<std::size_t> first;
     auto& constants = result.about.constants;

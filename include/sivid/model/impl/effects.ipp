@@ -20,6 +20,15 @@ SIVID_DECL effect one(std::string name, std::string parameter, std::string unit,
     return e;
 }
 
+inline void need_two(std::vector<std::string> const& channels, char const* what,
+                     std::string const& name) {
+    if (channels.size() != 2)
+        throw std::invalid_argument(std::string(what) + " '" + name + "': needs two channels");
+}
+inline std::string pair_of(std::vector<std::string> const& channels) {
+    return channels[0] + " and " + channels[1];
+}
+
 } // namespace detail
 
 SIVID_DECL effect input_delay(std::string const& name, std::string const& input, range const& tau) {
@@ -34,6 +43,13 @@ SIVID_DECL effect input_dead_band(std::string const& name, std::string const& in
     e.on_inputs = [input](effect_scope& m) {
         m.input(input) = deadband(m.input(input), m.parameter());
     };
+    return e;
+}
+
+SIVID_DECL effect input_backlash(std::string const& name, std::string const& input,
+                                 std::string const& unit, range const& b) {
+    auto e = detail::one(name, "b", unit, b, "backlash behind the input " + input, 0);
+    e.on_inputs = [input](effect_scope& m) { m.play_input(input); };
     return e;
 }
 
@@ -106,6 +122,20 @@ SIVID_DECL effect dry_friction(std::string const& name, std::string const& state
     return e;
 }
 
+SIVID_DECL effect stribeck_friction(std::string const& name, std::string const& state,
+                                    std::string const& unit, range const& k, range const& s,
+                                    decimal fades_above, decimal smooth_below) {
+    auto e = detail::one(name, "k", unit, k, "Stribeck friction in the equation of " + state);
+    e.parameters.push_back({"s", unit, s.lower, s.upper, {}});
+    e.on_rates = [state, fades_above, smooth_below](effect_scope& m) {
+        auto const& x = m.state(state);
+        auto const friction =
+            m.parameter(0) + m.parameter(1) * exp(-sqr(x / expression(fades_above)));
+        m.rate(state) -= friction * x / sqrt(sqr(x) + sqr(expression(smooth_below)));
+    };
+    return e;
+}
+
 SIVID_DECL effect drift(std::string const& name, std::string const& constant, range const& k) {
     auto e = detail::one(name, "k", "1/s", k, "slow drift of the constant " + constant);
     e.on_inputs = [constant](effect_scope& m) {
@@ -140,15 +170,42 @@ SIVID_DECL effect sensor_saturation(std::string const& name, std::string const& 
 
 SIVID_DECL effect sensor_rotation(std::string const& name, std::vector<std::string> const& channels,
                                   range const& a) {
-    if (channels.size() != 2)
-        throw std::invalid_argument("sensor_rotation '" + name + "': needs two channels");
+    detail::need_two(channels, "sensor_rotation", name);
     auto e = detail::one(name, "a", "rad", a,
-                         "rotation of the instrument of " + channels[0] + " and " + channels[1]);
+                         "rotation of the instrument of " + detail::pair_of(channels));
     e.on_channels = [channels](effect_scope& m) {
         auto const y = m.channel(channels[0]), z = m.channel(channels[1]);
         auto const c = cos(m.parameter()), s = sin(m.parameter());
         m.channel(channels[0]) = c * y - s * z;
         m.channel(channels[1]) = s * y + c * z;
+    };
+    return e;
+}
+
+SIVID_DECL effect sensor_lever_arm(std::string const& name,
+                                   std::vector<std::string> const& channels,
+                                   std::string const& heading, std::string const& unit,
+                                   range const& arm) {
+    detail::need_two(channels, "sensor_lever_arm", name);
+    auto e = detail::one(name, "a", unit, arm,
+                         "lever arm of the instrument of " + detail::pair_of(channels));
+    e.parameters.push_back({"b", unit, arm.lower, arm.upper, {}});
+    e.on_channels = [channels, heading](effect_scope& m) {
+        auto const c = cos(m.state(heading)), s = sin(m.state(heading));
+        m.channel(channels[0]) += c * m.parameter(0) - s * m.parameter(1);
+        m.channel(channels[1]) += s * m.parameter(0) + c * m.parameter(1);
+    };
+    return e;
+}
+
+SIVID_DECL effect sensor_swap(std::string const& name, std::vector<std::string> const& channels,
+                              range const& k) {
+    detail::need_two(channels, "sensor_swap", name);
+    auto e = detail::one(name, "k", "1", k, detail::pair_of(channels) + " are mixed");
+    e.on_channels = [channels](effect_scope& m) {
+        auto const more = m.parameter() * (m.channel(channels[1]) - m.channel(channels[0]));
+        m.channel(channels[0]) += more;
+        m.channel(channels[1]) -= more;
     };
     return e;
 }

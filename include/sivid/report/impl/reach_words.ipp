@@ -126,7 +126,7 @@ SIVID_DECL std::vector<std::string> reach_words(identification_problem const& pr
     if (auto words = detail::proved_inside_text(found); !words.empty())
         result.push_back(std::move(words));
     if (found.reach.empty() && found.reason == stop_reason::time_budget &&
-        !problem.model.has_delays())
+        !problem.model.has_memory())
         result.push_back("No time was left to see why: a larger budget may tell");
     for (auto& words : reach_words(found.reach, is_complete(found.reason)))
         result.push_back(std::move(words));

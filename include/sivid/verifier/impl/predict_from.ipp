@@ -309,7 +309,7 @@ predict_from(identification_problem const& data, stored_identification const& st
     auto& problem = result->problem;
     problem = direct;
     problem.sets.clear();
-    bool const hears_data = !model.has_delays();
+    bool const hears_data = !model.has_memory();
     result->sides = direct.choice.unknown;
     if (stored.products) {
         identification_problem asked;

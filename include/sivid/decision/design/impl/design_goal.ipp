@@ -73,7 +73,7 @@ SIVID_DECL design_goal parse_goal(std::string_view text, recorded_model& model) 
 SIVID_DECL std::optional<std::vector<std::string>> hidden_behind(recorded_model const& model,
                                                                  parameter_choice const& choice,
                                                                  design_goal const& goal) {
-    if (model.has_delays() || model.observe.empty()) return std::nullopt; // a delay is no product
+    if (model.has_memory() || model.observe.empty()) return std::nullopt; // a delay is no product
     // Inputs that take no term with them.
     std::vector<signal> const inputs(model.about.inputs.size(),
                                      sampled_signal({0.0, 1.0}, {0.3, 0.7}, interpolation::linear));

@@ -6,7 +6,7 @@
 
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/candidate/input_slices.hpp>
-#include <sivid/diagnosis/candidate/resolve_delays.hpp>
+#include <sivid/diagnosis/candidate/resolve_memory.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/judge/data_test.hpp>
 #include <sivid/paving/products/dependence.hpp>
@@ -37,9 +37,9 @@ public:
     [[nodiscard]] box operator()() {
         auto const whole = affected(*base_, *effects_);
         auto const& model = whole.model;
-        if (model.has_delays()) {
-            if (model.channel_delays.empty() && model.input_delays.size() == 1) {
-                return over_delays(whole, model.input_delays[0]);
+        if (model.has_memory()) {
+            if (model.channel_delays.empty() && model.input_memory.size() == 1) {
+                return over_sizes(whole, model.input_memory[0]);
             }
             return whole.prior;
         }
@@ -106,19 +106,19 @@ private:
     }
 
     /// Halves of the prior, the widest first, until they are excluded or narrow.
-    [[nodiscard]] box over_delays(identification_problem const& whole, time_delay const& delay) {
-        auto const& name = whole.model.about.constants[delay.constant].name;
+    [[nodiscard]] box over_sizes(identification_problem const& whole, signal_memory const& memory) {
+        auto const& name = whole.model.about.constants[memory.constant].name;
         auto const j = index_of_parameter(whole, name);
-        if (j == whole.prior.size()) return whole.prior; // a known delay
+        if (j == whole.prior.size()) return whole.prior; // a known size
         for (auto const& e : whole.experiments) {
-            if (!std::holds_alternative<sampled_signal>(e.inputs[delay.index])) return whole.prior;
+            if (!std::holds_alternative<sampled_signal>(e.inputs[memory.index])) return whole.prior;
         }
         struct slice {
             interval range;
             box others; ///< contains what the slice leaves
         };
         auto middle = mid(whole.prior);
-        box const rest = resolve_delays(whole, middle).problem.prior;
+        box const rest = resolve_memory(whole, middle).problem.prior;
         std::vector<slice> waiting;   // the widest first: in order of coming
         constexpr int begin_with = 8; // wider ones are rarely excluded
         auto const at = [&](int k) {
@@ -138,14 +138,15 @@ private:
                 continue;
             }
             middle[j] = mid(now.range);
-            auto problem = resolve_delays(whole, middle).problem;
+            auto problem = resolve_memory(whole, middle).problem;
             problem.prior = now.others;
             for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
                 auto const& as_recorded = whole.experiments[s];
                 auto& e = problem.experiments[s];
-                e.inputs[delay.index] =
-                    delayed_within(std::get<sampled_signal>(as_recorded.inputs[delay.index]),
-                                   e.begin, e.end(), now.range);
+                auto const& u = std::get<sampled_signal>(as_recorded.inputs[memory.index]);
+                e.inputs[memory.index] = memory.kind == memory_kind::play
+                                             ? played(u, e.begin, e.end(), now.range).within
+                                             : delayed_within(u, e.begin, e.end(), now.range);
             }
             start_added_states(problem);
             auto const left = hull_of(problem, of_late_slice);

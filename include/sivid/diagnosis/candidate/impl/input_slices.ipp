@@ -4,6 +4,7 @@
 
 #include <sivid/diagnosis/candidate/input_slices.hpp>
 
+#include <sivid/measurement/detail/widened_signal.hpp>
 #include <sivid/number/interval_traits.hpp>
 
 #include <algorithm>
@@ -53,39 +54,6 @@ inline seen_input seen_between(sampled_signal const& u, double begin, double fro
     return seen;
 }
 
-/// Collects the knots of a signal with errors.
-class widened_signal {
-public:
-    explicit widened_signal(interpolation kind) : kind_(kind) {}
-    /// @param value  its middle is taken, its radius joins the error
-    void add(double time, interval const& value, double error) {
-        double const middle = mid(value);
-        double const far = std::max(value.upper() - middle, middle - value.lower());
-        // One more rounding for each sum.
-        double const all = (error + far) * (1 + 4 * std::numeric_limits<double>::epsilon());
-        times_.push_back(time);
-        values_.push_back(middle);
-        errors_.push_back(all > 0 ? all + std::numeric_limits<double>::min() : 0.0);
-    }
-    [[nodiscard]] sampled_signal take() && {
-        return sampled_signal(std::move(times_), std::move(values_), kind_, std::move(errors_));
-    }
-
-private:
-    interpolation kind_;
-    std::vector<double> times_, values_, errors_;
-};
-
-/// Times in increasing order from `begin` until, at least, `end`.
-inline std::vector<double> grid_of(std::vector<double> times, double begin, double end) {
-    times.push_back(begin);
-    times.push_back(std::max(end, std::nextafter(begin, HUGE_VAL)));
-    std::sort(times.begin(), times.end());
-    times.erase(std::unique(times.begin(), times.end()), times.end());
-    times.erase(times.begin(), std::lower_bound(times.begin(), times.end(), begin));
-    return times;
-}
-
 } // namespace diagnosis_detail
 
 SIVID_DECL sampled_signal lagged_within(sampled_signal const& u, double begin, double end,
@@ -101,7 +69,7 @@ SIVID_DECL sampled_signal lagged_within(sampled_signal const& u, double begin, d
             if (t < next) times.push_back(t);
         }
     }
-    auto const grid = diagnosis_detail::grid_of(std::move(times), begin, end);
+    auto const grid = measurement_detail::grid_of(std::move(times), begin, end);
     auto const value = [&](double t) { return u.value<interval>(u.piece(t), interval(t)); };
 
     std::vector<double> lag; // what |d - u| is at most, after a jump at a knot
@@ -132,7 +100,7 @@ SIVID_DECL sampled_signal lagged_within(sampled_signal const& u, double begin, d
             now = traits::add(interval(now), interval(mag(jump))).upper();
         }
     }
-    diagnosis_detail::widened_signal result(u.kind());
+    measurement_detail::widened_signal result(u.kind());
     for (std::size_t k = 0; k < grid.size(); ++k) {
         // Between two knots of straight lines the bound is convex where it falls, and otherwise
         // at most its value at the right end.
@@ -164,12 +132,12 @@ SIVID_DECL sampled_signal delayed_within(sampled_signal const& u, double begin, 
         }
     }
     if (!holds) times.push_back(begin + middle); // where u(begin) is left
-    auto const grid = diagnosis_detail::grid_of(std::move(times), begin, end);
+    auto const grid = measurement_detail::grid_of(std::move(times), begin, end);
     auto const seen = [&](double from, double until) {
         return diagnosis_detail::seen_between(u, begin, from - middle - reach,
                                               until - middle + reach);
     };
-    diagnosis_detail::widened_signal result(u.kind());
+    measurement_detail::widened_signal result(u.kind());
     double before = 0; // of the piece to the left
     for (std::size_t k = 0; k < grid.size(); ++k) {
         bool const last = k + 1 == grid.size();

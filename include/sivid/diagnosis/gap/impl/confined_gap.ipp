@@ -221,7 +221,7 @@ private:
                                    double upper) const {
         double const known = whole_.lower() > 1 ? whole_.lower() : 0;
         double const tried = (1 - 2 * precision) * upper;
-        if (tried <= std::max(known, 1.0) || p_->model.has_delays() || !go_on()) return known;
+        if (tried <= std::max(known, 1.0) || p_->model.has_memory() || !go_on()) return known;
         auto search = options_->lower;
         search.only_verdict = true;
         auto const refuted = bound_inflation(loosened(*p_, part, tried), &at, search);

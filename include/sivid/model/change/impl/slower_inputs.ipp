@@ -116,7 +116,7 @@ with_slower_inputs(identification_problem const& problem, double period) {
     }
     auto const& model = problem.model;
     auto const inputs = model.about.inputs.size();
-    if (model.has_delays()) return std::nullopt;
+    if (model.has_memory()) return std::nullopt;
     std::vector<double> ends;
     std::vector<bool> fast(inputs, false), recorded(inputs, true), held(inputs, true);
     for (auto const& e : problem.experiments) {

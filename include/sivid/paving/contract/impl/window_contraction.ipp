@@ -52,7 +52,7 @@ public:
         auto const& run = options_.run;
         bool const as_asked = run.set == carried_set::taylor_model && !run.enclosure.method &&
                               run.make == nullptr; // else by other means than these
-        if (as_asked && !problem_->model.has_delays() && problem_->model.added_states.empty()) {
+        if (as_asked && !problem_->model.has_memory() && problem_->model.added_states.empty()) {
             std::vector<window> chain;
             for (std::size_t e = 0; e < records_.size() && !result_.empty(); ++e) {
                 flows_.push_back(std::make_unique<flow const>(model_, problem_->choice,

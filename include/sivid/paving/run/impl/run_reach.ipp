@@ -150,7 +150,7 @@ SIVID_DECL std::vector<run_reach> reach_of_runs(identification_problem const& pr
                                                 box const& parameters, run_options const& run) {
     problem.require_valid();
     std::vector<run_reach> result;
-    if (problem.model.has_delays()) return result;
+    if (problem.model.has_memory()) return result;
     auto const seen = with_states_seen(problem.model);
     for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
         if (problem.experiments[e].measurements.empty()) continue;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_DIAGNOSIS_CANDIDATE_RESOLVE_DELAYS_HPP
-#define SIVID_DIAGNOSIS_CANDIDATE_RESOLVE_DELAYS_HPP
+#ifndef SIVID_DIAGNOSIS_CANDIDATE_RESOLVE_MEMORY_HPP
+#define SIVID_DIAGNOSIS_CANDIDATE_RESOLVE_MEMORY_HPP
 
+#include <sivid/measurement/played_signal.hpp>
 #include <sivid/model/problem.hpp>
 
 #include <algorithm>
@@ -49,21 +50,34 @@ namespace sivid {
     return sampled_signal(std::move(times), std::move(values), sampled.kind(), std::move(errors));
 }
 
-/// A problem at one value of its delays, in which nothing is late any more.
-struct delays_resolved {
-    identification_problem problem; ///< without the delays among its unknowns
+/// A problem at one value of its delays and plays, in which no signal has a memory any more.
+struct memory_resolved {
+    identification_problem problem; ///< without their sizes among its unknowns
     std::vector<std::size_t> kept;  ///< its parameters, by index in the original problem
 };
 
-/// Fixes the delays at the values in `parameters` and moves inputs and measurements accordingly.
-///   Moved times are rounded to the nearest double; everything else is exact.
-/// @throws std::invalid_argument for a negative delay
-[[nodiscard]] inline delays_resolved resolve_delays(identification_problem const& original,
+/// Whether some input that is a formula is behind a play: only recorded ones can be resolved.
+[[nodiscard]] inline bool plays_with_formulas(identification_problem const& problem) {
+    for (auto const& d : problem.model.input_memory) {
+        if (d.kind != memory_kind::play) continue;
+        for (auto const& e : problem.experiments) {
+            if (std::holds_alternative<analytic_signal>(e.inputs[d.index])) return true;
+        }
+    }
+    return false;
+}
+
+/// Fixes delays and plays at the values in `parameters`, moves inputs and measurements accordingly,
+/// and puts inputs behind their plays, with errors that cover the roundings.
+///   Times that a delay moves are rounded to the nearest double; everything else is exact.
+/// @throws std::invalid_argument for a negative size, and for a play of a formula
+[[nodiscard]] inline memory_resolved resolve_memory(identification_problem const& original,
                                                     std::vector<double> const& parameters) {
-    delays_resolved result{original, {}};
+    if (plays_with_formulas(original)) throw std::invalid_argument("a play needs a recorded input");
+    memory_resolved result{original, {}};
     auto& problem = result.problem;
     auto& model = problem.model;
-    auto const value_of = [&](time_delay const& d) {
+    auto const value_of = [&](signal_memory const& d) {
         auto const& name = model.about.constants[d.constant].name;
         double value = model.about.constants[d.constant].nominal.nearest;
         if (auto const f = original.choice.fixed.find(name); f != original.choice.fixed.end()) {
@@ -72,13 +86,17 @@ struct delays_resolved {
         for (std::size_t j = 0; j < original.choice.unknown.size(); ++j) {
             if (original.choice.unknown[j] == name) value = parameters.at(j);
         }
-        if (!(value >= 0)) throw std::invalid_argument("the delay '" + name + "' is negative");
+        if (!(value >= 0)) throw std::invalid_argument("'" + name + "' is negative");
         return value;
     };
-    std::vector<bool> is_delay(model.about.constants.size(), false);
+    std::vector<bool> is_size(model.about.constants.size(), false);
     for (auto& e : problem.experiments) {
-        for (auto const& d : model.input_delays) {
-            e.inputs[d.index] = delayed(e.inputs[d.index], value_of(d), e.begin);
+        for (auto const& d : model.input_memory) {
+            auto& u = e.inputs[d.index];
+            double const size = value_of(d);
+            u = d.kind == memory_kind::play
+                    ? played(std::get<sampled_signal>(u), e.begin, e.end(), interval(size)).within
+                    : delayed(u, size, e.begin);
         }
         for (auto& m : e.measurements) {
             double late = 0;
@@ -89,15 +107,15 @@ struct delays_resolved {
         }
         e.measurements = sorted(std::move(e.measurements));
     }
-    for (auto const* all : {&model.input_delays, &model.channel_delays}) {
-        for (auto const& d : *all) is_delay[d.constant] = true;
+    for (auto const* all : {&model.input_memory, &model.channel_delays}) {
+        for (auto const& d : *all) is_size[d.constant] = true;
     }
     problem.choice.unknown.clear();
     std::vector<interval> prior;
     for (std::size_t j = 0; j < original.choice.unknown.size(); ++j) {
         auto const& name = original.choice.unknown[j];
         auto const k = index_of(model.about.constants, name, "constant");
-        if (is_delay[k]) {
+        if (is_size[k]) {
             problem.choice.fixed[name] = interval(parameters.at(j));
             continue;
         }
@@ -106,7 +124,7 @@ struct delays_resolved {
         result.kept.push_back(j);
     }
     problem.prior = box(std::move(prior));
-    model.input_delays.clear();
+    model.input_memory.clear();
     model.channel_delays.clear();
     return result;
 }

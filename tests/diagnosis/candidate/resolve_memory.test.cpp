@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/diagnosis/candidate/resolve_delays.hpp>
+#include <sivid/diagnosis/candidate/resolve_memory.hpp>
 
 #include "diagnosis/small_campaign.hpp"
 #include "support/catch.hpp"
@@ -38,14 +38,37 @@ TEST_CASE("a delayed signal shows the past") {
     CHECK(std::get<sampled_signal>(delayed(linear, 0, 0)).times().size() == 3);
 }
 
+TEST_CASE("resolving a play puts the recorded input behind it, late or not") {
+    std::vector<effect> both{effects::input_backlash("gap", "u", "N", {0_dec, 0.5_dec}),
+                             effects::input_delay("late", "u", {0_dec, 0.5_dec})};
+    auto const p = affected(small_campaign::problem(), both);
+    auto const r = resolve_memory(p, {1.25, 0.125, 0.25});
+    CHECK(r.kept == std::vector<std::size_t>{0});
+    CHECK_FALSE(r.problem.model.has_memory());
+    auto const& e = p.experiments[0];
+    auto const alone = played(std::get<sampled_signal>(e.inputs[0]), 0, 4, interval(0.125)).within;
+    auto const& u = std::get<sampled_signal>(r.problem.experiments[0].inputs[0]);
+    for (double t = 0; t < 4; t += 0.0625) {
+        auto const k = u.piece(t);
+        CHECK(std::abs(u.approximate(t) - alone.approximate(std::max(0.0, t - 0.25))) < 1e-12);
+        CHECK(u.error_bound(k, t) < 1e-13);
+    }
+    CHECK_THROWS_AS(resolve_memory(p, {1.25, -0.125, 0.25}), std::invalid_argument);
+    // Of a formula nothing is known behind a play.
+    auto formula = p;
+    formula.experiments[1].inputs[0] = analytic_signal::from([](auto const& t) { return sin(t); });
+    CHECK(plays_with_formulas(formula));
+    CHECK_THROWS_AS(resolve_memory(formula, {1.25, 0.125, 0.25}), std::invalid_argument);
+}
+
 TEST_CASE("resolving delays moves signals and measurements and drops the unknowns") {
     auto const p = affected(small_campaign::problem(),
                             {effects::input_delay("late", "u", {0_dec, 0.5_dec}),
                              effects::sensor_latency("slow", {"p"}, {0_dec, 0.5_dec})});
-    auto const r = resolve_delays(p, {1.25, 0.25, 0.15});
+    auto const r = resolve_memory(p, {1.25, 0.25, 0.15});
     CHECK(r.kept == std::vector<std::size_t>{0});
     CHECK(r.problem.choice.unknown == std::vector<std::string>{"k"});
-    CHECK(r.problem.model.input_delays.empty());
+    CHECK(r.problem.model.input_memory.empty());
     CHECK(r.problem.model.channel_delays.empty());
     auto const& e = r.problem.experiments[0];
     auto const& u = std::get<sampled_signal>(e.inputs[0]);
@@ -57,7 +80,7 @@ TEST_CASE("resolving delays moves signals and measurements and drops the unknown
     CHECK(e.measurements[0].channel == 0);
     r.problem.require_valid();
     flow const f(r.problem.model, r.problem.choice, e.inputs); // binds
-    CHECK_THROWS_AS(resolve_delays(p, {1.25, -0.25, 0.15}), std::invalid_argument);
+    CHECK_THROWS_AS(resolve_memory(p, {1.25, -0.25, 0.15}), std::invalid_argument);
 }
 
 TEST_CASE("a late signal keeps the error bounds of its samples") {
