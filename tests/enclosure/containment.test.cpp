@@ -21,7 +21,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -35,33 +34,15 @@ using support::part_of;
 
 namespace {
 
-/// A system whose formulas are behind functions, so that what follows is compiled once.
-struct any_system {
-    std::string name;
-    std::shared_ptr<flow const> equations;
-    std::function<extended_state(extended, extended_state const&, extended_state const&,
-                                 extended_state const&)>
-        rate;
-    std::function<std::vector<support::dual>(support::dual, std::vector<support::dual> const&,
-                                             std::vector<support::dual> const&,
-                                             std::vector<support::dual> const&)>
-        dual_rate;
-    box initial, parameters;
-    double horizon = 1;
-    std::vector<sampled_signal> inputs;
+struct any_system : support::dynamic_system {
+    std::shared_ptr<sivid::flow const> equations;
     bool rough = false;
 };
 
 std::vector<any_system> all_systems() {
     std::vector<any_system> all;
-    bool rough = false;
-    auto const add = [&](auto const& s) {
-        all.push_back({s.name, s.flow(), s.rate, s.rate, s.initial, s.parameters, s.horizon,
-                       s.inputs, rough});
-    };
-    support::for_each_smooth_system(add);
-    rough = true;
-    support::for_each_rough_system(add);
+    support::for_each_smooth_system([&](auto const& s) { all.push_back({s, s.flow(), false}); });
+    support::for_each_rough_system([&](auto const& s) { all.push_back({s, s.flow(), true}); });
     return all;
 }
 
@@ -151,8 +132,8 @@ void by_tube(any_system const& system, plan const& p, draws& d, tally& done,
         for (int k = 0; k < 4; ++k) times.push_back(d.uniform(0, tube.end_time()));
         std::sort(times.begin(), times.end());
         if (derivatives) {
-            auto const exact = support::reference_sensitivities(
-                system.dual_rate, start, q, 0, times, system.inputs, p.tolerance());
+            auto const exact = support::reference_sensitivities(system.rate, start, q, 0, times,
+                                                                system.inputs, p.tolerance());
             for (std::size_t k = 0; k < times.size(); ++k) {
                 auto const s = found.at(times[k]);
                 for (std::size_t i = 0; i < s.rows(); ++i) {

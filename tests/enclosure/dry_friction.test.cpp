@@ -33,9 +33,9 @@ X slide(T const& t, X const& x, P const& p) {
 } // namespace
 
 TEST_CASE("starts on both sides of dry friction are carried until they have come together") {
-    auto const f = support::flow_of(support::model_of(
-        {1, 2, 0, 20},
-        [](auto const& t, auto const& x, auto const& p, auto const&) { return slide(t, x, p); }));
+    auto const f = support::flow_of(
+        support::model_of({1, 2, 0, 20}, [](auto const& t, auto const& x, auto const& p,
+                                            auto const&) { return slide(t, x, p); }));
     box const start{between(-0.1, 0.1)}, friction{between(9.8, 10.2), between(0.25, 0.35)};
     auto const motion = enclose(f, start, friction, 0, 0.5);
     REQUIRE(motion.complete());

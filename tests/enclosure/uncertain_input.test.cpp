@@ -27,95 +27,75 @@ using support::admissible_inputs;
 using support::at;
 using support::between;
 using support::draws;
+using support::dynamic_system;
 using support::extended;
 using support::extended_state;
 using support::with_errors;
 
 namespace {
 
-template <class Rate>
-struct uncertain_system {
-    std::string name;
-    support::shape sizes;
-    Rate rate;
-    box initial;
-    box parameters;
-    double horizon;
-    std::vector<sampled_signal> inputs;
-
-    [[nodiscard]] std::shared_ptr<flow const> equations() const {
-        return support::flow_of(support::model_of(sizes, rate), {inputs.begin(), inputs.end()});
-    }
-};
-template <class Rate>
-uncertain_system(char const*, support::shape, Rate, box, box, double, std::vector<sampled_signal>)
-    -> uncertain_system<Rate>;
-
 sampled_signal const held({0, 0.35, 0.8, 1.1, 1.7}, {1, -0.5, 0.7, 0, 0.4}, interpolation::hold);
 sampled_signal const line({0, 0.6, 1.3, 2.2}, {0.3, 1, -0.4, 0.5}, interpolation::linear);
 
-template <class Visit>
-void for_each_uncertain_system(Visit const& visit) {
+void for_each_uncertain_system(support::system_visit const& visit) {
     auto const decay = [](auto const&, auto const& x, auto const& p, auto const& u) {
         return std::vector{u[0] - p[0] * x[0]};
     };
-    visit(uncertain_system{"decay, held",
-                           {1, 1, 1},
-                           decay,
-                           box{between(0.4, 0.6)},
-                           box{between(0.9, 1.1)},
-                           2,
-                           {with_errors(held, {0.1, 0.05, 0.2, 0, 0.1})}});
-    visit(uncertain_system{"decay, linear",
-                           {1, 1, 1},
-                           decay,
-                           box{between(0.4, 0.6)},
-                           box{between(0.9, 1.1)},
-                           2,
-                           {with_errors(line, {0.1, 0, 0.3, 0.1})}});
-    visit(uncertain_system{"oscillator",
-                           {2, 1, 1},
-                           [](auto const&, auto const& x, auto const& p, auto const& u) {
-                               return std::vector{x[1], u[0] - p[0] * x[0] - 0.2 * x[1]};
-                           },
-                           box{between(0.9, 1.1), interval(0.0)},
-                           box{between(8.8, 9.2)},
-                           2,
-                           {with_errors(line, {0.1, 0.1, 0.1, 0.1})}});
-    visit(uncertain_system{
-        "pendulum driven at its pivot",
-        {2, 1, 1},
-        [](auto const&, auto const& x, auto const& p, auto const& u) {
-            using namespace support::real;
-            return std::vector{x[1], u[0] * cos(x[0]) - p[0] * sin(x[0]) - 0.25 * x[1]};
-        },
-        box{between(0.95, 1.05), between(-0.05, 0.05)},
-        box{between(1.9, 2.1)},
-        2,
-        {with_errors(held, {0.05, 0.05, 0.05, 0.05, 0.05})}});
-    visit(uncertain_system{"two inputs",
-                           {1, 1, 2},
-                           [](auto const&, auto const& x, auto const& p, auto const& u) {
-                               using namespace support::real;
-                               return std::vector{p[0] * sin(u[0] * x[0]) + u[1]};
-                           },
-                           box{between(0.4, 0.5)},
-                           box{between(0.9, 1.1)},
-                           2,
-                           {with_errors(line, {0.05, 0.1, 0.02, 0.05}),
-                            with_errors(held, {0.02, 0.03, 0.02, 0.01, 0.02})}});
-    visit(uncertain_system{"kinks in state and input",
-                           {2, 1, 1},
-                           [](auto const&, auto const& x, auto const& p, auto const& u) {
-                               using namespace support::real;
-                               auto const drive =
-                                   max(min(u[0], x[0] - x[0] + 0.6), x[0] - x[0] - 0.4);
-                               return std::vector{x[1], drive - x[0] - p[0] * abs(x[1]) * x[1]};
-                           },
-                           box{between(0.2, 0.21), between(0.19, 0.21)},
-                           box{between(0.49, 0.51)},
-                           1.5,
-                           {with_errors(line, {0.05, 0.05, 0.05, 0.05})}});
+    visit({"decay, held",
+           {1, 1, 1},
+           decay,
+           box{between(0.4, 0.6)},
+           box{between(0.9, 1.1)},
+           2,
+           {with_errors(held, {0.1, 0.05, 0.2, 0, 0.1})}});
+    visit({"decay, linear",
+           {1, 1, 1},
+           decay,
+           box{between(0.4, 0.6)},
+           box{between(0.9, 1.1)},
+           2,
+           {with_errors(line, {0.1, 0, 0.3, 0.1})}});
+    visit({"oscillator",
+           {2, 1, 1},
+           [](auto const&, auto const& x, auto const& p, auto const& u) {
+               return std::vector{x[1], u[0] - p[0] * x[0] - 0.2 * x[1]};
+           },
+           box{between(0.9, 1.1), interval(0.0)},
+           box{between(8.8, 9.2)},
+           2,
+           {with_errors(line, {0.1, 0.1, 0.1, 0.1})}});
+    visit({"pendulum driven at its pivot",
+           {2, 1, 1},
+           [](auto const&, auto const& x, auto const& p, auto const& u) {
+               using namespace support::real;
+               return std::vector{x[1], u[0] * cos(x[0]) - p[0] * sin(x[0]) - 0.25 * x[1]};
+           },
+           box{between(0.95, 1.05), between(-0.05, 0.05)},
+           box{between(1.9, 2.1)},
+           2,
+           {with_errors(held, {0.05, 0.05, 0.05, 0.05, 0.05})}});
+    visit({"two inputs",
+           {1, 1, 2},
+           [](auto const&, auto const& x, auto const& p, auto const& u) {
+               using namespace support::real;
+               return std::vector{p[0] * sin(u[0] * x[0]) + u[1]};
+           },
+           box{between(0.4, 0.5)},
+           box{between(0.9, 1.1)},
+           2,
+           {with_errors(line, {0.05, 0.1, 0.02, 0.05}),
+            with_errors(held, {0.02, 0.03, 0.02, 0.01, 0.02})}});
+    visit({"kinks in state and input",
+           {2, 1, 1},
+           [](auto const&, auto const& x, auto const& p, auto const& u) {
+               using namespace support::real;
+               auto const drive = max(min(u[0], x[0] - x[0] + 0.6), x[0] - x[0] - 0.4);
+               return std::vector{x[1], drive - x[0] - p[0] * abs(x[1]) * x[1]};
+           },
+           box{between(0.2, 0.21), between(0.19, 0.21)},
+           box{between(0.49, 0.51)},
+           1.5,
+           {with_errors(line, {0.05, 0.05, 0.05, 0.05})}});
 }
 
 /// One trajectory that the engines have to contain, at any time.
@@ -124,8 +104,7 @@ struct planted {
     std::function<std::vector<extended_state>(std::vector<double> const&)> states;
 };
 
-template <class System>
-std::vector<planted> plant(System const& s, std::uint64_t seed) {
+std::vector<planted> plant(dynamic_system const& s, std::uint64_t seed) {
     draws d(seed);
     normalised_unknowns const unknowns(s.initial, s.parameters);
     std::vector<planted> result;
@@ -155,10 +134,9 @@ void require_within(box const& all, extended_state const& x) {
     }
 }
 
-template <class System>
-void check_tube(System const& s, enclosure_options const& options,
+void check_tube(dynamic_system const& s, enclosure_options const& options,
                 std::vector<planted> const& all) {
-    auto const f = s.equations();
+    auto const f = s.flow();
     auto const t = integrate<interval>(f, s.initial, s.parameters, 0, s.horizon, options);
     REQUIRE(t.complete());
     std::vector<double> times;
@@ -179,8 +157,8 @@ void check_tube(System const& s, enclosure_options const& options,
 }
 
 /// Polynomial sets, which know where in the boxes a trajectory began.
-template <class Run, class System>
-void check_sets(Run& run, System const& s, std::vector<planted> const& all) {
+template <class Run>
+void check_sets(Run& run, dynamic_system const& s, std::vector<planted> const& all) {
     std::vector<double> times;
     std::vector<box> swept;
     std::vector<parametric_set<>> sets;
@@ -220,7 +198,7 @@ TEST_CASE("every engine contains what inputs within their bounds cause") {
         bool const rough = s.name.find("kink") == 0;
         SECTION(s.name + ": doubletons by Taylor series") { check_tube(s, patient(), all); }
         SECTION(s.name + ": Taylor models") {
-            auto const f = s.equations();
+            auto const f = s.flow();
             support::sized_flow<3, 3> own(*f, patient());
             own.begin(0, s.initial, s.parameters);
             check_sets(own, s, all);
@@ -232,7 +210,7 @@ TEST_CASE("every engine contains what inputs within their bounds cause") {
                     o.tolerance = 1e-7;
                     o.method = m;
                     check_tube(s, o, all);
-                    auto const f = s.equations();
+                    auto const f = s.flow();
                     support::sized_runge_kutta<3, 3> run(*f, o);
                     run.begin(0, s.initial, s.parameters);
                     check_sets(run, s, all);
@@ -245,10 +223,9 @@ TEST_CASE("every engine contains what inputs within their bounds cause") {
 namespace {
 
 /// Boxes for the states at `end` by every engine, with their names.
-template <class System>
-std::vector<std::pair<std::string, box>> ends(System const& s) {
+std::vector<std::pair<std::string, box>> ends(dynamic_system const& s) {
     std::vector<std::pair<std::string, box>> result;
-    auto const f = s.equations();
+    auto const f = s.flow();
     auto o = patient();
     auto const add = [&](std::string const& name) {
         auto const t = integrate<interval>(f, s.initial, s.parameters, 0, s.horizon, o);
@@ -309,8 +286,8 @@ TEST_CASE("the reachable set of x' = u - x is met within a hundredth") {
         with_errors(held, {0.1, 0.05, 0.2, 0, 0.1}), constant_error(line, 0.1),
         with_errors(line, {0.1, 0, 0.3, 0.1})};
     for (std::size_t k = 0; k < inputs.size(); ++k) {
-        uncertain_system const s{"decay", {1, 0, 1}, decay,      box{interval(0.5)},
-                                 box{},   2,         {inputs[k]}};
+        dynamic_system const s{"decay", {1, 0, 1}, decay,      box{interval(0.5)},
+                               box{},   2,         {inputs[k]}};
         double const exact = 2 * reach_of_decay(inputs[k], 2);
         for (auto const& [name, x] : ends(s)) {
             CAPTURE(k, name, exact, width(x[0]));

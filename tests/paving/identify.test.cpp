@@ -3,6 +3,7 @@
 #include <sivid/paving/identify.hpp>
 
 #include "support/catch.hpp"
+#include "support/power_series.hpp"
 #include "support/problems.hpp"
 #include "support/some_start.hpp"
 

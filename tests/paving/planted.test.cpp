@@ -3,8 +3,9 @@
 // it. One seed is one problem; SIVID_PLANTED=first:count selects others than the default ones.
 #include <sivid/paving/identify.hpp>
 
-#include "planted_problems.hpp"
 #include "support/catch.hpp"
+#include "support/planted_problems.hpp"
+#include "support/power_series.hpp"
 #include "support/some_start.hpp"
 
 #include <algorithm>

@@ -52,14 +52,21 @@ struct sivid::interval_traits<support::coarse> : sivid::traits_by_bounds<support
     }
 };
 
-#ifdef SIVID_HAS_MPFI
+#if defined(SIVID_HAS_MPFI) && defined(SIVID_LONG_TESTS)
 #define SIVID_MP_TYPES , sivid::mp_interval, sivid::proven_interval
 #else
 #define SIVID_MP_TYPES
 #endif
+#ifdef SIVID_LONG_TESTS
+#define SIVID_OTHER_TYPES , middle_radius
+#define SIVID_OTHER_PACKS , sivid::pack<1>, sivid::pack<8>
+#else // each is another integrator to compile
+#define SIVID_OTHER_TYPES
+#define SIVID_OTHER_PACKS
+#endif
 /// All of one lane; and packs besides.
 #define SIVID_SINGLE_TYPES                                                                         \
-    sivid::interval, support::boost_type, middle_radius, support::coarse SIVID_MP_TYPES
-#define SIVID_INTERVAL_TYPES SIVID_SINGLE_TYPES, sivid::pack<1>, sivid::pack<3>, sivid::pack<8>
+    sivid::interval, support::boost_type, support::coarse SIVID_OTHER_TYPES SIVID_MP_TYPES
+#define SIVID_INTERVAL_TYPES SIVID_SINGLE_TYPES, sivid::pack<3> SIVID_OTHER_PACKS
 
 #endif

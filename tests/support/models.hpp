@@ -4,6 +4,8 @@
 #ifndef SIVID_TESTS_SUPPORT_MODELS_HPP
 #define SIVID_TESTS_SUPPORT_MODELS_HPP
 
+#include "support/rates.hpp"
+
 #include <sivid/enclosure/flow.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/space/box.hpp>
@@ -49,46 +51,12 @@ inline std::vector<std::string> all_constants(std::size_t n) {
     return names;
 }
 
-/// Records rate(t, x, p, u) and observe(t, x, p, u), both from vectors to a vector.
-template <class Rate, class Observe>
-sivid::recorded_model model_of(shape const& s, Rate const& rate, Observe const& observe) {
-    using sivid::expression;
-    using sivid::operation;
-    sivid::recorded_model m;
-    m.about.name = "test";
-    auto& g = m.g;
-    auto const leaves = [&g](operation op, std::size_t n) {
-        std::vector<expression> out;
-        for (std::size_t i = 0; i < n; ++i) out.emplace_back(g, g.leaf(op, i));
-        return out;
-    };
-    auto const x = leaves(operation::state, s.states);
-    auto const p = leaves(operation::constant, s.constants);
-    auto const u = leaves(operation::input, s.inputs);
-    expression const t(g, g.leaf(operation::time, 0));
-    for (std::size_t i = 0; i < s.states; ++i) {
-        m.about.states.push_back({numbered('x', i), "1", s.limit});
-    }
-    for (std::size_t j = 0; j < s.constants; ++j) {
-        m.about.constants.push_back({numbered('p', j), "1", sivid::literal{interval(1.0), 1.0}});
-    }
-    for (std::size_t k = 0; k < s.inputs; ++k) {
-        m.about.inputs.push_back({numbered('u', k), "1"});
-    }
-    for (expression const& e : rate(t, x, p, u)) m.rate.push_back(e.in(g));
-    for (expression const& e : observe(t, x, p, u)) m.observe.push_back(e.in(g));
-    for (std::size_t y = 0; y < m.observe.size(); ++y) {
-        m.about.channels.push_back({numbered('y', y), "1"});
-    }
-    return m;
-}
+using recorded_rate = rate_on<sivid::expression>;
 
-/// Every state is a channel.
-template <class Rate>
-sivid::recorded_model model_of(shape const& s, Rate const& rate) {
-    return model_of(s, rate,
-                    [](auto const&, auto const& x, auto const&, auto const&) { return x; });
-}
+/// Records rate(t, x, p, u) and observe(t, x, p, u), both from vectors to a vector; without
+/// `observe` every state is a channel.
+sivid::recorded_model model_of(shape const& s, recorded_rate const& rate,
+                               recorded_rate const& observe = {});
 
 /// The flow with every constant unknown.
 inline std::shared_ptr<sivid::flow const> flow_of(sivid::recorded_model const& m,

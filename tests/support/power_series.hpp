@@ -5,6 +5,8 @@
 #ifndef SIVID_TESTS_SUPPORT_POWER_SERIES_HPP
 #define SIVID_TESTS_SUPPORT_POWER_SERIES_HPP
 
+#include "support/real_functions.hpp"
+
 #include <sivid/number/interval.hpp>
 
 #include <boost/math/constants/constants.hpp>
@@ -12,7 +14,6 @@
 
 #include <array>
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <vector>
 
@@ -27,46 +28,8 @@ inline bool encloses(sivid::interval const& e, mp const& x, double slack = 0) {
     return mp(e.lower()) <= x + room && x - room <= mp(e.upper());
 }
 
-/// The functions that models use and that builtin numbers lack.
-namespace real {
-template <class T>
-concept number = std::floating_point<T> || std::same_as<T, mp>;
-using std::abs;
-using std::atan;
-using std::cos;
-using std::exp;
-using std::log;
-using std::sin;
-using std::sqrt;
-using std::tan;
-using std::tanh;
-template <number T>
-T sqr(T const& a) {
-    return a * a;
-}
-template <number T>
-T pown(T const& a, int n) {
-    T y = 1;
-    for (int i = 0; i < (n < 0 ? -n : n); ++i) y *= a;
-    return n < 0 ? T(1) / y : y;
-}
-template <number T>
-T sign(T const& a) {
-    return a > 0 ? T(1) : a < 0 ? T(-1) : T(0);
-}
-template <number T>
-T min(T const& a, T const& b) {
-    return b < a ? b : a;
-}
-template <number T>
-T max(T const& a, T const& b) {
-    return a < b ? b : a;
-}
-template <number T>
-T saturate(T const& a, T const& lo, T const& hi) {
-    return min(max(a, lo), hi);
-}
-} // namespace real
+template <>
+inline constexpr bool is_real<mp> = true;
 
 /// \f$ \sum_{k \le K} c_k \tau^k \f$
 template <std::size_t K>

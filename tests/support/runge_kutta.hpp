@@ -4,6 +4,7 @@
 #define SIVID_TESTS_SUPPORT_RUNGE_KUTTA_HPP
 
 #include "support/power_series.hpp"
+#include "support/rates.hpp"
 
 #include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
 #include <sivid/measurement/signal.hpp>
@@ -26,10 +27,11 @@ inline std::vector<sivid::tableau> implicit_methods() {
 /// The stages for a step h from x at t, by fixed-point iteration: exact after as many rounds as
 /// there are stages where the method is explicit, else for h |A| |f'| well below 1.
 /// @param start  a time of the piece of the sampled inputs
-template <class System>
-std::vector<std::vector<mp>> exact_stages(System const& system, sivid::tableau const& m,
-                                          mp const& t, std::vector<mp> const& x,
-                                          std::vector<mp> const& p, mp const& h, double start) {
+inline std::vector<std::vector<mp>> exact_stages(rate_on<mp> const& rate,
+                                                 std::vector<sivid::sampled_signal> const& inputs,
+                                                 sivid::tableau const& m, mp const& t,
+                                                 std::vector<mp> const& x, std::vector<mp> const& p,
+                                                 mp const& h, double start) {
     std::vector<std::vector<mp>> k(m.stages(), std::vector<mp>(x.size(), mp(0)));
     for (std::size_t round = 0; round < 2000; ++round) {
         mp change = 0;
@@ -42,7 +44,7 @@ std::vector<std::vector<mp>> exact_stages(System const& system, sivid::tableau c
             }
             mp const time = t + exact(m.c[i]) * h;
             std::vector<mp> u;
-            for (auto const& s : system.inputs) {
+            for (auto const& s : inputs) {
                 auto const piece = s.piece(start);
                 mp value = s.values()[piece];
                 if (s.kind() == sivid::interpolation::linear) {
@@ -51,7 +53,7 @@ std::vector<std::vector<mp>> exact_stages(System const& system, sivid::tableau c
                 }
                 u.push_back(value);
             }
-            std::vector<mp> const next = system.rate(time, at, p, u);
+            std::vector<mp> const next = rate(time, at, p, u);
             for (std::size_t s = 0; s < x.size(); ++s) {
                 change = std::max<mp>(change, abs(next[s] - k[i][s]));
             }
@@ -63,11 +65,11 @@ std::vector<std::vector<mp>> exact_stages(System const& system, sivid::tableau c
 }
 
 /// The formula itself.
-template <class System>
-std::vector<mp> exact_step(System const& system, sivid::tableau const& m, mp const& t,
-                           std::vector<mp> const& x, std::vector<mp> const& p, mp const& h,
-                           double start) {
-    auto const k = exact_stages(system, m, t, x, p, h, start);
+inline std::vector<mp> exact_step(rate_on<mp> const& rate,
+                                  std::vector<sivid::sampled_signal> const& inputs,
+                                  sivid::tableau const& m, mp const& t, std::vector<mp> const& x,
+                                  std::vector<mp> const& p, mp const& h, double start) {
+    auto const k = exact_stages(rate, inputs, m, t, x, p, h, start);
     auto result = x;
     for (std::size_t i = 0; i < m.stages(); ++i) {
         for (std::size_t s = 0; s < x.size(); ++s) result[s] += h * exact(m.b[i]) * k[i][s];

@@ -72,9 +72,8 @@ inline admissible_inputs draw_inputs(draws& d, std::size_t inputs, double end) {
 
 /// States at the `times` under one true input.
 /// @param inputs  as recorded, with their error bounds
-template <class Rate>
-std::vector<extended_state>
-states_under(Rate const& rate, extended_state x, extended_state const& p,
+inline std::vector<extended_state>
+states_under(extended_rate const& rate, extended_state x, extended_state const& p,
              std::vector<double> const& times, std::vector<sivid::sampled_signal> const& inputs,
              admissible_inputs const& chosen, extended tolerance = 1e-17L) {
     auto const m = inputs.size();
@@ -102,10 +101,10 @@ states_under(Rate const& rate, extended_state x, extended_state const& p,
 
 /// Bang-bang inputs that push state i at `end` upward (or downward) about as far as possible: the
 /// signs of what each of `parts` equal parts does alone.
-template <class Rate>
-admissible_inputs worst_inputs(Rate const& rate, extended_state const& x, extended_state const& p,
-                               double end, std::vector<sivid::sampled_signal> const& inputs,
-                               std::size_t i, bool upward, std::size_t parts = 12) {
+inline admissible_inputs worst_inputs(extended_rate const& rate, extended_state const& x,
+                                      extended_state const& p, double end,
+                                      std::vector<sivid::sampled_signal> const& inputs,
+                                      std::size_t i, bool upward, std::size_t parts = 12) {
     auto const m = inputs.size();
     std::vector<std::vector<double>> sigma(m, std::vector<double>(parts, 0.0));
     auto const at_end = [&](std::vector<std::vector<double>> const& s) {

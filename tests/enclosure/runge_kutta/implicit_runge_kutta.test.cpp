@@ -126,9 +126,11 @@ TEST_CASE("value and coefficients of the formula are the exact ones") {
             auto const k = rk.stages().prove(0, points(x), interval(h));
             REQUIRE(k);
             auto const value = rk.value(points(x), interval(h), *k);
-            auto const exact = exact_step(system, method, mp(0), lift(x), lift(p), mp(h), 0);
+            auto const exact =
+                exact_step(system.rate, system.inputs, method, mp(0), lift(x), lift(p), mp(h), 0);
             double const e = 0x1p-30;
-            auto const moved = exact_step(system, method, mp(0), lift(x), lift(p), mp(h) + e, 0);
+            auto const moved = exact_step(system.rate, system.inputs, method, mp(0), lift(x),
+                                          lift(p), mp(h) + e, 0);
             for (std::size_t i = 0; i < x.size(); ++i) {
                 CAPTURE(system.name, method.name, i);
                 CHECK(encloses(value[i], exact[i], 1e-40));
@@ -214,14 +216,8 @@ TEST_CASE("the coefficient over a whole step holds those at every length of it")
 TEST_CASE("the local error of a coarse step contains the true defect") {
     for (auto const& problem : closed_forms()) {
         auto const& f = *problem.equations;
-        struct {
-            std::function<std::vector<mp>(std::vector<mp> const&)> f;
-            std::vector<sampled_signal> inputs;
-            std::vector<mp> rate(mp const&, std::vector<mp> const& x, std::vector<mp> const&,
-                                 std::vector<mp> const&) const {
-                return f(x);
-            }
-        } const system{problem.rate, {}};
+        support::rate_on<mp> const rate = [&](auto const&, auto const& x, auto const&,
+                                              auto const&) { return problem.rate(x); };
         for (auto const& method : all_methods()) {
             for (double const h : {problem.step, problem.step / 4}) {
                 CAPTURE(problem.name, method.name, h);
@@ -235,7 +231,7 @@ TEST_CASE("the local error of a coarse step contains the true defect") {
                 REQUIRE(q);
                 auto const error = local_error(f, method, tube, box{}, *q, h)[0];
                 auto const step =
-                    exact_step(system, method, mp(0), {mp(problem.initial)}, {}, mp(h), 0);
+                    exact_step(rate, {}, method, mp(0), {mp(problem.initial)}, {}, mp(h), 0);
                 mp const defect = end - step[0];
                 CHECK(encloses(error, defect, 1e-40));
                 // And no more than a few times the remainder of a Taylor series of that order.
@@ -385,7 +381,8 @@ TEST_CASE("the derivative of the step map by implicit differentiation") {
                         auto moved = x0;
                         auto parameters = p0;
                         (c < n ? moved[c] : parameters[c - n]) += by;
-                        return exact_step(system, method, mp(0), moved, parameters, mp(h), 0);
+                        return exact_step(system.rate, system.inputs, method, mp(0), moved,
+                                          parameters, mp(h), 0);
                     };
                     auto const above = at(e);
                     auto const below = at(-e);

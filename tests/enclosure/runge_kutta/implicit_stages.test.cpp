@@ -53,8 +53,8 @@ TEST_CASE("proven stages hold the exact ones, for points, boxes and ranges of th
                 ++proofs;
                 for (int member = 0; member < 2; ++member) {
                     mp const h = d.in(step);
-                    auto const exact =
-                        exact_stages(system, method, t, lift(d.in(x)), lift(d.in(p)), h, t);
+                    auto const exact = exact_stages(system.rate, system.inputs, method, t,
+                                                    lift(d.in(x)), lift(d.in(p)), h, t);
                     for (std::size_t i = 0; i < method.stages(); ++i) {
                         for (std::size_t s = 0; s < x.size(); ++s) {
                             CAPTURE(system.name, method.name, kind, i, s);
@@ -89,7 +89,8 @@ TEST_CASE("the series of the stages is that of the exact ones") {
             auto const c = stages.expand(0, sides(point_box(x)), interval(h), *k, order);
             REQUIRE(c);
             double const e = 0x1p-30;
-            auto const moved = exact_stages(system, method, 0, lift(x), lift(p), mp(h) + e, 0);
+            auto const moved =
+                exact_stages(system.rate, system.inputs, method, 0, lift(x), lift(p), mp(h) + e, 0);
             for (std::size_t i = 0; i < k->value.size(); ++i) {
                 mp lo = 0;
                 mp hi = 0;

@@ -52,10 +52,12 @@ TEST_CASE("coefficient 0 is the formula, the next ones are its Taylor coefficien
             double const h = 0.01;
             bool undefined = false;
             auto const value = rk.coefficient(t, point_box(x0), interval(h), 0, undefined);
-            auto const exact = support::exact_step(system, method, t, x, p, h, t);
+            auto const exact =
+                support::exact_step(system.rate, system.inputs, method, t, x, p, h, t);
             // phi(h + e) from the expansion about h, with e small
             double const e = 0x1p-30;
-            auto const moved = support::exact_step(system, method, t, x, p, mp(h) + mp(e), t);
+            auto const moved =
+                support::exact_step(system.rate, system.inputs, method, t, x, p, mp(h) + mp(e), t);
             auto const top = method.order + 1;
             std::vector<std::vector<interval>> c;
             bool kinked = false;

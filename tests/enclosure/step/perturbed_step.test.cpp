@@ -4,7 +4,7 @@
 
 #include "support/catch.hpp"
 #include "support/models.hpp"
-#include "support/power_series.hpp"
+#include "support/real_functions.hpp"
 #include "support/random.hpp"
 
 #include <algorithm>

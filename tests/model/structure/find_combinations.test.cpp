@@ -3,7 +3,7 @@
 
 #include "support/catch.hpp"
 #include "support/models.hpp"
-#include "support/power_series.hpp"
+#include "support/real_functions.hpp"
 #include "support/random.hpp"
 
 #include "../../../examples/hovercraft/model.hpp"

@@ -4,9 +4,9 @@
 #include <sivid/paving/identify.hpp>
 
 #include "paving/plain_problem.hpp"
-#include "paving/planted_problems.hpp"
 #include "support/catch.hpp"
 #include "support/pendulum.hpp"
+#include "support/planted_problems.hpp"
 #include "support/random.hpp"
 
 #include <cmath>

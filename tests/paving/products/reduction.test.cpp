@@ -3,6 +3,7 @@
 #include <sivid/paving/products/reduction.hpp>
 
 #include "support/catch.hpp"
+#include "support/power_series.hpp"
 #include "support/problems.hpp"
 
 #include <sivid/enclosure/tube.hpp>

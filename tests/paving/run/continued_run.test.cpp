@@ -2,6 +2,7 @@
 #include <sivid/paving/run/continued_run.hpp>
 
 #include "support/catch.hpp"
+#include "support/power_series.hpp"
 #include "support/problems.hpp"
 
 #include <sivid/paving/response/local_response.hpp>

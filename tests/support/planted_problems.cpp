@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Random identification problems with a planted truth, by seed: models with products of parameters,
-// kinks, dry friction and sampled inputs; some are the classic ones, some are drawn term by term.
-#ifndef SIVID_TESTS_PAVING_PLANTED_PROBLEMS_HPP
-#define SIVID_TESTS_PAVING_PLANTED_PROBLEMS_HPP
+#include "support/planted_problems.hpp"
 
-#include "support/problems.hpp"
-
-#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
+#include "support/real_functions.hpp"
 
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace planted {
+
+namespace {
 
 using namespace support;
 
@@ -139,10 +137,10 @@ struct observed {
 
 /// States across kinks of the rate: Fehlberg's estimate is 0 for rates that are constant on both
 /// sides of a kink, so Dormand and Prince's is used, in steps that no kink outgrows.
-template <class Rate>
-std::vector<extended_state>
-kinked_states(Rate const& rate, extended_state x, extended_state const& p, double from,
-              std::vector<double> const& times, std::vector<sivid::sampled_signal> const& inputs) {
+std::vector<extended_state> kinked_states(extended_rate const& rate, extended_state x,
+                                          extended_state const& p, double from,
+                                          std::vector<double> const& times,
+                                          std::vector<sivid::sampled_signal> const& inputs) {
     return reference_states<dormand_prince>(rate, std::move(x), p, from, times, inputs, 1e-14L,
                                             1.0 / 64);
 }
@@ -157,10 +155,14 @@ struct ground {
     bool kinked = false; ///< the rate is not smooth
 };
 
+using reference_solver = std::function<std::vector<extended_state>(
+    extended_state const&, extended_state const&, double, std::vector<double> const&,
+    std::vector<sivid::sampled_signal> const&)>;
+
 /// Spreads starts, times, inputs and bounds at random over a model; outputs beyond 100 are refused.
-template <class Rate, class Reference>
 std::optional<planted_problem> plant_on(draws& d, ground const& g, observed const& look,
-                                        Rate const& rate, Reference const& reference) {
+                                        recorded_rate const& rate,
+                                        reference_solver const& reference) {
     planted_problem result;
     auto& problem = result.problem;
     problem.model = model_of(g.size, rate, look);
@@ -256,19 +258,19 @@ std::optional<planted_problem> plant_on(draws& d, ground const& g, observed cons
 }
 
 /// The same with the reference that integrates the rate.
-template <class Rate>
 std::optional<planted_problem> plant_on(draws& d, ground const& g, observed const& look,
-                                        Rate const& rate) {
-    return plant_on(d, g, look, rate,
-                    [rate, kinked = g.kinked](extended_state const& x0, extended_state const& p,
-                                              double from, std::vector<double> const& times,
-                                              std::vector<sivid::sampled_signal> const& inputs) {
+                                        planted_rate const& all) {
+    return plant_on(d, g, look, all.on<sivid::expression>(),
+                    [rate = all.on<extended>(),
+                     kinked = g.kinked](extended_state const& x0, extended_state const& p,
+                                        double from, std::vector<double> const& times,
+                                        std::vector<sivid::sampled_signal> const& inputs) {
                         if (kinked) return kinked_states(rate, x0, p, from, times, inputs);
                         return reference_states(rate, x0, p, from, times, inputs, 1e-15L);
                     });
 }
 
-inline std::optional<planted_problem> plant_random(draws& d) {
+std::optional<planted_problem> plant_random(draws& d) {
     ground g;
     g.size = {1 + d.below(3), 1 + d.below(4), d.below(2), 20};
     random_rate rate;
@@ -304,12 +306,12 @@ inline std::optional<planted_problem> plant_random(draws& d) {
     return plant_on(d, g, look, rate);
 }
 
-inline constexpr std::size_t classics = 14;
+constexpr std::size_t classics = 14;
 
 /// One of the classic models.
-inline std::optional<planted_problem> plant_classic(draws& d, std::size_t which) {
+std::optional<planted_problem> plant_classic(draws& d, std::size_t which) {
     observed look;
-    auto const with = [&](ground const& g, auto const& rate) {
+    auto const with = [&](ground const& g, planted_rate const& rate) {
         if (d.below(5) == 0) look.scaled_by = d.below(g.size.constants);
         return plant_on(d, g, look, rate);
     };
@@ -417,8 +419,9 @@ inline std::optional<planted_problem> plant_classic(draws& d, std::size_t which)
     }
 }
 
-/// The problem of a seed: every other one drawn term by term.
-inline planted_problem plant_by_seed(draws& d) {
+} // namespace
+
+planted_problem plant_by_seed(draws& d) {
     while (true) {
         bool const classic = d.coin();
         auto planted = classic ? plant_classic(d, d.below(classics)) : plant_random(d);
@@ -427,5 +430,3 @@ inline planted_problem plant_by_seed(draws& d) {
 }
 
 } // namespace planted
-
-#endif
