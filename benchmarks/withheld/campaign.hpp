@@ -29,19 +29,23 @@ enum class family {
     bounds,
     strong,
     onset,
-    three
+    three,
+    backlash,
+    friction
 };
-inline constexpr std::array<std::string_view, 16> family_names{
-    "single", "weak",  "wide",       "pose",        "pair",   "outliers", "outside", "none",
-    "alias",  "askew", "instrument", "experiments", "bounds", "strong",   "onset",   "three"};
+inline constexpr std::array<std::string_view, 18> family_names{
+    "single",  "weak",   "wide",  "pose",  "pair",       "outliers",
+    "outside", "none",   "alias", "askew", "instrument", "experiments",
+    "bounds",  "strong", "onset", "three", "backlash",   "friction"};
 
 std::optional<family> family_named(std::string_view name);
 /// Names between commas.
 /// @throws std::invalid_argument for an unknown one
 std::vector<family> families_named(std::string_view list);
 
-/// The family of campaign `index`. Of all families, every run of 22 campaigns holds each at least
-/// once, in an order that the seed decides; of those in `only`, every run holds each once.
+/// The family of campaign `index`. Every run of 22 campaigns holds each family at least once but
+/// the last two, `backlash` and `friction`, in an order that the seed decides; of those in `only`,
+/// every run holds each once.
 family family_of(std::uint64_t seed, std::size_t index, std::vector<family> const& only = {});
 
 struct unknown_constant {

@@ -36,7 +36,11 @@ std::vector<effect> const& catalogue() {
         {"dry_yaw_friction", {{"k", &v::dry_yaw_friction, 0, 0.15, 0.015, 0.05, false}}},
         {"friction_anisotropy", {{"k", &v::friction_anisotropy, -0.9, 2, 0.3, 0.8, true}}},
         {"position_latency", {{"tau", &v::position_latency, 0, 0.5, 0.06, 0.2, false}}},
-        {"thrust_loss_with_speed", {{"k", &v::thrust_loss, 0, 0.3, 0.03, 0.1, false}}}};
+        {"thrust_loss_with_speed", {{"k", &v::thrust_loss, 0, 0.3, 0.03, 0.1, false}}},
+        {"rudder_backlash", {{"b", &v::rudder_play, 0, 0.15, 0.03, 0.1, false}}},
+        {"stribeck",
+         {{"k", &v::stribeck_rise, 0, 2, 0.6, 1.5, false},
+          {"vs", &v::stribeck_speed, 0.2, 1, 0.3, 0.8, false}}}};
     return all;
 }
 

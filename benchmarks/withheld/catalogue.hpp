@@ -27,6 +27,9 @@ struct effect {
 };
 
 std::vector<effect> const& catalogue();
+/// How many of them, from the first on, the older families are drawn from: those that came later
+/// have families of their own, so that a seed keeps its campaigns.
+inline constexpr std::size_t first_effects = 21;
 /// Null for an unknown name. "NAME_wider" is NAME over a prior four times as wide: ends at 0, or
 /// where the effect vanishes, stay. "NAME@S4+S5" is NAME in these scenarios only,
 /// "NAME@S4>=1.5+S5" one that begins in S4 at 1.5 s.

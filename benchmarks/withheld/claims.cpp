@@ -85,11 +85,12 @@ double sensor_offset(true_motion const& m, std::size_t k) {
 /// What acts beside the recorded input, on the average.
 double input_offset(true_motion const& m, bool rudder) {
     auto const& w = m.truth;
+    auto const driven = behind_play(w.rudder, w.e.rudder_play);
     return m.mean([&](std::size_t n) {
         double const t = m.t[n], seen = std::max(t - w.e.input_delay, 0.0);
         bool const begun = t >= w.onset;
         world const neutral = m.base;
-        command const now{w.motor.at(t), behind_deadband(w.rudder.at(begun ? seen : t),
+        command const now{w.motor.at(t), behind_deadband(begun ? driven.at(seen) : w.rudder.at(t),
                                                          begun ? w.e.rudder_deadband : 0)};
         auto const acts = effective(begun ? w : neutral, t, now, m.states[n]);
         auto const told = m.recorded(n);

@@ -54,6 +54,33 @@ double behind_deadband(double delta, double band) {
     return 0;
 }
 
+polyline behind_play(polyline const& recorded, double half_width) {
+    if (half_width <= 0) return recorded;
+    double t = 0, command = recorded.at(0);
+    double rest = command; // where the end that is driven stands
+    polyline driven{{t}, {rest}};
+    for (std::size_t i = 0; i < recorded.t.size(); ++i) {
+        double const next_t = recorded.t[i], next = recorded.value[i];
+        if (next_t <= t) continue;
+        // The side of the gap that the command would reach, going this way.
+        double const side = rest + (next > command ? half_width : -half_width);
+        bool const pushes = next > command ? next > side : next < side;
+        if (pushes) {
+            double const share = (side - command) / (next - command);
+            if (share > 0) {
+                driven.t.push_back(t + share * (next_t - t));
+                driven.value.push_back(rest);
+            }
+            rest += next - side;
+        }
+        driven.t.push_back(next_t);
+        driven.value.push_back(rest);
+        t = next_t;
+        command = next;
+    }
+    return driven;
+}
+
 namespace {
 
 double gust_force(std::vector<gust_pulse> const& gusts, double t) {
@@ -111,15 +138,16 @@ state derivative(world const& w, double t, command const& now, state const& s, s
     double const air_V = std::sqrt(air_u * air_u + air_v * air_v + c.eps * c.eps);
     double const pressure = 0.5 * c.rho * c.Cd;
     double friction = c.Ff;
-    if (f.stribeck_rise > 0)
+    if (e.stribeck_rise > 0)
         friction *=
-            1 + f.stribeck_rise * std::exp(-(V / f.stribeck_speed) * (V / f.stribeck_speed));
+            1 + e.stribeck_rise * std::exp(-(V / e.stribeck_speed) * (V / e.stribeck_speed));
     double const lift = c.CL * thrust * delta / (4 * c.A);
 
     double X = thrust - friction * u / V - pressure * c.Su * air_V * air_u - c.D11 * u -
                e.linear_surge_damping * u;
     double Y = lift * c.Sv - friction * (1 + e.friction_anisotropy) * v / V -
-               pressure * c.Sv * air_V * air_v - c.D22 * v + gust_force(w.gusts, t);
+               pressure * c.Sv * air_V * air_v - c.D22 * v + gust_force(w.gusts, t) +
+               f.swell_force * std::sin(f.swell_frequency * t);
     double const N = -c.L * lift * c.Sg - c.D33 * r + thrust * e.thrust_offset -
                      e.quadratic_yaw_damping * std::abs(r) * r -
                      e.dry_yaw_friction * r / std::sqrt(r * r + 0.01 * 0.01);
@@ -179,8 +207,8 @@ void begin_effects_at(world& w, double onset) {
     w.onset = 0;
     if (!(onset > 0)) return;
     auto const& e = w.e;
-    bool const memory =
-        e.rudder_lag > 0 || e.input_delay > 0 || e.motor_lag > 0 || e.position_latency > 0;
+    bool const memory = e.rudder_lag > 0 || e.input_delay > 0 || e.motor_lag > 0 ||
+                        e.position_latency > 0 || e.rudder_play > 0;
     if (std::isinf(onset))
         w.e = {};
     else if (memory)

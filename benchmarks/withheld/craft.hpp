@@ -33,6 +33,8 @@ struct effect_values {
     double rudder_limit = std::numeric_limits<double>::infinity();
     double rudder_deadband = 0, position_scale = 0, motor_lag = 0, dry_yaw_friction = 0;
     double friction_anisotropy = 0, position_latency = 0, thrust_loss = 0;
+    double rudder_play = 0;                       // half of the gap
+    double stribeck_rise = 0, stribeck_speed = 1; // more dry friction at low speed
 };
 
 /// A lateral push of the shape sin^2, smooth at both ends.
@@ -44,7 +46,7 @@ struct gust_pulse {
 struct foreign_values {
     double tether_stiffness = 0, tether_slack = 0; // N/m, m: pulls back to the start when taut
     double servo_frequency = 0, servo_damping = 0; // rad/s, 1: second order in place of the lag
-    double stribeck_rise = 0, stribeck_speed = 1;  // more dry friction at low speed
+    double swell_force = 0, swell_frequency = 1;   // N, rad/s: a lateral force that swings
 };
 
 /// u, v, r, x, y, psi.
@@ -90,13 +92,17 @@ void begin_effects_at(world& w, double onset);
 inline constexpr std::size_t state_size = 9;
 using state = std::array<double, state_size>;
 
-/// The commands at one time: W as recorded, delta behind delay and dead band.
+/// The commands at one time: W as recorded, delta behind play, delay and dead band.
 struct command {
     double motor = 0, rudder = 0;
 };
 
 /// delta behind a dead band.
 double behind_deadband(double delta, double band);
+
+/// What follows a recording behind a gap of twice half_width: it stands at the recording's value at
+/// time 0 and moves only where that pushes it. Exact between the samples, too.
+polyline behind_play(polyline const& recorded, double half_width);
 
 state derivative(world const& w, double t, command const& now, state const& s, state const& start);
 

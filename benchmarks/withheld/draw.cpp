@@ -116,10 +116,10 @@ std::string draw_foreign(std::size_t which, random_source& random, campaign& c) 
         c.effects = {"servo"};
         return text("servo", f.servo_frequency, f.servo_damping);
     default:
-        f.stribeck_rise = rounded(random.uniform(0.6, 1.5));
-        f.stribeck_speed = rounded(random.uniform(0.3, 0.8));
-        c.effects = {"stribeck"};
-        return text("stribeck", f.stribeck_rise, f.stribeck_speed);
+        f.swell_force = rounded(random.uniform(0.3, 0.9));
+        f.swell_frequency = rounded(random.uniform(1.5, 4));
+        c.effects = {"swell"};
+        return text("swell", f.swell_force, f.swell_frequency);
     }
 }
 
@@ -164,9 +164,13 @@ void draw_excess(effect const& which, random_source& random, effect_values& e) {
     }
 }
 
+std::size_t index_of(std::string_view name) {
+    return static_cast<std::size_t>(effect_named(name) - catalogue().data());
+}
+
 bool has_memory(effect const& e) {
     return e.name == "rudder_lag" || e.name == "input_delay" || e.name == "motor_lag" ||
-           e.name == "position_latency";
+           e.name == "position_latency" || e.name == "rudder_backlash";
 }
 
 /// With poses only, a bias of the gyro leaves no trace. What begins later has no memory.
@@ -231,20 +235,22 @@ void draw_effects(std::uint64_t seed, std::size_t n, double size, random_source&
                                  : count > 1            ? random.uniform(0.6, 1)
                                                         : 1.0);
     c.effects_text.clear();
-    std::size_t which = dealt(deck, n, all.size());
+    std::size_t which = dealt(deck, n, first_effects);
     // Half of the campaigns with an unseen rudder leave the equations as they are.
     if (c.kind == family::alias && n % 4 != 0) {
         std::array<std::string_view, 4> const of_sensors{"position_scale", "gyro_bias",
                                                          "position_latency", "heading_bias"};
         auto const name = of_sensors[dealt(deck, n / 4 * 2 + n % 4 - 1, of_sensors.size())];
-        which = static_cast<std::size_t>(effect_named(name) - all.data());
+        which = index_of(name);
     } else if (c.kind == family::alias) {
-        which = dealt(deck, n / 4, all.size());
+        which = dealt(deck, n / 4, first_effects);
     }
+    if (c.kind == family::backlash) which = index_of("rudder_backlash");
+    if (c.kind == family::friction) which = index_of("stribeck");
     while (c.effects.size() < count) {
         while (!possible(all[which], c.kind) ||
                std::find(c.effects.begin(), c.effects.end(), all[which].name) != c.effects.end())
-            which = random.below(all.size());
+            which = random.below(first_effects);
         if (c.kind == family::strong)
             draw_excess(all[which], random, c.true_effects);
         else

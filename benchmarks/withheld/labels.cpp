@@ -161,9 +161,9 @@ world world_of(label const& l, constants const& fixed) {
         } else if (name == "servo") {
             w.f.servo_frequency = values.at(0);
             w.f.servo_damping = values.at(1);
-        } else if (name == "stribeck") {
-            w.f.stribeck_rise = values.at(0);
-            w.f.stribeck_speed = values.at(1);
+        } else if (name == "swell") {
+            w.f.swell_force = values.at(0);
+            w.f.swell_frequency = values.at(1);
         } else if (!set_instrument(w.instruments, name, values) && name != "gust" &&
                    !name.starts_with("bounds_")) {
             throw std::runtime_error("unknown effect " + name);

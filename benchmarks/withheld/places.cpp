@@ -26,6 +26,8 @@ places places_of(std::string const& effect) {
         {"battery_sag", thrust},
         {"motor_lag", thrust},
         {"thrust_loss_with_speed", thrust},
+        {"rudder_backlash", rudder},
+        {"stribeck", force},
         {"cg_offset", {{"surge", "sway", "yaw"}, {}, {}}},
         {"thrust_offset", yaw},
         {"quadratic_yaw_damping", yaw},
@@ -39,7 +41,7 @@ places places_of(std::string const& effect) {
         // No catalogue has these.
         {"gust", {{"sway"}, {}, {}}},
         {"tether", force},
-        {"stribeck", force},
+        {"swell", {{"sway"}, {}, {}}},
         {"servo", rudder}};
     auto const name = plain_name(effect);
     if (auto const group = instrument_of(name); !group.empty()) {

@@ -10,9 +10,9 @@ namespace withheld {
 namespace {
 
 /// Times in (0, end) at which the command behind delay and dead band, or W, has a kink.
-std::vector<double> kinks(world const& w, double end) {
+std::vector<double> kinks(world const& w, polyline const& rudder, double end) {
     std::vector<double> all = w.motor.t;
-    auto const& [t, value] = w.rudder;
+    auto const& [t, value] = rudder;
     for (std::size_t i = 0; i < t.size(); ++i) {
         all.push_back(t[i] + w.e.input_delay);
         if (i == 0 || w.e.rudder_deadband <= 0) continue;
@@ -28,10 +28,10 @@ std::vector<double> kinks(world const& w, double end) {
     return all;
 }
 
-command command_at(world const& w, double t) {
+command command_at(world const& w, polyline const& rudder, double t) {
     // Before the start the rudder stands at delta(0); the recording may begin earlier.
     double const seen = std::max(t - w.e.input_delay, 0.0);
-    return {w.motor.at(t), behind_deadband(w.rudder.at(seen), w.e.rudder_deadband)};
+    return {w.motor.at(t), behind_deadband(rudder.at(seen), w.e.rudder_deadband)};
 }
 
 state moved(state const& s, state const& rate, double h) {
@@ -60,7 +60,8 @@ std::vector<state> states_at(world const& w, channels const& initial,
     std::vector<state> result;
     if (times.empty()) return result;
     result.reserve(times.size());
-    std::vector<double> stops = kinks(w, times.back());
+    polyline const rudder = behind_play(w.rudder, w.e.rudder_play);
+    std::vector<double> stops = kinks(w, rudder, times.back());
     stops.insert(stops.end(), times.begin(), times.end());
     std::sort(stops.begin(), stops.end());
 
@@ -72,10 +73,11 @@ std::vector<state> states_at(world const& w, channels const& initial,
     auto const acting = [&](double t) -> world const& { return t < w.onset ? neutral : w; };
     state now{};
     std::copy(initial.begin(), initial.end(), now.begin());
-    now[6] = command_at(acting(0), 0).rudder; // the lag begins at rest; the motor begins at zero
+    now[6] =
+        command_at(acting(0), rudder, 0).rudder; // the lag begins at rest; the motor begins at zero
     state const start = now;
     double t = 0;
-    command here = command_at(acting(0), 0);
+    command here = command_at(acting(0), rudder, 0);
     std::size_t wanted = 0;
     auto const record = [&] {
         for (; wanted < times.size() && times[wanted] <= t; ++wanted) result.push_back(now);
@@ -84,7 +86,7 @@ std::vector<state> states_at(world const& w, channels const& initial,
     for (double const stop : stops) {
         if (stop <= t) continue;
         world const& model = acting(t);
-        command const there = command_at(model, stop);
+        command const there = command_at(model, rudder, stop);
         auto const steps = std::max(1.0, std::ceil((stop - t) / max_step - 1e-9));
         double const begin = t, h = (stop - t) / steps;
         auto const between = [&](double share) {
@@ -95,7 +97,7 @@ std::vector<state> states_at(world const& w, channels const& initial,
             now = runge_kutta(model, start, now, begin + k * h, h, between(k / steps),
                               between((k + 1) / steps));
         t = stop;
-        here = stop == w.onset ? command_at(w, stop) : there;
+        here = stop == w.onset ? command_at(w, rudder, stop) : there;
         record();
     }
     return result;

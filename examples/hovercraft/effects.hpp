@@ -6,8 +6,9 @@
 
 #include <vector>
 
-/// What the hovercraft's model leaves out: 21 effects, whose names stand in diagnoses. On the
-/// rudder they act in the order delay, dead band, lag, saturation, trim; on the motor sag, lag.
+/// What the hovercraft's model leaves out: 23 effects, whose names stand in diagnoses. On the
+/// rudder they act in the order backlash, delay, dead band, lag, saturation, trim; on the motor
+/// sag, lag.
 namespace hovercraft_example {
 
 /// Air that moves with (wx, wy) over the ground: the drag follows the speed through the air, dry
@@ -162,6 +163,20 @@ inline sivid::effect thrust_loss_with_speed() {
     };
     return e;
 }
+/// Dry friction that is (1 + k) times as strong at rest and fades to F_f within some vs:
+/// F_f (1 + k exp(-(V / vs)^2)).
+inline sivid::effect stribeck() {
+    using namespace sivid::literals;
+    sivid::effect e;
+    e.name = "stribeck";
+    e.parameters = {{"k", "1", 0_dec, 2_dec, 0_dec}, {"vs", "m/s", 0.2_dec, 1_dec, 0.5_dec}};
+    e.about = "dry friction that is stronger at low speed";
+    e.on_inputs = [](sivid::effect_scope& h) {
+        auto const square = sqr(h.state("u")) + sqr(h.state("v")) + sqr(h.constant("eps"));
+        h.constant("Ff") *= 1 + h.parameter(0) * exp(-square / sqr(h.parameter(1)));
+    };
+    return e;
+}
 
 /// The whole catalogue.
 [[nodiscard]] inline std::vector<sivid::effect> catalogue() {
@@ -187,7 +202,9 @@ inline sivid::effect thrust_loss_with_speed() {
             dry_yaw_friction(),
             friction_anisotropy(),
             any::sensor_latency("position_latency", {"x", "y"}, {0_dec, 0.5_dec}),
-            thrust_loss_with_speed()};
+            thrust_loss_with_speed(),
+            any::input_backlash("rudder_backlash", "delta", "rad", {0_dec, 0.15_dec}),
+            stribeck()};
 }
 
 } // namespace hovercraft_example

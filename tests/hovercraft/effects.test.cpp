@@ -59,10 +59,13 @@ struct plain_craft {
         double const vr = v - (-sn * of("wind.wx") + c * of("wind.wy"));
         double const Vr = std::sqrt(ur * ur + vr * vr + eps * eps);
         double const g = 9.81, sx = of("ground_slope.sx"), sy = of("ground_slope.sy");
-        double const X = Fu - Ff * u / V - 0.5 * rho * Cd * Su * Vr * ur -
+        double const slow =
+            1 + of("stribeck.k") * std::exp(-V * V / std::pow(of("stribeck.vs", 1), 2));
+        double const friction = Ff * slow;
+        double const X = Fu - friction * u / V - 0.5 * rho * Cd * Su * Vr * ur -
                          of("linear_surge_damping.k") * u + mass * g * (c * sx + sn * sy);
         double const Y = CL * Sv * Fu * delta / (4 * A) -
-                         (1 + of("friction_anisotropy.k")) * Ff * v / V -
+                         (1 + of("friction_anisotropy.k")) * friction * v / V -
                          0.5 * rho * Cd * Sv * Vr * vr - D22 * v + mass * g * (-sn * sx + c * sy);
         double const N = -L * CL * Sg * Fu * delta / (4 * A) - D33 * r +
                          Fu * of("thrust_offset.yT") -
@@ -142,9 +145,9 @@ void compare(std::vector<effect> const& effects, unsigned seed) {
 
 } // namespace
 
-TEST_CASE("the catalogue has the 21 names of diagnoses") {
+TEST_CASE("the catalogue has the 23 names of diagnoses") {
     auto const all = hovercraft_example::catalogue();
-    CHECK(all.size() == 21);
+    CHECK(all.size() == 23);
     CHECK(names(all) == std::set<std::string>{"wind",
                                               "rudder_lag",
                                               "input_delay",
@@ -165,7 +168,9 @@ TEST_CASE("the catalogue has the 21 names of diagnoses") {
                                               "dry_yaw_friction",
                                               "friction_anisotropy",
                                               "position_latency",
-                                              "thrust_loss_with_speed"});
+                                              "thrust_loss_with_speed",
+                                              "rudder_backlash",
+                                              "stribeck"});
 }
 
 TEST_CASE("each effect has the rates and channels of its formula") {

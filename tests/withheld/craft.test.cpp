@@ -242,11 +242,32 @@ TEST_CASE("yaw and surge effects at one state") {
     CHECK_THAT(blown[1], WithinAbs(-half * 0.22 * (air_V * air_v + V * 0.4) / 1.297, 1e-12));
 
     world stribeck = base;
-    stribeck.f.stribeck_rise = 0.8;
-    stribeck.f.stribeck_speed = 0.9;
+    stribeck.e.stribeck_rise = 0.8;
+    stribeck.e.stribeck_speed = 0.9;
     double const more = 0.5 * 0.8 * std::exp(-V * V / 0.81);
     CHECK_THAT(derivative(stribeck, 0, now, s, s)[1] - plain[1],
                WithinAbs(more * 0.4 / V / 1.297, 1e-12));
+
+    world swell = base;
+    swell.f.swell_force = 0.7;
+    swell.f.swell_frequency = 2;
+    CHECK_THAT(derivative(swell, 0.6, now, s, s)[1] - derivative(base, 0.6, now, s, s)[1],
+               WithinAbs(0.7 * std::sin(1.2) / 1.297, 1e-12));
+}
+
+TEST_CASE("a play follows its command in small steps") {
+    polyline const command{{-0.5, 0.1, 0.4, 1, 1.3, 1.6, 1.7, 2.4},
+                           {0.9, 0.3, -0.2, 0.8, 0.7, 0.75, -0.4, -0.1}};
+    for (double const b : {0.01, 0.07, 0.3, 2.0}) {
+        auto const driven = behind_play(command, b);
+        double at = command.at(0);
+        for (int i = 0; i <= 30000; ++i) {
+            double const t = 1e-4 * i, u = command.at(t);
+            at = std::max(u - b, std::min(u + b, at));
+            CHECK_THAT(driven.at(t), WithinAbs(at, 1e-12));
+        }
+    }
+    CHECK(behind_play(command, 0).value == command.value);
 }
 
 TEST_CASE("sensors") {
