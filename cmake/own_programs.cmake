@@ -59,3 +59,36 @@ function(sivid_add_folders folder)
         add_subdirectory("${relative}")
     endforeach()
 endfunction()
+
+set(SIVID_UNOPTIMISED "" CACHE STRING
+    "Floors of the tests, and examples, to compile at -O0: they call the library, and most of their time is the compiler's")
+set(SIVID_UNOPTIMISED_BY "" CACHE STRING
+    "Another compiler for them: two are tested in one build, and at -O0 clang takes half of the time of g++")
+
+function(sivid_leave_unoptimised target)
+    target_compile_options(${target} PRIVATE -O0)
+    if(SIVID_UNOPTIMISED_BY)
+        string(JOIN " " by ${CMAKE_CXX_COMPILER_LAUNCHER} "${SIVID_UNOPTIMISED_BY}")
+        set_target_properties(${target} PROPERTIES CXX_COMPILER_LAUNCHER
+            "${PROJECT_SOURCE_DIR}/cmake/by_another_compiler;${by}")
+    endif()
+    if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
+        # Of an inline function that both have, linkers take what comes first: the library's, which is optimised.
+        target_link_options(${target} PRIVATE -Wl,--whole-archive $<TARGET_FILE:sivid_compiled> -Wl,--no-whole-archive)
+    endif()
+endfunction()
+
+# sivid_leave_folder_unoptimised(<folder>): its targets and those of the folders in it.
+function(sivid_leave_folder_unoptimised folder)
+    get_property(targets DIRECTORY "${folder}" PROPERTY BUILDSYSTEM_TARGETS)
+    foreach(target IN LISTS targets)
+        get_target_property(type ${target} TYPE)
+        if(type MATCHES "EXECUTABLE|_LIBRARY" AND NOT type MATCHES "INTERFACE")
+            sivid_leave_unoptimised(${target})
+        endif()
+    endforeach()
+    get_property(children DIRECTORY "${folder}" PROPERTY SUBDIRECTORIES)
+    foreach(child IN LISTS children)
+        sivid_leave_folder_unoptimised("${child}")
+    endforeach()
+endfunction()

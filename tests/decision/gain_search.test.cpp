@@ -3,6 +3,7 @@
 
 #include "decision/planar_models.hpp"
 #include "support/catch.hpp"
+#include "support/sweep.hpp"
 
 #include <sivid/model/closed_loop.hpp>
 
@@ -152,7 +153,7 @@ TEST_CASE("nothing is excluded without a parameter that is proved feasible") {
 TEST_CASE("errors of sensors count at every instant") {
     double const bound = 0.05;
     servo const s({between(0.5, 1)}, between(0, 20), "x0 at end in [0.7, 0.95]", bound);
-    auto const g = s.found(until(1e-2, 60));
+    auto const g = s.found(until(support::swept(4e-2, 1e-2), 60));
     REQUIRE(g.some_proved());
     // The worst errors are constant: x0' = K (1 -+ bound) - (K + p0) x0.
     auto const holds = [bound](double gain) {
@@ -207,7 +208,8 @@ TEST_CASE("a pair of gains") {
     p.end = 3;
     auto const what =
         sivid::parse_requirement("always(x0 < 1.1) and x0 at end > 0.9", p.model, p.end);
-    auto const g = sivid::find_gains(p, {"K", "D"}, what, all_feasible(p), until(1.0 / 64, 600));
+    auto const g = sivid::find_gains(p, {"K", "D"}, what, all_feasible(p),
+                                     until(support::swept(1.0 / 16, 1.0 / 64), 600));
     REQUIRE(g.suggested);
     std::size_t inside = 0, outside = 0;
     auto const holds = [](double gain, double damping, double force) {

@@ -2,6 +2,7 @@
 // Sampled loops, simulated sample by sample, against what is proved of the closed model.
 #include "decision/planar_models.hpp"
 #include "support/catch.hpp"
+#include "support/sweep.hpp"
 
 #include <sivid/decision/control_law.hpp>
 #include <sivid/decision/prediction.hpp>
@@ -110,7 +111,7 @@ void attack(std::string const& text, double slew, std::function<double(double)> 
     REQUIRE(command.name == "u0");
     std::mt19937 random(7);
     double reached = 0;
-    for (int n = 0; n < 400; ++n) {
+    for (int n = 0; n < support::swept(60, 400); ++n) {
         double const rate = n % 3 == 0 ? 0.5 : n % 3 == 1 ? 1 : 0.75;
         double const start = n % 2 == 0 ? 0 : 0.1;
         auto const motion = sampled_motion(law, rate, start, tubes.times, random, n % 4 < 2);

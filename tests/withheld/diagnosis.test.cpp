@@ -58,7 +58,7 @@ TEST_CASE("campaigns of five families are diagnosed, and nothing false is proved
     all_right("--seed 77 --count 5 --families single,weak,wide,pair,none", "5/5 100%");
 }
 
-TEST_CASE("nothing false is proved where the rudder moves between samples") {
+TEST_CASE("nothing false is proved where the rudder moves between samples", "[.long]") {
     io_support::temporary_folder const folder;
     std::string score;
     bool const passed = diagnosed(folder.path(), "--seed 3 --count 2 --families alias", score);

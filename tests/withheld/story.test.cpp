@@ -93,7 +93,7 @@ TEST_CASE("two causes of a turn that is not commanded are told apart, whichever 
     told_apart("rudder_deadband(0.03)", "Sv=0.23 Sg=0.042 L=0.31", "S3", "1");
 }
 
-TEST_CASE("the bundled story ends with a robot that obeys laws that were proved") {
+TEST_CASE("the bundled story ends with a robot that obeys laws that were proved", "[.long]") {
     io_support::temporary_folder const folder;
     auto const data = source + "/examples/hovercraft/data";
     auto const tale =

@@ -4,6 +4,7 @@
 #include "diagnosis/lagged_input.hpp"
 #include "diagnosis/small_catalogue.hpp"
 #include "support/catch.hpp"
+#include "support/sweep.hpp"
 
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/model/effects.hpp>
@@ -148,11 +149,13 @@ identification_problem with_onsets(begun const& b) {
 
 TEST_CASE("windows of onsets hold the true ones, wherever they are") {
     double const k = 1;
-    for (auto const& b :
-         {begun{0, 0.3, {0.7, 1.5}}, // at knots and samples
-          begun{0, 0.5, {1.234, 0.333}}, begun{1, 0.4, {0.02, 3.95}}, begun{1, -0.3, {2.015, 0}},
-          begun{1, 0.4, {never, 1}}, begun{2, 0.25, {1.1, 2.05}}, begun{2, -0.2, {3.9, 0.1}},
-          begun{0, 0.3, {0, 0}}, begun{0, 0, {never, never}}}) {
+    std::vector<begun> const all{begun{0, 0.3, {0.7, 1.5}}, // at knots and samples
+                                 begun{1, 0.4, {0.02, 3.95}},   begun{2, 0.25, {1.1, 2.05}},
+                                 begun{0, 0.5, {1.234, 0.333}}, begun{1, -0.3, {2.015, 0}},
+                                 begun{1, 0.4, {never, 1}},     begun{2, -0.2, {3.9, 0.1}},
+                                 begun{0, 0.3, {0, 0}},         begun{0, 0, {never, never}}};
+    for (std::size_t n = 0; n < support::swept(std::size_t{3}, all.size()); ++n) {
+        auto const& b = all[n];
         CAPTURE(b.which, b.size, b.onsets[0], b.onsets[1]);
         auto const problem = with_onsets(b);
         auto const found =

@@ -3,6 +3,7 @@
 
 #include "support/catch.hpp"
 #include "support/random_response.hpp"
+#include "support/sweep.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -56,7 +57,7 @@ struct random_experiment : support::random_response<4, 3> {
 TEST_CASE("for every parameter of a proved part the rule's start explains the measurements") {
     draws d(21);
     std::size_t proved = 0, following = 0;
-    for (int trial = 0; trial < 400; ++trial) {
+    for (int trial = 0; trial < support::swept(100, 400); ++trial) {
         std::size_t const outputs = 3 + d.below(6);
         random_experiment x(d, outputs, d.coin() ? 0.02 : 0.3);
         x.known.allowed = d.below(3);

@@ -8,6 +8,7 @@
 #include "support/pendulum.hpp"
 #include "support/planted_problems.hpp"
 #include "support/random.hpp"
+#include "support/sweep.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -34,7 +35,7 @@ window_options within(double seconds) {
 
 TEST_CASE("windows keep what is feasible in random problems") {
     std::size_t tried = 0, contracted = 0, several = 0;
-    for (std::uint64_t seed = 1; seed <= 70; ++seed) {
+    for (std::uint64_t seed = 1; seed <= support::swept(25U, 70U); ++seed) {
         draws d(seed);
         auto planted = planted::plant_by_seed(d);
         auto& p = planted.problem;
