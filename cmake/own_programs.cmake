@@ -62,16 +62,9 @@ endfunction()
 
 set(SIVID_UNOPTIMISED "" CACHE STRING
     "Floors of the tests, and examples, to compile at -O0: they call the library, and most of their time is the compiler's")
-set(SIVID_UNOPTIMISED_BY "" CACHE STRING
-    "Another compiler for them: two are tested in one build, and at -O0 clang takes half of the time of g++")
 
 function(sivid_leave_unoptimised target)
     target_compile_options(${target} PRIVATE -O0)
-    if(SIVID_UNOPTIMISED_BY)
-        string(JOIN " " by ${CMAKE_CXX_COMPILER_LAUNCHER} "${SIVID_UNOPTIMISED_BY}")
-        set_target_properties(${target} PROPERTIES CXX_COMPILER_LAUNCHER
-            "${PROJECT_SOURCE_DIR}/cmake/by_another_compiler;${by}")
-    endif()
     if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
         # Of an inline function that both have, linkers take what comes first: the library's, which is optimised.
         target_link_options(${target} PRIVATE -Wl,--whole-archive $<TARGET_FILE:sivid_compiled> -Wl,--no-whole-archive)

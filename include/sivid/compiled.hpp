@@ -6,7 +6,7 @@
 /// sivid is header only: a header `x.hpp` declares, and includes `impl/x.ipp` at its end, which
 /// defines what is no template. Where SIVID_COMPILED is defined headers declare only; one source of
 /// the program then includes <sivid/impl/src.hpp>, or the program links to a library that was
-/// compiled with the same flags (CMake: sivid::compiled).
+/// compiled by the same compiler with the same flags (CMake: sivid::compiled).
 #ifdef SIVID_COMPILED
 #define SIVID_DECL
 #else
@@ -41,6 +41,27 @@ using containers_of_this_source = debug_containers;
 #else
 using containers_of_this_source = plain_containers;
 #endif
+
+struct by_clang;
+struct by_gcc;
+struct by_another;
+#if defined(__clang__)
+using compiler_of_this_source = by_clang;
+#elif defined(__GNUC__)
+using compiler_of_this_source = by_gcc;
+#else
+using compiler_of_this_source = by_another;
+#endif
+
+/// As `library_for`, for the compiler: clang and GCC lay out what a lambda captures in another
+/// order, and of an inline function that both have compiled the linker keeps one.
+template <class Compiler>
+struct library_by {
+    static char const sivid_compiled_is_of_another_compiler;
+};
+
+SIVID_KEPT static char const* const library_by_this_compiler =
+    &library_by<compiler_of_this_source>::sivid_compiled_is_of_another_compiler;
 
 inline namespace SIVID_PACK_TARGET {
 

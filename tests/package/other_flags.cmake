@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Links a program that uses sivid's matrices to the library COMPILED, which was built with FLAGS: with the same flags
-# it must link, with others the linker must name what differs.
+# it must link, with others, or by the OTHER compiler, the linker must name what differs.
 cmake_minimum_required(VERSION 3.22)
 
 file(MAKE_DIRECTORY "${WORK}")
@@ -35,6 +35,13 @@ set(eigen sivid_compiled_has_another_eigen_alignment)
 must_fail(${machine} ${flags} -D_GLIBCXX_DEBUG)
 must_fail(${eigen} ${flags} -DEIGEN_DONT_ALIGN_STATICALLY)
 must_fail(${eigen} ${flags} -DEIGEN_DEFAULT_TO_ROW_MAJOR)
+
+if(OTHER)
+    set(same "${COMPILER}")
+    set(COMPILER "${OTHER}")
+    must_fail(sivid_compiled_is_of_another_compiler ${flags} -O2)
+    set(COMPILER "${same}")
+endif()
 
 # Of these three machines the library is for one at most; also where the linker drops unused sections.
 set(linked 0)

@@ -13,6 +13,9 @@
 
 namespace sivid {
 
+template <class Compiler>
+char const library_by<Compiler>::sivid_compiled_is_of_another_compiler = 0;
+
 inline namespace SIVID_PACK_TARGET {
 
 template <class Containers>
@@ -26,6 +29,7 @@ char const library_for_eigen<Version, MaxAlignBytes, MaxStaticAlignBytes, IndexB
                              StorageOrder>::sivid_compiled_has_another_eigen_alignment = 0;
 
 // Said outright: clang does not take them from their use, which stands before their definition.
+template struct library_by<compiler_of_this_source>;
 inline namespace SIVID_PACK_TARGET {
 template struct library_for<containers_of_this_source>;
 } // namespace SIVID_PACK_TARGET
