@@ -4,6 +4,7 @@
 
 #include <sivid/approximate/fit/impl/counterexample.ipp>
 #include <sivid/approximate/fit/impl/fit.ipp>
+#include <sivid/approximate/place/impl/place_estimate.ipp>
 #include <sivid/approximate/simulate/impl/named_steps.ipp>
 
 #endif

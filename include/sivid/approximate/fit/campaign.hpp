@@ -2,7 +2,7 @@
 #ifndef SIVID_APPROXIMATE_FIT_CAMPAIGN_HPP
 #define SIVID_APPROXIMATE_FIT_CAMPAIGN_HPP
 
-#include <sivid/approximate/fit/arrow_system.hpp>
+#include <sivid/approximate/fit/detail/arrow_system.hpp>
 #include <sivid/approximate/residuals.hpp>
 #include <sivid/approximate/simulate/approximate_simulator.hpp>
 #include <sivid/executor.hpp>

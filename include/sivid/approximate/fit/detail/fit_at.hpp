@@ -4,7 +4,7 @@
 
 #include <sivid/approximate/approximate_fit.hpp>
 #include <sivid/approximate/fit/campaign.hpp>
-#include <sivid/approximate/fit/descent.hpp>
+#include <sivid/approximate/fit/detail/descent.hpp>
 
 #include <cmath>
 #include <cstddef>

@@ -5,7 +5,7 @@
 #include <sivid/approximate/fit/counterexample.hpp>
 
 #include <sivid/approximate/fit/campaign.hpp>
-#include <sivid/approximate/fit/descent.hpp>
+#include <sivid/approximate/fit/detail/descent.hpp>
 #include <sivid/approximate/fit/detail/fit_at.hpp>
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>

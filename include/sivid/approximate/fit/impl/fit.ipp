@@ -5,10 +5,10 @@
 #include <sivid/approximate/fit/fit.hpp>
 
 #include <sivid/approximate/fit/campaign.hpp>
-#include <sivid/approximate/fit/descent.hpp>
+#include <sivid/approximate/fit/detail/descent.hpp>
 #include <sivid/approximate/fit/detail/fit_at.hpp>
-#include <sivid/approximate/fit/minimax.hpp>
-#include <sivid/approximate/fit/suspect_samples.hpp>
+#include <sivid/approximate/fit/detail/minimax.hpp>
+#include <sivid/approximate/fit/detail/suspect_samples.hpp>
 #include <sivid/approximate/fit/thinned.hpp>
 #include <sivid/compiled.hpp>
 

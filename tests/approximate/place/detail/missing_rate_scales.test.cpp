@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/approximate/place/missing_rate_scales.hpp>
+#include <sivid/approximate/place/detail/missing_rate_scales.hpp>
 
 #include "diagnosis/small_campaign.hpp"
 #include "support/catch.hpp"

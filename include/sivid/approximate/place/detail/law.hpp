@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_APPROXIMATE_PLACE_LAW_HPP
-#define SIVID_APPROXIMATE_PLACE_LAW_HPP
+#ifndef SIVID_APPROXIMATE_PLACE_DETAIL_LAW_HPP
+#define SIVID_APPROXIMATE_PLACE_DETAIL_LAW_HPP
 
-#include <sivid/approximate/place/knot_trace.hpp>
+#include <sivid/approximate/place/detail/knot_trace.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/number/text/nearest_text.hpp>

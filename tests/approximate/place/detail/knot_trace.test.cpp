@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/approximate/place/knot_trace.hpp>
+#include <sivid/approximate/place/detail/knot_trace.hpp>
 
 #include "support/catch.hpp"
 #include "support/models.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_APPROXIMATE_PLACE_MISSING_RATE_SCALES_HPP
-#define SIVID_APPROXIMATE_PLACE_MISSING_RATE_SCALES_HPP
+#ifndef SIVID_APPROXIMATE_PLACE_DETAIL_MISSING_RATE_SCALES_HPP
+#define SIVID_APPROXIMATE_PLACE_DETAIL_MISSING_RATE_SCALES_HPP
 
 #include <sivid/approximate/fit/campaign.hpp>
-#include <sivid/approximate/place/missing_rate.hpp>
+#include <sivid/approximate/place/detail/missing_rate.hpp>
 
 #include <algorithm>
 #include <cmath>

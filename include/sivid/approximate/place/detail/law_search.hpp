@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_APPROXIMATE_PLACE_LAW_SEARCH_HPP
-#define SIVID_APPROXIMATE_PLACE_LAW_SEARCH_HPP
+#ifndef SIVID_APPROXIMATE_PLACE_DETAIL_LAW_SEARCH_HPP
+#define SIVID_APPROXIMATE_PLACE_DETAIL_LAW_SEARCH_HPP
 
-#include <sivid/approximate/place/law.hpp>
-#include <sivid/approximate/place/place_fit.hpp>
+#include <sivid/approximate/place/detail/law.hpp>
+#include <sivid/approximate/place/detail/place_fit.hpp>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>

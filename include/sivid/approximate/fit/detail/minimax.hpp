@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_APPROXIMATE_FIT_MINIMAX_HPP
-#define SIVID_APPROXIMATE_FIT_MINIMAX_HPP
+#ifndef SIVID_APPROXIMATE_FIT_DETAIL_MINIMAX_HPP
+#define SIVID_APPROXIMATE_FIT_DETAIL_MINIMAX_HPP
 
-#include <sivid/approximate/fit/descent.hpp>
+#include <sivid/approximate/fit/detail/descent.hpp>
 #include <sivid/space/linear_program/minimax_lp.hpp>
 
 #include <algorithm>

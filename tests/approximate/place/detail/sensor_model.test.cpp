@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/approximate/place/sensor_model.hpp>
+#include <sivid/approximate/place/detail/sensor_model.hpp>
 
 #include "support/catch.hpp"
 #include "support/hovercraft_campaign.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/approximate/fit/descent.hpp>
+#include <sivid/approximate/fit/detail/descent.hpp>
 
 #include "support/catch.hpp"
 #include "support/hovercraft_campaign.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/approximate/place/missing_rate.hpp>
+#include <sivid/approximate/place/detail/missing_rate.hpp>
 
 #include "support/catch.hpp"
 #include "support/models.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_APPROXIMATE_FIT_DESCENT_HPP
-#define SIVID_APPROXIMATE_FIT_DESCENT_HPP
+#ifndef SIVID_APPROXIMATE_FIT_DETAIL_DESCENT_HPP
+#define SIVID_APPROXIMATE_FIT_DETAIL_DESCENT_HPP
 
 #include <sivid/approximate/fit/campaign.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_APPROXIMATE_PLACE_SENSOR_MODEL_HPP
-#define SIVID_APPROXIMATE_PLACE_SENSOR_MODEL_HPP
+#ifndef SIVID_APPROXIMATE_PLACE_DETAIL_SENSOR_MODEL_HPP
+#define SIVID_APPROXIMATE_PLACE_DETAIL_SENSOR_MODEL_HPP
 
 #include <sivid/approximate/place/place.hpp>
 #include <sivid/model/problem.hpp>

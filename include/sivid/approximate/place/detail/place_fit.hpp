@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_APPROXIMATE_PLACE_PLACE_FIT_HPP
-#define SIVID_APPROXIMATE_PLACE_PLACE_FIT_HPP
+#ifndef SIVID_APPROXIMATE_PLACE_DETAIL_PLACE_FIT_HPP
+#define SIVID_APPROXIMATE_PLACE_DETAIL_PLACE_FIT_HPP
 
-#include <sivid/approximate/fit/descent.hpp>
-#include <sivid/approximate/fit/minimax.hpp>
-#include <sivid/approximate/fit/suspect_samples.hpp>
-#include <sivid/approximate/place/missing_rate.hpp>
-#include <sivid/approximate/place/sensor_model.hpp>
+#include <sivid/approximate/fit/detail/descent.hpp>
+#include <sivid/approximate/fit/detail/minimax.hpp>
+#include <sivid/approximate/fit/detail/suspect_samples.hpp>
+#include <sivid/approximate/place/detail/missing_rate.hpp>
+#include <sivid/approximate/place/detail/sensor_model.hpp>
 
 #include <algorithm>
 #include <cmath>

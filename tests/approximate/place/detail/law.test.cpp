@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/approximate/place/law.hpp>
+#include <sivid/approximate/place/detail/law.hpp>
 
 #include "../../../examples/hovercraft/model.hpp"
 #include "support/catch.hpp"

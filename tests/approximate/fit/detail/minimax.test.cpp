@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/approximate/fit/minimax.hpp>
+#include <sivid/approximate/fit/detail/minimax.hpp>
 
 #include "support/catch.hpp"
 #include "support/hovercraft_campaign.hpp"

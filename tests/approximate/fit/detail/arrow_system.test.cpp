@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/approximate/fit/arrow_system.hpp>
+#include <sivid/approximate/fit/detail/arrow_system.hpp>
 
 #include "support/catch.hpp"
 #include "support/random.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/approximate/place/place_fit.hpp>
+#include <sivid/approximate/place/detail/place_fit.hpp>
 
 #include "support/catch.hpp"
 #include "support/hovercraft_campaign.hpp"

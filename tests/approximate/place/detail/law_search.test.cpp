@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/approximate/place/law_search.hpp>
+#include <sivid/approximate/place/detail/law_search.hpp>
 
 #include "support/catch.hpp"
 #include "support/hovercraft_campaign.hpp"

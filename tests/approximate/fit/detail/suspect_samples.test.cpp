@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/approximate/fit/suspect_samples.hpp>
+#include <sivid/approximate/fit/detail/suspect_samples.hpp>
 
 #include "support/catch.hpp"
 #include "support/hovercraft_campaign.hpp"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_APPROXIMATE_PLACE_PLACE_SEARCH_HPP
-#define SIVID_APPROXIMATE_PLACE_PLACE_SEARCH_HPP
+#ifndef SIVID_APPROXIMATE_PLACE_DETAIL_PLACE_SEARCH_HPP
+#define SIVID_APPROXIMATE_PLACE_DETAIL_PLACE_SEARCH_HPP
 
-#include <sivid/approximate/place/place_fit.hpp>
+#include <sivid/approximate/place/detail/place_fit.hpp>
+#include <sivid/approximate/place/place_options.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -13,15 +14,6 @@
 #include <vector>
 
 namespace sivid {
-
-struct place_search_options {
-    std::size_t most_sets = 80; ///< no new set is begun after so many
-    double equal_score = 12;    ///< sets whose scores differ by less are equal alternatives
-    double much_better = 30;    ///< by what a superset's score must be better to start from it
-    /// Asked before and within every fit, by any thread; false ends the search with what was tried.
-    /// May be empty.
-    std::function<bool()> go_on{};
-};
 
 /// Which smallest set of places, allowed to be wrong, explains the data.
 class place_search {
