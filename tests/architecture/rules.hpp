@@ -149,14 +149,14 @@ inline bool may_include_approximate(std::string_view other, std::string_view inc
         {"sivid/diagnosis/candidate/screening.hpp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/candidate/detail/candidate_fit.hpp", {"fit/fit.hpp", "fit/thinned.hpp"}},
         {"sivid/diagnosis/candidate/detail/onset_fit.hpp", {"fit/fit.hpp", "fit/thinned.hpp"}},
-        {"sivid/diagnosis/hold_out/holdout_judgement.hpp", {"fit/fit.hpp"}},
+        {"sivid/diagnosis/hold_out/detail/holdout_judgement.hpp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/claim/claim_review.hpp", {"fit/campaign.hpp"}},
         {"sivid/diagnosis/gap/impl/confined_gap.ipp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/impl/manoeuvre.ipp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/impl/diagnose.ipp", {"place/place_estimate.hpp"}},
-        {"sivid/report/fill/scenario_report.hpp", {"simulate/simulate.hpp"}},
-        {"sivid/verifier/claim/paving_check.hpp", {"fit/counterexample.hpp"}},
-        {"sivid/verifier/claim/fewest_outliers_check.hpp", {"fit/counterexample.hpp"}}};
+        {"sivid/report/fill/detail/scenario_report.hpp", {"simulate/simulate.hpp"}},
+        {"sivid/verifier/claim/detail/paving_check.hpp", {"fit/counterexample.hpp"}},
+        {"sivid/verifier/claim/detail/fewest_outliers_check.hpp", {"fit/counterexample.hpp"}}};
     std::string_view const floor = "sivid/approximate/";
     if (!starts_with(other, floor) || starts_with(includer, floor)) return true;
     auto const what = other.substr(floor.size());

@@ -6,7 +6,7 @@
 #include "support/catch.hpp"
 #include "support/systems.hpp"
 
-#include <sivid/enclosure/advice/failure_advice.hpp>
+#include <sivid/enclosure/advice/detail/failure_advice.hpp>
 #include <sivid/enclosure/tube.hpp>
 
 #include <cstddef>

@@ -4,7 +4,7 @@
 #include "support/taylor_models.hpp"
 
 #include <sivid/number/decimal.hpp>
-#include <sivid/number/polynomial/bernstein.hpp>
+#include <sivid/number/polynomial/detail/bernstein.hpp>
 #include <sivid/number/taylor_model.hpp>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Identification of records whose inputs are sampled far more often than the motion needs: what is
 // found with slower inputs first never loses the truth.
-#include <sivid/model/change/slower_inputs.hpp>
+#include <sivid/model/change/detail/slower_inputs.hpp>
 
 #include <sivid/paving/identify.hpp>
 

@@ -3,7 +3,7 @@
 // lack something, because no sensor was estimated to be wrong.
 #include <sivid/approximate/place/place_estimate.hpp>
 #include <sivid/diagnosis/claim/place_report.hpp>
-#include <sivid/diagnosis/sensor/sensor_discharge.hpp>
+#include <sivid/diagnosis/sensor/detail/sensor_discharge.hpp>
 
 #include "support/catch.hpp"
 #include "support/hovercraft_campaign.hpp"

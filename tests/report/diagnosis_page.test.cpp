@@ -4,7 +4,7 @@
 #include "support/catch.hpp"
 
 #include <sivid/report/diagnosis_page.hpp>
-#include <sivid/report/page/diagnosis_tables.hpp>
+#include <sivid/report/page/detail/diagnosis_tables.hpp>
 
 #include <fstream>
 #include <limits>

@@ -3,8 +3,8 @@
 #include "support/catch.hpp"
 
 #include <sivid/report/draw/bar_chart.hpp>
+#include <sivid/report/draw/detail/interval_chart.hpp>
 #include <sivid/report/draw/heat_map.hpp>
-#include <sivid/report/draw/interval_chart.hpp>
 #include <sivid/report/page.hpp>
 
 #include <cmath>

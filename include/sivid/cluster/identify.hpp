@@ -4,7 +4,7 @@
 
 #include <sivid/approximate/approximate_fit.hpp>
 #include <sivid/cluster/box_server.hpp>
-#include <sivid/cluster/delegated_test.hpp>
+#include <sivid/cluster/detail/delegated_test.hpp>
 #include <sivid/cluster/identity.hpp>
 #include <sivid/cluster/transport.hpp>
 #include <sivid/cluster/wire.hpp>

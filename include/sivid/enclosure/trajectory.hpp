@@ -2,7 +2,7 @@
 #ifndef SIVID_ENCLOSURE_TRAJECTORY_HPP
 #define SIVID_ENCLOSURE_TRAJECTORY_HPP
 
-#include <sivid/enclosure/step/stepper.hpp>
+#include <sivid/enclosure/step/detail/stepper.hpp>
 #include <sivid/number/guard.hpp>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/model/expression.hpp>
-#include <sivid/model/graph/formula_text.hpp>
+#include <sivid/model/graph/detail/formula_text.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/number/decimal.hpp>
 

@@ -9,7 +9,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/number/interval.hpp>
 #include <sivid/number/rounding.hpp>
-#include <sivid/number/text/decimal_text.hpp>
+#include <sivid/number/text/detail/decimal_text.hpp>
 
 #include <array>
 #include <concepts>

@@ -8,11 +8,11 @@
 /// argument `bool& cut` set it if some part was left out; a proof that needs the function
 /// everywhere must look.
 
+#include <sivid/number/elementary/detail/hyperbolic.hpp>
+#include <sivid/number/elementary/detail/inverse_trigonometric.hpp>
+#include <sivid/number/elementary/detail/piecewise.hpp>
+#include <sivid/number/elementary/detail/power.hpp>
+#include <sivid/number/elementary/detail/trigonometric.hpp>
 #include <sivid/number/elementary/exponential.hpp>
-#include <sivid/number/elementary/hyperbolic.hpp>
-#include <sivid/number/elementary/inverse_trigonometric.hpp>
-#include <sivid/number/elementary/piecewise.hpp>
-#include <sivid/number/elementary/power.hpp>
-#include <sivid/number/elementary/trigonometric.hpp>
 
 #endif

@@ -3,8 +3,8 @@
 #define SIVID_PAVING_INVERT_HPP
 
 #include <sivid/paving/inversion_options.hpp>
-#include <sivid/paving/search/box_test.hpp>
-#include <sivid/paving/search/paving_search.hpp>
+#include <sivid/paving/search/detail/box_test.hpp>
+#include <sivid/paving/search/detail/paving_search.hpp>
 #include <sivid/paving/set_test.hpp>
 
 #include <utility>

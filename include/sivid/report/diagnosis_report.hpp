@@ -7,7 +7,7 @@
 #include <sivid/model/effect.hpp>
 #include <sivid/report/diagnosis_page.hpp>
 #include <sivid/report/diagnosis_view.hpp>
-#include <sivid/report/fill/diagnosis_plot_data.hpp>
+#include <sivid/report/fill/detail/diagnosis_plot_data.hpp>
 #include <sivid/version.hpp>
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/report/diagnosis_view.hpp>
 #include <sivid/report/number_text.hpp>
-#include <sivid/report/words/place_words.hpp>
+#include <sivid/report/words/detail/place_words.hpp>
 
 #include <algorithm>
 #include <cmath>

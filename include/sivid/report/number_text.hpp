@@ -4,8 +4,8 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/number/decimal.hpp>
+#include <sivid/report/text/detail/rounded_decimal.hpp>
 #include <sivid/report/text/range.hpp>
-#include <sivid/report/text/rounded_decimal.hpp>
 
 #include <algorithm>
 #include <charconv>

@@ -5,8 +5,8 @@
 #include <sivid/compiled.hpp>
 #include <sivid/report/draw/legend.hpp>
 #include <sivid/report/draw/svg.hpp>
-#include <sivid/report/page/page_script.hpp>
-#include <sivid/report/page/page_style.hpp>
+#include <sivid/report/page/detail/page_script.hpp>
+#include <sivid/report/page/detail/page_style.hpp>
 #include <sivid/report/table.hpp>
 #include <sivid/report/text/escape.hpp>
 

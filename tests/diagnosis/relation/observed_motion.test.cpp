@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/diagnosis/relation/declared_variation.hpp>
+#include <sivid/diagnosis/relation/detail/declared_variation.hpp>
 #include <sivid/diagnosis/relation/observed_motion.hpp>
 
 #include "diagnosis/planted_motion.hpp"

@@ -4,7 +4,7 @@
 #include "support/taylor_models.hpp"
 
 #include <sivid/number/pack/lanes.hpp>
-#include <sivid/number/polynomial/bernstein.hpp>
+#include <sivid/number/polynomial/detail/bernstein.hpp>
 #include <sivid/number/polynomial/taylor_model_functions.hpp>
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #define SIVID_DECISION_MOTION_MOTION_COVER_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/decision/motion/cell_bounds.hpp>
+#include <sivid/decision/motion/detail/cell_bounds.hpp>
 #include <sivid/decision/prediction_problem.hpp>
 #include <sivid/enclosure/flow.hpp>
 #include <sivid/measurement/record.hpp>

@@ -7,7 +7,7 @@
 #include <sivid/diagnosis/claim/diagnosis_consistency.hpp>
 #include <sivid/diagnosis/claim/place_report.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
-#include <sivid/diagnosis/relation/untouched_relation.hpp>
+#include <sivid/diagnosis/relation/detail/untouched_relation.hpp>
 #include <sivid/number/interval_traits.hpp>
 
 #include <algorithm>

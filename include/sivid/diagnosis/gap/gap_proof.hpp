@@ -6,7 +6,7 @@
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/diagnosis_effort.hpp>
 #include <sivid/diagnosis/gap/detail/gap_options.hpp>
-#include <sivid/diagnosis/gap/hardest_experiments.hpp>
+#include <sivid/diagnosis/gap/detail/hardest_experiments.hpp>
 #include <sivid/diagnosis/verification.hpp>
 #include <sivid/paving/inflation/observer_refutation.hpp>
 

@@ -5,7 +5,7 @@
 #include <sivid/diagnosis/diagnosis_run.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/diagnosis/hold_out/holdout_judgement.hpp>
+#include <sivid/diagnosis/hold_out/detail/holdout_judgement.hpp>
 #include <sivid/diagnosis/holdout.hpp>
 
 #include <chrono>

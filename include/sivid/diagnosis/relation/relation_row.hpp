@@ -2,8 +2,8 @@
 #ifndef SIVID_DIAGNOSIS_RELATION_RELATION_ROW_HPP
 #define SIVID_DIAGNOSIS_RELATION_RELATION_ROW_HPP
 
+#include <sivid/diagnosis/relation/detail/separation.hpp>
 #include <sivid/diagnosis/relation/linear_refutation.hpp>
-#include <sivid/diagnosis/relation/separation.hpp>
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/space/box.hpp>

@@ -2,11 +2,11 @@
 #ifndef SIVID_DIAGNOSIS_RELATION_RELATION_WINDOWS_HPP
 #define SIVID_DIAGNOSIS_RELATION_RELATION_WINDOWS_HPP
 
-#include <sivid/diagnosis/relation/declared_variation.hpp>
+#include <sivid/diagnosis/relation/detail/declared_variation.hpp>
+#include <sivid/diagnosis/relation/detail/weak_windows.hpp>
 #include <sivid/diagnosis/relation/observed_motion.hpp>
 #include <sivid/diagnosis/relation/relation_finding.hpp>
 #include <sivid/diagnosis/relation/relation_row.hpp>
-#include <sivid/diagnosis/relation/weak_windows.hpp>
 #include <sivid/diagnosis/relation/window_integrals.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/model/unit.hpp>

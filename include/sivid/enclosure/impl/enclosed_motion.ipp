@@ -5,7 +5,7 @@
 #include <sivid/enclosure/enclosed_motion.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/enclosure/advice/failure_advice.hpp>
+#include <sivid/enclosure/advice/detail/failure_advice.hpp>
 #include <sivid/enclosure/trajectory.hpp>
 #include <sivid/enclosure/tube.hpp>
 

@@ -4,7 +4,7 @@
 
 #include <sivid/enclosure/series/detail/expansion_tail.hpp>
 #include <sivid/enclosure/series/detail/power_sum.hpp>
-#include <sivid/enclosure/set/framed_radii.hpp>
+#include <sivid/enclosure/set/detail/framed_radii.hpp>
 #include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/enclosure/taylor/parametric_flow.hpp>
 

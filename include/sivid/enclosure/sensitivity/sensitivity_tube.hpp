@@ -2,7 +2,7 @@
 #ifndef SIVID_ENCLOSURE_SENSITIVITY_SENSITIVITY_TUBE_HPP
 #define SIVID_ENCLOSURE_SENSITIVITY_SENSITIVITY_TUBE_HPP
 
-#include <sivid/enclosure/set/derivative_set.hpp>
+#include <sivid/enclosure/set/detail/derivative_set.hpp>
 #include <sivid/enclosure/tube.hpp>
 
 #include <cstddef>

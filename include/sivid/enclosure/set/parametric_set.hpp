@@ -6,7 +6,7 @@
 #include <sivid/enclosure/normalised_unknowns.hpp>
 #include <sivid/number/polynomial/taylor_model_functions.hpp>
 #include <sivid/space/box.hpp>
-#include <sivid/space/frame/common_frame.hpp>
+#include <sivid/space/frame/detail/common_frame.hpp>
 
 #include <algorithm>
 #include <cmath>

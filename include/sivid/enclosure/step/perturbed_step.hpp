@@ -2,7 +2,7 @@
 #ifndef SIVID_ENCLOSURE_STEP_PERTURBED_STEP_HPP
 #define SIVID_ENCLOSURE_STEP_PERTURBED_STEP_HPP
 
-#include <sivid/enclosure/step/perturbation_bound.hpp>
+#include <sivid/enclosure/step/detail/perturbation_bound.hpp>
 #include <sivid/enclosure/uncertain_input.hpp>
 #include <sivid/model/graph/tape.hpp>
 #include <sivid/model/series/series.hpp>

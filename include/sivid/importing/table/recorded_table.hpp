@@ -4,7 +4,7 @@
 
 #include <sivid/importing/import_mapping.hpp>
 #include <sivid/importing/import_protocol.hpp>
-#include <sivid/importing/table/recorded_text.hpp>
+#include <sivid/importing/table/detail/recorded_text.hpp>
 #include <sivid/io/text/text_file.hpp>
 
 #include <algorithm>

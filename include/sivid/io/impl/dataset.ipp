@@ -5,7 +5,7 @@
 #include <sivid/io/dataset.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/io/dataset/dataset_tables.hpp>
+#include <sivid/io/dataset/detail/dataset_tables.hpp>
 #include <sivid/io/dataset/model_names.hpp>
 #include <sivid/io/dataset_effects.hpp>
 #include <sivid/io/dataset_value.hpp>

@@ -2,8 +2,8 @@
 #ifndef SIVID_NUMBER_POLYNOMIAL_TAYLOR_MODEL_FUNCTIONS_HPP
 #define SIVID_NUMBER_POLYNOMIAL_TAYLOR_MODEL_FUNCTIONS_HPP
 
-#include <sivid/number/polynomial/bernstein.hpp>
-#include <sivid/number/polynomial/near_minimax.hpp>
+#include <sivid/number/polynomial/detail/bernstein.hpp>
+#include <sivid/number/polynomial/detail/near_minimax.hpp>
 #include <sivid/number/polynomial/univariate_taylor.hpp>
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include <sivid/paving/contract/cut_certificate.hpp>
 #include <sivid/paving/contract/cut_program.hpp>
 #include <sivid/paving/contract/detail/lifted_block.hpp>
-#include <sivid/paving/contract/oblique_products.hpp>
+#include <sivid/paving/contract/detail/oblique_products.hpp>
 #include <sivid/paving/response/response.hpp>
 #include <sivid/space/box.hpp>
 

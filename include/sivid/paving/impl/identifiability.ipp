@@ -10,7 +10,7 @@
 #include <sivid/model/structure/symmetry.hpp>
 #include <sivid/paving/identifiability/detail/sensitivity_spectrum.hpp>
 #include <sivid/paving/identifiability/output_sensitivities.hpp>
-#include <sivid/space/exact/certified_rank.hpp>
+#include <sivid/space/exact/detail/certified_rank.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -10,8 +10,8 @@
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/identify_options.hpp>
 #include <sivid/paving/invert.hpp>
-#include <sivid/paving/judge/core_box.hpp>
 #include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/detail/core_box.hpp>
 #include <sivid/paving/judge/detail/posed_search.hpp>
 #include <sivid/paving/judge/detail/prior_contraction.hpp>
 #include <sivid/paving/judge/witness.hpp>

@@ -7,7 +7,7 @@
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>
 #include <sivid/number/guard.hpp>
-#include <sivid/paving/inflation/inflation_search.hpp>
+#include <sivid/paving/inflation/detail/inflation_search.hpp>
 #include <sivid/paving/judge/witness.hpp>
 #include <sivid/paving/products/dependence.hpp>
 

@@ -10,7 +10,7 @@
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/judge/box_explorer.hpp>
 #include <sivid/paving/judge/witness.hpp>
-#include <sivid/paving/outliers/outlier_count.hpp>
+#include <sivid/paving/outliers/detail/outlier_count.hpp>
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/reduction.hpp>
 #include <sivid/paving/work_limit.hpp>

@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_JUDGE_DATA_TEST_HPP
 #define SIVID_PAVING_JUDGE_DATA_TEST_HPP
 
-#include <sivid/model/change/smoothed.hpp>
+#include <sivid/model/change/detail/smoothed.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/judge/data_test_options.hpp>
 #include <sivid/paving/judge/detail/response_judgement.hpp>

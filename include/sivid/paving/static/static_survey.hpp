@@ -3,8 +3,8 @@
 #define SIVID_PAVING_STATIC_STATIC_SURVEY_HPP
 
 #include <sivid/number/pack_traits.hpp>
+#include <sivid/paving/static/detail/mean_value_program.hpp>
 #include <sivid/paving/static/mean_value_cut.hpp>
-#include <sivid/paving/static/mean_value_program.hpp>
 #include <sivid/paving/static/static_judge.hpp>
 #include <sivid/paving/verdict.hpp>
 

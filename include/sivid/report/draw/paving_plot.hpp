@@ -4,8 +4,8 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/report/draw/axes.hpp>
+#include <sivid/report/draw/detail/paving_raster.hpp>
 #include <sivid/report/draw/legend.hpp>
-#include <sivid/report/draw/paving_raster.hpp>
 
 #include <algorithm>
 #include <cmath>

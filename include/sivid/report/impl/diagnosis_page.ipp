@@ -10,9 +10,9 @@
 #include <sivid/report/diagnosis_view.hpp>
 #include <sivid/report/diagnosis_words.hpp>
 #include <sivid/report/page.hpp>
-#include <sivid/report/page/diagnosis_figures.hpp>
-#include <sivid/report/page/diagnosis_tables.hpp>
-#include <sivid/report/page/holdout_tables.hpp>
+#include <sivid/report/page/detail/diagnosis_figures.hpp>
+#include <sivid/report/page/detail/diagnosis_tables.hpp>
+#include <sivid/report/page/detail/holdout_tables.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -3,7 +3,7 @@
 #define SIVID_REPORT_PAGE_IDENTIFICATION_PARAMETERS_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/report/draw/interval_chart.hpp>
+#include <sivid/report/draw/detail/interval_chart.hpp>
 #include <sivid/report/identification_view.hpp>
 #include <sivid/report/identification_words.hpp>
 

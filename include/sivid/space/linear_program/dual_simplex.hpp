@@ -2,7 +2,7 @@
 #ifndef SIVID_SPACE_LINEAR_PROGRAM_DUAL_SIMPLEX_HPP
 #define SIVID_SPACE_LINEAR_PROGRAM_DUAL_SIMPLEX_HPP
 
-#include <sivid/space/linear_program/basis_factors.hpp>
+#include <sivid/space/linear_program/detail/basis_factors.hpp>
 
 #include <algorithm>
 #include <cmath>

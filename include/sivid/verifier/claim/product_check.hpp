@@ -4,8 +4,8 @@
 
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/preimage_volume.hpp>
+#include <sivid/verifier/claim/detail/product_volume.hpp>
 #include <sivid/verifier/claim/identification_consistency.hpp>
-#include <sivid/verifier/claim/product_volume.hpp>
 #include <sivid/verifier/claim/stored_products.hpp>
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #define SIVID_VERIFIER_PROOF_PLAIN_CAMPAIGN_HPP
 
 #include <sivid/paving/run/plain_run.hpp>
-#include <sivid/verifier/proof/plain_start_rule.hpp>
+#include <sivid/verifier/proof/detail/plain_start_rule.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <sivid/decision/motion/motion_cover.hpp>
 #include <sivid/number/rounding.hpp>
 #include <sivid/paving/contract/lifted_program.hpp>
-#include <sivid/paving/response/difference_response.hpp>
+#include <sivid/paving/response/detail/difference_response.hpp>
 #include <sivid/paving/work_limit.hpp>
 
 #include <algorithm>

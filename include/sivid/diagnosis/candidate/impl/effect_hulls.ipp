@@ -2,10 +2,10 @@
 #ifndef SIVID_DIAGNOSIS_CANDIDATE_IMPL_EFFECT_HULLS_IPP
 #define SIVID_DIAGNOSIS_CANDIDATE_IMPL_EFFECT_HULLS_IPP
 
-#include <sivid/diagnosis/candidate/effect_hulls.hpp>
+#include <sivid/diagnosis/candidate/detail/effect_hulls.hpp>
 
 #include <sivid/diagnosis/affected_problem.hpp>
-#include <sivid/diagnosis/candidate/input_slices.hpp>
+#include <sivid/diagnosis/candidate/detail/input_slices.hpp>
 #include <sivid/diagnosis/candidate/resolve_memory.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/judge/data_test.hpp>

@@ -2,7 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_CANDIDATE_IMPL_INPUT_SLICES_IPP
 #define SIVID_DIAGNOSIS_CANDIDATE_IMPL_INPUT_SLICES_IPP
 
-#include <sivid/diagnosis/candidate/input_slices.hpp>
+#include <sivid/diagnosis/candidate/detail/input_slices.hpp>
 
 #include <sivid/measurement/detail/widened_signal.hpp>
 #include <sivid/number/interval_traits.hpp>

@@ -2,7 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_GAP_IMPL_CONFINED_GAP_IPP
 #define SIVID_DIAGNOSIS_GAP_IMPL_CONFINED_GAP_IPP
 
-#include <sivid/diagnosis/gap/confined_gap.hpp>
+#include <sivid/diagnosis/gap/detail/confined_gap.hpp>
 
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>

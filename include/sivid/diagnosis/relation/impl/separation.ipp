@@ -2,7 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_RELATION_IMPL_SEPARATION_IPP
 #define SIVID_DIAGNOSIS_RELATION_IMPL_SEPARATION_IPP
 
-#include <sivid/diagnosis/relation/separation.hpp>
+#include <sivid/diagnosis/relation/detail/separation.hpp>
 
 #include <limits>
 

@@ -3,7 +3,7 @@
 #define SIVID_ENCLOSURE_SERIES_DETAIL_EXPANSION_TAIL_HPP
 
 #include <sivid/enclosure/series/expansion.hpp>
-#include <sivid/model/series/series_tail.hpp>
+#include <sivid/model/series/detail/series_tail.hpp>
 
 #include <algorithm>
 #include <cstddef>

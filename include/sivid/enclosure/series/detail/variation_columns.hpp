@@ -4,7 +4,7 @@
 
 #include <sivid/enclosure/flow.hpp>
 #include <sivid/model/series/taylor_arithmetic.hpp>
-#include <sivid/number/polynomial/series_columns.hpp>
+#include <sivid/number/polynomial/detail/series_columns.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -7,13 +7,13 @@
 #include <sivid/enclosure/options.hpp>
 #include <sivid/enclosure/runge_kutta/implicit_runge_kutta.hpp>
 #include <sivid/enclosure/runge_kutta/runge_kutta.hpp>
+#include <sivid/enclosure/series/detail/variation_bound.hpp>
 #include <sivid/enclosure/series/domain_edge.hpp>
 #include <sivid/enclosure/series/expansion.hpp>
-#include <sivid/enclosure/series/variation_bound.hpp>
 #include <sivid/enclosure/set/doubleton.hpp>
+#include <sivid/enclosure/step/detail/tube_step.hpp>
 #include <sivid/enclosure/step/perturbed_step.hpp>
-#include <sivid/enclosure/step/tube_step.hpp>
-#include <sivid/enclosure/stiff/dissipative_step.hpp>
+#include <sivid/enclosure/stiff/detail/dissipative_step.hpp>
 
 #include <algorithm>
 #include <cmath>

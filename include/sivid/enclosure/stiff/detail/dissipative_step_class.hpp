@@ -4,8 +4,8 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/enclosure/runge_kutta/implicit_stages.hpp>
-#include <sivid/enclosure/stiff/invariant_box.hpp>
-#include <sivid/enclosure/stiff/matrix_exponential.hpp>
+#include <sivid/enclosure/stiff/detail/invariant_box.hpp>
+#include <sivid/enclosure/stiff/detail/matrix_exponential.hpp>
 
 #include <Eigen/Core>
 

@@ -11,8 +11,8 @@
 #include <sivid/enclosure/series/expansion.hpp>
 #include <sivid/enclosure/set/parametric_set.hpp>
 #include <sivid/enclosure/step/perturbed_step.hpp>
+#include <sivid/model/series/detail/twofold_arithmetic.hpp>
 #include <sivid/model/series/taylor_arithmetic.hpp>
-#include <sivid/model/series/twofold_arithmetic.hpp>
 #include <sivid/number/guard.hpp>
 
 #include <algorithm>

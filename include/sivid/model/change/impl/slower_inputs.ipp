@@ -2,7 +2,7 @@
 #ifndef SIVID_MODEL_CHANGE_IMPL_SLOWER_INPUTS_IPP
 #define SIVID_MODEL_CHANGE_IMPL_SLOWER_INPUTS_IPP
 
-#include <sivid/model/change/slower_inputs.hpp>
+#include <sivid/model/change/detail/slower_inputs.hpp>
 
 #include <sivid/model/change/detail/driving_products.hpp>
 #include <sivid/model/graph/program.hpp>

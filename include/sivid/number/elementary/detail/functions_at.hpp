@@ -9,7 +9,7 @@
 /// For each function f: `f_at::down(x) <= f(x) <= f_at::up(x)`, and both at once by
 /// `f_at::both(x)`, all in round-to-nearest. Known values and ranges are the caller's part.
 
-#include <sivid/number/rounding/excess.hpp>
+#include <sivid/number/rounding/detail/excess.hpp>
 
 #if SIVID_TRUSTS_LIBRARY
 #include <sivid/number/rounding.hpp>

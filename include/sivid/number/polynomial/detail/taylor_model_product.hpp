@@ -2,8 +2,8 @@
 #ifndef SIVID_NUMBER_POLYNOMIAL_DETAIL_TAYLOR_MODEL_PRODUCT_HPP
 #define SIVID_NUMBER_POLYNOMIAL_DETAIL_TAYLOR_MODEL_PRODUCT_HPP
 
+#include <sivid/number/polynomial/detail/series_rows.hpp>
 #include <sivid/number/polynomial/detail/taylor_model_class.hpp>
-#include <sivid/number/polynomial/series_rows.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 /// Number texts rounded to neighbouring doubles, in whole numbers of any size: the end of
 /// decimal_text.hpp.
 
-#include <sivid/number/text/decimal_text.hpp>
+#include <sivid/number/text/detail/decimal_text.hpp>
 
 #include <sivid/compiled.hpp>
 

@@ -4,7 +4,7 @@
 
 #include <sivid/model/structure/symmetry.hpp>
 #include <sivid/paving/identifiability/output_sensitivities.hpp>
-#include <sivid/space/exact/rational_basis.hpp>
+#include <sivid/space/exact/detail/rational_basis.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/QR>

@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_INFLATION_IMPL_HOLDOUT_INFLATION_IPP
 #define SIVID_PAVING_INFLATION_IMPL_HOLDOUT_INFLATION_IPP
 
-#include <sivid/paving/inflation/holdout_inflation.hpp>
+#include <sivid/paving/inflation/detail/holdout_inflation.hpp>
 
 #include <sivid/compiled.hpp>
 #include <sivid/number/guard.hpp>

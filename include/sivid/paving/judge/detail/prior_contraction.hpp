@@ -7,7 +7,7 @@
 /// a logger is faster than the motion, windows where starts are not known.
 
 #include <sivid/measurement/signal.hpp>
-#include <sivid/model/change/slower_inputs.hpp>
+#include <sivid/model/change/detail/slower_inputs.hpp>
 #include <sivid/paving/contract/window_contraction.hpp>
 #include <sivid/paving/identify_options.hpp>
 #include <sivid/paving/invert.hpp>

@@ -6,7 +6,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/paving/contract/cut_contraction.hpp>
-#include <sivid/paving/contract/explaining_starts.hpp>
+#include <sivid/paving/contract/detail/explaining_starts.hpp>
 #include <sivid/paving/response/local_response.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/space/box.hpp>

@@ -3,7 +3,7 @@
 #define SIVID_PAVING_ONLINE_DETAIL_ONLINE_REGION_HPP
 
 #include <sivid/paving/contract/inflation_certificate.hpp>
-#include <sivid/paving/response/growing_response.hpp>
+#include <sivid/paving/response/detail/growing_response.hpp>
 #include <sivid/paving/run/continued_run.hpp>
 #include <sivid/space/box.hpp>
 

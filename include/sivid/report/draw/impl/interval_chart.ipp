@@ -2,7 +2,7 @@
 #ifndef SIVID_REPORT_DRAW_IMPL_INTERVAL_CHART_IPP
 #define SIVID_REPORT_DRAW_IMPL_INTERVAL_CHART_IPP
 
-#include <sivid/report/draw/interval_chart.hpp>
+#include <sivid/report/draw/detail/interval_chart.hpp>
 
 namespace sivid::report {
 

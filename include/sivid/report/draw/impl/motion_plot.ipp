@@ -2,7 +2,7 @@
 #ifndef SIVID_REPORT_DRAW_IMPL_MOTION_PLOT_IPP
 #define SIVID_REPORT_DRAW_IMPL_MOTION_PLOT_IPP
 
-#include <sivid/report/draw/motion_plot.hpp>
+#include <sivid/report/draw/detail/motion_plot.hpp>
 
 #include <sivid/compiled.hpp>
 #include <sivid/report/draw/axes.hpp>

@@ -2,7 +2,7 @@
 #ifndef SIVID_REPORT_DRAW_IMPL_PAVING_RASTER_IPP
 #define SIVID_REPORT_DRAW_IMPL_PAVING_RASTER_IPP
 
-#include <sivid/report/draw/paving_raster.hpp>
+#include <sivid/report/draw/detail/paving_raster.hpp>
 
 namespace sivid::report {
 

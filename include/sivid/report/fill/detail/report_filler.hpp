@@ -7,7 +7,7 @@
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/report/draw/paving_projections.hpp>
-#include <sivid/report/fill/scenario_report.hpp>
+#include <sivid/report/fill/detail/scenario_report.hpp>
 #include <sivid/report/identification_view.hpp>
 #include <sivid/report/identification_words.hpp>
 #include <sivid/report/reach_words.hpp>

@@ -2,7 +2,7 @@
 #ifndef SIVID_REPORT_FILL_IMPL_DIAGNOSIS_PLOT_DATA_IPP
 #define SIVID_REPORT_FILL_IMPL_DIAGNOSIS_PLOT_DATA_IPP
 
-#include <sivid/report/fill/diagnosis_plot_data.hpp>
+#include <sivid/report/fill/detail/diagnosis_plot_data.hpp>
 
 namespace sivid::report {
 

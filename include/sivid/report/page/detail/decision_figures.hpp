@@ -5,7 +5,7 @@
 #include <sivid/decision/prediction.hpp>
 #include <sivid/decision/requirement.hpp>
 #include <sivid/io/result/detail/stored_prediction.hpp>
-#include <sivid/report/draw/motion_plot.hpp>
+#include <sivid/report/draw/detail/motion_plot.hpp>
 #include <sivid/report/identification_words.hpp>
 #include <sivid/report/number_text.hpp>
 #include <sivid/report/page.hpp>

@@ -2,7 +2,7 @@
 #ifndef SIVID_REPORT_PAGE_IMPL_DIAGNOSIS_FIGURES_IPP
 #define SIVID_REPORT_PAGE_IMPL_DIAGNOSIS_FIGURES_IPP
 
-#include <sivid/report/page/diagnosis_figures.hpp>
+#include <sivid/report/page/detail/diagnosis_figures.hpp>
 
 namespace sivid::report {
 

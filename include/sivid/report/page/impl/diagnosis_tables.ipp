@@ -2,7 +2,7 @@
 #ifndef SIVID_REPORT_PAGE_IMPL_DIAGNOSIS_TABLES_IPP
 #define SIVID_REPORT_PAGE_IMPL_DIAGNOSIS_TABLES_IPP
 
-#include <sivid/report/page/diagnosis_tables.hpp>
+#include <sivid/report/page/detail/diagnosis_tables.hpp>
 
 namespace sivid::report {
 

@@ -2,7 +2,7 @@
 #ifndef SIVID_REPORT_PAGE_IMPL_HOLDOUT_TABLES_IPP
 #define SIVID_REPORT_PAGE_IMPL_HOLDOUT_TABLES_IPP
 
-#include <sivid/report/page/holdout_tables.hpp>
+#include <sivid/report/page/detail/holdout_tables.hpp>
 
 namespace sivid::report {
 

@@ -2,7 +2,7 @@
 #ifndef SIVID_REPORT_TEXT_IMPL_ROUNDED_DECIMAL_IPP
 #define SIVID_REPORT_TEXT_IMPL_ROUNDED_DECIMAL_IPP
 
-#include <sivid/report/text/rounded_decimal.hpp>
+#include <sivid/report/text/detail/rounded_decimal.hpp>
 
 namespace sivid::report {
 

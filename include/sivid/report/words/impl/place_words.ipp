@@ -2,7 +2,7 @@
 #ifndef SIVID_REPORT_WORDS_IMPL_PLACE_WORDS_IPP
 #define SIVID_REPORT_WORDS_IMPL_PLACE_WORDS_IPP
 
-#include <sivid/report/words/place_words.hpp>
+#include <sivid/report/words/detail/place_words.hpp>
 
 namespace sivid::report {
 

@@ -2,7 +2,7 @@
 #ifndef SIVID_SPACE_EXACT_IMPL_CERTIFIED_RANK_IPP
 #define SIVID_SPACE_EXACT_IMPL_CERTIFIED_RANK_IPP
 
-#include <sivid/space/exact/certified_rank.hpp>
+#include <sivid/space/exact/detail/certified_rank.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/SVD>

@@ -2,7 +2,7 @@
 #ifndef SIVID_SPACE_EXACT_IMPL_RATIONAL_BASIS_IPP
 #define SIVID_SPACE_EXACT_IMPL_RATIONAL_BASIS_IPP
 
-#include <sivid/space/exact/rational_basis.hpp>
+#include <sivid/space/exact/detail/rational_basis.hpp>
 
 #include <Eigen/QR>
 

@@ -5,13 +5,13 @@
 #include <sivid/io/result/detail/stored_identification.hpp>
 #include <sivid/paving/work_limit.hpp>
 #include <sivid/verifier/claim/detail/check_finding.hpp>
+#include <sivid/verifier/claim/detail/drawing_check.hpp>
+#include <sivid/verifier/claim/detail/fewest_outliers_check.hpp>
+#include <sivid/verifier/claim/detail/forced_outlier_check.hpp>
+#include <sivid/verifier/claim/detail/identifiability_check.hpp>
 #include <sivid/verifier/claim/detail/identification_check_options.hpp>
-#include <sivid/verifier/claim/drawing_check.hpp>
-#include <sivid/verifier/claim/fewest_outliers_check.hpp>
-#include <sivid/verifier/claim/forced_outlier_check.hpp>
-#include <sivid/verifier/claim/identifiability_check.hpp>
+#include <sivid/verifier/claim/detail/paving_check.hpp>
 #include <sivid/verifier/claim/identification_consistency.hpp>
-#include <sivid/verifier/claim/paving_check.hpp>
 #include <sivid/verifier/claim/product_check.hpp>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #ifndef SIVID_VERIFIER_CLAIM_IMPL_IDENTIFIABILITY_CHECK_IPP
 #define SIVID_VERIFIER_CLAIM_IMPL_IDENTIFIABILITY_CHECK_IPP
 
-#include <sivid/verifier/claim/identifiability_check.hpp>
+#include <sivid/verifier/claim/detail/identifiability_check.hpp>
 
 #include <sivid/compiled.hpp>
 #include <sivid/paving/identifiability/output_sensitivities.hpp>

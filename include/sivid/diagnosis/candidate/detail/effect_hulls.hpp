@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_CANDIDATE_DETAIL_EFFECT_HULLS_HPP
+#define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_EFFECT_HULLS_HPP
+
+#include <sivid/compiled.hpp>
+#include <sivid/model/effect.hpp>
+#include <sivid/model/problem.hpp>
+#include <sivid/paving/judge/data_test_options.hpp>
+#include <sivid/space/box.hpp>
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace sivid {
+
+struct effect_hull_options {
+    double seconds = 10;
+    std::size_t boxes = 4000; ///< of the last search; a slice gets a share of them
+    /// A delay or a play is told no more finely than this share of its prior.
+    double accuracy = 1.0 / 128;
+    std::function<bool()> keep_going{}; ///< false ends it with what is proved until then
+    data_test_options test{};
+};
+
+/// Encloses all parameters of a model with effects that explain the data: those of the model
+/// itself, then those of the effects.
+///   A delay or a play has no enclosure over a range, and the equation of a lag is singular where
+/// its time constant is 0. Over a slice of their priors they are inputs with error bounds
+/// (`delayed_within`, `played`, `lagged_within`): slices that cannot explain the data are excluded,
+/// the hulls of the others are joined. Short time constants are such a slice; the others are an
+/// ordinary state.
+/// @param base     without the effects
+/// @param effects  at most one with a delay or a play of an input; delays of channels are left at
+/// their prior
+/// @guarantee  every parameter of `affected(base, effects)` that explains the data lies in the
+///             result; empty when none does
+/// @throws std::invalid_argument  as `affected`
+/// @cost  a search for each slice, until its hull rests, within the limits
+[[nodiscard]] SIVID_DECL box effect_hulls(identification_problem const& base,
+                                          std::vector<effect> const& effects,
+                                          effect_hull_options const& options = {});
+
+/// What is known of an effect that begins in the midst of experiments.
+struct onset_hulls {
+    box parameters; ///< as of `effect_hulls`, whenever the effect begins; empty sides: none explain
+    /// When it begins, for each experiment: from its begin (or earlier) to its last measurement (or
+    /// later, or never).
+    std::vector<interval> onsets;
+};
+
+/// Encloses when an effect may begin, each experiment at a time of its own, and all parameters with
+/// which it then explains the data. Over a slice of onsets its switch is an input with error bounds
+/// (`switched_within`); slices at either end that cannot explain the data are cut off, as long as
+/// that helps and there is time.
+/// @param e  without a delay and a state of its own; where it acts, and since when, says only which
+///           slices need not be tried
+/// @guarantee  whatever parameters explain the data with the effect switched on at a time in each
+///             experiment, or never: they and these times lie in the result
+/// @cost  two short searches for each experiment, again and again while some exclude, within the
+///        limits
+[[nodiscard]] SIVID_DECL onset_hulls hulls_with_onsets(identification_problem const& base, effect e,
+                                                       effect_hull_options const& options = {});
+
+} // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/diagnosis/candidate/impl/effect_hulls.ipp>
+#endif
+
+#endif

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_CANDIDATE_DETAIL_INPUT_SLICES_HPP
+#define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_INPUT_SLICES_HPP
+
+#include <sivid/compiled.hpp>
+#include <sivid/measurement/signal.hpp>
+#include <sivid/number/interval.hpp>
+
+namespace sivid {
+
+/// A recorded input after a first-order lag, for every time constant up to the longest, as an input
+/// with error bounds: no differential equation, and none that is singular at 0.
+///   With d' = (u - d)/tau the difference g = d - u obeys g' = -g/tau - u', so on a piece of slope
+///   m
+///     \f$ |g(t)| \le |g_k| e^{-(t-t_k)/\tau} + |m| \tau (1 - e^{-(t-t_k)/\tau}), \f$
+/// which grows with tau; where u jumps, |g| grows by the jump at most. Errors of the samples pass
+/// the lag with their largest value so far.
+/// @param begin    where d = u, or 0 when it rests
+/// @param end      of what is asked for, at least `begin`
+/// @param longest  the largest time constant, positive
+/// @guarantee  for every tau in [0, longest], 0 being d = u, the lagged input lies within the
+/// result
+///             from `begin` to `end`
+/// @cost  linear in the samples; up to three times as many in pieces longer than `longest`
+[[nodiscard]] SIVID_DECL sampled_signal lagged_within(sampled_signal const& u, double begin,
+                                                      double end, double longest, bool rests);
+
+/// A recorded input that acts late, for every delay in an interval: u(t - tau), and u(begin)
+/// before, as an input with error bounds.
+///   About the middle of the delays, the error is at most half their width times the steepest slope
+/// within reach; held inputs take the range of what is within reach.
+/// @param delays  0 or more
+/// @guarantee  for every delay the late input lies within the result from `begin` to `end`
+/// @cost  as many samples, twice as many held ones; each looks at those within half the delays'
+/// width
+[[nodiscard]] SIVID_DECL sampled_signal delayed_within(sampled_signal const& u, double begin,
+                                                       double end, interval const& delays);
+
+/// A switch that goes from 0 to 1 at a time within `onset` and stays there, as a held input with
+/// error bounds: 0 before, anything from 0 to 1 within, 1 after.
+/// @given  begin <= end; onset is not empty
+/// @guarantee  for every onset in the interval the switch (1 from the onset on) lies within the
+///             result from `begin` to `end`; where the interval reaches to `end`, so does one that
+///             stays 0
+/// @cost  three samples at most
+[[nodiscard]] SIVID_DECL sampled_signal switched_within(double begin, double end,
+                                                        interval const& onset);
+
+} // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/diagnosis/candidate/impl/input_slices.ipp>
+#endif
+
+#endif

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_SENSOR_DETAIL_SENSOR_FAULTS_HPP
+#define SIVID_DIAGNOSIS_SENSOR_DETAIL_SENSOR_FAULTS_HPP
+
+#include <sivid/diagnosis/relation/relation_windows.hpp>
+#include <sivid/diagnosis/relation/state_samples.hpp>
+#include <sivid/model/graph/rewrite.hpp>
+#include <sivid/model/problem.hpp>
+#include <sivid/model/unit.hpp>
+#include <sivid/number/text/nearest_text.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// What a faulty sensor may do: the true x is
+///   \f$ x(t) = (1 + s)\, y(t + \tau) + b + d\, t + \sum_m c_m y_m(t) \f$
+/// of what it shows, y, and what the sensors of other states show, with unknown s, b, d, c in
+/// ranges about 0 and an unknown delay \f$ \tau \f$. Cross-talk c: of channels in the same unit (an
+/// instrument that is mounted askew) and of those whose unit is that by a length (a lever arm).
+struct sensor_fault_ranges {
+    double scale = 0.1;   ///< |s|
+    double offset = 0.1;  ///< |b| and |d t|, each as a share of what the channel's values span
+    double mixing = 0.12; ///< |c| within one unit: 0.12 rad askew
+    double arm = 0.1;     ///< |c| of a lever arm [m]
+    double latency = 0.2; ///< most delay [s]
+    std::size_t most_slices = 40; ///< pieces that the delay is cut into
+};
+
+/// A sensor with the ranges of its faults, in the channel's unit.
+struct faulty_channel {
+    std::size_t state = 0, channel = 0;
+    interval scale{0.0}, offset{0.0}, drift{0.0};
+    std::vector<std::pair<std::size_t, interval>> mixing; ///< (state, share)
+    double latency = 0;
+
+    /// How many unknown numbers there are beside the delay, and the range of one of them.
+    [[nodiscard]] std::size_t size() const { return 3 + mixing.size(); }
+    [[nodiscard]] interval& range(std::size_t k) {
+        return k == 0 ? scale : k == 1 ? offset : k == 2 ? drift : mixing[k - 3].second;
+    }
+};
+
+namespace diagnosis_detail {
+
+/// A unit in which an angle is a number.
+inline unit without_angle(std::string const& text) {
+    auto result = unit(text);
+    for (int n = 1; n <= 4; ++n) { // rad stands in it to a small power, if at all
+        auto const above = result.times(unit("rad"), -1);
+        if (above.text().size() < result.text().size()) result = above;
+        auto const below = result.times(unit("rad"), 1);
+        if (below.text().size() < result.text().size()) result = below;
+    }
+    return result;
+}
+
+} // namespace diagnosis_detail
+
+/// The ranges of one sensor's faults.
+/// @param channels  that show the states
+[[nodiscard]] inline faulty_channel
+faults_of(identification_problem const& problem,
+          std::vector<std::optional<std::size_t>> const& channels, std::size_t state,
+          sensor_fault_ranges const& ranges) {
+    auto const& about = problem.model.about;
+    auto const within = [](double most) { return interval(-most, most); };
+    faulty_channel result{state, *channels[state], within(ranges.scale), {}, {},
+                          {},    ranges.latency};
+    double low = HUGE_VAL, high = -HUGE_VAL, longest = 0, latest = 0;
+    for (auto const& e : problem.experiments) {
+        for (auto const& m : e.measurements) {
+            if (m.channel != result.channel) continue;
+            low = std::min(low, m.bound.lower());
+            high = std::max(high, m.bound.upper());
+            longest = std::max(longest, m.time - e.begin);
+            latest = std::max(latest, std::abs(e.begin));
+        }
+    }
+    double const most = ranges.offset * std::max(high - low, 0.0);
+    double const drift = longest > 0 ? most / longest : 0;
+    result.drift = within(drift);
+    result.offset = within(most + drift * latest); // the drift counts from the begin
+    auto const own = diagnosis_detail::without_angle(about.channels[result.channel].unit);
+    for (std::size_t m = 0; m < channels.size(); ++m) {
+        if (!channels[m] || m == state) continue;
+        auto const other = diagnosis_detail::without_angle(about.channels[*channels[m]].unit);
+        if (about.channels[*channels[m]].unit == about.channels[result.channel].unit) {
+            result.mixing.emplace_back(m, within(ranges.mixing));
+        } else if (own == other.times(unit("m"), 1)) {
+            result.mixing.emplace_back(m, within(ranges.arm));
+        }
+    }
+    return result;
+}
+
+/// A problem about what a faulty sensor shows, re-timed for delays around one value: its model
+/// takes that for the state and corrects it by unknown constants.
+struct suspect_problem {
+    identification_problem problem;
+    suspected_sensor sensor;
+};
+
+/// @param laws         declared variations of the states' rates, per experiment
+/// @param delay, half  the delays delay - half to delay + half
+[[nodiscard]] inline suspect_problem
+suspect_of(identification_problem const& source, faulty_channel const& f,
+           std::map<std::string, std::vector<rate_variation>> const& laws, double delay,
+           double half) {
+    using traits = interval_traits<interval>;
+    suspect_problem result{source, {f.state, f.scale, f.drift, f.mixing, laws}};
+    auto& problem = result.problem;
+    auto& model = problem.model;
+    std::vector<interval> sides(source.prior.begin(), source.prior.end());
+    graph g;
+    auto const unknown = [&](std::string const& name, interval const& range) {
+        model.about.constants.push_back({name, "1", literal{interval(0.0), 0.0}});
+        problem.choice.unknown.push_back(name);
+        sides.push_back(range);
+        return g.leaf(operation::constant, model.about.constants.size() - 1);
+    };
+    auto const shown = g.leaf(operation::state, f.state);
+    auto state = g.add(shown, g.mul(unknown("sensor scale", f.scale), shown));
+    state = g.add(state, unknown("sensor offset", f.offset));
+    state = g.add(state, g.mul(unknown("sensor drift", f.drift), g.leaf(operation::time, 0)));
+    for (auto const& [m, range] : f.mixing) {
+        auto const share = unknown("sensor share " + model.about.states[m].name, range);
+        state = g.add(state, g.mul(share, g.leaf(operation::state, m)));
+    }
+    auto const plain = [](node const& n, graph& to) {
+        return to.leaf(n.op, static_cast<std::size_t>(n.index));
+    };
+    auto const corrected = [&](node const& n, graph& to) {
+        auto const k = static_cast<std::size_t>(n.index);
+        return n.op == operation::state && k == f.state ? state : to.leaf(n.op, k);
+    };
+    model.rate = copy_into(g, source.model.g, source.model.rate, corrected);
+    model.observe = copy_into(g, source.model.g, source.model.observe, plain);
+    for (auto& a : model.added_states) {
+        a.at_begin = copy_into(g, source.model.g, {a.at_begin}, plain).front();
+    }
+    model.g = std::move(g);
+    problem.prior = box(sides.size());
+    for (std::size_t j = 0; j < sides.size(); ++j) problem.prior[j] = sides[j];
+
+    for (auto& e : problem.experiments) {
+        auto const found = laws.find(e.name);
+        if (found == laws.end()) continue; // it is not used
+        // x' = (1 + s) y' + d + sum c y_m': what y' varies by.
+        auto& law = result.sensor.laws[e.name][f.state];
+        double variation = law.variation;
+        auto off = traits::add(f.offset, traits::mul(f.drift, traits::point(e.begin)));
+        for (auto const& [m, share] : f.mixing) {
+            auto const& other = found->second[m];
+            double const periods = std::ceil(law.period / other.period * (1 - 1e-9));
+            variation += mag(share) * other.variation * std::max(1.0, periods);
+            off = traits::add(off, traits::mul(share, e.initial[m]));
+        }
+        law.variation = std::min(variation / (1 + f.scale.lower()) * (1 + 1e-9), 1e100);
+        bool undefined = false;
+        e.initial[f.state] = traits::div(traits::sub(e.initial[f.state], off),
+                                         traits::add(traits::point(1.0), f.scale), undefined);
+        // Late by delay: what is shown at t belongs to t - delay; and may have moved by half.
+        auto const samples = state_samples::sensed(e, f.channel);
+        auto const steepest = [&](double t) {
+            double rate = 0;
+            for (std::size_t k = 0; k + 1 < samples.times.size(); ++k) {
+                double const gap = samples.times[k + 1] - samples.times[k];
+                if (samples.times[k + 1] < t - 1.5 * gap || samples.times[k] > t + 1.5 * gap) {
+                    continue;
+                }
+                rate = std::max(rate, mag((samples.bounds[k + 1] - samples.bounds[k]) / gap));
+            }
+            return rate + 2 * law.variation;
+        };
+        record kept;
+        for (auto m : e.measurements) {
+            if (m.channel == f.channel) {
+                double const more = half > 0 ? half * steepest(m.time) * (1 + 1e-9) : 0;
+                m.bound = traits::add(m.bound, traits::bounds(-more, more));
+                m.time -= delay;
+                if (m.time < e.begin) continue;
+            }
+            kept.push_back(m);
+        }
+        e.measurements = std::move(kept);
+    }
+    return result;
+}
+
+/// Delays that stand for [0, latency], and half of what each one stands for.
+[[nodiscard]] inline std::pair<std::vector<double>, double>
+delay_slices(identification_problem const& problem, faulty_channel const& f,
+             std::size_t most_slices) {
+    if (!(f.latency > 0)) return {{0.0}, 0.0};
+    // As long as the channel takes to move by its error where it is fast.
+    std::vector<double> lengths;
+    for (auto const& e : problem.experiments) {
+        auto const s = state_samples::sensed(e, f.channel);
+        for (std::size_t k = 0; k + 1 < s.times.size(); ++k) {
+            double const rate =
+                mag((s.bounds[k + 1] - s.bounds[k])) / (s.times[k + 1] - s.times[k]);
+            lengths.push_back(rad(s.bounds[k]) / std::max(rate, 1e-12));
+        }
+    }
+    double length = f.latency;
+    if (!lengths.empty()) {
+        auto const middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 4);
+        std::nth_element(lengths.begin(), middle, lengths.end());
+        length = std::min(length, 2 * *middle);
+    }
+    auto const count = static_cast<std::size_t>(
+        std::clamp(std::ceil(f.latency / length), std::min(10.0, static_cast<double>(most_slices)),
+                   static_cast<double>(most_slices)));
+    double const half = f.latency / static_cast<double>(count) / 2;
+    std::vector<double> delays;
+    for (std::size_t k = 0; k < count; ++k) delays.push_back(half * static_cast<double>(2 * k + 1));
+    return {delays, half * (1 + 1e-9)};
+}
+
+/// What sensors may do where a place is proved, in words.
+[[nodiscard]] inline std::string fault_assumption(identification_problem const& problem,
+                                                  std::vector<faulty_channel> const& all) {
+    auto const& about = problem.model.about;
+    std::string text = "at most one sensor errs beyond its bounds, by no more than";
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        auto const& f = all[k];
+        auto const& c = about.channels[f.channel];
+        auto const most = [](interval const& x) { return nearest_text(mag(x), 3); };
+        text += std::string{k == 0 ? " " : " / "} + c.name + ": scale " + most(f.scale) +
+                ", offset " + most(f.offset) + " " + c.unit + ", drift " + most(f.drift) + " " +
+                c.unit + "/s";
+        for (auto const& [m, share] : f.mixing) {
+            text += ", share of " + about.states[m].name + " " + most(share);
+        }
+        text += ", delay " + nearest_text(f.latency, 3) + " s";
+    }
+    return text;
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IMPORTING_MAPPING_DETAIL_SOURCE_FORM_READER_HPP
+#define SIVID_IMPORTING_MAPPING_DETAIL_SOURCE_FORM_READER_HPP
+
+#include <sivid/importing/mapping/detail/column_entries.hpp>
+
+#include <cstddef>
+#include <string>
+#include <utility>
+
+namespace sivid {
+
+/// "source": separators, missing readings, fields, and what happens where a log breaks.
+/// @throws input_error
+[[nodiscard]] inline source_form read_source_form(json_value const& entry) {
+    using namespace mapping_entries;
+    source_form form;
+    auto const* kind = entry.find("kind");
+    if (kind != nullptr && kind->string() == "matlab") {
+        entry.allow_only({"kind"});
+        form.from = source_form::kind::matlab;
+        return form;
+    }
+    if (kind != nullptr && kind->string() != "csv" && kind->string() != "serial")
+        kind->fail(text_of("found ", in_quotes(kind->string())), "write csv, serial or matlab");
+    bool const serial = kind != nullptr && kind->string() == "serial";
+    form.from = serial ? source_form::kind::serial : source_form::kind::csv;
+    if (serial)
+        entry.allow_only({"kind", "separator", "decimal", "missing", "fields", "longest_gap", "gap",
+                          "restart", "check_sum"});
+    else
+        entry.allow_only(
+            {"kind", "separator", "decimal", "missing", "skip_lines", "skip_after_heading"});
+    if (auto const* s = entry.find("separator"))
+        form.separator =
+            character(*s, ",;\t |:", "write \",\", \";\", \"\\t\", \"|\", \":\" or \" \" (blanks)");
+    if (auto const* d = entry.find("decimal"))
+        form.decimal = character(*d, ".,", "write \".\" or \",\"");
+    if (form.decimal == form.separator)
+        entry.fail("the decimal mark is the separator",
+                   "state a \"separator\" that differs from \"decimal\"");
+    if (auto const* missing = entry.find("missing"))
+        for (auto const& m : missing->elements()) form.missing.push_back(m.string());
+    if (!serial) {
+        if (auto const* n = entry.find("skip_lines")) form.skip_lines = whole(*n, 0, 1'000'000);
+        if (auto const* n = entry.find("skip_after_heading"))
+            form.skip_after_heading = whole(*n, 0, 1'000'000);
+        return form;
+    }
+    for (auto const& f : entry.at("fields").elements()) {
+        auto const& name = f.string();
+        for (auto const& other : form.fields)
+            if (other == name && name != "_")
+                f.fail(text_of("the field ", in_quotes(name), " appears twice"), "rename one");
+        form.fields.push_back(name);
+    }
+    if (form.fields.empty()) entry.at("fields").fail("no field", "name what a line holds");
+    form.longest_gap = positive(entry.at("longest_gap"),
+                                "state the longest usual time between two lines in seconds");
+    if (auto const* sum = entry.find("check_sum"))
+        form.check_sums = sum->is_second_of("none", "crc16");
+    auto const policy = [&](char const* key, char const* other, break_policy meaning) {
+        auto const* found = entry.find(key);
+        if (found == nullptr || found->string() == "refuse") return break_policy::refuse;
+        if (found->string() == "split") return break_policy::split;
+        if (found->string() == other) return meaning;
+        found->fail(text_of("found ", in_quotes(found->string())),
+                    text_of("write refuse, split or ", other));
+    };
+    form.gap = policy("gap", "keep", break_policy::keep);
+    form.restart = policy("restart", "drop", break_policy::drop);
+    return form;
+}
+
+/// "time": column with unit and offset, or sample time, and the counter's bits.
+/// @throws input_error
+[[nodiscard]] inline time_mapping read_time_mapping(json_value const& entry, bool serial) {
+    entry.allow_only({"column", "sample_time", "unit", "offset", "counter_bits"});
+    time_mapping time;
+    auto const* step = entry.find("sample_time");
+    if (step == nullptr) {
+        time.column = mapping_entries::column(entry.at("column"));
+        (void)entry.at("unit"); // of a sample time both may be left out
+        (void)entry.at("offset");
+    } else {
+        if (serial)
+            step->fail("a log that may lose lines has no constant step",
+                       "name the \"column\" of the time stamps");
+        if (auto const* column = entry.find("column"))
+            column->fail("a column and a sample time", "keep one of the two");
+        time.sample_time = mapping_entries::positive(*step, "state the time from row to row");
+    }
+    if (auto const* unit = entry.find("unit")) {
+        time.unit = unit->string();
+        for (auto const& [name, factor] : {std::pair{"s", "1"},
+                                           {"ms", "1e-3"},
+                                           {"us", "1e-6"},
+                                           {"ns", "1e-9"},
+                                           {"min", "60"},
+                                           {"h", "3600"}})
+            if (time.unit == name)
+                time.to_seconds.factor_lower = time.to_seconds.factor_upper =
+                    *exact_decimal::parse(factor);
+        if (time.unit != "s" && time.to_seconds.text().empty())
+            unit->fail(text_of("unknown unit ", in_quotes(time.unit)),
+                       "write s, ms, us, ns, min or h");
+    }
+    if (auto const* bits = entry.find("counter_bits")) {
+        if (!serial) bits->fail("a counter in a table", "counters that wrap need a serial source");
+        time.counter_bits = mapping_entries::counter_bits(*bits);
+    }
+    auto const* offset = entry.find("offset");
+    if (offset == nullptr) return time; // of a sample time: the first row is at 0
+    if (offset->type() == json_value::kind::string) {
+        if (offset->string() != "first")
+            offset->fail(text_of("found ", in_quotes(offset->string())),
+                         "write \"first\" or a number in seconds");
+        time.from_first = true;
+    } else {
+        time.offset = offset->number();
+    }
+    return time;
+}
+
+/// An entry of "inputs" or "channels".
+/// @throws input_error
+[[nodiscard]] inline quantity_mapping read_quantity_mapping(json_value const& entry,
+                                                            std::string const& name, bool input) {
+    using namespace mapping_entries;
+    entry.allow_only(
+        {"column", "unit", "factor", "divisor", "offset", "counter_bits", "range", "error"});
+    quantity_mapping q;
+    q.name = mapping_entries::name(entry, name);
+    q.column = column(entry.at("column"));
+    if (auto const* unit = entry.find("unit")) q.unit = unit->any_string();
+    if (auto const* factor = entry.find("factor")) {
+        if (factor->type() == json_value::kind::array) {
+            auto const r = range(*factor);
+            q.conversion.factor_lower = r.lower;
+            q.conversion.factor_upper = r.upper;
+        } else {
+            q.conversion.factor_lower = q.conversion.factor_upper = factor->number();
+        }
+        if (!q.conversion.factor_lower.is_positive() && !q.conversion.factor_upper.is_negative())
+            factor->fail("the factor may be 0", "a reading times 0 says nothing");
+    }
+    if (auto const* d = entry.find("divisor"))
+        q.conversion.divisor = whole(*d, 1, unit_conversion::largest_divisor);
+    if (auto const* o = entry.find("offset")) q.conversion.offset = o->number();
+    if (auto const* b = entry.find("counter_bits"))
+        q.counter_bits = mapping_entries::counter_bits(*b);
+    if (auto const* r = entry.find("range")) {
+        auto const ends = range(*r);
+        q.range.emplace(ends.lower, ends.upper);
+    }
+    auto const* error = entry.find("error");
+    if (error == nullptr) {
+        if (!input) (void)entry.at("error"); // says that it is missing
+        if (!q.conversion.factor_is_exact())
+            entry.fail("an exact input with an uncertain factor",
+                       "state an \"error\"; the factor's share is added to it");
+        return q;
+    }
+    q.error.place = error->place();
+    if (error->type() == json_value::kind::object) {
+        error->allow_only({"column"});
+        q.error.from = bound_source::kind::column;
+        q.error.column = column(error->at("column"));
+    } else if (error->type() == json_value::kind::string) {
+        if (error->string() != "propose")
+            error->fail(text_of("found ", in_quotes(error->string())),
+                        "write a number, {\"column\": ...} or \"propose\"");
+        q.error.from = bound_source::kind::proposed;
+    } else {
+        q.error.from = bound_source::kind::number;
+        q.error.number = positive(*error, "a bound of an instrument is positive");
+    }
+    return q;
+}
+
+} // namespace sivid
+
+#endif // SIVID_IMPORTING_MAPPING_DETAIL_SOURCE_FORM_READER_HPP

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IMPORTING_SCENARIO_DETAIL_SCENARIO_IMPORT_HPP
+#define SIVID_IMPORTING_SCENARIO_DETAIL_SCENARIO_IMPORT_HPP
+
+#include <sivid/importing/scenario/detail/window_cut.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// Brings one recorded stretch onto the time axis of a scenario: units, offset, duration; and cuts
+/// it into windows, no measurement in two of them. Samples outside are dropped, none is invented.
+class scenario_import {
+public:
+    /// @param only  the stretch is the whole record: a defect is bad input, and a stated duration
+    /// is
+    ///              required in full; otherwise the stretch may be shorter
+    scenario_import(scenario_mapping const& s, std::string name, bool only,
+                    import_protocol& protocol)
+        : s_{s}, name_{std::move(name)}, only_{only}, protocol_{protocol} {}
+
+    /// @throws input_error  when the stretch makes no scenario
+    [[nodiscard]] std::vector<open_scenario> read(recorded_table const& table) {
+        open_scenario whole;
+        whole.name = whole.stretch = name_;
+        whole.mapping = &s_;
+        whole.role = s_.role;
+        whole.first_line = table.first_line;
+        whole.last_line = table.last_line;
+        whole.rows = table.rows.size();
+        std::size_t cell = 0;
+        for (auto const& q : s_.inputs)
+            whole.inputs.push_back(quantity_import{s_, q, name_, protocol_}.read(table, cell));
+        for (auto const& q : s_.channels)
+            whole.channels.push_back(quantity_import{s_, q, name_, protocol_}.read(table, cell));
+        if (table.rows.empty()) fail(0, "the file has no data line", "check the file");
+
+        protocol_.add(
+            kind::assumed, name_, "",
+            "the times are exact: no bound allows for jitter, delay or the step of a clock");
+        if (s_.time.sample_time)
+            protocol_.add(kind::assumed, name_, "",
+                          text_of("rows follow each other by ", s_.time.sample_time->text(), " ",
+                                  s_.time.unit, " exactly, and none is missing"));
+        auto const offset = s_.time.from_first ? -start(table, whole) : s_.time.offset;
+        if (!offset.is_zero())
+            protocol_.add(kind::changed, name_, "",
+                          text_of("time shifted by ", offset.text(), " s"));
+        shift_times(whole, offset, protocol_);
+        whole.duration = duration(whole);
+        if (s_.thin > 1)
+            protocol_.add(kind::changed, name_, "",
+                          text_of("thinned: one of ", std::to_string(s_.thin),
+                                  " readings of a channel is kept, beginning with the first"));
+        std::vector<open_scenario> result;
+        if (s_.windows)
+            result = window_cut{whole, table, protocol_}.windows();
+        else
+            result.push_back(std::move(whole));
+        for (auto& s : result) close(s);
+        return result;
+    }
+
+private:
+    using kind = import_protocol::kind;
+
+    [[noreturn]] void fail(std::size_t line, std::string problem, std::string remedy) const {
+        throw input_error{
+            {.file = s_.file.string(), .line = line}, std::move(problem), std::move(remedy)};
+    }
+
+    /// The first row in which every input (without inputs: any channel) has a reading.
+    [[nodiscard]] exact_decimal start(recorded_table const& table,
+                                      open_scenario const& result) const {
+        std::vector<std::size_t> at(result.inputs.size(), 0);
+        auto const here = [](imported_quantity const& q, std::size_t& k, std::size_t line) {
+            while (k < q.samples.size() && q.samples[k].line < line) ++k;
+            return k < q.samples.size() && q.samples[k].line == line;
+        };
+        for (auto const& row : table.rows) {
+            bool all = true;
+            for (std::size_t i = 0; i < result.inputs.size(); ++i)
+                all = here(result.inputs[i], at[i], row.line) && all;
+            if (all && !result.inputs.empty()) return row.time;
+            for (auto const& q : result.channels)
+                if (result.inputs.empty() && !q.samples.empty() &&
+                    q.samples.front().line == row.line)
+                    return row.time;
+        }
+        fail(table.last_line, "no row has a reading of every input", "check the inputs' columns");
+    }
+
+    /// Leaves what lies within the duration, and the inputs' knots next to it.
+    void close(open_scenario& s) {
+        for (auto& q : s.inputs) trim_input(q, s.duration);
+        double const end = *nearest(s.duration);
+        for (auto& q : s.channels)
+            keep(q, [&](exact_decimal const& t) { return *nearest(t) >= 0 && *nearest(t) <= end; });
+        if (s.measurement_count() == 0)
+            fail(s.last_line, "no measurement lies within the duration",
+                 "check the channels' columns and the time's offset");
+        for (auto const& q : s.inputs) report_gaps(q);
+    }
+
+    [[nodiscard]] exact_decimal duration(open_scenario const& result) const {
+        std::optional<exact_decimal> available;
+        for (auto const& q : result.inputs) {
+            if (q.samples.empty())
+                fail(result.last_line,
+                     text_of("the input ", in_quotes(q.mapping->name), " has no reading"),
+                     "check its column");
+            auto const& first = q.samples.front();
+            if (*nearest(first.time) > 0)
+                fail(first.line,
+                     text_of("the input ", in_quotes(q.mapping->name), " starts after t = 0, at ",
+                             exact_decimal::shortest(*nearest(first.time)).text(), " s"),
+                     "state the time's offset such that t = 0 comes later, or \"first\"");
+            auto const& last = q.samples.back().time;
+            if (!available || last < *available) available = last;
+        }
+        if (!available) // no inputs: as long as something is measured
+            for (auto const& q : result.channels)
+                if (!q.samples.empty() && (!available || *available < q.samples.back().time))
+                    available = q.samples.back().time;
+        if (!available) fail(result.last_line, "no channel has a reading", "check the columns");
+        bool const stated = s_.duration.has_value() &&
+                            (result.inputs.empty() || only_ || *s_.duration < *available);
+        auto const t = stated ? *s_.duration : *available;
+        if (stated && !result.inputs.empty() && *nearest(*available) < *nearest(t))
+            fail(result.last_line,
+                 text_of("the inputs end at ", exact_decimal::shortest(*nearest(*available)).text(),
+                         " s, before the duration"),
+                 "state a shorter duration, or none");
+        if (!(*nearest(t) > 0))
+            fail(result.last_line, "nothing is left after t = 0", "check the time's offset");
+        if (!stated && !s_.windows)
+            protocol_.add(kind::decided, name_, "",
+                          result.inputs.empty() ? "duration: to the last measurement"
+                                                : "duration: as long as all inputs have readings");
+        return t;
+    }
+
+    /// Drops the samples for which the predicate on the time fails.
+    template <class Wanted>
+    void keep(imported_quantity& q, Wanted const& wanted) {
+        std::vector<imported_sample> kept;
+        for (auto& sample : q.samples) {
+            if (wanted(sample.time))
+                kept.push_back(std::move(sample));
+            else if (!s_.windows) // of windows that is said of all lines outside
+                protocol_.add(kind::dropped, name_, q.mapping->name, "outside [0, duration]",
+                              sample.line);
+        }
+        q.samples = std::move(kept);
+    }
+
+    /// Keeps one knot at or before 0 and one at or after the duration.
+    void trim_input(imported_quantity& q, exact_decimal const& duration) {
+        double first = *nearest(q.samples.front().time), last = *nearest(q.samples.back().time);
+        for (auto const& sample : q.samples) {
+            double const t = *nearest(sample.time);
+            if (t <= 0) first = t;
+            if (t >= *nearest(duration)) last = std::min(last, t);
+        }
+        keep(q,
+             [&](exact_decimal const& t) { return *nearest(t) >= first && *nearest(t) <= last; });
+    }
+
+    /// Where an input has no reading for more than five usual steps, its course is an assumption.
+    void report_gaps(imported_quantity const& q) {
+        std::vector<double> steps;
+        for (std::size_t i = 1; i < q.samples.size(); ++i)
+            steps.push_back(*nearest(q.samples[i].time) - *nearest(q.samples[i - 1].time));
+        if (steps.empty()) return;
+        auto sorted = steps;
+        std::nth_element(sorted.begin(),
+                         sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
+                         sorted.end());
+        double const usual = sorted[sorted.size() / 2];
+        for (std::size_t i = 0; i < steps.size(); ++i)
+            if (steps[i] > 5 * usual)
+                protocol_.add(kind::assumed, name_, q.mapping->name,
+                              "more than five usual steps without a reading before this line: the "
+                              "input stands as interpolated",
+                              q.samples[i + 1].line);
+    }
+
+    scenario_mapping const& s_;
+    std::string name_;
+    bool only_;
+    import_protocol& protocol_;
+};
+
+} // namespace sivid
+
+#endif // SIVID_IMPORTING_SCENARIO_DETAIL_SCENARIO_IMPORT_HPP

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IMPORTING_TABLE_DETAIL_MATLAB_TABLE_HPP
+#define SIVID_IMPORTING_TABLE_DETAIL_MATLAB_TABLE_HPP
+
+#include <sivid/importing/table/detail/matlab_file.hpp>
+#include <sivid/importing/table/recorded_table.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// A row or a column of a variable.
+struct matlab_vector {
+    matlab_variable const* variable = nullptr;
+    bool along_rows = true; ///< its numbers stand below each other
+    std::size_t fixed = 0;  ///< the other index, from 0
+
+    [[nodiscard]] std::size_t size() const {
+        return along_rows ? variable->rows : variable->columns;
+    }
+    [[nodiscard]] std::optional<exact_decimal> operator[](std::size_t i) const {
+        return along_rows ? variable->at(i, fixed) : variable->at(fixed, i);
+    }
+};
+
+/// What a mapping's "column" means in a MATLAB file: "t", "log.theta", "X(:,3)" or "X(3,:)".
+/// @throws input_error  with the mapping's place
+[[nodiscard]] inline matlab_vector find_vector(column_reference const& c, matlab_file const& file) {
+    auto const fail = [&](std::string const& problem, std::string const& remedy) {
+        throw input_error{c.place, text_of(file.name(), problem), remedy};
+    };
+    if (c.number > 0)
+        fail(": a variable has no number", "name it, such as \"t\", \"log.t\" or \"X(:,3)\"");
+    std::string_view name = c.heading, index;
+    if (auto const open = name.find('('); open != std::string_view::npos && name.back() == ')') {
+        index = name.substr(open + 1, name.size() - open - 2);
+        name = name.substr(0, open);
+    }
+    matlab_variable const* found = nullptr;
+    std::string known;
+    for (auto const& v : file.variables()) {
+        if (v.name == name) found = &v; // the last one, as in MATLAB
+        if (known.size() < 400)
+            known += text_of(known.empty() ? "" : ", ", in_quotes(v.name), " (", v.about, ")");
+    }
+    if (found == nullptr)
+        fail(text_of(" has no variable ", in_quotes(std::string{name})), "it has: " + known);
+    auto const what = text_of(": ", in_quotes(found->name), " is ", found->about);
+    if (!found->numeric)
+        fail(what + ", no full real matrix of numbers", "name another; it has: " + known);
+    matlab_vector result{found, true, 0};
+    if (index.empty()) {
+        result.along_rows = found->columns == 1;
+        if (found->columns != 1 && found->rows != 1)
+            fail(what + ", no vector", text_of("write \"", name, "(:,1)\" for its first column"));
+        return result;
+    }
+    bool const column = index.starts_with(":,"), row = index.ends_with(",:");
+    std::string_view number; // nothing where both are named, which would share a colon
+    if (column != row) number = column ? index.substr(2) : index.substr(0, index.size() - 2);
+    auto const* const end = number.data() + number.size();
+    std::size_t at = 0;
+    if (column == row || number.empty() || std::from_chars(number.data(), end, at).ptr != end ||
+        at < 1 || at > (column ? found->columns : found->rows))
+        fail(text_of(what, ", not to be read by ", in_quotes("(" + std::string{index} + ")")),
+             "write (:,k) for its k-th column or (k,:) for its k-th row, from 1");
+    result.along_rows = column;
+    result.fixed = at - 1;
+    return result;
+}
+
+/// Reads the vectors that the mapping names out of a MATLAB file as the columns of one table: row k
+/// holds their k-th numbers. NaN is no reading.
+/// @throws input_error  for vectors of different lengths, infinite numbers, times that do not
+///                      increase
+[[nodiscard]] inline recorded_table read_matlab_table(scenario_mapping const& s,
+                                                      matlab_file const& file) {
+    auto const fail = [&](std::size_t line, std::string const& heading, std::string const& problem,
+                          std::string const& remedy) {
+        throw input_error{{.file = file.name(), .line = line, .heading = heading}, problem, remedy};
+    };
+    recorded_rows rows{s, [&](std::size_t line, bool, auto const& problem, auto const& remedy) {
+                           fail(line, s.time.column.heading, problem, remedy);
+                       }};
+    auto references = columns_of(s);
+    if (!s.time.sample_time) references.push_back(s.time.column);
+    std::vector<matlab_vector> vectors;
+    for (auto const& c : references) {
+        vectors.push_back(find_vector(c, file));
+        if (vectors.back().size() != vectors.front().size())
+            throw input_error{c.place,
+                              text_of(file.name(), ": ", in_quotes(c.heading), " has ",
+                                      std::to_string(vectors.back().size()), " numbers, ",
+                                      in_quotes(references.front().heading), " has ",
+                                      std::to_string(vectors.front().size())),
+                              "name vectors that were recorded together"};
+    }
+    for (std::size_t k = 0; k < vectors.front().size(); ++k) {
+        std::vector<std::optional<exact_decimal>> cells;
+        for (std::size_t i = 0; i < vectors.size(); ++i) {
+            try {
+                cells.push_back(vectors[i][k]);
+            } catch (std::range_error const&) {
+                fail(k + 1, references[i].heading, "an infinite number",
+                     "write NaN where there is no reading");
+            }
+        }
+        std::optional<exact_decimal> stamp;
+        if (!s.time.sample_time) {
+            // A time means the decimal that it was computed from: 0.3, not 0.299999999999999989.
+            if (cells.back()) stamp = exact_decimal::shortest(*nearest(*cells.back()));
+            cells.pop_back();
+        }
+        rows.add(k + 1, stamp, std::move(cells));
+    }
+    return rows.take();
+}
+
+} // namespace sivid
+
+#endif // SIVID_IMPORTING_TABLE_DETAIL_MATLAB_TABLE_HPP

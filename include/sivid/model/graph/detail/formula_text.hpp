@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_MODEL_GRAPH_DETAIL_FORMULA_TEXT_HPP
+#define SIVID_MODEL_GRAPH_DETAIL_FORMULA_TEXT_HPP
+
+#include <sivid/model/graph/graph.hpp>
+#include <sivid/number/text/nearest_text.hpp>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sivid {
+
+/// A function of constants as a formula: "3.141592653589793 * D^2 / 4". Literals are the decimals
+/// of their nearest doubles.
+/// @param names  of the constants
+/// @given  the node depends on constants alone (leaves of other kinds are shown as "?")
+[[nodiscard]] inline std::string formula_text(graph const& g, node_id i,
+                                              std::vector<std::string> const& names) {
+    auto const& n = g[i];
+    // How tightly the outermost operation binds: 1 sums, 2 products, 3 signs, 4 powers, 5 atoms.
+    auto const rank_of = [&g](node_id k) {
+        switch (g[k].op) {
+        case operation::add:
+        case operation::sub:
+            return 1;
+        case operation::mul:
+        case operation::div:
+            return 2;
+        case operation::neg:
+            return 3;
+        case operation::sqr:
+        case operation::pown:
+            return 4;
+        case operation::literal:
+            return g.value(g[k]).nearest < 0 ? 3 : 5;
+        default:
+            return 5;
+        }
+    };
+    auto const within = [&](node_id k, int rank) {
+        auto text = formula_text(g, k, names);
+        return rank_of(k) < rank ? "(" + text + ")" : text;
+    };
+    switch (n.op) {
+    case operation::literal:
+        return nearest_text(g.value(n).nearest);
+    case operation::constant:
+        return names.at(static_cast<std::size_t>(n.index));
+    case operation::time:
+    case operation::state:
+    case operation::input:
+        return "?";
+    case operation::neg:
+        return "-" + within(n.a, 3);
+    case operation::add:
+        return within(n.a, 1) + " + " + within(n.b, 1);
+    case operation::sub:
+        return within(n.a, 1) + " - " + within(n.b, 2);
+    case operation::mul: // numbers first
+        return g.is_literal(n.b) ? within(n.b, 2) + " * " + within(n.a, 2)
+                                 : within(n.a, 2) + " * " + within(n.b, 2);
+    case operation::div:
+        return within(n.a, 2) + " / " + within(n.b, 3);
+    case operation::sqr:
+        return within(n.a, 5) + "^2";
+    case operation::pown:
+        return within(n.a, 5) + "^" + std::to_string(n.index);
+    default:
+        return std::string(name(n.op)) + "(" + formula_text(g, n.a, names) +
+               (is_binary(n.op) ? ", " + formula_text(g, n.b, names) : "") + ")";
+    }
+}
+
+} // namespace sivid
+
+#endif

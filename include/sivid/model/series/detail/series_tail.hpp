@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_MODEL_SERIES_DETAIL_SERIES_TAIL_HPP
+#define SIVID_MODEL_SERIES_DETAIL_SERIES_TAIL_HPP
+
+#include <sivid/model/series/series.hpp>
+#include <sivid/number/taylor_model.hpp>
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace sivid {
+
+/// What the Taylor series in time of every quantity of a tape leave out, from the sizes of their
+/// coefficients alone.
+///   Along a solution, quantity v is \f$ v(s) = \sum_{k<M} v_k s^k + r_v(s) \f$ with its true
+///   coefficients. Where the states are known to have \f$ |r_x(s)| \le \rho_x (s/h)^M \f$ on
+///   [0, h], so has every quantity, with a \f$ \rho_v \f$ of its own: of a product
+///   \f$ \rho_{ab} = \sum_{i+j \ge M} |a_i| |b_j| h^{i+j} + \rho_a \|b\| + \rho_b \|a\| + \rho_a
+///   \rho_b \f$, \f$ \|a\| = \sum_{k<M} |a_k| h^k \f$; of the others see `docs/taylor_models.md`.
+///   Low orders cancel exactly, so nothing is lost to roundings.
+/// @tparam T     a Taylor model; sizes are its norms, so that everything holds for all of its
+///               functions' arguments. With lanes: in each lane.
+/// @cost         O(M) numbers a product, O(1) a product for each further `propagate`
+/// @ref          Makino and Berz, Int. J. Pure Appl. Math. 4 (2003): remainders of operations
+template <class T>
+class series_tail {
+public:
+    using scalar = typename T::scalar;
+    using side_by_side = lane_traits<scalar>;
+
+    series_tail(tape const& program, std::size_t max_order)
+        : program_(&program),
+          stride_(max_order + 1),
+          place_(program.slots(), nowhere),
+          whole_(program.slots()),
+          tail_(program.slots()) {
+        for (auto const& i : program.varying()) {
+            if (i.op == operation::tan) covered_ = false;
+            if (!program.keeps_history(i.target)) continue;
+            place_[i.target] = kept_++;
+        }
+        size_.resize(kept_ * stride_);
+        above_.resize(kept_ * stride_);
+    }
+
+    /// Whether all operations of the tape have a rule here. tan has none.
+    [[nodiscard]] bool covers() const { return covered_; }
+
+    /// Enters the coefficients 0 .. orders - 1 of a series over [0, h].
+    /// @param rest  also those beyond the tape's principal part
+    /// @given  the series has them, and is neither undefined nor kinked; h >= 0
+    void measure(series<T> const& s, std::size_t orders, scalar const& h, bool rest) {
+        orders_ = orders;
+        length_ = h;
+        last_ = rest ? program_->varying().size() : program_->principal_varying();
+        powers_.assign(orders, scalar(1.0));
+        for (std::size_t k = 1; k < orders; ++k) powers_[k] = powers_[k - 1] * h;
+        auto const fixed = [&](std::size_t slot) { whole_[slot] = s.coefficient(slot, 0).norm(); };
+        for (auto const slot : program_->literal_slots()) fixed(slot);
+        for (std::size_t n = 0; n < program_->constant().size(); ++n) {
+            if (n < program_->principal_constant() || rest) fixed(program_->constant()[n].target);
+        }
+        for (std::size_t n = 0; n < last_; ++n) {
+            auto const slot = program_->varying()[n].target;
+            if (place_[slot] == nowhere) continue;
+            scalar* const size = size_.data() + place_[slot] * stride_;
+            scalar* const above = above_.data() + place_[slot] * stride_;
+            for (std::size_t k = 0; k < orders; ++k) {
+                size[k] = s.coefficient(slot, k).norm() * powers_[k];
+            }
+            above[0] = scalar(0.0);
+            for (std::size_t k = 1; k < orders; ++k) above[k] = above[k - 1] + size[orders - k];
+            whole_[slot] = (above[orders - 1] + size[0]) * up;
+        }
+        // What depends on the coefficients alone, in the order in which `propagate` reads it.
+        own_.clear();
+        for (std::size_t n = 0; n < last_; ++n) enter(s, program_->varying()[n]);
+    }
+
+    /// Bounds the tails of everything that was measured.
+    /// @param states  \f$ \rho_x \f$
+    /// @param slope   i -> coefficient 1 of input i
+    template <class Slope>
+    void propagate(std::vector<scalar> const& states, Slope const& slope) {
+        next_ = 0;
+        for (std::size_t n = 0; n < last_; ++n) {
+            auto const& i = program_->varying()[n];
+            scalar& r = tail_[i.target];
+            switch (i.op) {
+            case operation::time:
+                r = orders_ < 2 ? length_ : scalar(0.0);
+                break;
+            case operation::state:
+                r = states[static_cast<std::size_t>(i.index)];
+                break;
+            case operation::input:
+                r = orders_ < 2 ? slope(static_cast<std::size_t>(i.index)).norm() * length_
+                                : scalar(0.0);
+                break;
+            default:
+                r = i.is_sum() ? sum(i) : of(i);
+            }
+            r = r * up + T::tiny;
+        }
+    }
+
+    /// \f$ \rho \f$ of a slot; 0 for what does not vary. NaN or infinite where nothing is known.
+    [[nodiscard]] scalar const& tail(std::size_t slot) const { return tail_[slot]; }
+    /// \f$ \sum_{k<M} |v_k| h^k \f$, of a slot with history or one that does not vary
+    [[nodiscard]] scalar const& whole(std::size_t slot) const { return whole_[slot]; }
+    /// \f$ |v_k| h^k \f$, of a slot that varies and has history
+    [[nodiscard]] scalar const& size(std::size_t slot, std::size_t k) const {
+        return size_[place_[slot] * stride_ + k];
+    }
+
+private:
+    static constexpr std::size_t nowhere = ~std::size_t{0};
+    /// Makes computed sums of a few hundred non-negative numbers upper bounds.
+    static constexpr double up = 1 + 1e-12;
+    static constexpr double down = 1 - 1e-12;
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+    /// \f$ \sum_{i+j \ge M} |a_i| |b_j| h^{i+j} \f$
+    [[nodiscard]] scalar beyond(std::size_t a, std::size_t b) const {
+        scalar const* const x = size_.data() + place_[a] * stride_;
+        scalar const* const y = above_.data() + place_[b] * stride_;
+        scalar even{}, odd{};
+        std::size_t k = 1;
+        for (; k + 1 < orders_; k += 2) {
+            even += x[k] * y[k];
+            odd += x[k + 1] * y[k + 1];
+        }
+        if (k < orders_) even += x[k] * y[k];
+        return (even + odd) * up + T::tiny;
+    }
+    /// \f$ \sum_{1 \le k < M} k/(M+k) |a_k| h^k \f$: what \f$ \int (\sigma/h)^M |a'(\sigma)|
+    /// d\sigma \f$ is at most, as a multiple of \f$ (s/h)^M \f$
+    [[nodiscard]] scalar change(std::size_t a) const {
+        scalar sum{};
+        for (std::size_t k = 1; k < orders_; ++k) {
+            sum += size_[place_[a] * stride_ + k] *
+                   (static_cast<double>(k) / static_cast<double>(orders_ + k));
+        }
+        return sum * up;
+    }
+    /// \f$ \sum_{1 \le k < M} |a_k| h^k \f$
+    [[nodiscard]] scalar movement(std::size_t a) const {
+        return above_[place_[a] * stride_ + orders_ - 1] * up;
+    }
+    /// lower - taken, rounded down, both not negative; 0 where that is not positive, or unknown
+    static scalar without(scalar const& lower, scalar const& taken) {
+        scalar const rest = lower * down - taken * up;
+        return side_by_side::select(rest > scalar(0.0), rest, scalar(0.0));
+    }
+    static scalar product(scalar const& own, scalar const& a, scalar const& b, scalar const& ra,
+                          scalar const& rb) {
+        return own + ra * (b + rb) + rb * a;
+    }
+    /// x / (1 - y) where y is below 1, else infinite
+    static scalar over_rest(scalar const& x, scalar const& y) {
+        scalar const rest = without(scalar(1.0), y);
+        return quotient(x, rest);
+    }
+    /// x / y rounded up; infinite where y is 0
+    static scalar quotient(scalar const& x, scalar const& y) {
+        auto const good = y > scalar(0.0);
+        scalar const safe = side_by_side::select(good, y, scalar(1.0));
+        scalar const q = x / safe;
+        return side_by_side::select(good, q * up, scalar(infinity));
+    }
+
+    void enter(series<T> const& s, instruction const& i) {
+        if (i.is_sum()) {
+            auto const* const terms = program_->terms(i);
+            for (std::size_t n = 0; n < i.last_term - i.first_term; ++n) {
+                auto const& t = terms[n];
+                if (t.product && t.a_varies && t.b_varies) own_.push_back(beyond(t.a, t.b));
+            }
+            return;
+        }
+        auto const least = [&](std::size_t slot) { return rough_bounds(s.coefficient(slot, 0)); };
+        switch (i.op) {
+        case operation::mul:
+            if (i.a_varies && i.b_varies) own_.push_back(beyond(i.a, i.b));
+            break;
+        case operation::sqr:
+            own_.push_back(beyond(i.a, i.a));
+            break;
+        case operation::pown:
+            own_.push_back(beyond(i.a, i.companion));
+            break;
+        case operation::div: {
+            scalar const lower = least(i.b).least();
+            own_.push_back(i.b_varies ? without(lower, movement(i.b)) : lower);
+            if (i.b_varies) own_.push_back(beyond(i.target, i.b));
+            break;
+        }
+        case operation::sqrt:
+            own_.push_back(without(least(i.target).lower, movement(i.target)));
+            own_.push_back(beyond(i.target, i.target));
+            break;
+        case operation::exp:
+            own_.push_back(over_rest(beyond(i.target, i.a), change(i.a)));
+            break;
+        case operation::log: {
+            scalar const lower = without(least(i.a).lower, movement(i.a));
+            own_.push_back(lower);
+            own_.push_back(quotient(beyond(i.a, i.target), lower));
+            break;
+        }
+        case operation::sin:
+        case operation::cos: { // r_y <= T_y + w r_c, r_c <= T_c + w r_y
+            scalar const moved = change(i.a);
+            own_.push_back(
+                over_rest(beyond(i.companion, i.a) + beyond(i.target, i.a) * moved, moved * moved));
+            break;
+        }
+        case operation::atan:
+            own_.push_back(beyond(i.companion, i.target) + beyond(i.a, i.a) * change(i.target));
+            break;
+        case operation::tanh: {
+            scalar const moved = change(i.a);
+            own_.push_back(over_rest(beyond(i.companion, i.a) + beyond(i.target, i.target) * moved,
+                                     (whole_[i.target] + scalar(1.0)) * moved));
+            break;
+        }
+        case operation::abs:
+        case operation::sign:
+            own_.push_back(without(least(i.a).least(), movement(i.a)));
+            break;
+        case operation::min:
+        case operation::max: {
+            scalar moved{};
+            if (i.a_varies) moved += movement(i.a);
+            if (i.b_varies) moved += movement(i.b);
+            own_.push_back(without(
+                rough_bounds(s.coefficient(i.a, 0) - s.coefficient(i.b, 0)).least(), moved));
+            break;
+        }
+        default:
+            break;
+        }
+    }
+    scalar const& own() { return own_[next_++]; }
+
+    scalar sum(instruction const& i) {
+        scalar total{};
+        auto const* const terms = program_->terms(i);
+        for (std::size_t n = 0; n < i.last_term - i.first_term; ++n) {
+            auto const& t = terms[n];
+            if (!t.product) {
+                if (t.a_varies) total += tail_[t.a];
+            } else if (t.a_varies && t.b_varies) {
+                total += product(own(), whole_[t.a], whole_[t.b], tail_[t.a], tail_[t.b]);
+            } else {
+                total += t.a_varies ? tail_[t.a] * whole_[t.b] : tail_[t.b] * whole_[t.a];
+            }
+        }
+        return total;
+    }
+    scalar of(instruction const& i) {
+        // What does not vary has no tail, whatever its slot holds.
+        scalar const ra = i.a_varies ? tail_[i.a] : scalar(0.0);
+        scalar const rb = i.b_varies ? tail_[i.b] : scalar(0.0);
+        scalar const unknown(infinity);
+        switch (i.op) {
+        case operation::neg:
+            return ra;
+        case operation::add:
+        case operation::sub:
+            return ra + rb;
+        case operation::mul:
+            if (i.a_varies && i.b_varies) return product(own(), whole_[i.a], whole_[i.b], ra, rb);
+            return i.a_varies ? ra * whole_[i.b] : rb * whole_[i.a];
+        case operation::sqr:
+            return product(own(), whole_[i.a], whole_[i.a], ra, ra);
+        case operation::pown:
+            return product(own(), whole_[i.a], whole_[i.companion], ra, tail_[i.companion]);
+        case operation::div: {
+            scalar const lower = own();
+            if (!i.b_varies) return quotient(ra, lower);
+            scalar const cut = own();
+            return quotient(ra + cut + whole_[i.target] * rb, without(lower, rb));
+        }
+        case operation::sqrt: {
+            scalar const lower = own();
+            scalar const rest = (ra + own()) * up;
+            scalar const coarse = quotient(rest, lower);
+            // The root itself is at least lower - coarse, and the polynomial at least lower.
+            scalar const both = lower + without(lower, coarse);
+            return side_by_side::select(coarse < lower * down, quotient(rest, both * down),
+                                        unknown);
+        }
+        case operation::exp: {
+            scalar const mine = own();
+            return side_by_side::select(ra <= scalar(1.0),
+                                        mine + (whole_[i.target] + mine) * ra * (ra + scalar(1.0)),
+                                        unknown);
+        }
+        case operation::log: {
+            scalar const lower = own();
+            return own() + quotient(ra, without(lower, ra));
+        }
+        case operation::sin:
+        case operation::cos:
+        case operation::atan:
+        case operation::tanh:
+            return own() + ra;
+        case operation::abs:
+            return side_by_side::select(without(own(), ra) > scalar(0.0), ra, unknown);
+        case operation::sign:
+            return side_by_side::select(without(own(), ra) > scalar(0.0), scalar(0.0), unknown);
+        case operation::min:
+        case operation::max:
+            return side_by_side::select(without(own(), ra + rb) > scalar(0.0),
+                                        side_by_side::max(ra, rb), unknown);
+        default:
+            return unknown;
+        }
+    }
+
+    tape const* program_;
+    std::size_t stride_;
+    bool covered_ = true;
+    std::vector<std::size_t> place_; ///< of the slots that vary and have history
+    std::size_t kept_ = 0;
+    std::size_t orders_ = 0, last_ = 0, next_ = 0;
+    scalar length_{};
+    std::vector<scalar> size_;  ///< |v_k| h^k
+    std::vector<scalar> above_; ///< [k]: the sum of the last k of them
+    std::vector<scalar> whole_, tail_, powers_, own_;
+};
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_INFLATION_DETAIL_HOLDOUT_INFLATION_HPP
+#define SIVID_PAVING_INFLATION_DETAIL_HOLDOUT_INFLATION_HPP
+
+#include <sivid/compiled.hpp>
+#include <sivid/model/problem.hpp>
+#include <sivid/number/interval.hpp>
+#include <sivid/paving/inflation.hpp>
+
+#include <cstddef>
+
+namespace sivid {
+
+/// What was proved about held-out data.
+struct holdout_bound {
+    /// Contains the hold-out inflation of every parameter whose fit inflation is at most the upper
+    /// bound that was proved for the fit.
+    interval over_fits{0.0, detail::infinity};
+    /// Contains it at the witness of the fit; everything when there is none.
+    interval at_witness{0.0, detail::infinity};
+    std::size_t boxes = 0;
+    std::size_t integrations = 0;
+    double seconds = 0;
+};
+
+/// Bounds the inflation of data that were not used for the fit: over all parameters p whose fit
+/// inflation is at most `fitted.value.upper()`, and at the fit's witness. Only the hold-out's own
+/// starts, nuisances, are minimised.
+/// @param fitted  what was proved about `fit`
+/// @param holdout a problem with the same model and parameters
+/// @guarantee  both ranges contain what they say whenever the search ends
+[[nodiscard]] SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
+                                                         inflation_bound const& fitted,
+                                                         identification_problem const& holdout,
+                                                         inflation_options const& options = {});
+
+} // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/paving/inflation/impl/holdout_inflation.ipp>
+#endif
+
+#endif

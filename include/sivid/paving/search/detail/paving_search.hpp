@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_SEARCH_DETAIL_PAVING_SEARCH_HPP
+#define SIVID_PAVING_SEARCH_DETAIL_PAVING_SEARCH_HPP
+
+#include <sivid/number/guard.hpp>
+#include <sivid/paving/inversion_options.hpp>
+#include <sivid/paving/search/detail/box_batches.hpp>
+#include <sivid/paving/search/detail/lesson.hpp>
+#include <sivid/paving/search/frontier.hpp>
+#include <sivid/paving/search/search_state.hpp>
+#include <sivid/paving/set_test.hpp>
+#include <sivid/paving/subpaving.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// A running set inversion: boxes that wait, the paving of all others, and when to look at what.
+///   while (!search.done() && !search.must_stop()) search.step();
+/// What happens depends on the test, the prior, the options and the number of steps alone, neither
+/// on the threads nor on interruptions: judgements are made ahead of their turn at most, and sets
+/// of boxes to learn about are chosen before the first of them is learnt about.
+template <set_test Test>
+class paving_search {
+    using knowledge = typename paving_detail::knowledge_of<Test>::type;
+    using answer = assessment<knowledge>;
+    using known_part = std::shared_ptr<paving_detail::learnt<knowledge>>;
+    using lesson = paving_detail::lesson<knowledge>;
+    using frontier = paving_detail::frontier<paving_detail::companion<knowledge>>;
+    using item = typename frontier::item;
+    static constexpr bool in_batches = batch_set_test<Test>;
+
+public:
+    /// @throws std::invalid_argument  for a prior or a state that cannot be searched
+    paving_search(Test& test, box const& prior, inversion_options const& options)
+        : test_(&test),
+          options_(options),
+          prior_(prior),
+          paving_(prior),
+          waiting_(options.order),
+          batches_(test, waiting_, options.workers),
+          whole_(prior),
+          rest_{.last = prior},
+          outside_kept_(options.keep_outside || options.checkpoint || options.resume) {
+        require_sound_environment();
+        if (options.proof_bytes > 0) log_.emplace(options.proof_bytes);
+        if (prior.size() == 0 || is_empty(prior))
+            throw std::invalid_argument("invert: empty prior");
+        for (auto const& side : prior) {
+            if (!std::isfinite(width(side))) throw std::invalid_argument("invert: unbounded prior");
+        }
+        if (options_.resume) {
+            restore(*options_.resume);
+        } else {
+            waiting_.push(prior, 1, {});
+        }
+    }
+    paving_search(paving_search const&) = delete;
+    paving_search& operator=(paving_search const&) = delete;
+
+    [[nodiscard]] bool done() const { return waiting_.empty(); }
+
+    /// Whether a budget or what was reached ends the search here; also reports progress and writes
+    /// checkpoints.
+    [[nodiscard]] bool must_stop() {
+        double const inner = paving_.inner_volume().upper();
+        double const outer = paving_.outer_volume().upper() + waiting_.volume();
+        std::optional<stop_reason> stop;
+        bool const cancelled =
+            (options_.progress &&
+             !options_.progress({seconds(), tested_, waiting_.size(), inner, outer})) ||
+            (options_.keep_going && !options_.keep_going());
+        double const now = seconds();
+        if (now > options_.seconds || (!cancelled && cut_short())) {
+            stop = stop_reason::time_budget;
+        } else if (tested_ >= options_.boxes) {
+            stop = stop_reason::box_budget;
+        } else if (bytes() > options_.memory) {
+            stop = stop_reason::memory_budget;
+        } else if (cancelled) {
+            stop = stop_reason::cancelled;
+        }
+        if (options_.checkpoint && (stop || checkpoint_due())) write_checkpoint();
+        if (!stop && hull_rests()) stop = stop_reason::hulls_rest;
+        if (!stop && inner > 0 && inner >= options_.sufficient_ratio * outer &&
+            options_.sufficient_ratio < 1) {
+            stop = stop_reason::inside_share;
+        }
+        if (stop) {
+            reason_ = *stop;
+            stopped_at_ = now;
+        }
+        return stop.has_value();
+    }
+
+    /// Takes the next box, or the next boxes to learn about, and settles what is found. A test that
+    /// was interrupted meanwhile settles nothing: then all is as it was before the step.
+    void step() {
+        step_mark const before{waiting_.pushed(), waiting_.running_volume()};
+        if constexpr (in_batches) {
+            auto next = batches_.take();
+            if (cut_short()) {
+                put_back(before, {std::move(next)});
+            } else if (next.load.judged->blind) {
+                learn(before, std::move(next));
+            } else {
+                auto const judged = std::move(next.load.judged);
+                auto known = judged->knowledge ? std::move(next.load.known) : nullptr;
+                ++tested_;
+                settle(std::move(next), *judged, std::move(known));
+            }
+        } else {
+            auto next = waiting_.pop();
+            auto const known = next.load.known;
+            auto found = ask(next.set, known);
+            if (cut_short()) {
+                put_back(before, {std::move(next)});
+                return;
+            }
+            ++tested_;
+            settle(std::move(next), found, hand_on(found.knowledge, known));
+        }
+    }
+
+    /// What waits is pending in the result.
+    [[nodiscard]] inversion finish() && {
+        while (!waiting_.empty()) paving_.add(waiting_.pop().set, box_verdict::pending);
+        if (outside_kept_ && !options_.keep_outside) paving_ = without_outside(paving_);
+        auto proof = log_ ? log_->proof_from(prior_) : exclusion_proof{};
+        return {std::move(paving_), reason_, tested_, cost_, stopped_at_.value_or(seconds()),
+                std::move(proof)};
+    }
+
+    /// Bytes held by boxes and knowledge.
+    [[nodiscard]] std::size_t bytes() const {
+        auto const sides = prior_.size() * sizeof(interval);
+        return waiting_.size() * (sizeof(item) + sides) +
+               paving_.boxes().size() * (sizeof(paved_box) + sides) + *held_;
+    }
+
+    [[nodiscard]] search_state state() const requires resumable_set_test<Test> {
+        search_state s;
+        s.prior = prior_;
+        s.paved = paving_.boxes();
+        paving_detail::lesson_list<knowledge> lessons;
+        for (auto const& i : waiting_.items()) {
+            s.waiting.push_back({i.set, i.volume, i.number, lessons.origin_of(i.load.known)});
+        }
+        s.lessons = std::move(lessons).take();
+        s.pushed = waiting_.pushed();
+        s.waiting_volume = waiting_.running_volume();
+        s.tested = tested_;
+        s.cost = cost_;
+        s.batches = options_.batches;
+        s.accuracy_reached = reason_ == stop_reason::accuracy_reached;
+        s.whole = whole_;
+        s.measured_at = measured_at_;
+        s.last_hull = rest_.last;
+        s.rested = rest_.rested;
+        s.next_look = rest_.next_look;
+        s.seconds = seconds();
+        s.outside_kept = outside_kept_;
+        if (log_) s.proof = log_->proof_from(prior_);
+        return s;
+    }
+
+private:
+    using clock = std::chrono::steady_clock;
+
+    void restore(search_state const& s) {
+        if constexpr (resumable_set_test<Test>) {
+            s.require_valid();
+            if (s.prior.size() != prior_.size() || !subset(s.prior, prior_) ||
+                !subset(prior_, s.prior) || s.batches != options_.batches) {
+                throw std::invalid_argument("search state: it is of another search");
+            }
+            for (auto const& b : s.paved) paving_.add(b.set, b.verdict);
+            outside_kept_ = outside_kept_ && s.outside_kept;
+            if (log_) log_->take_up(s.proof, prior_);
+            paving_detail::lesson_restorer<knowledge> known(s, held_);
+            std::vector<item> items;
+            for (auto const& w : s.waiting) {
+                items.push_back({w.set, w.volume, w.number, {known(w.known), nullptr}});
+            }
+            waiting_.restore(std::move(items), s.pushed, s.waiting_volume);
+            tested_ = s.tested;
+            cost_ = s.cost;
+            if (s.accuracy_reached) reason_ = stop_reason::accuracy_reached;
+            whole_ = s.whole;
+            measured_at_ = s.measured_at;
+            rest_ = {s.last_hull, s.rested, s.next_look};
+            earlier_ = s.seconds;
+            written_at_ = earlier_;
+        } else {
+            throw std::invalid_argument("invert: this kind of test cannot be resumed");
+        }
+    }
+
+    [[nodiscard]] double seconds() const {
+        return earlier_ + std::chrono::duration<double>(clock::now() - begin_).count();
+    }
+    [[nodiscard]] bool checkpoint_due() const {
+        double const since = seconds() - written_at_;
+        return since >= options_.checkpoint_seconds && since >= 10 * writing_;
+    }
+    void write_checkpoint() {
+        if constexpr (resumable_set_test<Test>) {
+            double const before = seconds();
+            options_.checkpoint(state());
+            written_at_ = seconds();
+            writing_ = written_at_ - before;
+        } else {
+            throw std::invalid_argument("invert: this kind of test cannot be resumed");
+        }
+    }
+
+    struct step_mark { ///< where a step began
+        std::size_t pushed;
+        double volume;
+    };
+    /// Undoes a step that has settled nothing: `taken` are the items that it took, `moved` the
+    /// numbers that items had which it put back in vain, in the order of putting back.
+    void put_back(step_mark const& before, std::vector<item> taken,
+                  std::vector<std::size_t> const& moved = {}) {
+        for (auto i : waiting_.items()) {
+            if (i.number >= before.pushed) i.number = moved[i.number - before.pushed];
+            taken.push_back(std::move(i));
+        }
+        waiting_.restore(std::move(taken), before.pushed, before.volume);
+    }
+    [[nodiscard]] bool cut_short() const {
+        if constexpr (interruptible_set_test<Test>) {
+            return test_->cancelled();
+        } else {
+            return false;
+        }
+    }
+
+    [[nodiscard]] bool hull_rests() {
+        return rest_(
+            tested_, options_.hull_gain, [this] { return waiting_.hull(paving_.outer_hull()); },
+            [this](box const& around) {
+                return batches_.hold_faces(paving_, around, options_.hull_gain);
+            });
+    }
+
+    [[nodiscard]] double volume(box const& x) const { return relative_volume(x, prior_).upper(); }
+    void decide(box x, box_verdict v) {
+        if (v != box_verdict::outside || outside_kept_) paving_.add(std::move(x), v);
+    }
+    [[nodiscard]] std::optional<std::size_t> split_side(box const& x,
+                                                        std::vector<double> const& smear) {
+        using paving_detail::side_to_split;
+        auto const side = side_to_split(x, whole_, smear, options_.accuracy);
+        // Where an old hull rules out the best side, those that say nothing would be halved.
+        bool const best = side && side == side_to_split(x, whole_, smear, 0);
+        if (best || !options_.accuracy_of_hull || 4 * tested_ < 5 * measured_at_) return side;
+        whole_ = waiting_.hull(hull(paving_.outer_hull(), x));
+        measured_at_ = tested_;
+        return side_to_split(x, whole_, smear, options_.accuracy);
+    }
+
+    /// What a test found about a box goes into the paving, and its parts wait.
+    void settle(item of, answer found, known_part known) {
+        auto& x = of.set;
+        cost_ += found.cost;
+        auto const tell = [&](std::optional<box> const& left,
+                              std::optional<std::size_t> split = std::nullopt) {
+            if (log_) log_->add(x, std::move(found.proof), left, split);
+        };
+        if (found.verdict == box_verdict::outside || is_empty(found.rest)) {
+            tell(std::nullopt);
+            decide(std::move(x), box_verdict::outside);
+            return;
+        }
+        for (auto& cut : difference(x, found.rest)) decide(std::move(cut), box_verdict::outside);
+        if (found.verdict == box_verdict::inside) {
+            tell(found.rest);
+            decide(std::move(found.rest), box_verdict::inside);
+            return;
+        }
+        // A box that shrank much is worth another look before it is split.
+        double const after = volume(found.rest);
+        if (after < 0.5 * of.volume && after > 0) {
+            tell(found.rest);
+            waiting_.push(std::move(found.rest), after, {std::move(known)});
+            return;
+        }
+        auto const side = split_side(found.rest, found.smear);
+        tell(found.rest, side);
+        if (!side) {
+            reason_ = stop_reason::accuracy_reached;
+            decide(std::move(found.rest), box_verdict::undecided);
+            return;
+        }
+        auto [low, high] = bisect(found.rest, *side, mid(found.rest[*side]));
+        double const low_volume = volume(low);
+        double const high_volume = volume(high);
+        waiting_.push(std::move(low), low_volume, {known});
+        waiting_.push(std::move(high), high_volume, {std::move(known)});
+    }
+
+    [[nodiscard]] answer ask(box const& x, known_part const& known) {
+        if constexpr (learning_set_test<Test>) {
+            return (*test_)(x, known ? known->found() : nullptr);
+        } else {
+            return (*test_)(x);
+        }
+    }
+    [[nodiscard]] known_part hand_on(std::shared_ptr<knowledge const> const& found,
+                                     known_part const& before) {
+        if (!found) return nullptr;
+        if (before && before->found() == found) return before;
+        return std::make_shared<paving_detail::learnt<knowledge>>(
+            found, paving_detail::bytes_of(*test_, prior_, *found), held_);
+    }
+
+    /// Replaces every box by its halves; false when one cannot be split.
+    [[nodiscard]] bool halve(std::vector<item>& items) {
+        std::vector<item> halves;
+        for (auto const& i : items) {
+            auto const side = split_side(i.set, {});
+            if (!side) return false;
+            if (log_) log_->add(i.set, {}, i.set, side);
+            auto [low, high] = bisect(i.set, *side, mid(i.set[*side]));
+            for (auto* half : {&low, &high}) {
+                double const size = volume(*half);
+                halves.push_back({std::move(*half), size, i.number, i.load});
+            }
+        }
+        items = std::move(halves);
+        return true;
+    }
+
+    /// Boxes that are blind too are learnt about together.
+    void learn(step_mark const& before, item first) {
+        auto [sets, moved] = batches_.gather(std::move(first), options_.batches);
+        std::vector<item> taken;
+        for (auto const& set : sets) taken.insert(taken.end(), set.begin(), set.end());
+        auto const measure = std::pair(whole_, measured_at_);
+        // While there are few the search has just begun: halves are more use than wholes.
+        while (options_.order == search_order::largest_first &&
+               2 * sets[0].size() <= test_->at_once() && halve(sets[0])) {
+        }
+        auto found = batches_.learn(sets);
+        if (cut_short()) {
+            put_back(before, std::move(taken), moved);
+            std::tie(whole_, measured_at_) = measure;
+            return;
+        }
+        for (std::size_t k = 0; k < sets.size(); ++k) {
+            for (std::size_t n = 0; n < sets[k].size(); ++n) {
+                ++tested_;
+                auto& says = found[k].answers[n];
+                known_part known;
+                if (says.knowledge) {
+                    known = lesson::add(found[k].of, n, says.knowledge,
+                                        paving_detail::bytes_of(*test_, prior_, *says.knowledge),
+                                        held_);
+                }
+                settle(std::move(sets[k][n]), std::move(says), std::move(known));
+            }
+        }
+    }
+
+    Test* test_;
+    inversion_options options_;
+    box prior_;
+    subpaving paving_;
+    /// Bytes of knowledge; outlives what refers to it.
+    std::shared_ptr<std::size_t> held_ = std::make_shared<std::size_t>(0);
+    frontier waiting_;
+    paving_detail::box_batches<Test> batches_;
+    stop_reason reason_ = stop_reason::decided;
+    std::size_t tested_ = 0;
+    std::size_t cost_ = 0;
+    std::optional<proof_log> log_;
+    box whole_; ///< what the accuracy is a fraction of
+    std::size_t measured_at_ = 0;
+    paving_detail::hull_rest rest_;
+    /// A state without them could not be told from one that lost a box.
+    bool outside_kept_;
+    std::optional<double> stopped_at_; ///< when a budget, or what was reached, ended the search
+    clock::time_point begin_ = clock::now();
+    double earlier_ = 0;    ///< seconds of the runs before
+    double written_at_ = 0; ///< of the last checkpoint, and what it took
+    double writing_ = 0;
+};
+
+} // namespace sivid
+
+#endif

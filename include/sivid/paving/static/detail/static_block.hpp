@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_STATIC_DETAIL_STATIC_BLOCK_HPP
+#define SIVID_PAVING_STATIC_DETAIL_STATIC_BLOCK_HPP
+
+#include <sivid/paving/static/detail/static_samples.hpp>
+#include <sivid/paving/static/flat_paving.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace sivid {
+
+/// Measurements that were open for a box, ascending, and may be for its parts; others are decided.
+using static_list = std::shared_ptr<std::vector<static_samples::index> const>;
+
+/// Boxes that wait, with the measurements that are still open for each: at most 64 of one list.
+struct static_block {
+    static constexpr std::size_t most_open = 64;
+
+    explicit static_block(std::size_t sides)
+        : boxes(sides), open(box_chunk::capacity), missed(box_chunk::capacity) {}
+
+    static_list list;
+    std::size_t family = 0; ///< a number of the list
+    box_chunk boxes;
+    std::vector<std::uint64_t> open;   ///< by box: bit k is set while k of the list is not decided
+    std::vector<std::uint32_t> missed; ///< by box: measurements that are certainly violated
+    std::size_t count = 0;
+
+    [[nodiscard]] bool full() const { return count == box_chunk::capacity; }
+    void copy(static_block const& from, std::size_t i, std::size_t to) {
+        boxes.copy(from.boxes, i, to);
+        missed[to] = from.missed[i];
+        open[to] = from.open[i];
+    }
+    /// Everything in the list is open for box i.
+    void open_all(std::size_t i, std::size_t already_missed = 0) {
+        open[i] = list->empty() ? 0 : ~std::uint64_t{0} >> (most_open - list->size());
+        missed[i] = static_cast<std::uint32_t>(already_missed);
+    }
+    /// Copies of the last box up to a multiple of the lanes.
+    void pad(std::size_t lanes) {
+        for (auto i = count; i % lanes != 0; ++i) copy(*this, count - 1, i);
+    }
+};
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_REPORT_DRAW_DETAIL_MOTION_PLOT_HPP
+#define SIVID_REPORT_DRAW_DETAIL_MOTION_PLOT_HPP
+
+#include <sivid/compiled.hpp>
+#include <sivid/report/draw/channel_series.hpp>
+#include <sivid/report/draw/legend.hpp>
+#include <sivid/report/draw/svg.hpp>
+#include <sivid/report/text/range.hpp>
+
+#include <string>
+#include <vector>
+
+namespace sivid::report {
+
+/// A predicted quantity: its tube, a dashed line that proves nothing, and a full line of a single
+/// motion.
+struct motion_series {
+    channel_series tube{};       ///< its `reference` is the dashed line
+    std::vector<point> single{}; ///< the full line
+    bool zero = false;           ///< a margin: draw the line that it must not fall below
+};
+
+struct motion_plot_options {
+    double width = 360;
+    double height = 230;
+    std::string title{};
+    std::string dashed = "least squares, not validated";
+    std::string full = "witness, not validated";
+};
+
+[[nodiscard]] SIVID_DECL std::vector<legend_entry>
+motion_plot_legend(std::vector<motion_series> const& all, motion_plot_options const& o = {});
+
+[[nodiscard]] SIVID_DECL svg draw_motion_plot(motion_series const& m,
+                                              motion_plot_options const& o = {});
+
+} // namespace sivid::report
+
+#ifndef SIVID_COMPILED
+#include <sivid/report/draw/impl/motion_plot.ipp>
+#endif
+
+#endif

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_SPACE_FRAME_DETAIL_COMMON_FRAME_HPP
+#define SIVID_SPACE_FRAME_DETAIL_COMMON_FRAME_HPP
+
+#include <sivid/number/pack/lanes.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// An almost orthogonal basis in each lane, with a proven bound of what it lacks.
+template <class C>
+struct lane_frame {
+    std::vector<std::vector<C>> axis; ///< axis[k] is \f$ Q_k \f$
+    /// \f$ |Q^{-1} g - Q^T g|_k \le defect \cdot \max_l |Q^T g|_l \f$ for every vector g.
+    C defect{};
+};
+
+/// Gram-Schmidt, twice, along the longest of the given directions, in the same order in all lanes.
+/// Where they do not span the space, or numbers are not finite, unit vectors take their place.
+/// @param score  vector of C -> vector of double: common sizes of lengths (a choice, no bound)
+/// @guarantee  `defect`: with \f$ Q^T Q = 1 + R \f$, \f$ \|R\|_\infty \le \rho < 1 \f$,
+///   \f$ Q^{-1} = (1+R)^{-1} Q^T \f$ and the difference is at most \f$ \rho/(1-\rho) \f$ of
+///   \f$ Q^T g \f$ in the maximum norm. Lanes in which that fails get the identity.
+/// @cost  O(m n^2) for m directions of n components
+template <class C, class Score>
+[[nodiscard]] lane_frame<C> common_frame(std::vector<std::vector<C>> directions,
+                                         Score const& score) {
+    using side_by_side = lane_traits<C>;
+    constexpr double unit = std::numeric_limits<double>::epsilon();
+    auto const n = directions.empty() ? 0 : directions.front().size();
+    auto const dot = [n](std::vector<C> const& a, std::vector<C> const& b) {
+        C sum{};
+        for (std::size_t i = 0; i < n; ++i) sum += a[i] * b[i];
+        return sum;
+    };
+    auto const remove = [&](std::vector<C>& v, std::vector<C> const& q) {
+        C const share = dot(v, q);
+        for (std::size_t i = 0; i < n; ++i) v[i] -= q[i] * share;
+    };
+    std::vector<C> squares;
+    C largest{};
+    for (auto const& d : directions) {
+        squares.push_back(dot(d, d));
+        largest = side_by_side::max(largest, squares.back());
+    }
+    // Short unit vectors come last, and complete the basis.
+    C const little = each_lane<C>([&](std::size_t l) {
+        double const x = side_by_side::get(largest, l);
+        return x > 1e-200 && x < 1e200 ? 1e-9 * std::sqrt(x) : 1.0;
+    });
+    for (std::size_t i = 0; i < n; ++i) {
+        directions.emplace_back(n);
+        directions.back()[i] = little;
+        squares.push_back(little * little);
+    }
+    lane_frame<C> frame;
+    std::vector<bool> taken(directions.size(), false);
+    for (std::size_t k = 0; k < n; ++k) {
+        auto const sizes = score(squares);
+        std::size_t best = directions.size();
+        for (std::size_t j = 0; j < directions.size(); ++j) {
+            if (!taken[j] && (best == directions.size() || sizes[j] > sizes[best])) best = j;
+        }
+        taken[best] = true;
+        auto q = directions[best];
+        C const size = each_lane<C>([&](std::size_t l) {
+            double const x = side_by_side::get(squares[best], l);
+            return x > 0 ? 1 / std::sqrt(x) : 0.0;
+        });
+        for (auto& x : q) x *= size;
+        for (auto const& p : frame.axis) remove(q, p);
+        C const again = dot(q, q);
+        C const length = each_lane<C>([&](std::size_t l) {
+            double const x = side_by_side::get(again, l);
+            return x > 0 ? 1 / std::sqrt(x) : 0.0;
+        });
+        for (auto& x : q) x *= length;
+        for (std::size_t j = 0; j < directions.size(); ++j) {
+            if (taken[j]) continue;
+            remove(directions[j], q);
+            squares[j] = dot(directions[j], directions[j]);
+        }
+        squares[best] = 0.0;
+        frame.axis.push_back(std::move(q));
+    }
+    C rho{};
+    for (std::size_t k = 0; k < n; ++k) {
+        C row{};
+        for (std::size_t l = 0; l < n; ++l) {
+            row += side_by_side::abs(dot(frame.axis[k], frame.axis[l]) - C(k == l ? 1.0 : 0.0));
+        }
+        rho = side_by_side::max(rho, row);
+    }
+    // Entries are at most 1 and a little; every sum of n products errs by less than 2n^2 units.
+    rho = rho * (1 + 1e-12) + 4.0 * static_cast<double>(n * n * n) * unit;
+    auto const good = rho < C(0.01);
+    for (std::size_t k = 0; k < n; ++k) {
+        for (std::size_t i = 0; i < n; ++i) {
+            frame.axis[k][i] = side_by_side::select(good, frame.axis[k][i], C(k == i ? 1.0 : 0.0));
+        }
+    }
+    frame.defect = side_by_side::select(good, rho * 1.02, C(0.0));
+    return frame;
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_VERIFIER_CLAIM_DETAIL_FEWEST_OUTLIERS_CHECK_HPP
+#define SIVID_VERIFIER_CLAIM_DETAIL_FEWEST_OUTLIERS_CHECK_HPP
+
+#include <sivid/approximate/fit/counterexample.hpp>
+#include <sivid/verifier/claim/detail/point_judgement.hpp>
+#include <sivid/verifier/claim/identification_consistency.hpp>
+#include <sivid/verifier/proof/certificate.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+namespace io_detail {
+
+/// Regions to be refuted: the whole prior, or parts of the boxes, where that is hardest, and of the
+/// prior in turn.
+inline std::vector<box_claim> regions_to_refute(identification_problem const& problem,
+                                                stored_identification const& stored,
+                                                std::size_t sample, std::uint64_t seed) {
+    if (sample == 0) return {{problem.prior, box_claim::kind::outside}};
+    std::vector<box_claim> claims;
+    std::mt19937_64 random(seed);
+    auto const share = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+    for (std::size_t k = 0; k < sample; ++k) {
+        auto part = problem.prior;
+        if (k % 2 == 0 && !stored.rows.empty()) {
+            part = intersect(stored.rows[random() % stored.rows.size()].set, problem.prior);
+        }
+        for (std::size_t j = 0; j < part.size(); ++j) {
+            double const most = width(problem.prior[j]) / 16, w = width(part[j]);
+            if (!(w > most)) continue;
+            double const low = part[j].lower() + share() * (w - most);
+            part[j] = intersect(part[j], interval_traits<interval>::bounds(low, low + most));
+        }
+        if (!is_empty(part)) claims.push_back({std::move(part), box_claim::kind::outside});
+    }
+    return claims;
+}
+
+} // namespace io_detail
+
+/// Whether so many outliers are needed as a result says.
+///   That they suffice is the verdict with these budgets. When the total is exact, one less in any
+///   scenario must exclude the prior; so must one less than a scenario needs by itself. A total
+///   that is not exact claims nothing of any one scenario; it is verified as far as it is the sum
+///   of what the scenarios need by themselves. Fits look for fewer first.
+/// @param sample  so many regions for each claim; 0: the whole prior
+/// @cost  validated runs until each region is refuted, or the time is up
+template <class I>
+[[nodiscard]] check_finding
+check_fewest(identification_problem const& problem, stored_identification const& stored,
+             certificate_options how, double seconds, std::size_t sample, std::uint64_t seed) {
+    using outcome = check_finding::outcome;
+    std::string const what = "outliers needed";
+    if (!stored.fewest) return {what, outcome::nothing, ""};
+    std::size_t budgets = 0;
+    for (auto const& e : problem.experiments) budgets += e.outliers;
+    if (stored.fewest->most != budgets) {
+        return {what, outcome::refuted, "not as many as the scenarios' budgets"};
+    }
+    if (stored.verdict != verdict::consistent) {
+        return {what, outcome::refuted, "the verdict does not say that they suffice"};
+    }
+    std::vector<identification_problem> impossible;
+    if (stored.fewest->exact()) {
+        for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
+            if (problem.experiments[e].outliers == 0) continue;
+            impossible.push_back(problem);
+            --impossible.back().experiments[e].outliers;
+        }
+    }
+    for (auto const& e : problem.experiments) {
+        auto const own = stored.fewest_alone.find(e.name);
+        if (own == stored.fewest_alone.end() || own->second.most > e.outliers) {
+            return {what, outcome::refuted, "no number, or too large a one, for " + e.name};
+        }
+        if (own->second.least == 0) continue;
+        impossible.push_back(problem);
+        impossible.back().experiments = {e};
+        impossible.back().experiments[0].outliers = own->second.least - 1;
+    }
+    if (stored.fewest_alone.size() != problem.experiments.size()) {
+        return {what, outcome::refuted, "of a scenario that the data set lacks"};
+    }
+    for (auto const& p : impossible) {
+        counterexample_options fits;
+        fits.seconds = 0.3 * seconds / static_cast<double>(impossible.size());
+        fits.keep_going = how.keep_going;
+        fits.confirms = [&](approximate_fit const& f) {
+            return io_detail::judge_point<I>(p, f, true) == run_finding::explained;
+        };
+        if (find_explaining_point(p, {p.prior}, fits)) {
+            return {what, outcome::refuted, "fewer suffice: a fit found, and validated runs prove"};
+        }
+    }
+    std::size_t proved = 0, all = 0;
+    for (auto const& p : impossible) {
+        auto claims = io_detail::regions_to_refute(p, stored, sample, seed);
+        how.seconds = seconds / static_cast<double>(impossible.size());
+        claim_checker<I>(p, {}, how)(claims);
+        for (auto const& c : claims) {
+            ++all;
+            proved += c.found == box_claim::status::proved ? 1 : 0;
+            if (c.found == box_claim::status::refuted) {
+                return {what, outcome::refuted, "fewer suffice"};
+            }
+        }
+    }
+    std::string detail =
+        std::to_string(proved) + " of " + std::to_string(all) + " regions refuted with one less";
+    std::size_t alone = 0;
+    for (auto const& [name, count] : stored.fewest_alone) alone += count.least;
+    bool const follows = stored.fewest->exact() || stored.fewest->least <= alone;
+    if (!follows) detail += "; the total is not checked from below";
+    return {what,
+            proved < all                           ? outcome::undecided
+            : follows && (sample == 0 || all == 0) ? outcome::verified
+                                                   : outcome::sampled,
+            detail};
+}
+
+} // namespace sivid
+
+#endif // SIVID_VERIFIER_CLAIM_DETAIL_FEWEST_OUTLIERS_CHECK_HPP

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/diagnosis/candidate/detail/input_slices.hpp>
+
+#include "diagnosis/lagged_input.hpp"
+#include "support/catch.hpp"
+#include "support/random.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+using namespace sivid;
+using diagnosis_support::lagged;
+
+namespace {
+
+/// A recorded input with jumps, long and short pieces, with errors or none.
+sampled_signal drawn(support::draws& d, interpolation kind, bool with_errors) {
+    std::vector<double> times, values, errors;
+    double t = d.uniform(-1.0, 0.5);
+    auto const count = 1 + d.below(12);
+    for (std::size_t k = 0; k < count; ++k) {
+        times.push_back(t);
+        values.push_back(d.below(4) == 0 && k > 0 ? values.back() : d.uniform(-2.0, 2.0));
+        errors.push_back(d.below(3) == 0 ? 0.0 : d.uniform(0.0, 0.3));
+        t += d.below(3) == 0 ? d.uniform(1.0, 3.0) : d.uniform(0.001, 0.3);
+    }
+    if (!with_errors) errors.clear();
+    return sampled_signal(times, values, kind, errors);
+}
+
+/// Errors hold outside of the samples, but lines through samples with errors leave them there.
+std::pair<double, double> span_of(support::draws& d, sampled_signal const& u) {
+    double begin = d.below(3) == 0 ? u.times().front() : d.uniform(-1.5, 2.0);
+    double end = begin + d.uniform(0.0, 12.0);
+    if (!u.exact()) {
+        begin = std::clamp(begin, u.times().front(), u.times().back());
+        end = std::clamp(end, begin, u.times().back());
+    }
+    return {begin, end};
+}
+
+/// One of the true inputs: at the edge of what the errors allow.
+sampled_signal at_edge(sampled_signal const& u, double sign) {
+    auto values = u.values();
+    for (std::size_t k = 0; k < values.size() && !u.exact(); ++k) values[k] += sign * u.errors()[k];
+    return sampled_signal(u.times(), values, u.kind());
+}
+
+void require_within(sampled_signal const& wide, double t, double value) {
+    auto const k = wide.piece(t);
+    double const off = std::abs(value - wide.approximate_on(k, t));
+    INFO("t " << t << ", off by " << off << " of " << wide.error_bound(k, t));
+    REQUIRE(off <= wide.error_bound(k, t) + 1e-11);
+}
+
+} // namespace
+
+TEST_CASE("a lagged input lies within its slice for every time constant up to the longest") {
+    support::draws d(7);
+    for (int n = 0; n < 300; ++n) {
+        auto const kind = n % 2 == 0 ? interpolation::linear : interpolation::hold;
+        auto const u = drawn(d, kind, d.below(2) == 0);
+        auto const [begin, end] = span_of(d, u);
+        double const longest = std::exp(d.uniform(-7.0, 1.0));
+        bool const rests = d.below(2) == 0;
+        auto const wide = lagged_within(u, begin, end, longest, rests);
+        for (int i = 0; i < 40; ++i) {
+            double const tau = d.below(4) == 0 ? longest : longest * d.uniform(1e-6, 1.0);
+            double const t = d.uniform(begin, end);
+            for (double const sign : {-1.0, 0.0, 1.0}) {
+                require_within(wide, t, lagged(at_edge(u, sign), begin, rests, tau, t));
+            }
+        }
+        for (int i = 0; i < 10 && !rests; ++i) { // no lag at all
+            double const t = d.uniform(begin, end);
+            require_within(wide, t, u.approximate(t));
+        }
+    }
+}
+
+TEST_CASE("a late input lies within its slice for every delay") {
+    support::draws d(8);
+    for (int n = 0; n < 300; ++n) {
+        auto const kind = n % 2 == 0 ? interpolation::linear : interpolation::hold;
+        auto const u = drawn(d, kind, d.below(2) == 0);
+        auto const [begin, end] = span_of(d, u);
+        double const low = d.below(3) == 0 ? 0.0 : d.uniform(0.0, 1.0);
+        double const high = low + (d.below(4) == 0 ? 0.0 : std::exp(d.uniform(-8.0, 0.5)));
+        auto const wide = delayed_within(u, begin, end, interval(low, high));
+        for (int i = 0; i < 40; ++i) {
+            double const share = d.uniform(0.0, 1.0);
+            double const tau = std::min(high, d.below(4) == 0   ? low
+                                              : d.below(3) == 0 ? high
+                                                                : low + share * (high - low));
+            // Where the late input jumps, plain numbers do not tell on which side they are.
+            double const t = d.uniform(begin, end);
+            double const past = std::max(begin, t - tau);
+            if (std::abs(u.next_knot(past - 1e-12) - past) < 1e-11) continue;
+            for (double const sign : {-1.0, 0.0, 1.0}) {
+                require_within(wide, t, at_edge(u, sign).approximate(past));
+            }
+        }
+    }
+}
+
+TEST_CASE("slices of inputs are no wider than they must be") {
+    // A ramp of slope 2: a lag of tau stays 2 tau behind, a delay of tau, too.
+    sampled_signal const ramp({0.0, 1.0, 2.0, 3.0}, {0.0, 2.0, 4.0, 6.0}, interpolation::linear);
+    auto const slow = lagged_within(ramp, 0, 3, 0.01, false);
+    CHECK(slow.error_bound(slow.piece(2.5), 2.5) < 0.0200001);
+    auto const late = delayed_within(ramp, 0, 3, interval(0.5, 0.75));
+    CHECK(std::abs(late.approximate(2.5) - 2 * (2.5 - 0.625)) < 1e-12);
+    CHECK(late.error_bound(late.piece(2.5), 2.5) < 0.2500001);
+    // A jump is forgotten.
+    sampled_signal const jump({0.0, 1.0}, {0.0, 1.0}, interpolation::hold);
+    auto const soon = lagged_within(jump, 0, 3, 0.05, false);
+    CHECK(soon.error_bound(soon.piece(0.9), 0.9) == 0);
+    CHECK(soon.error_bound(soon.piece(1.01), 1.01) >= 0.8);
+    CHECK(soon.error_bound(soon.piece(1.9), 1.9) < 1e-3);
+    auto const shifted = delayed_within(jump, 0, 3, interval(0.1, 0.2));
+    CHECK(shifted.error_bound(shifted.piece(1.15), 1.15) >= 0.5);
+    CHECK(shifted.error_bound(shifted.piece(1.25), 1.25) == 0);
+    CHECK(shifted.approximate(1.25) == 1);
+}
+
+TEST_CASE("a switch lies within its slice for every onset in it") {
+    support::draws d(11);
+    for (int n = 0; n < 2000; ++n) {
+        double const begin = d.uniform(-1.0, 1.0), end = begin + d.uniform(0.0, 3.0);
+        auto const time = [&] {
+            auto const which = d.below(6);
+            return which == 0 ? begin : which == 1 ? end : d.uniform(begin - 0.5, end + 0.5);
+        };
+        double a = time(), b = d.below(4) == 0 ? a : time();
+        if (b < a) std::swap(a, b);
+        auto const wide = switched_within(begin, end, interval(a, b));
+        double const onset = d.below(3) == 0 ? a : d.below(2) == 0 ? b : d.uniform(a, b);
+        INFO("onset " << onset << " in " << a << " to " << b << ", seen " << begin << " to "
+                      << end);
+        for (double const t : {begin, end, a, b, onset, d.uniform(begin, end)}) {
+            if (t < begin || t > end) continue;
+            require_within(wide, t, t >= onset ? 1 : 0);
+            if (b >= end) require_within(wide, t, 0); // never
+            // No wider than it must be.
+            auto const k = wide.piece(t);
+            bool const open = wide.error_bound(k, t) > 0;
+            CHECK((!open || (t >= a && (t < b || b >= end))));
+        }
+    }
+}

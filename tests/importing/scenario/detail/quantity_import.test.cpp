@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/importing/scenario/detail/quantity_import.hpp>
+
+#include "io/import_support.hpp"
+
+using namespace sivid;
+using namespace io_support;
+
+namespace {
+
+recorded_table table_of(std::vector<std::vector<std::string>> const& rows) {
+    recorded_table table;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        recorded_table::row row;
+        row.line = i + 2;
+        row.time = dec(std::to_string(i));
+        for (auto const& cell : rows[i])
+            row.cells.push_back(cell.empty() ? std::nullopt : exact_decimal::parse(cell));
+        table.rows.push_back(row);
+    }
+    return table;
+}
+struct result {
+    import_protocol protocol;
+    imported_quantity quantity;
+    std::size_t cell = 0;
+};
+result read(quantity_mapping const& q, std::vector<std::vector<std::string>> const& rows) {
+    static scenario_mapping const s;
+    result r;
+    r.quantity = quantity_import{s, q, "A", r.protocol}.read(table_of(rows), r.cell);
+    return r;
+}
+
+} // namespace
+
+TEST_CASE("missing and impossible readings are dropped, the others converted") {
+    quantity_mapping q;
+    q.name = "y";
+    q.unit = "V";
+    q.range.emplace(dec("0"), dec("1023"));
+    q.conversion.factor_lower = q.conversion.factor_upper = dec("5");
+    q.conversion.divisor = 1023;
+    q.error.from = bound_source::kind::number;
+    auto const r = read(q, {{"0"}, {""}, {"1024"}, {"-1"}, {"1023"}, {"341"}});
+    REQUIRE(r.quantity.samples.size() == 3);
+    CHECK(r.cell == 1);
+    CHECK(r.quantity.samples[1].line == 6);
+    CHECK(r.quantity.samples[1].reading.value == dec("5"));
+    CHECK(r.quantity.samples[2].reading.rounding.is_positive());
+    CHECK(noted(r.protocol, "no reading") == std::vector<std::size_t>{3});
+    CHECK(noted(r.protocol, "possible range [0, 1023]") == std::vector<std::size_t>{4, 5});
+    CHECK(has_note(r.protocol, "reading * 5 / 1023 [V]"));
+    CHECK(has_note(r.protocol, "half width is added"));
+}
+
+TEST_CASE("counts are followed, and what is no count is dropped") {
+    quantity_mapping q;
+    q.name = "x";
+    q.counter_bits = 16;
+    q.error.from = bound_source::kind::number;
+    auto const r = read(q, {{"65530"}, {"4"}, {"3.5"}, {"70000"}, {"65534"}, {"32766"}, {"50000"}});
+    REQUIRE(r.quantity.samples.size() == 4);
+    CHECK(r.quantity.samples[1].reading.value == dec("65540"));
+    CHECK(r.quantity.samples[2].reading.value == dec("65534"));
+    CHECK(r.quantity.samples[3].reading.value == dec("50000"));
+    CHECK(noted(r.protocol, "no count") == std::vector<std::size_t>{4, 5, 7});
+    CHECK(noted(r.protocol, "through the end of its range") == std::vector<std::size_t>{3, 6});
+    CHECK(has_note(r.protocol, "less than half its range"));
+}
+
+TEST_CASE("a column of error bounds") {
+    quantity_mapping q;
+    q.name = "y";
+    q.conversion.factor_lower = q.conversion.factor_upper = dec("-0.01");
+    q.error.from = bound_source::kind::column;
+    auto const r = read(q, {{"100", "2"}, {"100", ""}, {"100", "0"}, {"100", "-1"}, {"", ""}});
+    REQUIRE(r.quantity.samples.size() == 1);
+    CHECK(r.cell == 2);
+    CHECK(r.quantity.samples[0].reading.value == dec("-1"));
+    CHECK(r.quantity.samples[0].error == dec("0.02"));
+    CHECK(noted(r.protocol, "bound is missing") == std::vector<std::size_t>{3});
+    CHECK(noted(r.protocol, "not above 0") == std::vector<std::size_t>{4, 5});
+}
+
+TEST_CASE("a bound is proposed from the converted readings") {
+    quantity_mapping q;
+    q.name = "y";
+    q.conversion.factor_lower = q.conversion.factor_upper = dec("0.5");
+    q.error.from = bound_source::kind::proposed;
+    std::vector<std::vector<std::string>> rows;
+    for (int i = 0; i < 60; ++i) rows.push_back({std::to_string(i * i / 7)});
+    CHECK_THAT(proposal_for(read(q, rows).quantity).quantum, WithinRel(0.5, 1e-9));
+}
+
+TEST_CASE("exact inputs are said to be exact, and overflow is refused") {
+    quantity_mapping q;
+    q.name = "u";
+    CHECK(has_note(read(q, {{"1"}}).protocol, "the input is exact"));
+    q.conversion.factor_lower = q.conversion.factor_upper = dec("1e200");
+    CHECK_THROWS_AS(read(q, {{"1e200"}}), input_error);
+}

@@ -1,0 +1,509 @@
+// SPDX-License-Identifier: MIT
+// A search that is interrupted anywhere, or works in parallel, finds what it finds undisturbed.
+#include <sivid/paving/search/detail/paving_search.hpp>
+
+#include <sivid/paving/invert.hpp>
+#include <sivid/paving/judge/data_test.hpp>
+
+#include "support/catch.hpp"
+#include "support/problems.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <thread>
+#include <vector>
+
+using namespace sivid;
+using support::between;
+using support::draws;
+
+namespace {
+
+using traits = interval_traits<interval>;
+
+/// low <= x^2 + y^2 <= high
+struct ring {
+    double low, high;
+    bool contracting = false;
+
+    assessment<> operator()(box const& b) const {
+        assessment<> a{box_verdict::undecided, b};
+        auto const r = traits::add(traits::sqr(b[0]), traits::sqr(b[1]));
+        auto const set = between(low, high);
+        if (disjoint(r, set)) a.verdict = box_verdict::outside;
+        if (subset(r, set)) a.verdict = box_verdict::inside;
+        for (std::size_t i = 0; contracting && i < 2; ++i) {
+            if (a.verdict != box_verdict::undecided) break;
+            bool cut = false;
+            auto const square = traits::sub(set, traits::sqr(b[1 - i]));
+            auto const size = traits::sqrt(square, cut); // of what is not negative
+            a.rest[i] = traits::intersect(a.rest[i], traits::hull(traits::neg(size), size));
+        }
+        return a;
+    }
+};
+
+box const square{between(-5, 5), between(-5, 5)};
+
+bool same(interval const& a, interval const& b) {
+    return a.lower() == b.lower() && a.upper() == b.upper();
+}
+bool same(box const& a, box const& b) {
+    return a.size() == b.size() &&
+           std::equal(a.begin(), a.end(), b.begin(),
+                      [](interval const& s, interval const& t) { return same(s, t); });
+}
+void check_same(inversion const& a, inversion const& b) {
+    CHECK(a.reason == b.reason);
+    CHECK(a.tested == b.tested);
+    CHECK(a.cost == b.cost);
+    REQUIRE(a.paving.boxes().size() == b.paving.boxes().size());
+    std::size_t differing = 0;
+    for (std::size_t k = 0; k < a.paving.boxes().size(); ++k) {
+        auto const &x = a.paving.boxes()[k], &y = b.paving.boxes()[k];
+        differing += x.verdict != y.verdict || !same(x.set, y.set);
+    }
+    CHECK(differing == 0);
+    CHECK(same(a.paving.inner_volume(), b.paving.inner_volume()));
+    CHECK(same(a.paving.outer_volume(), b.paving.outer_volume()));
+}
+
+template <class Test>
+inversion finished(paving_search<Test>& search) {
+    while (!search.done() && !search.must_stop()) search.step();
+    return std::move(search).finish();
+}
+
+/// Interrupts after so many steps each, goes on with a fresh test each time, and ends.
+template <class MakeTest>
+inversion in_pieces(MakeTest const& make, box const& prior, inversion_options options,
+                    std::vector<std::size_t> const& steps) {
+    for (auto const count : steps) {
+        auto test = make();
+        paving_search search(test, prior, options);
+        for (std::size_t k = 0; k < count && !search.done() && !search.must_stop(); ++k) {
+            search.step();
+        }
+        options.resume = std::make_shared<search_state const>(search.state());
+    }
+    auto test = make();
+    paving_search search(test, prior, options);
+    return finished(search);
+}
+
+/// Runs the tasks in the wrong order.
+executor backwards(std::size_t threads) {
+    return {threads, [](std::size_t count, executor::task const& work) {
+                for (std::size_t k = count; k-- > 0;) work(k);
+            }};
+}
+
+struct posed {
+    support::planted_problem planted;
+    inversion_options search;
+    data_test_options test;
+};
+posed random_posed(draws& d) {
+    support::planting how;
+    how.experiments = 1 + d.below(2);
+    how.samples = 5 + d.below(6);
+    how.outliers = d.below(3);
+    how.spread = d.below(3) == 0 ? 0.01 : 0;
+    how.noise = d.uniform(0.005, 0.05);
+    posed p{support::plant(d, d.below(support::planted_models), how), {}, {}};
+    p.search.accuracy = d.coin() ? 1.0 / 32 : 1.0 / 200;
+    p.search.boxes = 100 + d.below(200);
+    p.search.seconds = 1e9;
+    p.search.keep_outside = d.coin();
+    p.search.sufficient_ratio = d.coin() ? 0.5 : 0.95;
+    p.search.hull_gain = d.below(3) == 0 ? 0.02 : 0;
+    p.search.accuracy_of_hull = d.coin();
+    p.search.order = d.below(4) == 0 ? search_order::first_in : search_order::largest_first;
+    p.search.batches = 1 + d.below(3);
+    p.test.contract = d.below(4) != 0;
+    if (d.below(4) == 0) p.test.run.set = carried_set::doubleton;
+    return p;
+}
+
+} // namespace
+
+TEST_CASE("the order of the search and its results are those of the plain loop it came from") {
+    struct expectation {
+        bool contracting;
+        search_order order;
+        int variant;
+        std::size_t tested, boxes, inside, undecided;
+        double inner, outer;
+    };
+    auto const first = search_order::first_in, large = search_order::largest_first;
+    for (auto const& e : std::initializer_list<expectation>{
+             {false, large, 0, 1207, 604, 160, 248, 0x1.9p-6, 0x1.44p-5},
+             {false, large, 1, 1162, 821, 154, 0, 0x1.8ap-6, 0x1.48p-5},
+             {false, large, 2, 1207, 604, 160, 248, 0x1.9p-6, 0x1.44p-5},
+             {false, first, 0, 1207, 604, 160, 248, 0x1.9p-6, 0x1.44p-5},
+             {false, first, 1, 1162, 821, 154, 0, 0x1.8ap-6, 0x1.48p-5},
+             {true, large, 0, 1360, 828, 260, 304, 0x1.a56482f5e9fd8p-6, 0x1.1777f32d08633p-5},
+             {true, large, 1, 780, 692, 128, 0, 0x1.63872f9e3b058p-6, 0x1.281d52045e2f8p-5},
+             {true, large, 2, 32, 44, 0, 0, 0, 0x1.23bcd0aac6cafp-4},
+             {true, first, 0, 1360, 828, 260, 304, 0x1.a56482f5e9fd6p-6, 0x1.1777f32d0863p-5},
+             {true, first, 1, 842, 766, 146, 3, 0x1.64131ede018fbp-6, 0x1.28876ac2fd141p-5}}) {
+        ring test{1, 2, e.contracting};
+        inversion_options o;
+        o.accuracy = 1.0 / 128;
+        o.order = e.order;
+        o.sufficient_ratio = e.variant == 1 ? 0.6 : 1;
+        o.accuracy_of_hull = e.variant == 1;
+        o.hull_gain = e.variant == 2 ? 0.02 : 0;
+        auto const found = invert(test, square, o);
+        CAPTURE(e.contracting, e.variant);
+        CHECK(found.tested == e.tested);
+        CHECK(found.paving.boxes().size() == e.boxes);
+        CHECK(found.paving.count(box_verdict::inside) == e.inside);
+        CHECK(found.paving.count(box_verdict::undecided) == e.undecided);
+        CHECK(found.paving.inner_volume().lower() == e.inner);
+        CHECK(found.paving.outer_volume().upper() == e.outer);
+        CHECK(found.reason == (e.variant == 1     ? stop_reason::inside_share
+                               : e.undecided == 0 ? stop_reason::hulls_rest
+                                                  : stop_reason::accuracy_reached));
+    }
+}
+
+TEST_CASE("a plain test may be interrupted before every single step") {
+    inversion_options o;
+    o.accuracy = 1.0 / 32;
+    o.sufficient_ratio = 1;
+    for (auto const order : {search_order::largest_first, search_order::first_in}) {
+        o.order = order;
+        auto const make = [] { return ring{1, 2, true}; };
+        auto test = make();
+        auto const whole = invert(test, square, o);
+        for (std::size_t k = 0; k <= whole.tested + 1; k += 7) {
+            check_same(in_pieces(make, square, o, {k}), whole);
+        }
+        check_same(in_pieces(make, square, o, std::vector<std::size_t>(whole.tested, 1)), whole);
+    }
+}
+
+TEST_CASE("a search that learns finds the same box for box after any interruptions") {
+    draws d(5001);
+    std::size_t remembered = 0;
+    for (int round = 0; round < 16; ++round) {
+        auto const p = random_posed(d);
+        auto const& problem = p.planted.problem;
+        CAPTURE(round, p.search.batches, p.test.contract);
+        auto const make = [&] { return data_test(problem, p.test); };
+        auto test = make();
+        auto const whole = invert(test, problem.prior, p.search);
+        CHECK(test.integrations() == whole.cost);
+        bool covered = false;
+        for (auto const& b : whole.paving.boxes()) {
+            covered =
+                covered || (b.verdict != box_verdict::outside && contains(b.set, p.planted.truth));
+        }
+        CHECK(covered);
+        for (int k = 0; k < 3; ++k) {
+            std::vector<std::size_t> steps;
+            for (std::size_t n = 1 + d.below(4); n > 0; --n) steps.push_back(d.below(60));
+            check_same(in_pieces(make, problem.prior, p.search, steps), whole);
+        }
+        // What was known is learnt again when it is needed, and not counted twice.
+        auto interrupted = make();
+        paving_search search(interrupted, problem.prior, p.search);
+        for (int k = 0; k < 20 && !search.done() && !search.must_stop(); ++k) search.step();
+        auto options = p.search;
+        options.resume = std::make_shared<search_state const>(search.state());
+        auto resumed = make();
+        check_same(invert(resumed, problem.prior, options), whole);
+        CHECK(resumed.integrations() + interrupted.integrations() >= whole.cost);
+        remembered += resumed.integrations() + interrupted.integrations() > whole.cost ? 1 : 0;
+    }
+    CHECK(remembered > 3); // else nothing was tested
+}
+
+TEST_CASE("the executor changes nothing") {
+    draws d(5002);
+    for (int round = 0; round < 12; ++round) {
+        auto const p = random_posed(d);
+        auto const& problem = p.planted.problem;
+        CAPTURE(round, p.search.batches);
+        data_test alone(problem, p.test);
+        auto const whole = invert(alone, problem.prior, p.search);
+        for (std::size_t const threads : {2u, 5u}) {
+            auto options = p.search;
+            options.workers = backwards(threads);
+            data_test test(problem, p.test);
+            check_same(invert(test, problem.prior, options), whole);
+            options.resume = [&] {
+                data_test first(problem, p.test);
+                paving_search search(first, problem.prior, options);
+                for (int k = 0; k < 15 && !search.done() && !search.must_stop(); ++k) search.step();
+                return std::make_shared<search_state const>(search.state());
+            }();
+            data_test second(problem, p.test);
+            check_same(invert(second, problem.prior, options), whole);
+        }
+    }
+}
+
+TEST_CASE("learning depends on its boxes alone, not on what was learnt before") {
+    draws d(5003);
+    for (int round = 0; round < 10; ++round) {
+        auto const p = random_posed(d);
+        auto const& prior = p.planted.problem.prior;
+        auto const some = [&] {
+            std::vector<box> boxes;
+            for (std::size_t k = 1 + d.below(9); k > 0; --k) {
+                box part = prior;
+                for (std::size_t j = 0; j < part.size(); ++j) {
+                    double const a = d.uniform(part[j].lower(), part[j].upper());
+                    double const b = d.uniform(part[j].lower(), part[j].upper());
+                    part[j] = between(std::min(a, b), std::max(a, b));
+                }
+                boxes.push_back(part);
+            }
+            return boxes;
+        };
+        auto const boxes = some();
+        data_test fresh(p.planted.problem, p.test), used(p.planted.problem, p.test);
+        for (int k = 0; k < 4; ++k) (void)used.learn(some());
+        auto const a = fresh.learn(boxes), b = used.learn(boxes);
+        REQUIRE(a.size() == b.size());
+        for (std::size_t k = 0; k < a.size(); ++k) {
+            CHECK(a[k].verdict == b[k].verdict);
+            CHECK(same(a[k].rest, b[k].rest));
+            CHECK(a[k].smear == b[k].smear);
+            CHECK(a[k].cost == b[k].cost);
+            REQUIRE((a[k].knowledge == nullptr) == (b[k].knowledge == nullptr));
+            if (!a[k].knowledge) continue;
+            CHECK(data_test::bytes(*a[k].knowledge) == data_test::bytes(*b[k].knowledge));
+            for (std::size_t e = 0; e < a[k].knowledge->all_starts.size(); ++e) {
+                auto const &x = *a[k].knowledge->all_starts[e], &y = *b[k].knowledge->all_starts[e];
+                CHECK(x.coefficients == y.coefficients);
+                CHECK(x.radius == y.radius);
+                CHECK(x.outputs() == y.outputs());
+                CHECK(x.bytes() > sizeof(double) * x.coefficients.size());
+            }
+        }
+    }
+}
+
+TEST_CASE("the memory budget ends a search, which goes on with a larger one") {
+    draws d(5004);
+    support::planting how;
+    how.experiments = 2;
+    how.noise = 0.02;
+    auto const planted = support::plant(d, 1, how);
+    auto const make = [&] { return data_test(planted.problem, {}); };
+    inversion_options o;
+    o.accuracy = 1.0 / 500;
+    o.sufficient_ratio = 1;
+    o.boxes = 300;
+    auto test = make();
+    auto const whole = invert(test, planted.problem.prior, o);
+    auto less = o;
+    less.memory = 20'000;
+    std::size_t saved = 0;
+    less.checkpoint_seconds = 1e9; // but when the budget ends it
+    less.checkpoint = [&](search_state const& s) {
+        ++saved;
+        o.resume = std::make_shared<search_state const>(s);
+    };
+    auto short_of = make();
+    auto const stopped = invert(short_of, planted.problem.prior, less);
+    CHECK(stopped.reason == stop_reason::memory_budget);
+    CHECK(stopped.tested < whole.tested);
+    CHECK(stopped.paving.count(box_verdict::pending) > 0);
+    REQUIRE(saved == 1);
+    auto again = make();
+    check_same(invert(again, planted.problem.prior, o), whole);
+
+    // What is counted is what is held: all waiting knowledge, and no other.
+    auto counted = make();
+    o.resume = nullptr;
+    paving_search search(counted, planted.problem.prior, o);
+    std::size_t most = 0;
+    while (!search.done() && !search.must_stop()) {
+        search.step();
+        most = std::max(most, search.bytes());
+    }
+    CHECK(most > 20'000);
+    CHECK(most < 100'000'000);
+    o.boxes = 1'000'000;
+    o.accuracy = 1.0 / 16;
+    auto to_end = make();
+    paving_search complete(to_end, planted.problem.prior, o);
+    while (!complete.done() && !complete.must_stop()) complete.step();
+    REQUIRE(complete.done());
+    auto const paved = complete.state().paved.size();
+    CHECK(complete.bytes() == paved * (sizeof(paved_box) + 2 * sizeof(interval)));
+}
+
+namespace {
+
+/// A ring whose test takes its time, so that checkpoints fall between.
+struct slow_ring {
+    ring set;
+
+    assessment<> operator()(box const& b) {
+        std::this_thread::sleep_for(std::chrono::microseconds{100});
+        return set(b);
+    }
+};
+
+} // namespace
+
+TEST_CASE("checkpoints come at the interval and hold a search that can go on") {
+    ring test{1, 2};
+    inversion_options o;
+    o.accuracy = 1.0 / 64;
+    o.sufficient_ratio = 1;
+    auto const whole = invert(test, square, o);
+    std::vector<std::shared_ptr<search_state const>> saved;
+    auto saving = o;
+    saving.checkpoint_seconds = 0;
+    saving.checkpoint = [&](search_state const& s) {
+        saved.push_back(std::make_shared<search_state const>(s));
+    };
+    slow_ring slow{test};
+    check_same(invert(slow, square, saving), whole);
+    REQUIRE(saved.size() > 2);
+    for (auto const& s : saved) {
+        CHECK_NOTHROW(s->require_valid());
+        auto again = o;
+        again.resume = s;
+        auto const found = invert(test, square, again);
+        check_same(found, whole);
+        CHECK(found.seconds >= s->seconds);
+    }
+    saved.clear();
+    saving.checkpoint_seconds = 1e6;
+    check_same(invert(test, square, saving), whole);
+    CHECK(saved.empty());
+    // The time of earlier runs counts.
+    search_state late = paving_search(test, square, o).state();
+    late.seconds = 100;
+    o.resume = std::make_shared<search_state const>(late);
+    CHECK(invert(test, square, o).reason == stop_reason::time_budget);
+}
+
+namespace {
+
+/// A ring that is told to stop at some call; what it says from then on is nothing.
+struct interrupted_ring {
+    ring set;
+    std::size_t last;
+    std::size_t calls = 0;
+
+    assessment<> operator()(box const& b) {
+        if (++calls > last) return {box_verdict::undecided, b};
+        return set(b);
+    }
+    [[nodiscard]] bool cancelled() const { return calls > last; }
+};
+
+} // namespace
+
+TEST_CASE("a step during which the test is told to stop is undone, and can be made later") {
+    inversion_options o;
+    o.accuracy = 1.0 / 32;
+    o.sufficient_ratio = 1;
+    o.accuracy_of_hull = true;
+    ring complete{1, 2, true};
+    auto const whole = invert(complete, square, o);
+    for (std::size_t last = 0; last < whole.tested; last += 7) {
+        interrupted_ring test{complete, last};
+        std::shared_ptr<search_state const> saved;
+        auto first = o;
+        first.checkpoint_seconds = 1e9;
+        first.checkpoint = [&](search_state const& s) {
+            saved = std::make_shared<search_state const>(s);
+        };
+        auto const part = invert(test, square, first);
+        CHECK(part.reason == stop_reason::time_budget);
+        CHECK(part.tested == last);
+        REQUIRE(saved);
+        CHECK_NOTHROW(saved->require_valid());
+        auto again = o;
+        again.resume = saved;
+        check_same(invert(complete, square, again), whole);
+    }
+    // Who says stop to the search itself is told that it was.
+    std::size_t asked = 0;
+    o.keep_going = [&asked] { return ++asked < 20; };
+    CHECK(invert(complete, square, o).reason == stop_reason::cancelled);
+}
+
+TEST_CASE("integrations that are told to stop leave a search that goes on as if nothing had been") {
+    draws d(4711);
+    int stopped = 0;
+    for (int k = 0; k < 12; ++k) {
+        auto const p = random_posed(d);
+        auto const& problem = p.planted.problem;
+        data_test complete(problem, p.test);
+        auto const whole = invert(complete, problem.prior, p.search);
+        for (std::size_t const most : {0u, 3u, 40u, 300u, 2000u}) {
+            std::atomic<std::size_t> asked = 0;
+            auto options = p.test;
+            options.run.enclosure.keep_going = [&] { return ++asked <= most; };
+            data_test test(problem, options);
+            std::shared_ptr<search_state const> saved;
+            auto first = p.search;
+            first.checkpoint_seconds = 1e9;
+            first.checkpoint = [&](search_state const& s) {
+                saved = std::make_shared<search_state const>(s);
+            };
+            auto const part = invert(test, problem.prior, first);
+            if (!saved) { // it was over before
+                check_same(part, whole);
+                continue;
+            }
+            ++stopped;
+            auto again = p.search;
+            again.resume = saved;
+            data_test fresh(problem, p.test);
+            CAPTURE(k, most);
+            check_same(invert(fresh, problem.prior, again), whole);
+        }
+    }
+    CHECK(stopped > 20);
+}
+
+TEST_CASE("states of other searches, and what is no state, are refused") {
+    ring test{1, 2};
+    inversion_options o;
+    paving_search search(test, square, o);
+    for (int k = 0; k < 30; ++k) search.step();
+    auto const good = search.state();
+    auto const refused = [&](auto&& spoil, box const& prior = square) {
+        auto bad = good;
+        spoil(bad);
+        auto options = o;
+        options.resume = std::make_shared<search_state const>(bad);
+        CHECK_THROWS_AS(invert(test, prior, options), std::invalid_argument);
+    };
+    refused([](search_state&) {}, box{between(-5, 5), between(-5, 4)});
+    refused([](search_state&) {}, box{between(-5, 5)});
+    refused([](search_state& s) { s.batches = 2; });
+    refused([](search_state& s) { s.prior = box{}; });
+    refused([](search_state& s) { s.waiting[0].set[0] = between(-6, 1); });
+    refused([](search_state& s) { s.waiting[0].set = box{between(0, 1)}; });
+    refused([](search_state& s) { s.waiting[0].number = s.pushed; });
+    refused([](search_state& s) { s.waiting[0].known = search_state::origin{0, 0, 0}; });
+    refused([](search_state& s) { s.paved[0].set = box{between(0, 9), between(0, 1)}; });
+    refused([](search_state& s) { s.whole = box{between(0, 1)}; });
+    refused([](search_state& s) { s.seconds = -1; });
+
+    // A test that is neither plain nor learns in batches has knowledge of unknown origin.
+    struct handing_on {
+        struct knowledge {};
+        assessment<knowledge> operator()(box const& x, std::shared_ptr<knowledge const> const&) {
+            return {box_verdict::undecided, x, {}, std::make_shared<knowledge const>()};
+        }
+    } other;
+    o.checkpoint = [](search_state const&) {};
+    o.checkpoint_seconds = 0;
+    CHECK_THROWS_AS(invert(other, square, o), std::invalid_argument);
+}

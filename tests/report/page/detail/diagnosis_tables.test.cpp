@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "report/diagnosis_example.hpp"
+#include "support/catch.hpp"
+
+#include <sivid/report/page/detail/diagnosis_tables.hpp>
+
+#include <string>
+
+using namespace sivid::report;
+using namespace sivid_tests;
+
+TEST_CASE("diagnosis tables: cards say how each figure is known") {
+    diagnosis_view v = hovercraft_diagnosis().view();
+    auto const cards = diagnosis_cards(v);
+    REQUIRE(cards.size() == 5);
+    CHECK_THAT(cards[0].note, ContainsSubstring("proved"));
+    CHECK(cards[2].value == "rudder_lag");
+    CHECK_THAT(cards[2].name, ContainsSubstring("proved"));
+    v.inflation = {};
+    v.candidates[0].state = candidate_state::open;
+    v.places[0].proved = false;
+    auto const guesses = diagnosis_cards(v);
+    CHECK_THAT(guesses[0].note, ContainsSubstring("estimate"));
+    CHECK_THAT(guesses[1].note, ContainsSubstring("estimate"));
+    CHECK_THAT(guesses[2].name, ContainsSubstring("likeliest"));
+    CHECK(diagnosis_cards({}).empty());
+}
+
+TEST_CASE("diagnosis tables: the summary point by point") {
+    diagnosis_view const v = hovercraft_diagnosis().view();
+    auto const t = summary_table(v);
+    REQUIRE(t.rows.size() == 6);
+    CHECK(t.rows[2][0] == "Effect");
+    CHECK_THAT(t.rows[2][1], ContainsSubstring("2 of the 12 candidates tried are excluded"));
+    CHECK_THAT(t.rows[5][1], EndsWith("(prediction, not proved)."));
+    CHECK(summary_table({}).rows.size() == 1);
+}
+
+TEST_CASE("diagnosis tables: parameters with hull and prior") {
+    auto const t = causes_table(hovercraft_diagnosis().view());
+    REQUIRE(t.rows.size() == 7);
+    CHECK(t.chosen_row == 0u);
+    CHECK(t.rows[0][3] == "0.169 \xE2\x9C\x93"); // of the witness
+    CHECK(t.rows[0][4] == "0.160 to 0.180");
+    CHECK(t.rows[0][5] == "[0, 1]");
+    CHECK(t.rows[1][4] == "");
+    CHECK(t.rows[3][0] == ""); // the second parameter of a pair
+    CHECK(t.rows[3][6] == "N\xC2\xA0m\xC2\xA0s\xC2\xB2");
+}
+
+TEST_CASE("diagnosis tables: places and shares of the gap") {
+    diagnosis_view v = hovercraft_diagnosis().view();
+    auto const t = places_table(v);
+    REQUIRE(t.rows.size() == 3);
+    CHECK(t.rows[0][0] == "yaw equation");
+    CHECK_THAT(t.rows[0][3], EndsWith("(proved)"));
+    CHECK_THAT(t.rows[1][3], EndsWith("(estimate)"));
+    CHECK_THAT(t.rows[1][4], EndsWith(", where |delta| > 0.1 rad"));
+    CHECK(t.rows[2][3] == "");
+    v.places.resize(40);
+    CHECK(places_table(v).rows.size() == 20);
+    CHECK_THAT(places_table(v).caption, ContainsSubstring("first 20 of 40"));
+    CHECK(gap_shares_table(v).rows.size() == 5);
+    CHECK(gap_shares_table(v).rows[2][1] == "");
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "report/diagnosis_example.hpp"
+#include "support/catch.hpp"
+
+#include <sivid/report/page/detail/holdout_tables.hpp>
+
+#include <limits>
+
+using namespace sivid::report;
+using namespace sivid_tests;
+
+TEST_CASE("hold-out tables: figures, known and not") {
+    diagnosis_view const v = hovercraft_diagnosis().view();
+    auto const t = holdout_table(*v.candidates[0].holdout, v.shrink_holdout);
+    REQUIRE(t.rows.size() == 11);
+    CHECK(t.rows[1][0] == "the same, for every parameter that fits as well");
+    CHECK(t.rows[2][2] == "98.2 to 100\xC2\xA0%");
+    CHECK(t.rows[9][2] == "97.8\xC2\xA0%");
+    CHECK(holdout_table({}, {}).rows.empty());
+    holdout_view const open{.inflation_before = {3, std::numeric_limits<double>::infinity()}};
+    CHECK(holdout_table(open, {}).rows[0][1] == "at least 3.00");
+    CHECK(holdout_table(open, {}).rows[0][2] == "not bounded");
+}
+
+TEST_CASE("hold-out tables: several candidates on hold-out data") {
+    diagnosis_view v = hovercraft_diagnosis().view();
+    CHECK(holdout_candidates_table(v).rows.empty()); // one alone is no comparison
+    v.candidates[1].holdout = holdout_view{.inflation_after = {0, 1.5}};
+    auto const t = holdout_candidates_table(v);
+    REQUIRE(t.rows.size() == 2);
+    CHECK(t.chosen_row == 0u);
+    CHECK(t.rows[0][2] == "97.8\xC2\xA0%");
+    CHECK(t.rows[1][1] == "at most 1.50");
+    CHECK(t.rows[1][3] == "");
+}

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "report/facts.hpp"
+#include "support/catch.hpp"
+
+#include <sivid/report/words/detail/place_words.hpp>
+
+using namespace sivid::report;
+using namespace sivid_tests;
+
+TEST_CASE("place words: relations and places in plain words") {
+    relation_view r{"yaw", {"r", "psi"}, true, {}, {"inputs exact"}};
+    for (int k = 0; k < 6; ++k) r.windows.push_back({"S4", 1.0 * k, k + 0.5});
+    CHECK(missing_fact(relation_words(r),
+                       {"yaw", "r and psi", "proved", "S4", "0 to 0.5\xC2\xA0s", "2 more"}) == "");
+    CHECK(missing_fact(relation_words(r), {"inputs exact"}) == "");
+    std::string const suspected = relation_words({"yaw", {"r"}, false, {}, {}});
+    CHECK(missing_fact(suspected, {"yaw", "sensor r", "estimate"}) == "");
+    CHECK(claims_of(suspected).proved == 0);
+    std::string const alone = relation_words({"yaw", {}, true, {}, {}});
+    CHECK(missing_fact(alone, {"yaw", "proved"}) == "");
+    CHECK(alone.find("sensor") == std::string::npos);
+    CHECK(missing_fact(place_clause({.kind = "sensor", .name = "r"}), {"sensor r", "estimate"}) ==
+          "");
+    CHECK(missing_fact(
+              place_clause({.kind = "sensor", .name = "r", .estimate = 0.25, .unit = "rad/s"}),
+              {"sensor r", "0.250\xC2\xA0rad/s", "estimate"}) == "");
+}
+
+TEST_CASE("place words: lists, windows and laws") {
+    CHECK(enumeration({}) == "");
+    CHECK(enumeration({"a"}) == "a");
+    CHECK(enumeration({"a", "b", "c"}, " or ") == "a, b or c");
+    CHECK(window_text({"S4", 1.2, 2}) == "S4, 1.2 to 2\xC2\xA0s");
+    CHECK(window_text({"S4", 0, 0}) == "S4");
+    CHECK(window_text({"", 0, 1}) == "0 to 1\xC2\xA0s");
+    CHECK(law_text("F_u * r") == law_text("F_u*r"));
+    CHECK(law_text("a + b") == "a + b");
+    CHECK(place_name({.name = "yaw"}) == "yaw");
+    CHECK(place_name({.kind = "input", .name = "delta"}) == "input delta");
+    CHECK(missing_fact(place_clause({.kind = "equation",
+                                     .name = "yaw",
+                                     .proved = true,
+                                     .missing = {-0.5, -0.25},
+                                     .unit = "rad/s^2",
+                                     .law = "r",
+                                     .regime = "r > 1"}),
+                       {"yaw equation", "0.5", "0.25", "proved", "shape of r", "estimate", "r > 1",
+                        "estimate"}) == "");
+}

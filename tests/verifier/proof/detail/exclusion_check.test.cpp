@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/paving/identify_options.hpp>
+#include <sivid/paving/invert.hpp>
+#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/verifier/proof/detail/exclusion_check.hpp>
+
+#include "paving/plain_problem.hpp"
+#include "support/catch.hpp"
+#include "support/problems.hpp"
+#include "support/sweep.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <random>
+#include <utility>
+#include <vector>
+
+using namespace sivid;
+using kind = box_claim::kind;
+using status = box_claim::status;
+using support::draws;
+
+namespace {
+
+box_claim outside(double low, double high) { return {box{interval(low, high)}, kind::outside}; }
+
+std::vector<box_claim> excluded(identification_problem const& problem,
+                                std::vector<box_claim> claims, certificate_options options = {}) {
+    exclusion_check<interval> check(problem, options);
+    check(claims);
+    return claims;
+}
+
+} // namespace
+
+TEST_CASE("what is excluded is proved next to the feasible set and what is feasible never") {
+    for (std::size_t const outliers : {0U, 2U}) {
+        auto const problem = plain_problem::make(outliers, outliers);
+        auto const f = plain_problem::feasible();
+        double const a = f.lower(), b = f.upper();
+        auto const found = excluded(problem, {outside(0.25, outliers > 0 ? 0.4 : a - 1e-6),
+                                              outside(outliers > 0 ? 0.7 : b + 1e-6, 1),
+                                              outside(a - 0.01, a + 1e-6),
+                                              outside(b - 1e-6, b + 0.01),
+                                              outside(a, b),
+                                              {box{interval(0.25, a - 0.01)}, kind::inside}});
+        CAPTURE(outliers);
+        CHECK(found[0].found == status::proved);
+        CHECK(found[1].found == status::proved);
+        for (std::size_t k = 2; k < 6; ++k) CHECK(found[k].found == status::open);
+    }
+    certificate_options none;
+    none.seconds = -1;
+    CHECK(excluded(plain_problem::make(), {outside(0.9, 1)}, none)[0].found == status::open);
+}
+
+TEST_CASE("no box with a planted truth is excluded but most without one are") {
+    draws d(4471);
+    std::size_t proved = 0, all = 0;
+    for (std::size_t model = 0; model < support::planted_models; ++model) {
+        for (std::size_t const outliers : {std::size_t{0}, std::size_t{1}}) {
+            for (double const spread : {0.0, 0.02}) {
+                bool const both = spread > 0 && outliers > 0, none = spread == 0 && outliers == 0;
+                if (!support::swept(both || none, true)) continue;
+                auto const planted = support::plant(
+                    d, model,
+                    {.experiments = 2, .samples = 12, .outliers = outliers, .spread = spread});
+                auto const& prior = planted.problem.prior;
+                auto near = prior;
+                for (std::size_t j = 0; j < prior.size(); ++j) {
+                    double const w = 0.2 * width(prior[j]);
+                    near[j] =
+                        intersect(prior[j], interval(planted.truth[j] - w, planted.truth[j] + w));
+                }
+                std::vector<box_claim> claims;
+                for (auto const& rest : difference(prior, near)) claims.push_back({rest});
+                auto const others = claims.size();
+                for (int k = 0; k < 6; ++k) { // boxes around the truth, the smallest a point
+                    auto x = near;
+                    for (std::size_t j = 0; j < x.size(); ++j) {
+                        double const w = k == 0 ? 0 : width(prior[j]) * d.uniform(0, 0.1);
+                        x[j] = intersect(prior[j],
+                                         interval(planted.truth[j] - w, planted.truth[j] + w));
+                    }
+                    claims.push_back({x});
+                }
+                certificate_options options;
+                options.seconds = 3;
+                auto const found = excluded(planted.problem, claims, options);
+                for (std::size_t k = 0; k < found.size(); ++k) {
+                    if (k >= others) REQUIRE(found[k].found == status::open);
+                    if (k < others) proved += found[k].found == status::proved ? 1 : 0;
+                }
+                all += others;
+            }
+        }
+    }
+    CHECK(proved > all / 4);
+}
+
+TEST_CASE("a proof is followed and whatever is forged in it no feasible point is lost") {
+    draws d(4472);
+    std::size_t by_weights = 0, steps = 0, whole = 0;
+    for (std::size_t model = 0; model < support::planted_models; ++model) {
+        auto const planted = support::plant(d, model,
+                                            {.experiments = 2,
+                                             .samples = 12,
+                                             .outliers = model % 2,
+                                             .spread = model % 3 == 0 ? 0.02 : 0.0});
+        auto problem = planted.problem;
+        auto const& prior = problem.prior;
+        identify_options options;
+        options.search.seconds = 60; // the boxes end it
+        options.search.boxes = 60;
+        data_test test(problem, options.test);
+        options.search.proof_bytes = 1U << 24;
+        auto const found = invert(test, prior, options.search);
+        REQUIRE_FALSE(found.proof.empty());
+        std::vector<box> rows, without;
+        for (auto const& b : found.paving.boxes()) {
+            if (b.verdict == box_verdict::outside) continue;
+            rows.push_back(b.set);
+            if (!contains(b.set, planted.truth)) without.push_back(b.set);
+        }
+        certificate_options effort;
+        effort.seconds = 60;
+        run_options fine;
+        fine.enclosure.tolerance = 1e-9;
+        fine.enclosure.relative_tolerance = 1e-6;
+        exclusion_check<interval> check(problem, effort, fine);
+        whole += check.follow(found.proof, rows).empty() ? 1 : 0;
+        by_weights += check.by_weights();
+        steps += check.steps();
+        CHECK(check.contradictions() == 0);
+        for (int forgery = 0; forgery < 12; ++forgery) {
+            auto proof = found.proof;
+            auto const chance = [&] { return d.below(3) == 0; };
+            for (auto& s : proof) {
+                if (forgery < 2) break; // the very proof, rows apart
+                if (s.what == proof_step::kind::leaf) s.what = proof_step::kind::empty;
+                if (chance()) s.at += d.uniform(-0.3, 0.3) * width(prior[s.index % prior.size()]);
+                if (chance()) s.upper = !s.upper;
+                if (s.what != proof_step::kind::run && chance()) s.index = d.below(4);
+                for (auto& group : s.why) {
+                    for (auto& w : group) {
+                        if (chance()) w.value *= d.uniform(-2, 2);
+                        if (chance()) w.experiment = d.below(3);
+                        if (chance()) w.output = d.below(13);
+                    }
+                }
+                if (chance()) std::swap(s.why, proof[d.below(proof.size())].why);
+            }
+            if (forgery > 6)
+                std::shuffle(proof.begin(), proof.end(),
+                             std::mt19937(static_cast<unsigned>(forgery)));
+            exclusion_check<interval> forged(problem, effort);
+            auto const open = forged.follow(proof, without);
+            REQUIRE(std::any_of(open.begin(), open.end(),
+                                [&](box const& x) { return contains(x, planted.truth); }));
+        }
+    }
+    CAPTURE(by_weights, steps, whole);
+    CHECK(3 * by_weights > steps);
+    CHECK(whole > 0);
+}
