@@ -139,7 +139,7 @@ inline std::string_view compiler_word(std::string const& line, std::string_view 
 /// What the floors of the proofs may know of the floor `approximate`: what its fits and estimates
 /// return. Where one is *started* is said here.
 inline bool may_include_approximate(std::string_view other, std::string_view includer) {
-    static std::set<std::string_view> const results{"approximate_fit.hpp", "residuals.hpp",
+    static std::set<std::string_view> const results{"approximate_fit.hpp", "detail/residuals.hpp",
                                                     "place/estimated_place.hpp"};
     static std::map<std::string_view, std::set<std::string_view>> const starters{
         {"sivid/paving/impl/identify.ipp", {"fit/fit.hpp"}},
@@ -147,16 +147,19 @@ inline bool may_include_approximate(std::string_view other, std::string_view inc
         {"sivid/paving/impl/outlier_budget.ipp", {"fit/fit.hpp"}},
         {"sivid/paving/impl/inflation.ipp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/candidate/screening.hpp", {"fit/fit.hpp"}},
-        {"sivid/diagnosis/candidate/detail/candidate_fit.hpp", {"fit/fit.hpp", "fit/thinned.hpp"}},
-        {"sivid/diagnosis/candidate/detail/onset_fit.hpp", {"fit/fit.hpp", "fit/thinned.hpp"}},
+        {"sivid/diagnosis/candidate/detail/candidate_fit.hpp",
+         {"fit/fit.hpp", "fit/detail/thinned.hpp"}},
+        {"sivid/diagnosis/candidate/detail/onset_fit.hpp",
+         {"fit/fit.hpp", "fit/detail/thinned.hpp"}},
         {"sivid/diagnosis/hold_out/detail/holdout_judgement.hpp", {"fit/fit.hpp"}},
-        {"sivid/diagnosis/claim/claim_review.hpp", {"fit/campaign.hpp"}},
+        {"sivid/diagnosis/claim/detail/claim_review.hpp", {"fit/detail/campaign.hpp"}},
         {"sivid/diagnosis/gap/impl/confined_gap.ipp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/impl/manoeuvre.ipp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/impl/diagnose.ipp", {"place/place_estimate.hpp"}},
         {"sivid/report/fill/detail/scenario_report.hpp", {"simulate/simulate.hpp"}},
-        {"sivid/verifier/claim/detail/paving_check.hpp", {"fit/counterexample.hpp"}},
-        {"sivid/verifier/claim/detail/fewest_outliers_check.hpp", {"fit/counterexample.hpp"}}};
+        {"sivid/verifier/claim/detail/paving_check.hpp", {"fit/detail/counterexample.hpp"}},
+        {"sivid/verifier/claim/detail/fewest_outliers_check.hpp",
+         {"fit/detail/counterexample.hpp"}}};
     std::string_view const floor = "sivid/approximate/";
     if (!starts_with(other, floor) || starts_with(includer, floor)) return true;
     auto const what = other.substr(floor.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/diagnosis/claim/diagnosis_consistency.hpp>
+#include <sivid/diagnosis/claim/detail/diagnosis_consistency.hpp>
 #include <sivid/diagnosis/diagnose.hpp>
 #include <sivid/io/diagnosis_json.hpp>
 

@@ -4,7 +4,7 @@
 #include "support/catch.hpp"
 #include "support/inflations.hpp"
 
-#include <sivid/approximate/residuals.hpp>
+#include <sivid/approximate/detail/residuals.hpp>
 
 #include <algorithm>
 #include <array>

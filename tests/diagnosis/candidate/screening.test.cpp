@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/diagnosis/candidate/screening.hpp>
 
-#include <sivid/approximate/fit/thinned.hpp>
+#include <sivid/approximate/fit/detail/thinned.hpp>
 
 #include "diagnosis/small_catalogue.hpp"
 #include "support/catch.hpp"

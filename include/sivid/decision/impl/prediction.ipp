@@ -5,9 +5,9 @@
 #include <sivid/decision/prediction.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/decision/motion/motion_cover.hpp>
+#include <sivid/decision/motion/detail/motion_cover.hpp>
 #include <sivid/enclosure/suggested_degree.hpp>
-#include <sivid/paving/contract/lifted_program.hpp>
+#include <sivid/paving/contract/detail/lifted_program.hpp>
 #include <sivid/paving/work_limit.hpp>
 
 #include <algorithm>

@@ -6,20 +6,20 @@
 
 #include <sivid/approximate/place/place_estimate.hpp>
 #include <sivid/compiled.hpp>
-#include <sivid/diagnosis/candidate/candidate_order.hpp>
-#include <sivid/diagnosis/candidate/describe_candidate.hpp>
+#include <sivid/diagnosis/candidate/detail/candidate_order.hpp>
+#include <sivid/diagnosis/candidate/detail/describe_candidate.hpp>
 #include <sivid/diagnosis/candidate/screening.hpp>
-#include <sivid/diagnosis/claim/claim_review.hpp>
 #include <sivid/diagnosis/claim/detail/candidate_verdicts.hpp>
+#include <sivid/diagnosis/claim/detail/claim_review.hpp>
+#include <sivid/diagnosis/claim/detail/diagnosis_consistency.hpp>
 #include <sivid/diagnosis/claim/detail/opening_words.hpp>
-#include <sivid/diagnosis/claim/diagnosis_consistency.hpp>
-#include <sivid/diagnosis/claim/place_report.hpp>
+#include <sivid/diagnosis/claim/detail/place_report.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/diagnosis/gap/detail/confined_gap.hpp>
+#include <sivid/diagnosis/gap/detail/gap_proof.hpp>
 #include <sivid/diagnosis/gap/detail/part_inflation.hpp>
-#include <sivid/diagnosis/gap/gap_proof.hpp>
 #include <sivid/diagnosis/manoeuvre.hpp>
-#include <sivid/diagnosis/relation/broken_relation.hpp>
+#include <sivid/diagnosis/relation/detail/broken_relation.hpp>
 #include <sivid/diagnosis/sensor/detail/sensor_discharge.hpp>
 #include <sivid/diagnosis/verification.hpp>
 

@@ -8,8 +8,8 @@
 #include <sivid/model/structure/find_combinations.hpp>
 #include <sivid/model/structure/homogeneity.hpp>
 #include <sivid/model/structure/symmetry.hpp>
+#include <sivid/paving/identifiability/detail/output_sensitivities.hpp>
 #include <sivid/paving/identifiability/detail/sensitivity_spectrum.hpp>
-#include <sivid/paving/identifiability/output_sensitivities.hpp>
 #include <sivid/space/exact/detail/certified_rank.hpp>
 
 #include <algorithm>

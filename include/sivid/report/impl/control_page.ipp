@@ -5,11 +5,11 @@
 #include <sivid/report/control_page.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/report/draw/paving_projections.hpp>
+#include <sivid/report/draw/detail/paving_projections.hpp>
 #include <sivid/report/identification_words.hpp>
 #include <sivid/report/number_text.hpp>
 #include <sivid/report/page/detail/decision_figures.hpp>
-#include <sivid/report/page/identification_parameters.hpp>
+#include <sivid/report/page/detail/identification_parameters.hpp>
 #include <sivid/report/table.hpp>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 
 #include <sivid/report/diagnosis_report.hpp>
 
-#include <sivid/report/reach_words.hpp>
+#include <sivid/report/detail/reach_words.hpp>
 
 namespace sivid::report {
 

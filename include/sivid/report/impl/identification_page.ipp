@@ -10,7 +10,7 @@
 #include <sivid/report/draw/residual_plot.hpp>
 #include <sivid/report/identification_view.hpp>
 #include <sivid/report/identification_words.hpp>
-#include <sivid/report/page/identification_parameters.hpp>
+#include <sivid/report/page/detail/identification_parameters.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #ifndef SIVID_REPORT_IMPL_REACH_WORDS_IPP
 #define SIVID_REPORT_IMPL_REACH_WORDS_IPP
 
-#include <sivid/report/reach_words.hpp>
+#include <sivid/report/detail/reach_words.hpp>
 
 #include <sivid/compiled.hpp>
 #include <sivid/paving/verdict.hpp>

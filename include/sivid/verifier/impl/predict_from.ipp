@@ -9,7 +9,7 @@
 #include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/paving/judge/data_test.hpp>
 #include <sivid/verifier/claim/detail/stored_consistency.hpp>
-#include <sivid/verifier/proof/certificate.hpp>
+#include <sivid/verifier/proof/detail/certificate.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "support/random.hpp"
 
 #include <sivid/number/polynomial/monomial_space.hpp>
-#include <sivid/paving/contract/lifted_program.hpp>
+#include <sivid/paving/contract/detail/lifted_program.hpp>
 
 #include <cmath>
 #include <cstddef>

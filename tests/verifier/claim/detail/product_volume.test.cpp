@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/paving/products/preimage_volume.hpp>
+#include <sivid/paving/products/detail/preimage_volume.hpp>
 #include <sivid/verifier/claim/detail/product_volume.hpp>
 
 #include "io/small_identification.hpp"

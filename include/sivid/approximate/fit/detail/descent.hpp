@@ -2,7 +2,7 @@
 #ifndef SIVID_APPROXIMATE_FIT_DETAIL_DESCENT_HPP
 #define SIVID_APPROXIMATE_FIT_DETAIL_DESCENT_HPP
 
-#include <sivid/approximate/fit/campaign.hpp>
+#include <sivid/approximate/fit/detail/campaign.hpp>
 
 #include <algorithm>
 #include <cmath>

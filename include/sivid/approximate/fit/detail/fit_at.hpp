@@ -3,7 +3,7 @@
 #define SIVID_APPROXIMATE_FIT_DETAIL_FIT_AT_HPP
 
 #include <sivid/approximate/approximate_fit.hpp>
-#include <sivid/approximate/fit/campaign.hpp>
+#include <sivid/approximate/fit/detail/campaign.hpp>
 #include <sivid/approximate/fit/detail/descent.hpp>
 
 #include <cmath>

@@ -2,9 +2,9 @@
 #ifndef SIVID_APPROXIMATE_FIT_IMPL_COUNTEREXAMPLE_IPP
 #define SIVID_APPROXIMATE_FIT_IMPL_COUNTEREXAMPLE_IPP
 
-#include <sivid/approximate/fit/counterexample.hpp>
+#include <sivid/approximate/fit/detail/counterexample.hpp>
 
-#include <sivid/approximate/fit/campaign.hpp>
+#include <sivid/approximate/fit/detail/campaign.hpp>
 #include <sivid/approximate/fit/detail/descent.hpp>
 #include <sivid/approximate/fit/detail/fit_at.hpp>
 #include <sivid/approximate/fit/fit.hpp>

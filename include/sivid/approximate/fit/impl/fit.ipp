@@ -4,12 +4,12 @@
 
 #include <sivid/approximate/fit/fit.hpp>
 
-#include <sivid/approximate/fit/campaign.hpp>
+#include <sivid/approximate/fit/detail/campaign.hpp>
 #include <sivid/approximate/fit/detail/descent.hpp>
 #include <sivid/approximate/fit/detail/fit_at.hpp>
 #include <sivid/approximate/fit/detail/minimax.hpp>
 #include <sivid/approximate/fit/detail/suspect_samples.hpp>
-#include <sivid/approximate/fit/thinned.hpp>
+#include <sivid/approximate/fit/detail/thinned.hpp>
 #include <sivid/compiled.hpp>
 
 #include <algorithm>

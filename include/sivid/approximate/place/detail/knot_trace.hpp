@@ -2,7 +2,7 @@
 #ifndef SIVID_APPROXIMATE_PLACE_DETAIL_KNOT_TRACE_HPP
 #define SIVID_APPROXIMATE_PLACE_DETAIL_KNOT_TRACE_HPP
 
-#include <sivid/approximate/fit/campaign.hpp>
+#include <sivid/approximate/fit/detail/campaign.hpp>
 
 #include <algorithm>
 #include <cmath>

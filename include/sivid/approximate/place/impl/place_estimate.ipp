@@ -4,8 +4,8 @@
 
 #include <sivid/approximate/place/place_estimate.hpp>
 
+#include <sivid/approximate/fit/detail/thinned.hpp>
 #include <sivid/approximate/fit/fit.hpp>
-#include <sivid/approximate/fit/thinned.hpp>
 #include <sivid/approximate/place/detail/law_search.hpp>
 #include <sivid/approximate/place/detail/missing_rate_scales.hpp>
 #include <sivid/approximate/place/detail/place_search.hpp>

@@ -4,7 +4,7 @@
 
 #include <sivid/decision/design/detail/promise_types.hpp>
 #include <sivid/decision/design/detail/small_run.hpp>
-#include <sivid/paving/contract/cut_program.hpp>
+#include <sivid/paving/contract/detail/cut_program.hpp>
 #include <sivid/paving/response/response.hpp>
 #include <sivid/space/linear_program/constraint_blocks.hpp>
 #include <sivid/space/linear_program/minimax_lp.hpp>

@@ -3,9 +3,9 @@
 #define SIVID_DECISION_DESIGN_DETAIL_PAIR_SEARCH_HPP
 
 #include <sivid/decision/design/detail/promise_types.hpp>
-#include <sivid/decision/motion/motion_cover.hpp>
+#include <sivid/decision/motion/detail/motion_cover.hpp>
 #include <sivid/number/rounding.hpp>
-#include <sivid/paving/contract/lifted_program.hpp>
+#include <sivid/paving/contract/detail/lifted_program.hpp>
 #include <sivid/paving/response/detail/difference_response.hpp>
 #include <sivid/paving/work_limit.hpp>
 

@@ -3,7 +3,7 @@
 #define SIVID_DECISION_DESIGN_DETAIL_SMALL_RUN_HPP
 
 #include <sivid/decision/design/detail/promise_types.hpp>
-#include <sivid/decision/motion/motion_cover.hpp>
+#include <sivid/decision/motion/detail/motion_cover.hpp>
 #include <sivid/decision/requirement.hpp>
 #include <sivid/decision/requirement/robustness.hpp>
 #include <sivid/paving/response/response.hpp>

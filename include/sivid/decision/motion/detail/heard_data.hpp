@@ -3,8 +3,8 @@
 #define SIVID_DECISION_MOTION_DETAIL_HEARD_DATA_HPP
 
 #include <sivid/decision/motion/detail/idle_parts.hpp>
-#include <sivid/decision/motion/motion_cover.hpp>
-#include <sivid/paving/contract/cut_contraction.hpp>
+#include <sivid/decision/motion/detail/motion_cover.hpp>
+#include <sivid/paving/contract/detail/cut_contraction.hpp>
 #include <sivid/paving/work_limit.hpp>
 #include <sivid/space/box.hpp>
 

@@ -2,7 +2,7 @@
 #ifndef SIVID_DECISION_MOTION_DETAIL_JUDGED_MOTIONS_HPP
 #define SIVID_DECISION_MOTION_DETAIL_JUDGED_MOTIONS_HPP
 
-#include <sivid/decision/motion/motion_cover.hpp>
+#include <sivid/decision/motion/detail/motion_cover.hpp>
 #include <sivid/decision/prediction_problem.hpp>
 #include <sivid/decision/requirement.hpp>
 #include <sivid/decision/requirement/robustness.hpp>

@@ -3,7 +3,7 @@
 #define SIVID_DECISION_MOTION_DETAIL_OPEN_PARTS_HPP
 
 #include <sivid/decision/motion/detail/judged_motions.hpp>
-#include <sivid/decision/motion/motion_cover.hpp>
+#include <sivid/decision/motion/detail/motion_cover.hpp>
 #include <sivid/decision/requirement/robustness.hpp>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #ifndef SIVID_DECISION_MOTION_IMPL_MOTION_COVER_IPP
 #define SIVID_DECISION_MOTION_IMPL_MOTION_COVER_IPP
 
-#include <sivid/decision/motion/motion_cover.hpp>
+#include <sivid/decision/motion/detail/motion_cover.hpp>
 
 #include <sivid/compiled.hpp>
 #include <sivid/paving/response/local_response.hpp>

@@ -2,8 +2,8 @@
 #ifndef SIVID_DIAGNOSIS_CANDIDATE_DETAIL_CANDIDATE_FIT_HPP
 #define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_CANDIDATE_FIT_HPP
 
+#include <sivid/approximate/fit/detail/thinned.hpp>
 #include <sivid/approximate/fit/fit.hpp>
-#include <sivid/approximate/fit/thinned.hpp>
 #include <sivid/diagnosis/candidate/beyond_prior.hpp>
 #include <sivid/diagnosis/candidate/detail/screened.hpp>
 

@@ -3,8 +3,8 @@
 #define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_ONSET_FIT_HPP
 
 #include <sivid/approximate/approximate_fit.hpp>
+#include <sivid/approximate/fit/detail/thinned.hpp>
 #include <sivid/approximate/fit/fit.hpp>
-#include <sivid/approximate/fit/thinned.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/model/effect.hpp>
 #include <sivid/model/problem.hpp>

@@ -2,12 +2,12 @@
 #ifndef SIVID_DIAGNOSIS_CLAIM_DETAIL_CANDIDATE_VERDICTS_HPP
 #define SIVID_DIAGNOSIS_CLAIM_DETAIL_CANDIDATE_VERDICTS_HPP
 
-#include <sivid/diagnosis/candidate/candidate_order.hpp>
-#include <sivid/diagnosis/candidate/describe_candidate.hpp>
+#include <sivid/diagnosis/candidate/detail/candidate_order.hpp>
+#include <sivid/diagnosis/candidate/detail/describe_candidate.hpp>
 #include <sivid/diagnosis/candidate/detail/effect_hulls.hpp>
-#include <sivid/diagnosis/claim/claim_review.hpp>
+#include <sivid/diagnosis/claim/detail/claim_review.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
-#include <sivid/diagnosis/gap/gap_proof.hpp>
+#include <sivid/diagnosis/gap/detail/gap_proof.hpp>
 
 #include <algorithm>
 #include <cstddef>

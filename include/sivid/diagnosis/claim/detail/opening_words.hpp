@@ -3,7 +3,7 @@
 #define SIVID_DIAGNOSIS_CLAIM_DETAIL_OPENING_WORDS_HPP
 
 #include <sivid/approximate/approximate_fit.hpp>
-#include <sivid/approximate/residuals.hpp>
+#include <sivid/approximate/detail/residuals.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/measurement/record.hpp>
 #include <sivid/model/problem.hpp>

@@ -6,7 +6,7 @@
 
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>
-#include <sivid/diagnosis/candidate/describe_candidate.hpp>
+#include <sivid/diagnosis/candidate/detail/describe_candidate.hpp>
 #include <sivid/diagnosis/verification.hpp>
 
 #include <algorithm>

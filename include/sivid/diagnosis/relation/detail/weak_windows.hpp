@@ -2,9 +2,9 @@
 #ifndef SIVID_DIAGNOSIS_RELATION_DETAIL_WEAK_WINDOWS_HPP
 #define SIVID_DIAGNOSIS_RELATION_DETAIL_WEAK_WINDOWS_HPP
 
-#include <sivid/diagnosis/relation/observed_motion.hpp>
-#include <sivid/diagnosis/relation/relation_row.hpp>
-#include <sivid/diagnosis/relation/window_integrals.hpp>
+#include <sivid/diagnosis/relation/detail/observed_motion.hpp>
+#include <sivid/diagnosis/relation/detail/relation_row.hpp>
+#include <sivid/diagnosis/relation/detail/window_integrals.hpp>
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_SENSOR_DETAIL_SENSOR_FAULTS_HPP
 #define SIVID_DIAGNOSIS_SENSOR_DETAIL_SENSOR_FAULTS_HPP
 
-#include <sivid/diagnosis/relation/relation_windows.hpp>
+#include <sivid/diagnosis/relation/detail/relation_windows.hpp>
 #include <sivid/diagnosis/relation/state_samples.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/problem.hpp>

@@ -2,7 +2,7 @@
 #ifndef SIVID_IMPORTING_MAPPING_DETAIL_IMPORT_MAPPING_READER_HPP
 #define SIVID_IMPORTING_MAPPING_DETAIL_IMPORT_MAPPING_READER_HPP
 
-#include <sivid/importing/import_mapping.hpp>
+#include <sivid/importing/detail/import_mapping.hpp>
 #include <sivid/importing/mapping/detail/required_keys.hpp>
 #include <sivid/importing/mapping/detail/source_form_reader.hpp>
 #include <sivid/importing/mapping/detail/window_mapping_reader.hpp>

@@ -2,7 +2,7 @@
 #ifndef SIVID_IMPORTING_MAPPING_DETAIL_WINDOW_MAPPING_READER_HPP
 #define SIVID_IMPORTING_MAPPING_DETAIL_WINDOW_MAPPING_READER_HPP
 
-#include <sivid/importing/import_mapping.hpp>
+#include <sivid/importing/detail/import_mapping.hpp>
 #include <sivid/io/dataset/mapping_entries.hpp>
 
 #include <algorithm>

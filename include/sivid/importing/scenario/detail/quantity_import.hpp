@@ -2,10 +2,10 @@
 #ifndef SIVID_IMPORTING_SCENARIO_DETAIL_QUANTITY_IMPORT_HPP
 #define SIVID_IMPORTING_SCENARIO_DETAIL_QUANTITY_IMPORT_HPP
 
-#include <sivid/importing/import_mapping.hpp>
-#include <sivid/importing/import_protocol.hpp>
-#include <sivid/importing/table/recorded_table.hpp>
-#include <sivid/importing/table/wrapping_counter.hpp>
+#include <sivid/importing/detail/import_mapping.hpp>
+#include <sivid/importing/detail/import_protocol.hpp>
+#include <sivid/importing/table/detail/recorded_table.hpp>
+#include <sivid/importing/table/detail/wrapping_counter.hpp>
 #include <sivid/measurement/error_bound.hpp>
 
 #include <cstddef>

@@ -2,8 +2,8 @@
 #ifndef SIVID_IMPORTING_SCENARIO_DETAIL_START_PROPOSAL_HPP
 #define SIVID_IMPORTING_SCENARIO_DETAIL_START_PROPOSAL_HPP
 
-#include <sivid/importing/import_mapping.hpp>
-#include <sivid/importing/mapping/unit_conversion.hpp>
+#include <sivid/importing/detail/import_mapping.hpp>
+#include <sivid/importing/mapping/detail/unit_conversion.hpp>
 #include <sivid/io/dataset_value.hpp>
 #include <sivid/paving/response/relaxed_intersection.hpp>
 

@@ -3,7 +3,7 @@
 #define SIVID_IMPORTING_TABLE_DETAIL_MATLAB_TABLE_HPP
 
 #include <sivid/importing/table/detail/matlab_file.hpp>
-#include <sivid/importing/table/recorded_table.hpp>
+#include <sivid/importing/table/detail/recorded_table.hpp>
 
 #include <algorithm>
 #include <charconv>

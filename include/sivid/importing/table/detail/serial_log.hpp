@@ -2,8 +2,8 @@
 #ifndef SIVID_IMPORTING_TABLE_DETAIL_SERIAL_LOG_HPP
 #define SIVID_IMPORTING_TABLE_DETAIL_SERIAL_LOG_HPP
 
-#include <sivid/importing/table/recorded_table.hpp>
-#include <sivid/importing/table/wrapping_counter.hpp>
+#include <sivid/importing/table/detail/recorded_table.hpp>
+#include <sivid/importing/table/detail/wrapping_counter.hpp>
 
 #include <algorithm>
 #include <charconv>

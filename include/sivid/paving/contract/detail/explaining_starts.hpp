@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_CONTRACT_DETAIL_EXPLAINING_STARTS_HPP
 #define SIVID_PAVING_CONTRACT_DETAIL_EXPLAINING_STARTS_HPP
 
-#include <sivid/paving/contract/start_rule.hpp>
+#include <sivid/paving/contract/detail/start_rule.hpp>
 #include <sivid/paving/response/local_response.hpp>
 
 #include <algorithm>

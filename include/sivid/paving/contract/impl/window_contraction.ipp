@@ -8,7 +8,7 @@
 #include <sivid/enclosure/flow.hpp>
 #include <sivid/measurement/record.hpp>
 #include <sivid/model/structure/states_seen.hpp>
-#include <sivid/paving/contract/lifted_program.hpp>
+#include <sivid/paving/contract/detail/lifted_program.hpp>
 #include <sivid/paving/response/local_response.hpp>
 #include <sivid/paving/run/experiment_run.hpp>
 #include <sivid/paving/work_limit.hpp>

@@ -3,7 +3,7 @@
 #define SIVID_PAVING_IDENTIFIABILITY_DETAIL_SENSITIVITY_SPECTRUM_HPP
 
 #include <sivid/model/structure/symmetry.hpp>
-#include <sivid/paving/identifiability/output_sensitivities.hpp>
+#include <sivid/paving/identifiability/detail/output_sensitivities.hpp>
 #include <sivid/space/exact/detail/rational_basis.hpp>
 
 #include <Eigen/Core>

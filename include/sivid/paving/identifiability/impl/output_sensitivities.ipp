@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_IDENTIFIABILITY_IMPL_OUTPUT_SENSITIVITIES_IPP
 #define SIVID_PAVING_IDENTIFIABILITY_IMPL_OUTPUT_SENSITIVITIES_IPP
 
-#include <sivid/paving/identifiability/output_sensitivities.hpp>
+#include <sivid/paving/identifiability/detail/output_sensitivities.hpp>
 
 #include <sivid/enclosure/sensitivity/sensitivity_tube.hpp>
 

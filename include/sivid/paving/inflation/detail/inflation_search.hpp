@@ -3,9 +3,9 @@
 #define SIVID_PAVING_INFLATION_DETAIL_INFLATION_SEARCH_HPP
 
 #include <sivid/model/problem.hpp>
-#include <sivid/paving/inflation/inflation_relaxation.hpp>
+#include <sivid/paving/inflation/detail/inflation_relaxation.hpp>
 #include <sivid/paving/judge/box_explorer.hpp>
-#include <sivid/paving/judge/response_search.hpp>
+#include <sivid/paving/judge/detail/response_search.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>

@@ -7,9 +7,9 @@
 #include <sivid/compiled.hpp>
 #include <sivid/number/guard.hpp>
 #include <sivid/paving/inflation.hpp>
-#include <sivid/paving/inflation/inflation_relaxation.hpp>
+#include <sivid/paving/inflation/detail/inflation_relaxation.hpp>
 #include <sivid/paving/judge/box_explorer.hpp>
-#include <sivid/paving/judge/response_search.hpp>
+#include <sivid/paving/judge/detail/response_search.hpp>
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/reduction.hpp>
 #include <sivid/paving/response/misfit.hpp>

@@ -5,7 +5,7 @@
 #include <sivid/paving/judge/detail/response_judgement.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/paving/contract/cut_contraction.hpp>
+#include <sivid/paving/contract/detail/cut_contraction.hpp>
 #include <sivid/paving/contract/detail/explaining_starts.hpp>
 #include <sivid/paving/response/local_response.hpp>
 #include <sivid/paving/verdict.hpp>

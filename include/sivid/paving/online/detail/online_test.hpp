@@ -6,7 +6,7 @@
 #include <sivid/paving/judge/data_test.hpp>
 #include <sivid/paving/judge/detail/response_judgement.hpp>
 #include <sivid/paving/online/detail/online_region.hpp>
-#include <sivid/paving/run/continued_run.hpp>
+#include <sivid/paving/run/detail/continued_run.hpp>
 
 #include <algorithm>
 #include <cstddef>

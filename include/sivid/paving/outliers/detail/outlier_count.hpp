@@ -3,8 +3,8 @@
 #define SIVID_PAVING_OUTLIERS_DETAIL_OUTLIER_COUNT_HPP
 
 #include <sivid/model/problem.hpp>
-#include <sivid/paving/contract/cut_contraction.hpp>
-#include <sivid/paving/judge/response_search.hpp>
+#include <sivid/paving/contract/detail/cut_contraction.hpp>
+#include <sivid/paving/judge/detail/response_search.hpp>
 #include <sivid/paving/outliers/detail/outlier_search_options.hpp>
 #include <sivid/paving/response/local_response.hpp>
 #include <sivid/space/box.hpp>

@@ -5,7 +5,7 @@
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/products/detail/preimage_paving.hpp>
-#include <sivid/paving/products/preimage_volume.hpp>
+#include <sivid/paving/products/detail/preimage_volume.hpp>
 #include <sivid/paving/products/reduction.hpp>
 
 #include <algorithm>

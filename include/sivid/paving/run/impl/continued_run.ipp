@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_RUN_IMPL_CONTINUED_RUN_IPP
 #define SIVID_PAVING_RUN_IMPL_CONTINUED_RUN_IPP
 
-#include <sivid/paving/run/continued_run.hpp>
+#include <sivid/paving/run/detail/continued_run.hpp>
 
 #include <sivid/compiled.hpp>
 #include <sivid/enclosure/suggested_degree.hpp>

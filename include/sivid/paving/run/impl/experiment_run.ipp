@@ -7,8 +7,8 @@
 #include <sivid/compiled.hpp>
 #include <sivid/measurement/record.hpp>
 #include <sivid/paving/run/detail/doubleton_run.hpp>
+#include <sivid/paving/run/detail/scalar_run.hpp>
 #include <sivid/paving/run/detail/taylor_run.hpp>
-#include <sivid/paving/run/scalar_run.hpp>
 
 #include <algorithm>
 #include <cstddef>

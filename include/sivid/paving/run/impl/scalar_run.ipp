@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_RUN_IMPL_SCALAR_RUN_IPP
 #define SIVID_PAVING_RUN_IMPL_SCALAR_RUN_IPP
 
-#include <sivid/paving/run/scalar_run.hpp>
+#include <sivid/paving/run/detail/scalar_run.hpp>
 
 #include <sivid/compiled.hpp>
 #include <sivid/paving/run/detail/taylor_run.hpp>

@@ -2,7 +2,7 @@
 #ifndef SIVID_REPORT_DRAW_IMPL_PAVING_PROJECTIONS_IPP
 #define SIVID_REPORT_DRAW_IMPL_PAVING_PROJECTIONS_IPP
 
-#include <sivid/report/draw/paving_projections.hpp>
+#include <sivid/report/draw/detail/paving_projections.hpp>
 
 namespace sivid::report {
 

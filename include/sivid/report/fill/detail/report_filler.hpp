@@ -6,11 +6,11 @@
 #include <sivid/io/explaining_motion.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/report/draw/paving_projections.hpp>
+#include <sivid/report/detail/reach_words.hpp>
+#include <sivid/report/draw/detail/paving_projections.hpp>
 #include <sivid/report/fill/detail/scenario_report.hpp>
 #include <sivid/report/identification_view.hpp>
 #include <sivid/report/identification_words.hpp>
-#include <sivid/report/reach_words.hpp>
 #include <sivid/version.hpp>
 
 #include <algorithm>

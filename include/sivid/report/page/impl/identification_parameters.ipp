@@ -2,7 +2,7 @@
 #ifndef SIVID_REPORT_PAGE_IMPL_IDENTIFICATION_PARAMETERS_IPP
 #define SIVID_REPORT_PAGE_IMPL_IDENTIFICATION_PARAMETERS_IPP
 
-#include <sivid/report/page/identification_parameters.hpp>
+#include <sivid/report/page/detail/identification_parameters.hpp>
 
 namespace sivid::report::detail {
 

@@ -3,8 +3,8 @@
 #define SIVID_VERIFIER_CLAIM_DETAIL_DRAWING_CHECK_HPP
 
 #include <sivid/space/box_cover.hpp>
-#include <sivid/verifier/claim/identification_consistency.hpp>
-#include <sivid/verifier/claim/stored_products.hpp>
+#include <sivid/verifier/claim/detail/identification_consistency.hpp>
+#include <sivid/verifier/claim/detail/stored_products.hpp>
 
 #include <algorithm>
 #include <cstddef>

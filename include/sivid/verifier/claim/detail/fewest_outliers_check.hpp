@@ -2,10 +2,10 @@
 #ifndef SIVID_VERIFIER_CLAIM_DETAIL_FEWEST_OUTLIERS_CHECK_HPP
 #define SIVID_VERIFIER_CLAIM_DETAIL_FEWEST_OUTLIERS_CHECK_HPP
 
-#include <sivid/approximate/fit/counterexample.hpp>
+#include <sivid/approximate/fit/detail/counterexample.hpp>
+#include <sivid/verifier/claim/detail/identification_consistency.hpp>
 #include <sivid/verifier/claim/detail/point_judgement.hpp>
-#include <sivid/verifier/claim/identification_consistency.hpp>
-#include <sivid/verifier/proof/certificate.hpp>
+#include <sivid/verifier/proof/detail/certificate.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -3,7 +3,7 @@
 #define SIVID_VERIFIER_CLAIM_DETAIL_FORCED_OUTLIER_CHECK_HPP
 
 #include <sivid/paving/run/plain_run.hpp>
-#include <sivid/verifier/claim/identification_consistency.hpp>
+#include <sivid/verifier/claim/detail/identification_consistency.hpp>
 
 #include <algorithm>
 #include <chrono>

@@ -10,9 +10,9 @@
 #include <sivid/verifier/claim/detail/forced_outlier_check.hpp>
 #include <sivid/verifier/claim/detail/identifiability_check.hpp>
 #include <sivid/verifier/claim/detail/identification_check_options.hpp>
+#include <sivid/verifier/claim/detail/identification_consistency.hpp>
 #include <sivid/verifier/claim/detail/paving_check.hpp>
-#include <sivid/verifier/claim/identification_consistency.hpp>
-#include <sivid/verifier/claim/product_check.hpp>
+#include <sivid/verifier/claim/detail/product_check.hpp>
 
 #include <algorithm>
 #include <chrono>

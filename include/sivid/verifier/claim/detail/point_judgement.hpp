@@ -3,7 +3,7 @@
 #define SIVID_VERIFIER_CLAIM_DETAIL_POINT_JUDGEMENT_HPP
 
 #include <sivid/approximate/approximate_fit.hpp>
-#include <sivid/verifier/proof/plain_campaign.hpp>
+#include <sivid/verifier/proof/detail/plain_campaign.hpp>
 
 #include <cstddef>
 #include <utility>

@@ -3,7 +3,7 @@
 #define SIVID_VERIFIER_CLAIM_DETAIL_PRODUCT_VOLUME_HPP
 
 #include <sivid/space/box.hpp>
-#include <sivid/verifier/claim/stored_products.hpp>
+#include <sivid/verifier/claim/detail/stored_products.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,9 +5,9 @@
 #include <sivid/io/input_error.hpp>
 #include <sivid/io/result/problem_digest.hpp>
 #include <sivid/io/result/same_problem.hpp>
-#include <sivid/verifier/claim/identification_consistency.hpp>
-#include <sivid/verifier/claim/product_check.hpp>
-#include <sivid/verifier/claim/stored_products.hpp>
+#include <sivid/verifier/claim/detail/identification_consistency.hpp>
+#include <sivid/verifier/claim/detail/product_check.hpp>
+#include <sivid/verifier/claim/detail/stored_products.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -5,7 +5,7 @@
 #include <sivid/verifier/claim/detail/identifiability_check.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/paving/identifiability/output_sensitivities.hpp>
+#include <sivid/paving/identifiability/detail/output_sensitivities.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>

@@ -2,11 +2,11 @@
 #ifndef SIVID_VERIFIER_PROOF_DETAIL_EXCLUSION_CHECK_HPP
 #define SIVID_VERIFIER_PROOF_DETAIL_EXCLUSION_CHECK_HPP
 
-#include <sivid/paving/contract/cut_program.hpp>
-#include <sivid/paving/contract/misfit_block.hpp>
+#include <sivid/paving/contract/detail/cut_program.hpp>
+#include <sivid/paving/contract/detail/misfit_block.hpp>
 #include <sivid/paving/response/local_response.hpp>
-#include <sivid/paving/run/scalar_run.hpp>
-#include <sivid/verifier/proof/certificate.hpp>
+#include <sivid/paving/run/detail/scalar_run.hpp>
+#include <sivid/verifier/proof/detail/certificate.hpp>
 #include <sivid/verifier/proof/detail/proof_walk.hpp>
 #include <sivid/verifier/proof/detail/response_audit.hpp>
 #include <sivid/verifier/proof/detail/weighted_outputs.hpp>

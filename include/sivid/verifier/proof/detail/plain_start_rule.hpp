@@ -2,7 +2,7 @@
 #ifndef SIVID_VERIFIER_PROOF_DETAIL_PLAIN_START_RULE_HPP
 #define SIVID_VERIFIER_PROOF_DETAIL_PLAIN_START_RULE_HPP
 
-#include <sivid/paving/contract/start_rule.hpp>
+#include <sivid/paving/contract/detail/start_rule.hpp>
 #include <sivid/paving/run/plain_run.hpp>
 
 #include <algorithm>

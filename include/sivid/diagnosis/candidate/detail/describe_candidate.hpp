@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_CANDIDATE_DETAIL_DESCRIBE_CANDIDATE_HPP
+#define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_DESCRIBE_CANDIDATE_HPP
+
+#include <sivid/diagnosis/candidate/screening.hpp>
+#include <sivid/diagnosis/diagnosis.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+[[nodiscard]] inline std::vector<std::string> names_of(candidate const& c,
+                                                       std::vector<effect> const& catalogue) {
+    std::vector<std::string> names;
+    for (auto const e : c.effects) names.push_back(catalogue[e].name);
+    return names;
+}
+
+/// A parameter of a problem with its unit and a value.
+[[nodiscard]] inline named_estimate named_parameter(identification_problem const& p, std::size_t j,
+                                                    double value) {
+    auto const& name = p.choice.unknown[j];
+    auto const& about = p.model.about;
+    return {name, about.constants[index_of(about.constants, name, "constant")].unit, value,
+            std::nullopt, p.prior[j]};
+}
+
+/// All parameters of a problem with these values.
+[[nodiscard]] inline std::vector<named_estimate>
+named_parameters(identification_problem const& p, std::vector<double> const& values) {
+    std::vector<named_estimate> result;
+    for (std::size_t j = 0; j < std::min(values.size(), p.prior.size()); ++j) {
+        result.push_back(named_parameter(p, j, values[j]));
+    }
+    return result;
+}
+
+/// Adds the constants among these that sit at the end of their prior, each name once.
+inline void add_constants_at_ends(std::vector<std::string> const& effects,
+                                  std::vector<named_estimate> const& constants,
+                                  std::vector<constant_at_end>& to) {
+    for (auto const& c : constants) {
+        auto const end = c.prior ? end_of_prior(c.value, *c.prior) : prior_end::none;
+        bool const known = std::any_of(to.begin(), to.end(), [&c](constant_at_end const& other) {
+            return other.constant.name == c.name;
+        });
+        if (end != prior_end::none && !known) to.push_back({effects, c, end});
+    }
+}
+
+/// What the fit of a candidate says; nothing in it is proved yet.
+/// @param own  how many parameters the model itself has
+[[nodiscard]] inline cause cause_of(screened const& s, std::vector<effect> const& catalogue,
+                                    std::size_t own, std::size_t measurements) {
+    cause c;
+    c.effects = names_of(s.figures, catalogue);
+    c.fitted_inflation = s.figures.inflation;
+    c.score = s.figures.score(measurements);
+    for (std::size_t j = own; j < s.fit.parameters.size(); ++j) {
+        c.parameters.push_back(named_parameter(s.problem, j, s.fit.parameters[j]));
+    }
+    return c;
+}
+
+/// A witness with the names of parameters, scenarios and states.
+[[nodiscard]] inline named_witness named(identification_problem const& p,
+                                         std::vector<double> const& parameters,
+                                         std::vector<std::vector<double>> const& starts) {
+    named_witness result;
+    result.parameters = named_parameters(p, parameters);
+    for (std::size_t e = 0; e < starts.size(); ++e) {
+        named_witness::start start{p.experiments[e].name, {}};
+        for (std::size_t i = 0; i < starts[e].size(); ++i) {
+            auto const& state = p.model.about.states[i];
+            start.states.push_back({state.name, state.unit, starts[e][i]});
+        }
+        result.starts.push_back(std::move(start));
+    }
+    return result;
+}
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IMPORTING_DETAIL_IMPORT_MAPPING_HPP
+#define SIVID_IMPORTING_DETAIL_IMPORT_MAPPING_HPP
+
+#include <sivid/importing/mapping/detail/unit_conversion.hpp>
+#include <sivid/io/dataset/model_names.hpp>
+#include <sivid/io/dataset_value.hpp>
+#include <sivid/io/input_error.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// A column of a recorded file, by its heading or by its number from 1.
+struct column_reference {
+    std::string heading;
+    std::size_t number = 0; ///< 0: by heading
+    input_place place;      ///< in the mapping, for messages
+
+    [[nodiscard]] friend bool operator==(column_reference const& a, column_reference const& b) {
+        return a.heading == b.heading && a.number == b.number;
+    }
+};
+
+/// Where the error bound of a quantity comes from.
+struct bound_source {
+    enum class kind {
+        none,    ///< inputs only: the readings are exact
+        number,  ///< one bound, in the model's unit
+        column,  ///< a column in the unit of the readings
+        proposed ///< propose_error_bound on the fit scenarios
+    };
+    kind from = kind::none;
+    exact_decimal number;
+    column_reference column;
+    input_place place;
+};
+
+/// How an input or a channel of the model follows from a column.
+struct quantity_mapping {
+    std::string name, unit;
+    column_reference column;
+    unit_conversion conversion;
+    std::optional<unsigned> counter_bits; ///< the readings are counts that wrap
+    std::optional<std::pair<exact_decimal, exact_decimal>> range; ///< of possible readings
+    bound_source error;
+};
+
+/// What happens where a recorder's log breaks.
+enum class break_policy {
+    refuse, ///< bad input
+    keep,   ///< gaps only: go on, and say so
+    split,  ///< a new scenario
+    drop    ///< restarts only: leave out everything from there on
+};
+
+/// The form of a recorded file.
+struct source_form {
+    enum class kind { csv, serial, matlab };
+    kind from = kind::csv;
+    char separator = ','; ///< ' ' stands for any run of blanks
+    char decimal = '.';
+    std::vector<std::string> missing; ///< cells that mean "no reading", beside empty ones
+    std::size_t skip_lines = 0;       ///< csv: before the heading
+    std::size_t skip_after_heading = 0;
+    std::vector<std::string> fields; ///< serial: what a line holds; "_" is not looked at
+    exact_decimal longest_gap;       ///< serial: the longest usual step of the time [s]
+    bool check_sums = false;         ///< serial: each line ends with *HHHH, its crc16
+    break_policy gap = break_policy::refuse, restart = break_policy::refuse;
+
+    [[nodiscard]] friend bool operator==(source_form const&, source_form const&) = default;
+};
+
+/// How the time of the data set follows from a column: t = reading * 10^power + offset.
+struct time_mapping {
+    column_reference column;
+    std::optional<exact_decimal> sample_time; ///< no column: row k, from 0, is at k times this
+    std::string unit = "s";
+    unit_conversion to_seconds;
+    std::optional<unsigned> counter_bits; ///< serial: the counter wraps
+    bool from_first = false;              ///< t = 0 is the first row with all inputs
+    exact_decimal offset;                 ///< otherwise [s]
+};
+
+/// What the mapping says of a state at a start.
+struct mapped_start {
+    enum class kind {
+        stated, ///< it is in `range`
+        value,  ///< it is what the channel shows; `range`, if bounded, has its rate of change
+        rate    ///< it is the rate of what the channel shows; `range` has its own rate of change
+    };
+    std::string name;
+    kind from = kind::stated;
+    stated_range range;
+    bool bounded = true;
+    std::string channel;
+    input_place place;
+};
+
+/// Stretches that a record is cut into, each with a start of its own: window k, from 1, begins at
+/// first + (k - 1) every, or at the first common reading after that if its start needs one.
+struct window_mapping {
+    exact_decimal length, every, first; ///< [s], every >= length
+    std::size_t most = 0;               ///< so many; 0: as many as there are
+    std::size_t holdout_every = 0;      ///< each k-th is held out; 0: none
+    std::vector<std::size_t> holdout;   ///< or these
+    std::vector<mapped_start> initial;  ///< at the start of each
+    input_place place;
+
+    [[nodiscard]] bool is_holdout(std::size_t number) const {
+        return (holdout_every > 0 && number % holdout_every == 0) ||
+               std::find(holdout.begin(), holdout.end(), number) != holdout.end();
+    }
+};
+
+/// How one recorded file becomes a scenario.
+struct scenario_mapping {
+    std::string name;
+    scenario_role role = scenario_role::fit;
+    std::filesystem::path file;
+    interpolation between = interpolation::linear;
+    source_form form;
+    time_mapping time;
+    std::optional<exact_decimal> duration; ///< nothing: as long as all inputs last
+    std::vector<quantity_mapping> inputs, channels;
+    std::vector<mapped_start> initial;             ///< stated ones: at t = 0 alone
+    std::vector<mapped_start> initial_after_break; ///< of the scenarios that a split begins
+    std::optional<window_mapping> windows;
+    std::size_t thin = 1; ///< each so-many-th reading of a channel is kept
+    input_place place;
+};
+
+/// The content of a file in the format sivid-mapping-1; read_import_mapping makes it.
+struct import_mapping {
+    struct parameter {
+        std::string name, unit;
+        stated_range prior;
+    };
+    struct constant {
+        std::string name;
+        exact_decimal value;
+        interval enclosure;
+    };
+    std::filesystem::path file;
+    std::string id, model;
+    std::vector<parameter> parameters;
+    std::vector<constant> fixed;
+    exact_decimal max_outlier_fraction;
+    std::vector<dataset_effect> effects;
+    std::vector<scenario_mapping> scenarios;
+
+    /// The names that occur: as much of the model as the data set needs to know.
+    [[nodiscard]] model_names names() const {
+        model_names result;
+        result.name = model;
+        auto const add = [](std::vector<name_unit>& list, std::string const& name,
+                            std::string const& unit) {
+            if (!index_of(list, name)) list.push_back({name, unit});
+        };
+        for (auto const& p : parameters) add(result.constants, p.name, p.unit);
+        for (auto const& f : fixed) add(result.constants, f.name, "");
+        for (auto const& s : scenarios) {
+            for (auto const& q : s.inputs) add(result.inputs, q.name, q.unit);
+            for (auto const& q : s.channels) add(result.channels, q.name, q.unit);
+            for (auto const* list : {&s.initial, &s.initial_after_break})
+                for (auto const& r : *list) add(result.states, r.name, "");
+            if (!s.windows) continue;
+            for (auto const& r : s.windows->initial) add(result.states, r.name, "");
+        }
+        result.state_ranges.assign(result.states.size(), interval::whole());
+        return result;
+    }
+};
+
+} // namespace sivid
+
+#endif // SIVID_IMPORTING_DETAIL_IMPORT_MAPPING_HPP

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IMPORTING_DETAIL_IMPORT_PROTOCOL_HPP
+#define SIVID_IMPORTING_DETAIL_IMPORT_PROTOCOL_HPP
+
+#include <sivid/io/text/json_writer.hpp>
+#include <sivid/io/text/printable_text.hpp>
+#include <sivid/measurement/error_bound.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// What an import did to the recorded lines and what it takes for granted. Nothing is dropped,
+/// changed or decided without a note.
+class import_protocol {
+public:
+    enum class kind {
+        dropped, ///< is not in the data set
+        changed, ///< is in it, but not as recorded
+        decided, ///< could have been read in two ways
+        assumed  ///< cannot be seen in the data
+    };
+
+    struct note {
+        kind what = kind::dropped;
+        std::string scenario, field; ///< field: input, channel, or "" for the whole line
+        std::string reason;
+        std::vector<std::size_t> lines; ///< of the recorded file; none: concerns all of it
+    };
+
+    struct scenario_summary {
+        std::string name, role, file;
+        std::size_t lines = 0;           ///< of the file
+        std::size_t first = 0, last = 0; ///< lines that the scenario comes from
+        std::size_t rows = 0;            ///< of them read
+        std::size_t measurements = 0;    ///< in the data set
+        std::string duration;            ///< [s]
+        std::string stretch = {};        ///< what it is a window of; "": none
+        std::string begin = "0";         ///< [s], on the time axis of the stretch
+
+        /// The scenario that its notes name.
+        [[nodiscard]] std::string const& noted_as() const {
+            return stretch.empty() ? name : stretch;
+        }
+    };
+
+    struct proposed_bound {
+        std::string quantity, unit, bound; ///< bound: the decimal in the data set
+        std::vector<std::pair<std::string, error_bound_proposal>> scenarios;
+    };
+
+    std::string dataset, mapping;
+    std::vector<scenario_summary> scenarios;
+    std::vector<proposed_bound> bounds;
+
+    /// Notes of one scenario, field and reason become one.
+    void add(kind what, std::string const& scenario, std::string const& field,
+             std::string const& reason, std::size_t line = 0) {
+        auto const [found, is_new] =
+            index_.try_emplace(std::tuple{what, scenario, field, reason}, notes_.size());
+        if (is_new) notes_.push_back({what, scenario, field, reason, {}});
+        if (line > 0) notes_[found->second].lines.push_back(line);
+    }
+    [[nodiscard]] std::vector<note> const& notes() const { return notes_; }
+
+    /// Lines in ascending ranges: {3, 4, 5, 9} is [3, 5], [9, 9].
+    [[nodiscard]] static std::vector<std::pair<std::size_t, std::size_t>>
+    ranges(std::vector<std::size_t> lines) {
+        std::sort(lines.begin(), lines.end());
+        std::vector<std::pair<std::size_t, std::size_t>> result;
+        for (auto const line : lines) {
+            if (!result.empty() && line <= result.back().second + 1)
+                result.back().second = line;
+            else
+                result.emplace_back(line, line);
+        }
+        return result;
+    }
+
+    [[nodiscard]] static char const* word(kind k) {
+        constexpr char const* words[] = {"dropped", "changed", "decided", "assumed"};
+        return words[static_cast<std::size_t>(k)];
+    }
+
+    /// For people; long lists of lines are cut, the JSON has them all. Both can be printed,
+    /// whatever the names are.
+    [[nodiscard]] std::string text() const {
+        std::string out = "data set " + dataset + ", imported by " + mapping + "\n";
+        constexpr std::size_t most = 12; // windows of a stretch, and scenarios of a bound
+        for (std::size_t i = 0, shown = 0; i < scenarios.size(); ++i) {
+            auto const& s = scenarios[i];
+            bool const first = i == 0 || scenarios[i - 1].noted_as() != s.noted_as();
+            bool const last =
+                i + 1 == scenarios.size() || scenarios[i + 1].noted_as() != s.noted_as();
+            shown = first ? 0 : shown + 1;
+            if (shown < most)
+                out += (first ? "\nscenario " : "scenario ") + s.name + " (" + s.role +
+                       "): " + s.file + ", lines " + std::to_string(s.first) + " to " +
+                       std::to_string(s.last) + " of " + std::to_string(s.lines) + ", " +
+                       std::to_string(s.rows) + " rows, " + std::to_string(s.measurements) +
+                       " measurements, " + s.duration + " s" +
+                       (s.stretch.empty() ? "" : " from " + s.begin + " s") + "\n";
+            else if (last)
+                out += "... and " + std::to_string(shown + 1 - most) + " more\n";
+            if (last)
+                append_notes(out, [&](std::string const& name) { return name == s.noted_as(); });
+        }
+        auto const elsewhere = [&](std::string const& name) {
+            return std::none_of(scenarios.begin(), scenarios.end(),
+                                [&](auto const& s) { return s.noted_as() == name; });
+        };
+        std::string rest;
+        append_notes(rest, elsewhere);
+        if (!rest.empty()) out += "\nwhole logs, and stretches that became no scenario\n" + rest;
+        for (auto const& b : bounds) {
+            out += "\nerror bound of " + b.quantity + ", proposed: " + b.bound +
+                   (b.unit.empty() ? "" : " " + b.unit) + "\n";
+            std::size_t shown = 0;
+            for (auto const& [name, p] : b.scenarios) {
+                if (shown++ == most) {
+                    out += "  ... and " + std::to_string(b.scenarios.size() - most) + " more\n";
+                    break;
+                }
+                out += "  " + name + ": ";
+                out += p.refusal.empty()
+                           ? "step " + number(p.quantum) + ", spread " + number(p.spread) +
+                                 ", largest residual " + number(p.largest_residual) + ", " +
+                                 std::to_string(p.support) + " samples, " +
+                                 std::to_string(p.outliers) + " outliers left out\n"
+                           : p.refusal + "\n";
+                for (auto const& a : p.assumptions) out += "    assumed: " + a + "\n";
+            }
+        }
+        return printable_text(out, std::string::npos, true);
+    }
+
+    /// The same in the format sivid-import-1, complete.
+    [[nodiscard]] std::string json() const {
+        using layout = json_writer::layout;
+        json_writer j;
+        j.begin_object()
+            .key("format")
+            .string("sivid-import-1")
+            .key("dataset")
+            .string(printable_text(dataset));
+        j.key("mapping").string(printable_text(mapping)).key("scenarios").begin_array();
+        for (auto const& s : scenarios) {
+            j.begin_object(layout::one_line)
+                .key("name")
+                .string(printable_text(s.name))
+                .key("role")
+                .string(s.role);
+            j.key("file").string(printable_text(s.file)).key("lines").integer(s.lines);
+            j.key("first").integer(s.first).key("last").integer(s.last);
+            j.key("rows").integer(s.rows).key("measurements").integer(s.measurements);
+            j.key("begin").string(s.begin).key("duration").string(s.duration).end_object();
+        }
+        j.end_array().key("notes").begin_array();
+        for (auto const& n : notes_) {
+            j.begin_object(layout::one_line).key("kind").string(word(n.what));
+            j.key("scenario")
+                .string(printable_text(n.scenario))
+                .key("field")
+                .string(printable_text(n.field));
+            j.key("reason").string(printable_text(n.reason)).key("count").integer(n.lines.size());
+            j.key("lines").begin_array();
+            for (auto const& [first, last] : ranges(n.lines))
+                j.begin_array().integer(first).integer(last).end_array();
+            j.end_array().end_object();
+        }
+        j.end_array().key("bounds").begin_array();
+        for (auto const& b : bounds) {
+            j.begin_object()
+                .key("quantity")
+                .string(printable_text(b.quantity))
+                .key("unit")
+                .string(printable_text(b.unit));
+            j.key("bound").string(b.bound).key("scenarios").begin_array();
+            for (auto const& [name, p] : b.scenarios) {
+                j.begin_object(layout::one_line).key("scenario").string(printable_text(name));
+                j.key("bound").nearest(p.bound).key("quantum").nearest(p.quantum);
+                j.key("spread").nearest(p.spread);
+                j.key("largest_residual").nearest(p.largest_residual);
+                j.key("support").integer(p.support).key("outliers").integer(p.outliers);
+                j.key("refusal").string(p.refusal).key("assumptions").begin_array();
+                for (auto const& a : p.assumptions) j.string(printable_text(a));
+                j.end_array().end_object();
+            }
+            j.end_array().end_object();
+        }
+        return j.end_array().end_object().text();
+    }
+
+private:
+    static std::string number(double x) { return rounded_digits(x).text(); }
+    /// Three digits, to be read.
+    static exact_decimal rounded_digits(double x) {
+        return exact_decimal::shortest(x).divided_by(1, 3).second;
+    }
+
+    template <class Wanted>
+    void append_notes(std::string& out, Wanted const& wanted) const {
+        constexpr std::size_t most = 12;
+        for (auto const& n : notes_) {
+            if (!wanted(n.scenario)) continue;
+            out += std::string{"  "} + word(n.what) + ": ";
+            if (!n.field.empty()) out += n.field + ": ";
+            out += n.reason;
+            if (!n.lines.empty()) {
+                out += " (" + std::to_string(n.lines.size()) +
+                       (n.lines.size() == 1 ? " line: " : " lines: ");
+                auto const all = ranges(n.lines);
+                for (std::size_t i = 0; i < std::min(all.size(), most); ++i) {
+                    out += (i > 0 ? ", " : "") + std::to_string(all[i].first);
+                    if (all[i].second > all[i].first) out += "-" + std::to_string(all[i].second);
+                }
+                out += all.size() > most ? ", ...)" : ")";
+            }
+            out += "\n";
+        }
+    }
+
+    std::vector<note> notes_;
+    std::map<std::tuple<kind, std::string, std::string, std::string>, std::size_t> index_;
+};
+
+} // namespace sivid
+
+#endif // SIVID_IMPORTING_DETAIL_IMPORT_PROTOCOL_HPP

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IMPORTING_MAPPING_DETAIL_UNIT_CONVERSION_HPP
+#define SIVID_IMPORTING_MAPPING_DETAIL_UNIT_CONVERSION_HPP
+
+#include <sivid/io/text/exact_decimal.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace sivid {
+
+/// What a finite double is, all digits.
+[[nodiscard]] inline exact_decimal exact_value(double x) {
+    // x = f 2^e has its last bit at 2^(e - 53): so many places, less the zeros in front.
+    int e = 0;
+    (void)std::frexp(x, &e);
+    int const digits = std::max(53 - e, 0) + static_cast<int>(std::floor(0.30103 * e)) + 3;
+    std::array<char, 800> buffer;
+    auto const end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x,
+                                   std::chars_format::scientific, std::clamp(digits, 17, 766))
+                         .ptr;
+    return exact_decimal::parse({buffer.data(), static_cast<std::size_t>(end - buffer.data())})
+        .value_or(exact_decimal{});
+}
+
+/// |x|.
+[[nodiscard]] inline exact_decimal magnitude(exact_decimal const& x) {
+    return x.is_negative() ? -x : x;
+}
+
+/// The least decimal of so many digits that is not below x.
+[[nodiscard]] inline exact_decimal rounded_up(exact_decimal const& x, std::size_t digits) {
+    return x.divided_by(1, digits).second;
+}
+
+/// A quantity in the model's unit: it lies in value +/- rounding. rounding is 0 where the value has
+/// at most 30 digits and the conversion is a decimal one.
+struct converted_reading {
+    exact_decimal value, rounding;
+};
+
+/// From a reading to the model's unit:  reading * factor / divisor + offset.
+/// The factor may be an interval, for what no decimal is (pi/180) or what nobody knows exactly.
+struct unit_conversion {
+    static constexpr std::size_t digits = 30; ///< kept of a value
+    static constexpr std::size_t largest_divisor = 1'000'000'000;
+
+    exact_decimal factor_lower = one(), factor_upper = one();
+    std::size_t divisor = 1; ///< 1 to largest_divisor
+    exact_decimal offset;
+
+    [[nodiscard]] bool factor_is_exact() const { return factor_lower == factor_upper; }
+
+    /// @returns nothing beyond the range of double
+    /// @guarantee  for every factor of the interval the exact result lies in value +/- rounding
+    [[nodiscard]] std::optional<converted_reading> operator()(exact_decimal const& reading) const {
+        auto low = reading.times(factor_lower), high = reading.times(factor_upper);
+        if (high < low) std::swap(low, high);
+        if (divisor != 1) {
+            low = low.divided_by(divisor, digits).first;
+            high = high.divided_by(divisor, digits).second;
+        }
+        low = (low + offset).divided_by(1, digits).first;
+        high = (high + offset).divided_by(1, digits).second;
+        auto const a = nearest(low), b = nearest(high);
+        if (!a || !b) return std::nullopt;
+        // Below the smallest doubles exponents would grow without limit: zero stands for all that.
+        if (std::abs(*a) < 1e-300 && std::abs(*b) < 1e-300 && !(low.is_zero() && high.is_zero()))
+            return converted_reading{{}, smallest()};
+        if (low == high) return converted_reading{low, {}};
+        auto const middle = (low + high).divided_by(2, digits).first;
+        auto const above = high - middle, below = middle - low;
+        return converted_reading{middle, rounded_up(below < above ? above : below, 3)};
+    }
+
+    /// An error bound of the reading, in the model's unit, rounded up to 15 digits.
+    /// @given  error > 0 (trusted)
+    [[nodiscard]] exact_decimal bound(exact_decimal const& error) const {
+        auto const a = magnitude(factor_lower), b = magnitude(factor_upper);
+        auto const result =
+            rounded_up(error.times(a < b ? b : a).divided_by(divisor, digits).second, 15);
+        return result < smallest() ? smallest() : result;
+    }
+
+    /// "reading * 5 / 1023 - 2.5", or "" when nothing is changed.
+    [[nodiscard]] std::string text() const {
+        if (factor_is_exact() && factor_lower == one() && divisor == 1 && offset.is_zero())
+            return {};
+        std::string result = "reading";
+        if (!factor_is_exact())
+            result += " * [" + factor_lower.text() + ", " + factor_upper.text() + "]";
+        else if (!(factor_lower == one()))
+            result += " * " + factor_lower.text();
+        if (divisor != 1) result += " / " + std::to_string(divisor);
+        if (!offset.is_zero())
+            result += (offset.is_negative() ? " - " : " + ") + magnitude(offset).text();
+        return result;
+    }
+
+private:
+    static exact_decimal one() { return *exact_decimal::parse("1"); }
+    static exact_decimal smallest() { return *exact_decimal::parse("1e-300"); }
+};
+
+} // namespace sivid
+
+#endif // SIVID_IMPORTING_MAPPING_DETAIL_UNIT_CONVERSION_HPP

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_VERIFIER_CLAIM_DETAIL_PRODUCT_CHECK_HPP
+#define SIVID_VERIFIER_CLAIM_DETAIL_PRODUCT_CHECK_HPP
+
+#include <sivid/paving/products/dependence.hpp>
+#include <sivid/paving/products/detail/preimage_volume.hpp>
+#include <sivid/verifier/claim/detail/identification_consistency.hpp>
+#include <sivid/verifier/claim/detail/product_volume.hpp>
+#include <sivid/verifier/claim/detail/stored_products.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace sivid {
+
+namespace io_detail {
+
+inline box hull_of(std::vector<paved_box> const& rows) {
+    auto all = rows[0].set;
+    for (auto const& row : rows) all = hull(all, row.set);
+    return all;
+}
+/// Equal but for the rounding of a few operations and of their decimals.
+inline bool agrees(interval const& a, interval const& b) {
+    if (is_empty(a) || is_empty(b)) return is_empty(a) && is_empty(b);
+    double const room = 1e-14 * std::max(mag(a), mag(b));
+    return std::abs(a.lower() - b.lower()) <= room && std::abs(a.upper() - b.upper()) <= room;
+}
+
+} // namespace io_detail
+
+/// The sides are products through which alone the equations see the parameters, and there are as
+/// many rows as stated, all within the products' ranges.
+[[nodiscard]] inline check_finding
+check_products(stored_products const& rebuilt, stored_identification::product_boxes const& stored) {
+    using outcome = check_finding::outcome;
+    std::string const what = "products";
+    if (!rebuilt.malformed.empty()) return {what, outcome::refuted, rebuilt.malformed};
+    std::map<std::string, std::size_t> counted;
+    for (auto const& row : stored.rows) {
+        ++counted[std::string{to_string(row.verdict)}];
+        for (std::size_t k = 0; k < row.set.size(); ++k) {
+            auto const& prior = rebuilt.problem.prior[k];
+            double const room = 4e-15 * mag(prior);
+            if (row.set[k].lower() < prior.lower() - room ||
+                row.set[k].upper() > prior.upper() + room) {
+                return {what, outcome::refuted, "a box leaves the range of " + stored.sides[k]};
+            }
+        }
+    }
+    for (auto const* const kind : {"inside", "undecided", "pending"}) {
+        auto const stated = stored.stated_rows.find(kind);
+        if (stated == stored.stated_rows.end() || stated->second != counted[kind]) {
+            return {what, outcome::refuted,
+                    "the number of " + std::string{kind} + " products is not the one stated"};
+        }
+    }
+    if (!rebuilt.unproved.empty()) return {what, outcome::undecided, rebuilt.unproved};
+    return {what, outcome::verified, "the equations see the parameters through them only"};
+}
+
+/// The hull follows from the hulls of all boxes and of all products.
+/// @tparam I  in which the bounds of products are solved for their factors
+template <class I>
+[[nodiscard]] check_finding check_hull_of_products(identification_problem const& problem,
+                                                   stored_identification const& stored,
+                                                   stored_products const& rebuilt) {
+    using traits = interval_traits<I>;
+    auto const n = problem.prior.size();
+    auto const& rows = stored.products->rows;
+    std::string fault;
+    if (rows.empty() && !stored.rows.empty()) fault = "boxes without products";
+    std::vector<interval> range(n, interval_traits<interval>::empty());
+    if (fault.empty() && !stored.rows.empty()) {
+        auto const products = io_detail::hull_of(rows), boxes = io_detail::hull_of(stored.rows);
+        basic_box<I> p(n);
+        for (std::size_t j = 0; j < n; ++j) {
+            p[j] = traits::bounds(problem.prior[j].lower(), problem.prior[j].upper());
+        }
+        for (std::size_t k = 0; k < rebuilt.sides.size(); ++k) {
+            auto const& e = rebuilt.sides[k].exponents();
+            for (std::size_t j = 0; j < n; ++j) {
+                if (e[j] != 1) continue;
+                auto const others = rebuilt.sides[k].without(j).over(p);
+                typename traits::mask undefined{};
+                auto const side = traits::bounds(products[k].lower(), products[k].upper());
+                if (!others) continue;
+                auto const allowed = traits::div(side, *others, undefined);
+                if (!undefined) p[j] = traits::intersect(p[j], allowed);
+            }
+        }
+        for (std::size_t j = 0; j < n; ++j) {
+            range[j] = intersect(boxes[j], interval_traits<interval>::bounds(traits::lower(p[j]),
+                                                                             traits::upper(p[j])));
+        }
+    }
+    for (std::size_t j = 0; j < n && fault.empty(); ++j) {
+        if (!io_detail::agrees(range[j], stored.parameters[j].range)) {
+            fault = "the hull of " + stored.parameters[j].name +
+                    " is not that of the boxes and products";
+        }
+    }
+    return io_detail::agreement("hull", fault, "that of all boxes and products");
+}
+
+/// The ranges of the combinations are those of the products.
+[[nodiscard]] inline check_finding
+check_combinations_of_products(stored_identification const& stored) {
+    auto const& own = *stored.products;
+    std::string fault;
+    std::size_t products = 0;
+    for (auto const& side : own.sides) {
+        products += side.find_first_of("*/^") != std::string::npos ? 1 : 0;
+    }
+    if (stored.combinations.size() != products && !stored.rows.empty()) {
+        fault = "not every product is a combination";
+    }
+    for (auto const& c : stored.combinations) {
+        auto const k = static_cast<std::size_t>(
+            std::find(own.sides.begin(), own.sides.end(), c.name) - own.sides.begin());
+        auto range = interval_traits<interval>::empty();
+        for (auto const& row : own.rows) {
+            if (k < own.sides.size()) range = hull(range, row.set[k]);
+        }
+        if (!io_detail::agrees(range, c.range)) {
+            fault = "the range of " + c.name + " is not that of the products";
+        }
+    }
+    return io_detail::agreement("combinations", fault,
+                                std::to_string(products) + " read from the products");
+}
+
+/// The volumes are those of the preimages of the products' boxes.
+///   The enclosure by `product_volume` proves them where it lies within what is stated; they must
+///   also be as the identification computes them from these boxes.
+template <class I>
+[[nodiscard]] check_finding
+check_volumes_of_products(identification_problem const& problem,
+                          stored_identification const& stored, stored_products const& rebuilt,
+                          std::function<bool()> const& keep_going = {}) {
+    using outcome = check_finding::outcome;
+    using traits = interval_traits<I>;
+    std::string const what = "volumes";
+    std::vector<box> inside, left;
+    for (auto const& row : stored.products->rows) {
+        left.push_back(row.set);
+        if (row.verdict == box_verdict::inside) inside.push_back(row.set);
+    }
+    auto const map = reduction::find(problem, dependence_of(problem));
+    if (!map || map->side_names() != stored.products->sides) {
+        return {what, outcome::undecided, "other products than the model's"};
+    }
+    preimage_volume const again(*map, problem.prior);
+    product_volume<I> const anew(rebuilt, problem.prior);
+    std::size_t const cells = std::clamp<std::size_t>(200'000 / (left.size() + 1), 64, 4000);
+    bool proved = true;
+    for (bool const inner : {true, false}) {
+        auto const& boxes = inner ? inside : left;
+        auto const& stated = inner ? stored.inner : stored.outer;
+        std::string const which = inner ? "inner" : "outer";
+        auto const share = anew(boxes, cells, keep_going);
+        auto const volume =
+            intersect(interval_traits<interval>::bounds(traits::lower(share), traits::upper(share)),
+                      interval_traits<interval>::bounds(0.0, 1.0));
+        double const room = 1e-9 * volume.upper() + 1e-300;
+        if (is_empty(stated) || io_detail::apart(volume, stated) > room) {
+            return {what, outcome::refuted, "the " + which + " volume is not that of the products"};
+        }
+        auto const repeated = again(boxes, volume_cells(left.size()), 2e-3, keep_going);
+        if (keep_going && !keep_going()) return io_detail::late(what);
+        double const slack = 0.05 * width(repeated) + room;
+        if (std::abs(repeated.lower() - stated.lower()) > slack ||
+            std::abs(repeated.upper() - stated.upper()) > slack) {
+            return {what, outcome::refuted,
+                    "the " + which + " volume is not the one found for the products"};
+        }
+        proved = proved && stated.lower() <= volume.lower() + room &&
+                 volume.upper() <= stated.upper() + room;
+    }
+    if (!proved) return {what, outcome::undecided, "as found, but the enclosures are too wide"};
+    return {what, outcome::verified,
+            "of the preimages of " + std::to_string(left.size()) + " boxes of products"};
+}
+
+} // namespace sivid
+
+#endif // SIVID_VERIFIER_CLAIM_DETAIL_PRODUCT_CHECK_HPP

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/diagnosis/claim/detail/claim_review.hpp>
+
+#include "diagnosis/small_catalogue.hpp"
+#include "support/catch.hpp"
+
+using namespace sivid;
+
+namespace {
+
+/// The cart with a slope: the model as it is, and the effect that explains.
+diagnosis_run sloping() {
+    diagnosis_run run;
+    run.base = small_campaign::problem(small_campaign::with_slope(0.4));
+    run.catalogue = small_campaign::catalogue();
+    screening tried(run.base, run.catalogue);
+    tried.try_one({});
+    tried.try_one({1});
+    run.candidates = tried.candidates();
+    for (auto const& s : run.candidates) {
+        run.result.causes.push_back(cause_of(s, run.catalogue, run.base.prior.size(), 1));
+    }
+    run.result.gap = gap_verdict::certified;
+    run.result.inflation = interval(2, 5);
+    run.result.answer = answer_kind::effects;
+    run.result.effects = {"slope"};
+    return run;
+}
+relation_finding refuted(std::size_t equation, std::vector<std::string> channels) {
+    relation_finding f;
+    f.equation = equation;
+    f.name = equation == 0 ? "p" : "v";
+    f.proved = true;
+    f.channels = std::move(channels);
+    f.assumptions = {"assumed for " + f.name};
+    return f;
+}
+
+} // namespace
+
+TEST_CASE("the greatest variation within a time") {
+    std::vector<double> const t{0, 1, 2, 3, 4}, v{0, 5, 1, 2, -3};
+    CHECK(greatest_variation(t, v, 1) == 5);
+    CHECK(greatest_variation(t, v, 2) == 5);
+    CHECK(greatest_variation(t, v, 3) == 8);
+    CHECK(greatest_variation(t, v, 0.5) == 0);
+    CHECK(greatest_variation({}, {}, 1) == 0);
+}
+
+TEST_CASE(
+    "a relation that an explaining cause leaves as it is is withdrawn with what it excluded") {
+    auto run = sloping();
+    run.findings = {refuted(0, {"p", "v"}), refuted(1, {"p", "v"})};
+    for (auto const& f : run.findings) run.result.relations.push_back(reported(f));
+    auto& base = run.result.causes.front();
+    base.verdict = cause_verdict::excluded;
+    base.excluded_by = "p";
+    base.assumptions = {"assumed for p"};
+    run.result.causes.back().verdict = cause_verdict::explains;
+    run.result.causes.back().inflation = interval(0, 0.9);
+    settle_claims(run);
+    auto const& d = run.result;
+    REQUIRE(d.relations.size() == 1); // the slope acts on v
+    CHECK(d.relations[0].equation == "v");
+    CHECK(run.findings.size() == 1);
+    CHECK(base.verdict == cause_verdict::undecided);
+    CHECK(base.excluded_by.empty());
+    CHECK(base.untouched == std::vector<std::string>{"v"});
+    CHECK(d.causes.back().untouched.empty());
+    CHECK(d.withdrawn.size() == 2);
+    CHECK(d.assumptions == std::vector<std::string>{"assumed for v"});
+    CHECK(find_contradictions(d).empty());
+}
+
+TEST_CASE("a candidate that seems to explain is enough to doubt an assumption") {
+    auto run = sloping();
+    run.findings = {refuted(0, {"p", "v"})};
+    REQUIRE(run.candidates.back().figures.explains());
+    review_relations(run);
+    CHECK(run.findings.empty());
+    REQUIRE(run.result.withdrawn.size() == 1);
+    CHECK_THAT(run.result.withdrawn[0].reason, ContainsSubstring("seems to explain"));
+}
+
+TEST_CASE("a motion that explains may not vary more than a relation assumes") {
+    auto run = sloping();
+    auto f = refuted(1, {"p", "v"});
+    f.variations = {{"E1", 1, 0.1, 1.0}}; // v' is cos 2t and a little: 0.2 within 0.1 s
+    run.result.causes.back().verdict = cause_verdict::explains;
+    run.result.causes.back().inflation = interval(0, 0.9);
+    CHECK_FALSE(breaks_assumptions(run.candidates.back(), f));
+    run.findings = {f};
+    review_relations(run);
+    CHECK(run.findings.size() == 1);
+    f.variations = {{"E1", 1, 0.1, 0.05}};
+    CHECK(breaks_assumptions(run.candidates.back(), f));
+    run.findings = {f};
+    review_relations(run);
+    CHECK(run.findings.empty());
+    CHECK_THAT(run.result.withdrawn[0].reason, ContainsSubstring("vary more"));
+}
