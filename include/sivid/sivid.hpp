@@ -91,7 +91,7 @@
 #include <sivid/approximate/simulate/approximate_model.hpp>
 #include <sivid/approximate/simulate/approximate_simulator.hpp>
 #include <sivid/approximate/simulate/late_signal.hpp>
-#include <sivid/approximate/simulate/odeint_stepping.hpp>
+#include <sivid/approximate/simulate/named_steps.hpp>
 #include <sivid/approximate/simulate/simulate.hpp>
 #include <sivid/approximate/simulate/simulation_mesh.hpp>
 #include <sivid/approximate/simulate/stepping.hpp>

@@ -361,9 +361,10 @@ inline std::vector<finding> check(fs::path const& tree) {
         }
         bool const internal = definitions || name.find("/detail/") != std::string::npos;
         auto const file = path.filename().string();
-        bool const optional =
-            floor == "number" &&
-            (starts_with(file, "mp_") || starts_with(file, "mpfr_") || file == "format.hpp");
+        bool const optional = // needs a package, or costs more than it says (Odeint's steppers)
+            (floor == "number" &&
+             (starts_with(file, "mp_") || starts_with(file, "mpfr_") || file == "format.hpp")) ||
+            file == "odeint_stepping.hpp";
         if (!at_root && !internal && !optional && rank < core_floors) core_headers.insert(name);
 
         if (!at_root && !internal && room.empty() && rooms.count(floor) > 0) doors.push_back(name);

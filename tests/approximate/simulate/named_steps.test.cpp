@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/approximate/simulate/detail/named_steps.hpp>
+#include <sivid/approximate/simulate/named_steps.hpp>
 
 #include "support/catch.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_APPROXIMATE_SIMULATE_DETAIL_NAMED_STEPS_HPP
-#define SIVID_APPROXIMATE_SIMULATE_DETAIL_NAMED_STEPS_HPP
+#ifndef SIVID_APPROXIMATE_SIMULATE_NAMED_STEPS_HPP
+#define SIVID_APPROXIMATE_SIMULATE_NAMED_STEPS_HPP
 
 #include <sivid/approximate/simulate/stepping.hpp>
 #include <sivid/compiled.hpp>
