@@ -159,9 +159,10 @@ private:
         for (auto const& [scenario, about] : all.items()) {
             auto const window = hull_in(about);
             auto const value = value_in(member(about, "value"));
-            bool const named =
-                value && std::any_of(c.effects.begin(), c.effects.end(),
-                                     [&](auto& e) { return onset_in(e, scenario) == *value; });
+            bool const named = value && std::any_of(c.effects.begin(), c.effects.end(),
+                                                    [&, &in = scenario](auto& e) {
+                                                        return onset_in(e, in) == *value;
+                                                    });
             if (!named || (window && !window->contains(*value, digits)))
                 add("onset", joined(c.effects) + " in " + scenario +
                                  (window ? ' ' + text_of(*window) : std::string{}));
