@@ -144,9 +144,11 @@ TEST_CASE("a third effect joins the likeliest pair when it is asked for") {
     auto real = small_campaign::with_drag(0.3);
     real.missing = [](double, double v, double) { return 0.2 - 0.3 * std::abs(v) * v; };
     real.seen_position = small_campaign::with_scale(0.15).seen_position;
-    auto const pairs = screened_campaign(real);
+    auto pairs = screened_campaign(real);
     CHECK_FALSE(choose(pairs.figures(), pairs.measurements()).explained);
     CHECK(pairs.find({0, 1, 2}) == nullptr);
+    pairs.try_threes();
+    CHECK(answer(pairs) == std::vector<std::size_t>{0, 1, 2});
     screening_options options;
     options.most_effects = 3;
     auto const all = screened_campaign(real, options);

@@ -118,6 +118,14 @@ public:
         try_all(wanted);
     }
 
+    /// Joins every other effect to each of the closest pairs: what is tried where nothing simpler
+    /// explains.
+    /// @cost  some sixty fits with 20 effects
+    void try_threes() {
+        join_one_more(3);
+        polish();
+    }
+
     /// Tries single effects of the plan as such that begin in each experiment at a time of its own,
     /// and adds those that explain the data so. Those with delays or states of their own are left
     /// out.
@@ -239,22 +247,25 @@ private:
         return {static_cast<std::size_t>(std::count_if(planned.begin(), planned.end(), known)),
                 planned.size()};
     }
-    /// Joins every other effect to the likeliest candidate of size - 1 effects. What explains must
+    /// Joins every other effect to the likeliest candidates of size - 1 effects. What explains must
     /// then do without each of its effects, or a smaller candidate is the answer.
     void join_one_more(std::size_t size) {
-        screened const* likeliest = nullptr;
+        constexpr std::size_t most = 3;
+        std::vector<candidate> smaller; // of the plan: neither wider ones nor such with switches
         for (auto const& s : tried_) {
-            if (s.figures.effects.size() + 1 != size) continue;
-            if (likeliest == nullptr || s.figures.squares < likeliest->figures.squares) {
-                likeliest = &s;
-            }
+            auto const& effects = s.figures.effects;
+            if (effects.size() + 1 == size && (effects.empty() || effects.back() < planned_))
+                smaller.push_back(s.figures);
         }
-        if (likeliest == nullptr) return;
-        auto const part = likeliest->figures.effects;
+        std::stable_sort(smaller.begin(), smaller.end(),
+                         [](auto const& a, auto const& b) { return a.squares < b.squares; });
+        smaller.resize(std::min(most, smaller.size()));
         effect_sets larger;
-        for (std::size_t e = 0; e < planned_; ++e) {
-            if (std::find(part.begin(), part.end(), e) != part.end()) continue;
-            larger.push_back(united(part, e));
+        for (auto const& part : smaller) {
+            for (std::size_t e = 0; e < planned_; ++e) {
+                auto const& in = part.effects;
+                if (std::find(in.begin(), in.end(), e) == in.end()) larger.push_back(united(in, e));
+            }
         }
         try_all(larger);
         effect_sets parts;

@@ -154,9 +154,9 @@ private:
             (void)answer_by_proof(d);
         }
         bool const alone = going && unanswered(d.answer);
-        for (auto const with_switches :
-             {&diagnostician::try_confined, &diagnostician::try_onsets}) {
-            if (!going || !unanswered(d.answer) || !(this->*with_switches)(tried)) continue;
+        for (auto const further : {&diagnostician::try_confined, &diagnostician::try_onsets,
+                                   &diagnostician::try_threes}) {
+            if (!going || !unanswered(d.answer) || !(this->*further)(tried)) continue;
             order = try_candidates(tried, 0.2 * options_.verdict_share);
             going = candidate_verdicts(run_, order, effort_, options_).verify();
             (void)answer_by_proof(d);
@@ -207,6 +207,24 @@ private:
         kept_ = (0.1 * options_.onsets.share + 0.2 * options_.verdict_share) * options_.seconds;
         tried.try_onsets();
         return tried.candidates().size() > before;
+    }
+    /// Three effects, where neither bounds that are too small nor one instrument may be the cause.
+    /// @returns  whether some explain the data
+    [[nodiscard]] bool try_threes(screening& tried) {
+        auto const& places = run_.places.tried;
+        bool const one_instrument =
+            std::any_of(places.begin(), places.end(), [](tried_places const& t) {
+                return t.inflation <= 1 && t.names.size() == 1 &&
+                       t.names.front().starts_with("sensor ");
+            });
+        if (!run_.result.tried.complete() || !run_.result.confined.empty() || one_instrument)
+            return false;
+        auto const before = tried.candidates().size();
+        kept_ = 0.2 * options_.verdict_share * options_.seconds;
+        tried.try_threes();
+        auto const& all = tried.candidates();
+        return std::any_of(all.begin() + static_cast<std::ptrdiff_t>(before), all.end(),
+                           [](auto const& s) { return s.figures.explains(); });
     }
     [[nodiscard]] static bool can_stand_in_a_name(std::vector<std::string> const& scenarios) {
         constexpr std::size_t most = 8;
