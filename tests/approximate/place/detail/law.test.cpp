@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/approximate/place/detail/law.hpp>
 
-#include "../../../examples/hovercraft/model.hpp"
+#include "../../../../examples/hovercraft/model.hpp"
 #include "support/catch.hpp"
 
 #include <algorithm>

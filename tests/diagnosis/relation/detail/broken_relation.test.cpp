@@ -4,7 +4,7 @@
 #include "diagnosis/planted_motion.hpp"
 #include "support/catch.hpp"
 
-#include "../../../examples/hovercraft/model.hpp"
+#include "../../../../examples/hovercraft/model.hpp"
 
 using namespace diagnosis_support;
 

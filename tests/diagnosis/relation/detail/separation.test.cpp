@@ -6,7 +6,7 @@
 
 #include <sivid/model/bound_model.hpp>
 
-#include "../../../examples/hovercraft/model.hpp"
+#include "../../../../examples/hovercraft/model.hpp"
 
 using namespace diagnosis_support;
 

@@ -8,7 +8,7 @@
 #include "support/parametric_sets.hpp"
 #include "support/random.hpp"
 
-#include "../../../examples/hovercraft/model.hpp"
+#include "../../../../examples/hovercraft/model.hpp"
 
 #include <sivid/enclosure/taylor/parametric_flow.hpp>
 #include <sivid/enclosure/taylor/parametric_runge_kutta.hpp>

@@ -6,6 +6,7 @@
 #include "support/problems.hpp"
 
 #include <sivid/paving/response/local_response.hpp>
+#include <sivid/paving/run/experiment_run.hpp>
 
 #include <vector>
 
