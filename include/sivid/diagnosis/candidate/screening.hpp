@@ -60,12 +60,9 @@ public:
         }
         for (std::size_t size = 3; size <= options_.most_effects; ++size) {
             if (explained(size - 1)) break;
-            auto const planned = planned_ + 1 - std::min(size, planned_ + 1);
-            auto const found = std::count_if(tried_.begin(), tried_.end(), [size](auto const& s) {
-                return s.figures.effects.size() == size;
-            });
-            result.larger.planned += planned;
-            result.larger.tried += std::min(planned, static_cast<std::size_t>(found));
+            auto const joins = count(joined(ranked(size - 1, most_joined)));
+            result.larger.planned += joins.planned;
+            result.larger.tried += joins.tried;
         }
         return result;
     }
@@ -73,7 +70,7 @@ public:
     /// The model itself, every single effect, then pairs, then larger sets where they are asked
     /// for; where none explains, those that end at their priors with wider ones. Called again, it
     /// goes on where it was stopped.
-    /// @cost  21 effects: 22 fits, about 20 to 100 for pairs, about 20 for each further effect
+    /// @cost  21 effects: 22 fits, about 20 to 100 for pairs, about 60 for each further effect
     void run() {
         stopped_ = false;
         try_one({});
@@ -118,12 +115,13 @@ public:
         try_all(wanted);
     }
 
-    /// Joins every other effect to each of the closest pairs: what is tried where nothing simpler
-    /// explains.
+    /// Joins every other effect to each of the closest pairs.
+    /// @returns  whether some three explain the data
     /// @cost  some sixty fits with 20 effects
-    void try_threes() {
+    [[nodiscard]] bool try_threes() {
         join_one_more(3);
         polish();
+        return explained(3);
     }
 
     /// Tries single effects of the plan as such that begin in each experiment at a time of its own,
@@ -214,6 +212,7 @@ public:
 
 private:
     using clock = std::chrono::steady_clock;
+    static constexpr std::size_t most_joined = 3; ///< sets that further effects join
 
     [[nodiscard]] static bool remembers(recorded_model const& with, recorded_model const& without) {
         return with.input_memory.size() > without.input_memory.size() ||
@@ -231,16 +230,20 @@ private:
         effect_sets wanted;
         bool const alone = explained(1);
         if (alone && !options_.always_pairs) return wanted;
-        auto partners = ranked_singles();
-        partners.resize(std::min(partners.size(), alone ? 1 : options_.partners));
-        for (auto const a : partners) {
-            for (std::size_t b = 0; b < planned_; ++b) {
-                std::vector<std::size_t> pair{std::min(a, b), std::max(a, b)};
-                bool const known = std::find(wanted.begin(), wanted.end(), pair) != wanted.end();
-                if (b != a && !known) wanted.push_back(std::move(pair));
+        return joined(ranked(1, alone ? 1 : options_.partners));
+    }
+    /// Each of the sets with every other effect of the plan.
+    [[nodiscard]] effect_sets joined(effect_sets const& sets) const {
+        effect_sets result;
+        for (auto const& set : sets) {
+            for (std::size_t e = 0; e < planned_; ++e) {
+                if (std::find(set.begin(), set.end(), e) != set.end()) continue;
+                auto more = united(set, e);
+                if (std::find(result.begin(), result.end(), more) == result.end())
+                    result.push_back(std::move(more));
             }
         }
-        return wanted;
+        return result;
     }
     [[nodiscard]] tried_candidates::count count(effect_sets const& planned) const {
         auto const known = [this](auto const& set) { return find(set) != nullptr; };
@@ -250,24 +253,7 @@ private:
     /// Joins every other effect to the likeliest candidates of size - 1 effects. What explains must
     /// then do without each of its effects, or a smaller candidate is the answer.
     void join_one_more(std::size_t size) {
-        constexpr std::size_t most = 3;
-        std::vector<candidate> smaller; // of the plan: neither wider ones nor such with switches
-        for (auto const& s : tried_) {
-            auto const& effects = s.figures.effects;
-            if (effects.size() + 1 == size && (effects.empty() || effects.back() < planned_))
-                smaller.push_back(s.figures);
-        }
-        std::stable_sort(smaller.begin(), smaller.end(),
-                         [](auto const& a, auto const& b) { return a.squares < b.squares; });
-        smaller.resize(std::min(most, smaller.size()));
-        effect_sets larger;
-        for (auto const& part : smaller) {
-            for (std::size_t e = 0; e < planned_; ++e) {
-                auto const& in = part.effects;
-                if (std::find(in.begin(), in.end(), e) == in.end()) larger.push_back(united(in, e));
-            }
-        }
-        try_all(larger);
+        try_all(joined(ranked(size - 1, most_joined)));
         effect_sets parts;
         for (auto const& s : tried_) {
             if (s.figures.effects.size() != size || !s.figures.explains()) continue;
@@ -372,18 +358,20 @@ private:
         return best;
     }
 
-    /// Single effects of the plan, the likeliest first.
-    [[nodiscard]] std::vector<std::size_t> ranked_singles() const {
-        std::vector<screened const*> singles;
+    /// Sets of so many effects of the plan, at most so many of them, the likeliest first.
+    [[nodiscard]] effect_sets ranked(std::size_t effects, std::size_t most) const {
+        std::vector<screened const*> of_size;
         for (auto const& s : tried_) {
-            if (s.figures.effects.size() == 1 && s.figures.effects[0] < planned_)
-                singles.push_back(&s);
+            auto const& set = s.figures.effects;
+            if (set.size() == effects && (set.empty() || set.back() < planned_))
+                of_size.push_back(&s);
         }
-        std::stable_sort(singles.begin(), singles.end(), [&](auto const* a, auto const* b) {
+        std::stable_sort(of_size.begin(), of_size.end(), [&](auto const* a, auto const* b) {
             return a->figures.score(measurements_) < b->figures.score(measurements_);
         });
-        std::vector<std::size_t> result;
-        for (auto const* s : singles) result.push_back(s->figures.effects.front());
+        effect_sets result;
+        for (auto const* s : of_size)
+            if (result.size() < most) result.push_back(s->figures.effects);
         return result;
     }
     [[nodiscard]] double seconds() const {

@@ -211,20 +211,11 @@ private:
     /// Three effects, where neither bounds that are too small nor one instrument may be the cause.
     /// @returns  whether some explain the data
     [[nodiscard]] bool try_threes(screening& tried) {
-        auto const& places = run_.places.tried;
-        bool const one_instrument =
-            std::any_of(places.begin(), places.end(), [](tried_places const& t) {
-                return t.inflation <= 1 && t.names.size() == 1 &&
-                       t.names.front().starts_with("sensor ");
-            });
-        if (!run_.result.tried.complete() || !run_.result.confined.empty() || one_instrument)
+        auto const& d = run_.result;
+        if (!d.tried.complete() || !d.confined.empty() || one_sensor_explains(run_.places))
             return false;
-        auto const before = tried.candidates().size();
         kept_ = 0.2 * options_.verdict_share * options_.seconds;
-        tried.try_threes();
-        auto const& all = tried.candidates();
-        return std::any_of(all.begin() + static_cast<std::ptrdiff_t>(before), all.end(),
-                           [](auto const& s) { return s.figures.explains(); });
+        return tried.try_threes();
     }
     [[nodiscard]] static bool can_stand_in_a_name(std::vector<std::string> const& scenarios) {
         constexpr std::size_t most = 8;

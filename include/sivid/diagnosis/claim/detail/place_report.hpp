@@ -43,6 +43,13 @@ namespace sivid {
     });
 }
 
+/// Whether the fault of one sensor was found to explain the data.
+[[nodiscard]] inline bool one_sensor_explains(place_estimate const& estimate) {
+    return std::any_of(estimate.tried.begin(), estimate.tried.end(), [](tried_places const& t) {
+        return t.inflation <= 1 && t.names.size() == 1 && t.names.front().starts_with("sensor ");
+    });
+}
+
 /// The mean of an estimated missing rate over a window; nothing where none was estimated.
 [[nodiscard]] inline std::optional<double> mean_missing(estimated_place const& p,
                                                         relation_window const& w) {
