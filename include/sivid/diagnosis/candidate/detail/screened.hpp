@@ -54,7 +54,7 @@ struct screening_options {
     /// ... and the best single one with all others when it does.
     bool always_pairs = true;
     /// Candidates of up to so many effects are tried: where no pair explains, effects join the
-    /// likeliest candidate one by one.
+    /// likeliest candidates one by one.
     std::size_t most_effects = 2;
     /// Called before each fit with what is tried, by one thread at a time; false ends the
     /// screening.
