@@ -51,7 +51,7 @@ job_count() {
 
 # need_check_packages: what all tests need.
 need_check_packages() {
-    need_packages g++ clang cmake make libboost-dev libeigen3-dev nlohmann-json3-dev libcli11-dev catch2 \
+    need_packages g++ clang cmake make ninja-build libboost-dev libeigen3-dev nlohmann-json3-dev libcli11-dev catch2 \
         libmpfr-dev libmpfi-dev libgmp-dev libbenchmark-dev libtbb-dev libboost-mpi-dev openmpi-bin libopenmpi-dev \
         pkg-config dpkg-dev file
 }
@@ -66,6 +66,7 @@ configure_check() {
     [ "$long" = OFF ] || name=long
     [ "$long" = ON ] || [ -n "${CXX:-}" ] || compiler=(-DCMAKE_CXX_COMPILER=clang++)
     build=${BUILD_DIR:-build/$name}
+    [ -e "$build/CMakeCache.txt" ] || export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja}
     cmake -S . -B "$build" "${compiler[@]}" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 \
         -DSIVID_WERROR=ON "-DSIVID_LONG_TESTS=$long" "-DSIVID_BUILD_BENCHMARKS=$long" -DSIVID_BATCH_SIZE=24 \
         "-DSIVID_UNOPTIMISED=examples;approximate;architecture;cluster;decision;diagnosis;fleet;hovercraft;import;importing;io;measurement;model;own_robot;parallel;paving;ranks;regression;report;servo_axis;space;tanks;umbrella;verifier;withheld" >/dev/null

@@ -38,14 +38,16 @@ inline constexpr std::array<std::string_view, 18> family_names{
     "outside", "none",   "alias", "askew", "instrument", "experiments",
     "bounds",  "strong", "onset", "three", "backlash",   "friction"};
 
+/// The first of them are drawn in every round, the others where they are asked for.
+inline constexpr std::size_t usual_families = 16;
+
 std::optional<family> family_named(std::string_view name);
 /// Names between commas.
 /// @throws std::invalid_argument for an unknown one
 std::vector<family> families_named(std::string_view list);
 
-/// The family of campaign `index`. Every run of 22 campaigns holds each family at least once but
-/// the last two, `backlash` and `friction`, in an order that the seed decides; of those in `only`,
-/// every run holds each once.
+/// The family of campaign `index`. Every run of 22 campaigns holds each usual family at least once,
+/// in an order that the seed decides; of those in `only`, every run holds each once.
 family family_of(std::uint64_t seed, std::size_t index, std::vector<family> const& only = {});
 
 struct unknown_constant {

@@ -148,6 +148,7 @@ std::string refusal(std::function<void(sivid::closed_loop&)> const& with) {
 
 TEST_CASE("sampled, late and noisy loops move within the tubes of the closed model") {
     attack("u0 = 3 * (1 - measured(y0))", 12, [](double y) { return 3 * (1 - y); });
+    if (!support::long_sweeps) return;
     attack("u0 = 2 * tanh(2 * (1 - measured(y0)))", 12,
            [](double y) { return 2 * std::tanh(2 * (1 - y)); });
 }

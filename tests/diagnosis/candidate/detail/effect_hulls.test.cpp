@@ -154,7 +154,7 @@ TEST_CASE("windows of onsets hold the true ones, wherever they are") {
                                  begun{0, 0.5, {1.234, 0.333}}, begun{1, -0.3, {2.015, 0}},
                                  begun{1, 0.4, {never, 1}},     begun{2, -0.2, {3.9, 0.1}},
                                  begun{0, 0.3, {0, 0}},         begun{0, 0, {never, never}}};
-    for (std::size_t n = 0; n < support::swept(std::size_t{3}, all.size()); ++n) {
+    for (std::size_t n = 0; n < support::swept(std::size_t{2}, all.size()); ++n) {
         auto const& b = all[n];
         CAPTURE(b.which, b.size, b.onsets[0], b.onsets[1]);
         auto const problem = with_onsets(b);
