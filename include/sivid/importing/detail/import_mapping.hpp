@@ -48,6 +48,8 @@ struct quantity_mapping {
     column_reference column;
     unit_conversion conversion;
     std::optional<unsigned> counter_bits; ///< the readings are counts that wrap
+    /// The readings are what is left modulo something in this interval.
+    std::optional<std::pair<exact_decimal, exact_decimal>> period;
     std::optional<std::pair<exact_decimal, exact_decimal>> range; ///< of possible readings
     bound_source error;
 };

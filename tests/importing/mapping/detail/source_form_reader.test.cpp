@@ -90,6 +90,15 @@ TEST_CASE("a quantity") {
     CHECK(column.error.column.heading == "e");
     CHECK(column.counter_bits == 16u);
     CHECK_FALSE(column.conversion.factor_is_exact());
+    auto const angle = read_quantity_mapping(entry(R"({"column": 1, "period": 360})"), "psi", true);
+    CHECK(angle.period->second == dec("360"));
+    for (auto const* bad : {R"({"column": 1, "error": 1, "period": 0})",
+                            R"({"column": 1, "error": 1, "period": [-1, 1]})",
+                            R"({"column": 1, "error": 1, "period": 1e400})",
+                            R"({"column": 1, "error": 1, "period": 360, "counter_bits": 16})"})
+        CHECK_THROWS_AS(read_quantity_mapping(entry(bad), "y", false), input_error);
+    CHECK_THROWS_AS(read_quantity_mapping(entry(R"({"column": 1, "period": [6, 7]})"), "u", true),
+                    input_error);
     for (auto const* bad : {R"({"error": 1})", R"({"column": 1})", R"({"column": 1, "error": 0})",
                             R"({"column": 1, "error": "guess"})", R"({"column": 1, "error": {}})",
                             R"({"column": 1, "error": 1, "factor": 0})",

@@ -69,6 +69,38 @@ TEST_CASE("counts are followed, and what is no count is dropped") {
     CHECK(has_note(r.protocol, "less than half its range"));
 }
 
+TEST_CASE("angles are followed, with what the period leaves open in the error bound") {
+    quantity_mapping q;
+    q.name = "psi";
+    q.period.emplace(dec("360"), dec("360"));
+    q.conversion.factor_lower = q.conversion.factor_upper = dec("0.01");
+    q.error.from = bound_source::kind::number;
+    auto const r = read(q, {{"170"}, {""}, {"-170"}, {"-60"}, {"120"}, {"100"}, {"-150"}});
+    REQUIRE(r.quantity.samples.size() == 5);
+    CHECK(r.quantity.samples[1].reading.value == dec("1.9"));
+    CHECK(r.quantity.samples[4].reading.value == dec("5.7"));
+    CHECK(r.quantity.samples[4].reading.rounding.is_zero());
+    CHECK(noted(r.protocol, "half a period") == std::vector<std::size_t>{6});
+    CHECK(noted(r.protocol, "followed beyond it") == std::vector<std::size_t>{4, 8});
+    CHECK(noted(r.protocol, "the shorter way is taken") == std::vector<std::size_t>{5, 7, 8});
+    CHECK(has_note(r.protocol, "less than half a period"));
+
+    auto plain = q;
+    plain.period.reset();
+    auto const unsaid = read(plain, {{"150"}, {"170"}, {"-170"}, {"-150"}});
+    CHECK(noted(unsaid.protocol, "state \"period\": 360") == std::vector<std::size_t>{4});
+    CHECK_FALSE(has_note(read(plain, {{"0"}, {"300"}, {"10"}, {"200"}}).protocol, "wraps"));
+    CHECK_FALSE(has_note(read(plain, {{"0"}, {"90"}, {"170"}, {"250"}}).protocol, "wraps"));
+    auto const radians = read(plain, {{"3.0"}, {"-3.1"}, {"-2.9"}});
+    CHECK(noted(radians.protocol, "6.283185307179587") == std::vector<std::size_t>{3});
+
+    q.period.emplace(dec("359"), dec("361"));
+    auto const rough = read(q, {{"170"}, {"-170"}});
+    CHECK(rough.quantity.samples[1].reading.value == dec("1.9"));
+    CHECK(rough.quantity.samples[1].reading.rounding == dec("0.01"));
+    CHECK(has_note(rough.protocol, "half width is added"));
+}
+
 TEST_CASE("a column of error bounds") {
     quantity_mapping q;
     q.name = "y";

@@ -127,8 +127,8 @@ namespace sivid {
 [[nodiscard]] inline quantity_mapping read_quantity_mapping(json_value const& entry,
                                                             std::string const& name, bool input) {
     using namespace mapping_entries;
-    entry.allow_only(
-        {"column", "unit", "factor", "divisor", "offset", "counter_bits", "range", "error"});
+    entry.allow_only({"column", "unit", "factor", "divisor", "offset", "counter_bits", "period",
+                      "range", "error"});
     quantity_mapping q;
     q.name = mapping_entries::name(entry, name);
     q.column = column(entry.at("column"));
@@ -149,6 +149,18 @@ namespace sivid {
     if (auto const* o = entry.find("offset")) q.conversion.offset = o->number();
     if (auto const* b = entry.find("counter_bits"))
         q.counter_bits = mapping_entries::counter_bits(*b);
+    if (auto const* p = entry.find("period")) {
+        if (q.counter_bits)
+            p->fail("a counter wraps by its bits", "state \"counter_bits\" or \"period\"");
+        if (p->type() == json_value::kind::array) {
+            auto const r = range(*p);
+            q.period.emplace(r.lower, r.upper);
+        } else {
+            q.period.emplace(p->number(), p->number());
+        }
+        if (!q.period->first.is_positive() || !enclose(q.period->second))
+            p->fail("the period is not above 0 and finite", "state it in the unit of the readings");
+    }
     if (auto const* r = entry.find("range")) {
         auto const ends = range(*r);
         q.range.emplace(ends.lower, ends.upper);
@@ -159,6 +171,9 @@ namespace sivid {
         if (!q.conversion.factor_is_exact())
             entry.fail("an exact input with an uncertain factor",
                        "state an \"error\"; the factor's share is added to it");
+        if (q.period && !(q.period->first == q.period->second))
+            entry.fail("an exact input with an uncertain period",
+                       "state an \"error\"; the period's share is added to it");
         return q;
     }
     q.error.place = error->place();

@@ -79,6 +79,20 @@ struct unit_conversion {
         return converted_reading{middle, rounded_up(below < above ? above : below, 3)};
     }
 
+    /// The same for a reading of which only bounds are known.
+    /// @given  lower <= upper (trusted)
+    [[nodiscard]] std::optional<converted_reading> operator()(exact_decimal const& lower,
+                                                              exact_decimal const& upper) const {
+        auto const a = (*this)(lower), b = (*this)(upper);
+        if (!a || !b || lower == upper) return b ? a : b;
+        auto low = a->value - a->rounding, high = a->value + a->rounding;
+        if (b->value - b->rounding < low) low = b->value - b->rounding;
+        if (high < b->value + b->rounding) high = b->value + b->rounding;
+        auto const middle = (low + high).divided_by(2, digits).first;
+        auto const above = high - middle, below = middle - low;
+        return converted_reading{middle, rounded_up(below < above ? above : below, 3)};
+    }
+
     /// An error bound of the reading, in the model's unit, rounded up to 15 digits.
     /// @given  error > 0 (trusted)
     [[nodiscard]] exact_decimal bound(exact_decimal const& error) const {
