@@ -18,7 +18,8 @@ namespace sivid {
 /// Fits a candidate from the best of a grid over the parameters of its last effect, the others as
 /// a part of the candidate was fitted. An effect that sleeps (a saturation that is never
 /// reached, say) has no slope to follow: where the best of the grid sleeps, which it may while
-/// the others have not yielded, the best that does not is descended from, too.
+/// the others have not yielded, the best that does not is descended from, too. A play that comes
+/// close is tried again beside the width that was found.
 /// Many measurements are thinned first.
 /// @param base   the problem without effects
 /// @param known  the likeliest part of the candidate that was fitted; nothing: the model itself
@@ -117,6 +118,18 @@ namespace sivid {
         auto const freed = away_from_ends(problem, found.parameters);
         if (freed != found.parameters) {
             auto other = descend({freed});
+            if (other.inflation < found.inflation) found = std::move(other);
+        }
+        // A play has corners by its width, where descents end: those beside it within the grid.
+        bool const corners = problem.model.input_memory.size() > base.model.input_memory.size();
+        for (double const share : {-0.5, 0.5, -0.25, 0.25}) {
+            if (!corners || open.size() != 1 || found.inflation <= 1) break;
+            auto const& side = narrowed.prior[open.front()];
+            auto beside = found.parameters;
+            auto& x = beside[open.front()];
+            x = std::clamp(x + share * (side.upper() - side.lower()) / static_cast<double>(steps),
+                           side.lower(), side.upper());
+            auto other = descend({beside});
             if (other.inflation < found.inflation) found = std::move(other);
         }
     }
