@@ -29,7 +29,7 @@ bool is_near(names const& truth, names const& said) {
 }
 
 /// Is it honest to say that nothing explains the data: the truth is in no catalogue, beyond its
-/// prior, not everywhere, or three effects at once, of which pairs alone may be tried?
+/// prior, not everywhere, or three effects at once, which are tried last?
 bool may_be_unexplained(label const& l) { return !l.attainable() || l.effects.size() > 2; }
 
 bool right_answer(label const& l, json const& answer, bool absorbed) {

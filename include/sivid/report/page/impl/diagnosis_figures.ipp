@@ -25,6 +25,9 @@ SIVID_DECL figure misfit_figure(diagnosis_view const& v) {
                         "blue is within the bounds, orange with a cross beyond, hatched without a "
                         "sample. Suspected outliers are left out. All maps share one colour scale.",
              .layout = panel_layout::pair};
+    constexpr std::size_t longest = 44; // beside the name, in the width of a panel
+    auto after = after_words(v);
+    if (after.size() > longest) after = "with these effects";
     for (pair const& p : maps) {
         heat_map_options o{.width = 540, .title = {}, .largest = largest, .key = f.panels.empty()};
         if (!p.before.times.empty()) {
@@ -32,7 +35,7 @@ SIVID_DECL figure misfit_figure(diagnosis_view const& v) {
             f.panels.push_back(draw_heat_map(p.before, o));
         }
         if (!p.after.times.empty()) {
-            o.title = p.name + ": " + after_words(v);
+            o.title = p.name + ": " + after;
             f.panels.push_back(draw_heat_map(p.after, o));
         }
     }
