@@ -99,3 +99,25 @@ TEST_CASE("a motion that explains may not vary more than a relation assumes") {
     CHECK(run.findings.empty());
     CHECK_THAT(run.result.withdrawn[0].reason, ContainsSubstring("vary more"));
 }
+
+TEST_CASE("a channel that alone stands against the model is suspected where no place was found") {
+    diagnosis d;
+    d.gap = gap_verdict::certified;
+    d.answer = answer_kind::unexplained;
+    d.confined = {{.scenarios = {"S3"}}, {.channel = "y", .scenarios = {"S4"}}, {.channel = "v"}};
+    suspect_channel(d);
+    REQUIRE(d.where.size() == 1);
+    CHECK(d.where[0].kind == "sensor");
+    CHECK(d.where[0].name == "y");
+    CHECK(d.where[0].where.scenario == "S4");
+    CHECK_FALSE(d.where[0].proved);
+    suspect_channel(d);
+    CHECK(d.where.size() == 1);
+    for (auto const answer : {answer_kind::effects, answer_kind::none}) {
+        d.where.clear();
+        d.answer = answer;
+        d.gap = answer == answer_kind::none ? gap_verdict::none : gap_verdict::certified;
+        suspect_channel(d);
+        CHECK(d.where.empty());
+    }
+}

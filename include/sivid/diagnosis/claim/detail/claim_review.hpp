@@ -201,6 +201,21 @@ inline void withdraw_contradictions(diagnosis& d,
     }
 }
 
+/// Where no place was found, and no effect: the channel that alone stands against the model.
+inline void suspect_channel(diagnosis& d) {
+    bool const explained = d.gap == gap_verdict::none || d.answer == answer_kind::effects;
+    if (explained || !d.where.empty()) return;
+    for (auto const& c : d.confined) {
+        if (c.channel.empty()) continue;
+        suspected_place s;
+        s.kind = "sensor";
+        s.name = c.channel;
+        if (c.scenarios.size() == 1) s.where.scenario = c.scenarios.front();
+        d.where.push_back(std::move(s));
+        return;
+    }
+}
+
 /// Adds every assumption that a shown proof rests on to the list of all.
 inline void list_assumptions(diagnosis& d) {
     auto const add = [&d](std::vector<std::string> const& more) {
@@ -232,6 +247,7 @@ inline void settle_claims(diagnosis_run& run) {
         return std::all_of(at->parameters.begin(), at->parameters.end(),
                            [](auto const& p) { return contains(p.prior(), nearest(p.neutral)); });
     });
+    suspect_channel(run.result);
     list_assumptions(run.result);
 }
 
