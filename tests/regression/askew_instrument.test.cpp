@@ -69,6 +69,22 @@ TEST_CASE("an instrument askew is found before an equation is blamed") {
     CHECK_THAT(std::abs(found.places[0].missing), WithinAbs(0.07, 0.03));
 }
 
+TEST_CASE("positions in a frame that is turned are found before an equation is blamed") {
+    draws d(74);
+    hover_effect effect;
+    effect.sensors = [](double t, std::function<motion(double)> const& at) {
+        auto x = at(t);
+        double const c = std::cos(0.07), s = std::sin(0.07);
+        return motion{x[0], x[1], x[2], c * x[3] + s * x[4], c * x[4] - s * x[3], x[5]};
+    };
+    auto const found = estimate_places(hovercraft_campaign(d, effect, {}));
+    REQUIRE_FALSE(found.places.empty());
+    CHECK(found.places[0].kind == place_kind::sensor);
+    CHECK((found.places[0].name == "x" || found.places[0].name == "y"));
+    CHECK_THAT(found.places[0].law, ContainsSubstring("cross-talk"));
+    CHECK_THAT(std::abs(found.places[0].missing), WithinAbs(0.07, 0.03));
+}
+
 TEST_CASE("an effect on one equation is proved of it with right sensors") {
     draws d(73);
     hover_effect effect; // a thruster beside the axis

@@ -16,10 +16,12 @@ TEST_CASE("the places of the hovercraft: equations, geometry, inputs, sensors") 
         costs.push_back(p.cost);
     }
     CHECK(names == std::vector<std::string>{"surge", "sway", "yaw", "x", "y", "psi", "W", "delta",
-                                            "u", "v", "r", "x", "psi", "u, v"});
-    CHECK(costs == std::vector<double>{1, 1, 1, 2.5, 2.5, 1.5, 1.5, 1.5, 1, 1, 1, 1, 1, 1});
+                                            "u", "v", "r", "x", "psi", "u, v", "x, y"});
+    CHECK(costs == std::vector<double>{1, 1, 1, 2.5, 2.5, 1.5, 1.5, 1.5, 1, 1, 1, 1, 1, 1, 1});
     CHECK(all[13].askew); // u and v of one instrument
     CHECK(all[13].members == std::vector<std::size_t>{0, 1});
+    CHECK(all[14].askew); // positions in a frame that is turned
+    CHECK(all[14].members == std::vector<std::size_t>{3, 4});
     CHECK(all[5].sensors == std::vector<std::string>{"psi", "r"}); // of psi' = r
     CHECK(all[3].sensors == std::vector<std::string>{"x", "u", "v", "psi"});
     CHECK(all[2].kind == place_kind::equation);
@@ -28,5 +30,5 @@ TEST_CASE("the places of the hovercraft: equations, geometry, inputs, sensors") 
     CHECK(all[11].is_sensor());
     CHECK(all[11].members == std::vector<std::size_t>{3, 4}); // the position
     auto const poses = places_of(model, {false, false, false, true, true, true}, {false, true});
-    CHECK(poses.size() == 6 + 1 + 2);
+    CHECK(poses.size() == 6 + 1 + 2 + 1);
 }

@@ -112,15 +112,16 @@ struct place {
         }
         result.push_back(std::move(p));
     }
-    // Two channels of states in one unit may come from one instrument that is mounted askew.
-    auto const in_one_frame = [&](std::size_t k) {
+    // Two channels of states in one unit, both of the geometry or neither, may come from one
+    // instrument that is mounted askew.
+    auto const in_a_frame = [&](std::size_t k) {
         auto const& u = about.channels[k].unit;
-        return measured[k] && !geometric(k) && !u.empty() && u != "1" &&
+        return measured[k] && !u.empty() && u != "1" &&
                model.g[model.observe[k]].op == operation::state;
     };
     for (std::size_t k = 0; k < model.observe.size(); ++k) {
         for (std::size_t j = k + 1; j < model.observe.size(); ++j) {
-            if (!in_one_frame(k) || !in_one_frame(j)) continue;
+            if (!in_a_frame(k) || !in_a_frame(j) || geometric(k) != geometric(j)) continue;
             if (about.channels[j].unit != about.channels[k].unit) continue;
             auto const name = std::string(about.channels[k].name) + ", " + about.channels[j].name;
             result.push_back({place_kind::sensor, {k, j}, name, 1, {}, true});

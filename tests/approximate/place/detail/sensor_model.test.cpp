@@ -25,7 +25,7 @@ TEST_CASE("faulty sensors have neutral faults and explain their data") {
     CHECK(extended.faults[10].size() == 3); // the gyro: scale, latency, offset
     CHECK(extended.faults[11].size() == 4); // the position: two offsets
     CHECK(extended.faults[13].size() == 2); // u and v askew
-    CHECK(extended.problem.prior.size() == 3 + 4 * 3 + 4 + 2);
+    CHECK(extended.problem.prior.size() == 3 + 4 * 3 + 4 + 2 * 2);
     CHECK(extended.problem.model.channel_delays.size() == 6);
     fitter fit(extended.problem);
     std::vector<double> neutral(extended.problem.prior.size(), 0.0);

@@ -6,6 +6,7 @@
 #include <sivid/model/problem.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -52,14 +53,20 @@ struct sensor_problem {
         if (places[p].kind != place_kind::sensor) continue;
         auto const fault = "sensor " + places[p].name;
         if (places[p].askew) {
+            std::array<decltype(g.constant(1.0)), 2> share{};
+            for (std::size_t m = 0; m < 2; ++m) {
+                auto const& own = model.about.channels[places[p].members[m]].name;
+                result.faults[p].push_back(sides.size());
+                share[m] = g.leaf(operation::constant,
+                                  add(fault + " share in " + own, "1", interval(-0.4, 0.4)));
+            }
+            // Turned by a, with shares sin a and -sin a, each shows cos a of its own.
+            auto const kept =
+                g.add(g.constant(1.0), g.mul(g.constant(0.5), g.mul(share[0], share[1])));
             for (std::size_t m = 0; m < 2; ++m) {
                 auto const own = places[p].members[m], other = places[p].members[1 - m];
-                result.faults[p].push_back(sides.size());
-                auto const share = g.leaf(operation::constant,
-                                          add(fault + " share in " + model.about.channels[own].name,
-                                              "1", interval(-0.4, 0.4)));
-                model.observe[own] =
-                    g.add(model.observe[own], g.mul(share, source.model.observe[other]));
+                model.observe[own] = g.add(g.mul(kept, model.observe[own]),
+                                           g.mul(share[m], source.model.observe[other]));
             }
             continue;
         }
