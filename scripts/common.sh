@@ -66,6 +66,11 @@ configure_check() {
     [ "$long" = OFF ] || name=long
     [ "$long" = ON ] || [ -n "${CXX:-}" ] || compiler=(-DCMAKE_CXX_COMPILER=clang++)
     build=${BUILD_DIR:-build/$name}
+    # A cache of another compiler would be thrown away by CMake, with all that is set below.
+    if [ ${#compiler[@]} -gt 0 ] && [ -e "$build/CMakeCache.txt" ] &&
+        ! grep -q '^CMAKE_CXX_COMPILER:.*clang++' "$build/CMakeCache.txt"; then
+        rm -rf "$build/CMakeCache.txt" "$build/CMakeFiles"
+    fi
     [ -e "$build/CMakeCache.txt" ] || export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja}
     cmake -S . -B "$build" "${compiler[@]}" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 \
         -DSIVID_WERROR=ON "-DSIVID_LONG_TESTS=$long" "-DSIVID_BUILD_BENCHMARKS=$long" -DSIVID_BATCH_SIZE=24 \

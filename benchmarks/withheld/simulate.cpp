@@ -73,8 +73,8 @@ std::vector<state> states_at(world const& w, channels const& initial,
     auto const acting = [&](double t) -> world const& { return t < w.onset ? neutral : w; };
     state now{};
     std::copy(initial.begin(), initial.end(), now.begin());
-    now[6] =
-        command_at(acting(0), rudder, 0).rudder; // the lag begins at rest; the motor begins at zero
+    // The lag begins at rest, the motor at zero.
+    now[6] = command_at(acting(0), rudder, 0).rudder;
     state const start = now;
     double t = 0;
     command here = command_at(acting(0), rudder, 0);

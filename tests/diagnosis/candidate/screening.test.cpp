@@ -147,7 +147,10 @@ TEST_CASE("a third effect joins the likeliest pair when it is asked for") {
     auto pairs = screened_campaign(real);
     CHECK_FALSE(choose(pairs.figures(), pairs.measurements()).explained);
     CHECK(pairs.find({0, 1, 2}) == nullptr);
+    CHECK(pairs.counts().larger.tried == 0);
     CHECK(pairs.try_threes());
+    CHECK(pairs.counts().larger.tried > 0);
+    CHECK(pairs.counts().complete());
     CHECK(answer(pairs) == std::vector<std::size_t>{0, 1, 2});
     screening_options options;
     options.most_effects = 3;

@@ -209,13 +209,14 @@ private:
         return tried.candidates().size() > before;
     }
     /// Three effects, where neither bounds that are too small nor one instrument may be the cause.
-    /// @returns  whether some explain the data
     [[nodiscard]] bool try_threes(screening& tried) {
-        auto const& d = run_.result;
+        auto& d = run_.result;
         if (!d.tried.complete() || !d.confined.empty() || one_sensor_explains(run_.places))
             return false;
         kept_ = 0.2 * options_.verdict_share * options_.seconds;
-        return tried.try_threes();
+        bool const explains = tried.try_threes();
+        d.tried = tried.counts();
+        return explains;
     }
     [[nodiscard]] static bool can_stand_in_a_name(std::vector<std::string> const& scenarios) {
         constexpr std::size_t most = 8;

@@ -91,6 +91,7 @@ TEST_CASE("angles are followed, with what the period leaves open in the error bo
     CHECK(noted(unsaid.protocol, "state \"period\": 360") == std::vector<std::size_t>{4});
     CHECK_FALSE(has_note(read(plain, {{"0"}, {"300"}, {"10"}, {"200"}}).protocol, "wraps"));
     CHECK_FALSE(has_note(read(plain, {{"0"}, {"90"}, {"170"}, {"250"}}).protocol, "wraps"));
+    CHECK_FALSE(has_note(read(plain, {{"0"}, {"5"}, {"5"}, {"0"}}).protocol, "wraps")); // volts
     auto const radians = read(plain, {{"3.0"}, {"-3.1"}, {"-2.9"}});
     CHECK(noted(radians.protocol, "6.283185307179587") == std::vector<std::size_t>{3});
 

@@ -15,6 +15,18 @@
 
 namespace sivid {
 
+/// Which unknowns are widths of plays.
+[[nodiscard]] inline std::vector<std::size_t> widths_of_plays(identification_problem const& p) {
+    std::vector<std::size_t> result;
+    for (auto const& m : p.model.input_memory) {
+        auto const& name = p.model.about.constants[m.constant].name;
+        auto const at = std::find(p.choice.unknown.begin(), p.choice.unknown.end(), name);
+        if (m.kind == memory_kind::play && at != p.choice.unknown.end())
+            result.push_back(static_cast<std::size_t>(at - p.choice.unknown.begin()));
+    }
+    return result;
+}
+
 /// Fits a candidate from the best of a grid over the parameters of its last effect, the others as
 /// a part of the candidate was fitted. An effect that sleeps (a saturation that is never
 /// reached, say) has no slope to follow: where the best of the grid sleeps, which it may while
@@ -120,17 +132,17 @@ namespace sivid {
             auto other = descend({freed});
             if (other.inflation < found.inflation) found = std::move(other);
         }
-        // A play has corners by its width, where descents end: those beside it within the grid.
-        bool const corners = problem.model.input_memory.size() > base.model.input_memory.size();
-        for (double const share : {-0.5, 0.5, -0.25, 0.25}) {
-            if (!corners || open.size() != 1 || found.inflation <= 1) break;
-            auto const& side = narrowed.prior[open.front()];
-            auto beside = found.parameters;
-            auto& x = beside[open.front()];
-            x = std::clamp(x + share * (side.upper() - side.lower()) / static_cast<double>(steps),
-                           side.lower(), side.upper());
-            auto other = descend({beside});
-            if (other.inflation < found.inflation) found = std::move(other);
+        // Descents end in the corners that a play has by its width: others begin beside them.
+        for (auto const j : widths_of_plays(problem)) {
+            auto const& side = narrowed.prior[j];
+            for (double const share : {-0.05, 0.05, -0.025, 0.025}) {
+                if (found.inflation <= 1) break;
+                auto beside = found.parameters;
+                beside[j] = std::clamp(beside[j] + share * (side.upper() - side.lower()),
+                                       side.lower(), side.upper());
+                auto other = descend({beside});
+                if (other.inflation < found.inflation) found = std::move(other);
+            }
         }
     }
     if (!(found.inflation < best.inflation)) {

@@ -157,7 +157,7 @@ private:
             double low = HUGE_VAL, high = -HUGE_VAL, last = 0;
             for (auto const& s : result.samples) {
                 double const now = s.raw, by = low > high ? 0 : std::abs(now - last);
-                if (by > 0.75 * period && by <= period) ++jumps, line = jumps == 1 ? s.line : line;
+                if (by > 0.9 * period && by <= period) ++jumps, line = jumps == 1 ? s.line : line;
                 if (by > 0.25 * period) ++others;
                 low = std::min(low, now);
                 high = std::max(high, now);
