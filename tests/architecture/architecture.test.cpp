@@ -247,6 +247,20 @@ TEST_CASE("planted breaches are found") {
         tree.header("number/low.hpp", "");
         CHECK(tree.findings() == "");
     }
+    SECTION("a test that a script or a build file names, and that has moved") {
+        tree.write("scripts/check-far", "tests=\"number/low tests/number/low.test.cpp\"\n");
+        tree.write("tests/CMakeLists.txt", "add(space/high ${x}/number/low.test.cpp)\n");
+        CHECK(tree.findings() == "");
+        tree.write("scripts/check-far", "tests=\"number/detail/low space/high\"\n");
+        CHECK(tree.findings() ==
+              "named test: scripts/check-far: no tests/number/detail/low.test.cpp\n");
+        tree.write("scripts/check-far", "run tests/space/low.test.cpp\n");
+        CHECK_THAT(tree.findings(), ContainsSubstring("no tests/space/low.test.cpp"));
+        tree.write("scripts/check-far", "");
+        tree.write("tests/CMakeLists.txt", "add(high space/room/high)\n");
+        CHECK(tree.findings() ==
+              "named test: tests/CMakeLists.txt: no tests/space/room/high.test.cpp\n");
+    }
     SECTION("printing") {
         tree.header("number/low.hpp", "inline void f() { std::cerr << 1; }\n");
         CHECK_THAT(tree.findings(), ContainsSubstring("silence: include/sivid/number/low.hpp"));

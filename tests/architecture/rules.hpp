@@ -319,6 +319,38 @@ inline void check_test_names(fs::path const& tree, std::vector<finding>& finding
     }
 }
 
+/// The tests that scripts and build files name, as number/pack/lanes, without folder and ending.
+/// Some of these run by hand only, and would learn of a move there.
+inline void check_named_tests(fs::path const& tree, std::vector<finding>& findings) {
+    static std::set<std::string_view> const others{"conformance", "laws", "machines", "regression"};
+    auto const named = [&](fs::path const& file) {
+        static std::string const word = "/_-.";
+        for (auto const& line : lines_of(file))
+            for (std::size_t from = 0, to = 0; from < line.size(); from = to + 1) {
+                to = from;
+                while (to < line.size() &&
+                       (std::isalnum(static_cast<unsigned char>(line[to])) != 0 ||
+                        word.find(line[to]) != std::string::npos))
+                    ++to;
+                auto name = line.substr(from, to - from);
+                if (starts_with(name, "tests/")) name.erase(0, 6);
+                auto const room = name.substr(0, name.find('/'));
+                bool const test = room.size() < name.size() && name.back() != '/' &&
+                                  file.parent_path().filename() != room && // a test's own name
+                                  (rank_of(room) < floors.size() || others.count(room) > 0);
+                if (!test || fs::exists(tree / "tests" / name)) continue;
+                if (!fs::exists(tree / "tests" / (name + ".test.cpp")))
+                    findings.push_back({"named test", fs::relative(file, tree).generic_string(),
+                                        "no tests/" + name + ".test.cpp"});
+            }
+    };
+    if (fs::is_directory(tree / "scripts"))
+        for (auto const& entry : fs::directory_iterator{tree / "scripts"})
+            if (entry.is_regular_file()) named(entry.path());
+    for (auto const& entry : fs::recursive_directory_iterator{tree / "tests"})
+        if (entry.path().filename() == "CMakeLists.txt") named(entry.path());
+}
+
 /// All breaches of the rules in the tree that holds include/sivid and tests.
 inline std::vector<finding> check(fs::path const& tree) {
     std::vector<finding> findings;
@@ -458,6 +490,7 @@ inline std::vector<finding> check(fs::path const& tree) {
             findings.push_back({"definitions", "include/" + d, "in no list of sivid/impl"});
 
     check_test_names(tree, findings);
+    check_named_tests(tree, findings);
 
     // Cycles, which the guards would hide: depth-first search with the usual three colours.
     std::map<std::string, int> colour;
