@@ -122,16 +122,14 @@ double powered_sum(std::vector<double> const& z, double limit, double power, dou
 
 } // namespace
 
-normal_equations fit_problem::linearised(std::vector<double> const& x, double power,
-                                         double scale) const {
+fit_problem::difference_quotients fit_problem::differences(std::vector<double> const& x) const {
     std::size_t const n = x.size();
-    auto const z = evaluate(x, false, 0);
     double const difference = 1e-4;
-    std::vector<residuals> columns(n);
-    std::vector<double> step(n);
+    difference_quotients d{evaluate(x, false, 0), std::vector<residuals>(n),
+                           std::vector<double>(n)};
     // Starts of different scenarios do not meet in one residual: one run serves all of a state.
     for (std::size_t i = 0; i < n; ++i) {
-        if (!columns[i].empty()) continue;
+        if (!d.moved[i].empty()) continue;
         auto moved = x;
         std::vector<std::size_t> together{i};
         if (variables_[i].is_start())
@@ -139,12 +137,33 @@ normal_equations fit_problem::linearised(std::vector<double> const& x, double po
                 if (variables_[j].is_start() && variables_[j].state == variables_[i].state)
                     together.push_back(j);
         for (std::size_t const j : together) {
-            step[j] = x[j] > 0.5 ? -difference : difference;
-            moved[j] += step[j];
+            d.step[j] = x[j] > 0.5 ? -difference : difference;
+            moved[j] += d.step[j];
         }
         auto const run = evaluate(moved, false, 0);
-        for (std::size_t const j : together) columns[j] = run;
+        for (std::size_t const j : together) d.moved[j] = run;
     }
+    return d;
+}
+
+fit_problem::linear_model fit_problem::linear(std::vector<double> const& x) const {
+    auto const d = differences(x);
+    linear_model l;
+    l.slope.resize(x.size());
+    for (std::size_t s = 0; s < d.z.size(); ++s)
+        for (std::size_t m = 0; m < d.z[s].size(); ++m) {
+            l.misfit.push_back(d.z[s][m]);
+            for (std::size_t i = 0; i < x.size(); ++i)
+                l.slope[i].push_back(elsewhere(i, s) ? 0 : d.slope(i, s, m));
+        }
+    return l;
+}
+
+normal_equations fit_problem::linearised(std::vector<double> const& x, double power,
+                                         double scale) const {
+    std::size_t const n = x.size();
+    auto const d = differences(x);
+    auto const& z = d.z;
     normal_equations eq;
     eq.matrix.assign(n, std::vector<double>(n, 0.0));
     eq.gradient.assign(n, 0.0);
@@ -162,10 +181,8 @@ normal_equations fit_problem::linearised(std::vector<double> const& x, double po
                 weight = power / 2 * root / scale;
                 residual = root * z[s][m] / scale;
             }
-            for (std::size_t i = 0; i < n; ++i) {
-                bool const elsewhere = variables_[i].is_start() && variables_[i].scenario != s;
-                row[i] = elsewhere ? 0 : weight * (columns[i][s][m] - z[s][m]) / step[i];
-            }
+            for (std::size_t i = 0; i < n; ++i)
+                row[i] = elsewhere(i, s) ? 0 : weight * d.slope(i, s, m);
             for (std::size_t i = 0; i < n; ++i) {
                 if (row[i] == 0) continue;
                 eq.gradient[i] += row[i] * residual;

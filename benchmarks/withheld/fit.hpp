@@ -33,6 +33,12 @@ public:
     std::vector<double> start(std::vector<std::pair<std::string, double>> const& values) const;
     std::vector<std::pair<std::string, double>> values(std::vector<double> const& x) const;
 
+    /// Misfits in units of their bounds, and how they change with each variable.
+    struct linear_model {
+        std::vector<double> misfit;
+        std::vector<std::vector<double>> slope; // by variable
+    };
+    linear_model linear(std::vector<double> const& x) const;
     /// Least squares for power 2; larger powers come closer to the smallest largest misfit.
     double minimise(std::vector<double>& x, double power, int iterations) const;
     /// Of the fit scenarios, or of the others with the starts in the middle of their boxes.
@@ -44,6 +50,18 @@ private:
     using residuals = std::vector<std::vector<double>>; // by scenario
     residuals evaluate(std::vector<double> const& x, bool holdout, double step) const;
     normal_equations linearised(std::vector<double> const& x, double power, double scale) const;
+    struct difference_quotients {
+        residuals z;
+        std::vector<residuals> moved; // by variable; of other scenarios where it is a start
+        std::vector<double> step;
+        double slope(std::size_t i, std::size_t s, std::size_t m) const {
+            return (moved[i][s][m] - z[s][m]) / step[i];
+        }
+    };
+    difference_quotients differences(std::vector<double> const& x) const;
+    bool elsewhere(std::size_t i, std::size_t scenario) const {
+        return variables_[i].is_start() && variables_[i].scenario != scenario;
+    }
 
     recording const& data_;
     std::vector<variable> variables_;

@@ -289,6 +289,7 @@ judgement judge_case(label const& l, std::filesystem::path const& results,
             auto const recorded = read_recording(data / l.id);
             check_witnesses(recorded, diagnosis, j);
             check_claims(l, recorded, diagnosis, j);
+            measure_widths(l, recorded, diagnosis, j);
         }
     } catch (std::exception const& e) {
         j = {};

@@ -20,6 +20,14 @@ struct finding {
     std::string kind, about;
 };
 
+/// Of a parameter of the true effects.
+struct hull_width {
+    std::string name;              // "wind.wx"
+    double of_prior = 0;           // share of the prior that the hull leaves, infinite for no hull
+    std::optional<double> allowed; // the share that explains the data, as far as it was found
+    double of_allowed = 0;         // the first over the second
+};
+
 struct judgement {
     std::string id, family, truth, answer;
     bool missing = false;  // no diagnosis, or none that can be read
@@ -40,6 +48,9 @@ struct judgement {
     std::size_t witnesses_checked = 0, rates_checked = 0, hulls_checked = 0;
     std::size_t intervals = 0, intervals_hold = 0; // of the true effects' parameters
     std::vector<double> onset_windows;             // widths, in shares of the scenario's time
+    std::vector<hull_width> hull_widths;
+    std::optional<double> holdout_ratio; // upper bounds, over all fits to at the witness
+    std::optional<double> tube_coverage; // share of the held-out samples within the tube
     std::optional<double> seconds;
 
     /// Counts a proof, and remembers it when it is false.
@@ -66,6 +77,11 @@ void check_witnesses(recording const& data, nlohmann::json const& diagnosis, jud
 /// hold-out inflations over all fits.
 void check_claims(label const& truth, recording const& data, nlohmann::json const& diagnosis,
                   judgement& j);
+
+/// Compares the hulls of the true effects' parameters with what the data allow, and what is said of
+/// held-out data for all fits with what is said at the witness.
+void measure_widths(label const& truth, recording const& data, nlohmann::json const& diagnosis,
+                    judgement& j);
 
 } // namespace withheld
 

@@ -6,9 +6,6 @@
 
 namespace withheld {
 
-namespace {
-
-/// Solves a x = b for a symmetric positive definite a (Cholesky); false when it is not.
 bool solve(std::vector<std::vector<double>> a, std::vector<double>& b) {
     std::size_t const n = b.size();
     for (std::size_t j = 0; j < n; ++j) {
@@ -30,6 +27,8 @@ bool solve(std::vector<std::vector<double>> a, std::vector<double>& b) {
     }
     return true;
 }
+
+namespace {
 
 /// The damped step; variables that would leave the box through a side they stand on are held.
 std::vector<double> damped_step(normal_equations const& eq, std::vector<double> const& x,

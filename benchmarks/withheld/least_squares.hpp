@@ -23,6 +23,9 @@ struct least_squares_problem {
 /// Moves `x` to a local minimum in the unit box; returns the objective there.
 double minimise(least_squares_problem const& problem, std::vector<double>& x, int iterations);
 
+/// Solves a x = b for a symmetric positive definite a (Cholesky), b to x; false when it is not.
+bool solve(std::vector<std::vector<double>> a, std::vector<double>& b);
+
 } // namespace withheld
 
 #endif

@@ -154,7 +154,9 @@ std::string complaints(std::vector<judgement> const& all) {
 
 std::string measures(std::vector<judgement> const& all) {
     std::vector<double> width, slack, shrink, shrink_error, seconds, onsets;
-    counted relations, certified, sound, shrink_held, parts;
+    counted relations, certified, sound, shrink_held, parts, tenth, allowed_tenth, twice, ratio,
+        covered;
+    std::vector<double> of_prior, of_allowed, ratios;
     std::size_t witnesses = 0, rates = 0, hulls = 0, intervals = 0, hold = 0, contradictory = 0,
                 withdrawn = 0;
     for (auto const& j : all) {
@@ -165,6 +167,19 @@ std::string measures(std::vector<judgement> const& all) {
         withdrawn += j.withdrawn;
         intervals += j.intervals;
         hold += j.intervals_hold;
+        for (auto const& w : j.hull_widths) {
+            of_prior.push_back(w.of_prior);
+            tenth.add(w.of_prior <= 0.1);
+            if (!w.allowed) continue;
+            if (*w.allowed <= 0.1) allowed_tenth.add(w.of_prior <= 0.1);
+            of_allowed.push_back(w.of_allowed);
+            twice.add(w.of_allowed <= 2);
+        }
+        if (j.holdout_ratio) {
+            ratios.push_back(*j.holdout_ratio);
+            ratio.add(*j.holdout_ratio <= 1.5);
+        }
+        if (j.tube_coverage) covered.add(*j.tube_coverage >= 1);
         if (j.part_right) parts.add(*j.part_right);
         onsets.insert(onsets.end(), j.onset_windows.begin(), j.onset_windows.end());
         if (j.seconds) seconds.push_back(*j.seconds);
@@ -202,6 +217,14 @@ std::string measures(std::vector<judgement> const& all) {
          << "explaining values held to hulls: " << hulls << '\n'
          << "the part that stands alone found: " << parts.text() << '\n'
          << "windows of onsets / scenario:    " << spread(onsets) << '\n'
+         << "hull of an effect / its prior:   " << spread(of_prior)
+         << ", at most a tenth: " << tenth.text()
+         << ", of those where the data allow it: " << allowed_tenth.text() << '\n'
+         << "hull / what the data allow:      " << spread(of_allowed)
+         << ", at most twice: " << twice.text() << '\n'
+         << "hold-out, all fits / witness:    " << spread(ratios)
+         << ", at most 1.5: " << ratio.text() << '\n'
+         << "tubes that hold all held-out samples: " << covered.text() << '\n'
          << "files that contradict themselves: " << contradictory << " of " << all.size() << '\n'
          << "claims that the program withdrew: " << withdrawn << '\n'
          << "effect parameters in their intervals: " << hold << '/' << intervals << '\n';
