@@ -31,12 +31,13 @@ enum class family {
     onset,
     three,
     backlash,
-    friction
+    friction,
+    episode
 };
-inline constexpr std::array<std::string_view, 18> family_names{
-    "single",  "weak",   "wide",  "pose",  "pair",       "outliers",
-    "outside", "none",   "alias", "askew", "instrument", "experiments",
-    "bounds",  "strong", "onset", "three", "backlash",   "friction"};
+inline constexpr std::array<std::string_view, 19> family_names{
+    "single", "weak",  "wide",     "pose",       "pair",        "outliers", "outside",
+    "none",   "alias", "askew",    "instrument", "experiments", "bounds",   "strong",
+    "onset",  "three", "backlash", "friction",   "episode"};
 
 /// The first of them are drawn in every round, the others where they are asked for.
 inline constexpr std::size_t usual_families = 16;
@@ -59,7 +60,7 @@ struct measured_scenario {
     scenario plan;
     channels initial{};            // the true start, within plan.initial
     std::vector<gust_pulse> gusts; // in truth only
-    double onset = 0;              // of the catalogue's effects, infinite for never
+    episode acting;                // of the catalogue's effects
     std::vector<channels> truth;   // at plan.sample_times
     std::vector<channels> value;   // what is written
     std::size_t outliers = 0;      // how many values break their bound

@@ -109,12 +109,14 @@ std::string true_gusts(campaign const& c) {
     return text.empty() ? "-" : text;
 }
 
-std::string true_onsets(campaign const& c) {
+/// When effects begin, or end, where that is not `usual`.
+std::string true_times(campaign const& c, double episode::*time, double usual) {
     std::string text;
     for (auto const& s : c.scenarios) {
-        if (s.onset == 0) continue;
+        double const t = s.acting.*time;
+        if (t == usual) continue;
         text += (text.empty() ? "" : " ") + s.plan.name + '=' +
-                (std::isinf(s.onset) ? "inf" : decimal_text(s.onset));
+                (std::isinf(t) ? "inf" : decimal_text(t));
     }
     return text.empty() ? "-" : text;
 }
@@ -178,7 +180,7 @@ void write_dataset(campaign const& c, fs::path const& folder) {
 
 std::string labels_header() {
     return "case\tfamily\teffects\tparams\tnoise\toutliers\tstarts\tgusts\tfit_base\tfit_true"
-           "\tholdout_base\tholdout_true\tfit_base_best\tonsets\tbest_fit\tbest_of_parts";
+           "\tholdout_base\tholdout_true\tfit_base_best\tonsets\tbest_fit\tbest_of_parts\tends";
 }
 
 std::string label_of(campaign const& c, fs::path const& folder) {
@@ -198,7 +200,7 @@ std::string label_of(campaign const& c, fs::path const& folder) {
             line << '\t' << six_digits(inflation_at_truth(c, with, which));
     auto const data = read_recording(folder);
     auto const best = fit_without_effects(data, true);
-    line << '\t' << six_digits(best.inflation) << '\t' << true_onsets(c) << '\t';
+    line << '\t' << six_digits(best.inflation) << '\t' << true_times(c, &episode::from, 0) << '\t';
     separator = "";
     for (auto const& [name, value] : best.values) {
         char text[40];
@@ -206,7 +208,7 @@ std::string label_of(campaign const& c, fs::path const& folder) {
         line << separator << name << '=' << text;
         separator = " ";
     }
-    line << '\t' << best_of_parts(c, data, best);
+    line << '\t' << best_of_parts(c, data, best) << '\t' << true_times(c, &episode::to, for_ever);
     return line.str();
 }
 

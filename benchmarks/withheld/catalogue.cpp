@@ -78,24 +78,26 @@ std::string plain_name(std::string_view name) {
     return std::string{name.substr(0, name.size() - (name.ends_with(wider) ? wider.size() : 0))};
 }
 
-double onset_in(std::string_view name, std::string_view scenario) {
+episode episode_in(std::string_view name, std::string_view scenario) {
     auto at = name.find('@');
-    if (at == std::string_view::npos) return 0;
+    if (at == std::string_view::npos) return {};
     while (at < name.size()) {
         auto const end = std::min(name.find('+', at + 1), name.size());
-        auto const one = name.substr(at + 1, end - at - 1);
-        auto const when = one.find(">=");
-        if (one.substr(0, when) == scenario)
-            return when == one.npos
-                       ? 0
-                       : std::strtod(std::string{one.substr(when + 2)}.c_str(), nullptr);
+        auto one = name.substr(at + 1, end - at - 1);
+        auto const cut = [&](std::string_view sign, double otherwise) {
+            auto const when = one.find(sign);
+            if (when == one.npos) return otherwise;
+            std::string const time{one.substr(when + sign.size())};
+            one = one.substr(0, when);
+            return std::strtod(time.c_str(), nullptr);
+        };
+        episode result;
+        result.to = cut("<", for_ever);
+        result.from = cut(">=", 0);
+        if (one == scenario) return result;
         at = end;
     }
-    return std::numeric_limits<double>::infinity();
-}
-
-bool acts_in(std::string_view name, std::string_view scenario) {
-    return std::isfinite(onset_in(name, scenario));
+    return {for_ever, for_ever};
 }
 
 std::string six_digits(double value) {

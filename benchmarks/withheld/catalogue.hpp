@@ -32,14 +32,12 @@ std::vector<effect> const& catalogue();
 inline constexpr std::size_t first_effects = 21;
 /// Null for an unknown name. "NAME_wider" is NAME over a prior four times as wide: ends at 0, or
 /// where the effect vanishes, stay. "NAME@S4+S5" is NAME in these scenarios only,
-/// "NAME@S4>=1.5+S5" one that begins in S4 at 1.5 s.
+/// "NAME@S4>=1.5<4+S5" one that begins in S4 at 1.5 s and ends there at 4 s.
 effect const* effect_named(std::string_view name);
 /// Without "_wider" and "@S4+S5".
 std::string plain_name(std::string_view name);
-/// When an effect of this name begins in a scenario: 0 at its start, infinity never.
-double onset_in(std::string_view name, std::string_view scenario);
-/// Whether it acts there at all.
-bool acts_in(std::string_view name, std::string_view scenario);
+/// When an effect of this name acts in a scenario.
+episode episode_in(std::string_view name, std::string_view scenario);
 
 /// Draws a size into `e`; `scale` 1 is normal, 1/3 weak. `largest_rudder` is the largest angle that
 /// is commanded: a limit above it has no effect.

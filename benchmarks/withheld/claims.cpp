@@ -88,7 +88,7 @@ double input_offset(true_motion const& m, bool rudder) {
     auto const driven = behind_play(w.rudder, w.e.rudder_play);
     return m.mean([&](std::size_t n) {
         double const t = m.t[n], seen = std::max(t - w.e.input_delay, 0.0);
-        bool const begun = t >= w.onset;
+        bool const begun = w.acting.holds(t);
         world const neutral = m.base;
         command const now{w.motor.at(t), behind_deadband(begun ? driven.at(seen) : w.rudder.at(t),
                                                          begun ? w.e.rudder_deadband : 0)};
@@ -204,7 +204,7 @@ void check_over_fits(label const& l, recording const& data, json const& d, judge
         auto const after = l.number("holdout_true");
         // A candidate that acts in some fit scenarios only acts in none of the others.
         bool const truth =
-            held_by && l.values("onsets").empty() &&
+            held_by && !l.partial() &&
             names_in(member(c, "effects")) == names{held_by->begin(), held_by->end()};
         if (after && truth && does_as_well(l.number("fit_true"), member(c, "inflation")))
             check(bounds_in(member(holdout, "over_fits_after")), *after, "after");

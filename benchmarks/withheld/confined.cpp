@@ -36,7 +36,7 @@ std::optional<bool> is_confined_to(label const& truth, recording const& data, js
     bool everywhere = true;
     for (auto const& s : data.scenarios) {
         if (s.plan.holdout) continue;
-        bool const acts = std::isfinite(true_onset(truth, s.plan.name));
+        bool const acts = !true_episode(truth, s.plan.name).never();
         if (acts) acting.insert(s.plan.name);
         everywhere = everywhere && acts;
     }

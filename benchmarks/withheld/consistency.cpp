@@ -134,7 +134,8 @@ private:
     void witness(told_cause const& c) {
         auto const values = member(member(c.about, "witness"), "parameters");
         if (c.verdict == "explains") hulls(member(c.about, "parameters"), values);
-        onsets(c);
+        times(c, "onsets", &episode::from);
+        times(c, "ends", &episode::to);
         auto const answer = member(*d_, "answer");
         bool const answered =
             member(answer, "kind") == "effects" && names_in(member(answer, "effects")) == c.effects;
@@ -153,15 +154,15 @@ private:
         }
     }
 
-    /// The onsets that the name says explain the data: they lie in their windows.
-    void onsets(told_cause const& c) {
-        auto const all = member(c.about, "onsets");
+    /// The times that the name says explain the data: they lie in their windows.
+    void times(told_cause const& c, char const* key, double episode::*time) {
+        auto const all = member(c.about, key);
         for (auto const& [scenario, about] : all.items()) {
             auto const window = hull_in(about);
             auto const value = value_in(member(about, "value"));
             bool const named = value && std::any_of(c.effects.begin(), c.effects.end(),
                                                     [&, &in = scenario](auto& e) {
-                                                        return onset_in(e, in) == *value;
+                                                        return episode_in(e, in).*time == *value;
                                                     });
             if (!named || (window && !window->contains(*value, digits)))
                 add("onset", joined(c.effects) + " in " + scenario +

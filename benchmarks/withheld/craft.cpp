@@ -186,7 +186,7 @@ command effective(world const& w, double t, command const& now, state const& s) 
 }
 
 channels sensed(world const& w, double t, state const& s) {
-    effect_values const e = t < w.onset ? effect_values{} : w.e;
+    effect_values const e = w.acting.holds(t) ? w.e : effect_values{};
     auto const& fault = w.instruments;
     auto const turned = [](double a, double b, double angle) {
         return std::pair{std::cos(angle) * a + std::sin(angle) * b,
@@ -203,18 +203,18 @@ channels sensed(world const& w, double t, state const& s) {
     return shown;
 }
 
-void begin_effects_at(world& w, double onset) {
-    w.onset = 0;
-    if (!(onset > 0)) return;
+void act_within(world& w, episode const& when) {
+    w.acting = {};
+    if (when.always()) return;
     auto const& e = w.e;
     bool const memory = e.rudder_lag > 0 || e.input_delay > 0 || e.motor_lag > 0 ||
                         e.position_latency > 0 || e.rudder_play > 0;
-    if (std::isinf(onset))
+    if (when.never())
         w.e = {};
     else if (memory)
         throw std::invalid_argument("an effect with a memory acts from the start on or never");
     else
-        w.onset = onset;
+        w.acting = when;
 }
 
 } // namespace withheld

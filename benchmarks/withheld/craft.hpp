@@ -6,6 +6,7 @@
 #define WITHHELD_CRAFT_HPP
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <string_view>
@@ -72,6 +73,17 @@ struct polyline {
     double largest_magnitude() const;
 };
 
+/// When the catalogue's effects act; outside, they are neutral.
+struct episode {
+    double from = 0, to = std::numeric_limits<double>::infinity();
+    bool holds(double t) const { return from <= t && t < to; }
+    bool never() const { return !(from < to); }
+    bool begins_later() const { return from > 0 && !never(); }
+    bool ends() const { return std::isfinite(to) && !never(); }
+    bool always() const { return from == 0 && std::isinf(to); }
+};
+inline constexpr double for_ever = std::numeric_limits<double>::infinity();
+
 struct world {
     constants c;
     effect_values e;
@@ -79,13 +91,12 @@ struct world {
     std::vector<gust_pulse> gusts;
     polyline motor, rudder; // W and delta
     instrument_faults instruments;
-    /// The catalogue's effects act from here on; before, they are neutral.
-    double onset = 0;
+    episode acting;
 };
 
-/// Lets the catalogue's effects begin at `onset`, infinity for never.
-/// @throws std::invalid_argument for an onset after the start of an effect that has a memory
-void begin_effects_at(world& w, double onset);
+/// Lets the catalogue's effects act then only.
+/// @throws std::invalid_argument where an effect that has a memory begins later or ends
+void act_within(world& w, episode const& when);
 
 /// u, v, r, x, y, psi, then the rudder's angle and the motor's speed behind their lags, and the
 /// servo's rate.

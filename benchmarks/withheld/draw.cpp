@@ -176,15 +176,22 @@ bool has_memory(effect const& e) {
 /// With poses only, a bias of the gyro leaves no trace. What begins later has no memory.
 bool possible(effect const& e, family kind) {
     if (kind == family::pose) return e.name != "gyro_bias";
-    return kind != family::onset || !has_memory(e);
+    return (kind != family::onset && kind != family::episode) || !has_memory(e);
 }
 
-void draw_onsets(random_source& random, campaign& c) {
+/// Of the family `episode`, every other campaign has effects from the start on.
+void draw_times(random_source& random, campaign& c, std::size_t n) {
     for (auto& s : c.scenarios) {
-        if (c.kind == family::onset)
-            s.onset = six_decimals(random.uniform(0.15, 0.7) * s.plan.duration);
-        if (c.kind == family::experiments)
-            s.onset = random.coin() ? 0 : std::numeric_limits<double>::infinity();
+        auto const share = [&](double least, double most) {
+            return six_decimals(random.uniform(least, most) * s.plan.duration);
+        };
+        s.acting = {};
+        if (c.kind == family::onset) s.acting.from = share(0.15, 0.7);
+        if (c.kind == family::experiments && !random.coin()) s.acting.from = for_ever;
+        if (c.kind != family::episode) continue;
+        bool const begins = n % 2 == 1;
+        s.acting.from = begins ? share(0.1, 0.4) : 0;
+        s.acting.to = begins ? s.acting.from + share(0.25, 0.45) : share(0.3, 0.75);
     }
 }
 
@@ -259,7 +266,7 @@ void draw_effects(std::uint64_t seed, std::size_t n, double size, random_source&
         c.effects_text += c.effects_text.empty() ? "" : " + ";
         c.effects_text += described(all[which], c.true_effects);
     }
-    draw_onsets(random, c);
+    draw_times(random, c, n);
 }
 
 /// Each effect must matter: at the true constants the data leave the model without it by some
@@ -274,7 +281,8 @@ bool matters(campaign const& c, double size) {
     if (right) return true;
     if (effect_named(c.effects.front()) == nullptr) return largest_deviation(c, {}, {}) >= 3;
     // Nor does it matter everywhere and always.
-    bool const partial = c.kind == family::onset || c.kind == family::experiments;
+    bool const partial =
+        c.kind == family::onset || c.kind == family::experiments || c.kind == family::episode;
     if (partial && largest_deviation(c, c.true_effects, c.true_foreign) < 3) return false;
     for (auto const& name : c.effects) {
         effect_values without = c.true_effects;

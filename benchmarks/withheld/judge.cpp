@@ -35,7 +35,7 @@ bool may_be_unexplained(label const& l) { return !l.attainable() || l.effects.si
 bool right_answer(label const& l, json const& answer, bool absorbed) {
     auto const kind = answer.at("kind").get<std::string>();
     // Beyond its prior the name is right, and with scenarios where the effect acts in some only.
-    bool const partial = !l.values("onsets").empty();
+    bool const partial = l.partial();
     auto const plain = [partial](json const& effects) {
         names result;
         for (auto const& n : names_in(effects))
@@ -138,15 +138,22 @@ void judge_parameters(label const& l, json const& cause, judgement& j) {
     }
 }
 
-/// Fits that explain the data with the effects of a cause. Where the truth begins later and a cause
-/// names its effect with onsets, whatever they are, hulls hold whenever it begins: the truth is
-/// one.
+/// Fits that explain the data with the effects of a cause. Where a cause names its effect with
+/// times at which it begins, or ends, or both, hulls hold whatever these are: the truth is one if
+/// it does no more.
 std::vector<known_fit> comparable(label const& l, known_fits const& known, json const& cause) {
     auto all = known.all();
     auto const effects = names_in(member(cause, "effects"));
     bool const named = effects.size() == 1 && l.effects.size() == 1 &&
                        plain_name(*effects.begin()) == l.effects.front().first;
-    if (!named || member(cause, "onsets").empty()) return all;
+    auto const& name = *effects.begin();
+    bool const ends = name.find('<') != name.npos;
+    bool const begins = name.find(">=") != name.npos;
+    if (!named || (!begins && !ends)) return all;
+    for (auto const& [scenario, time] : l.values("onsets"))
+        if (!begins && true_episode(l, scenario).begins_later()) return all;
+    for (auto const& [scenario, time] : l.values("ends"))
+        if (!ends && true_episode(l, scenario).ends()) return all;
     known_fit truth{effects, l.number("fit_true").value_or(1.0), l.constants_true};
     auto const* known_effect = effect_named(*effects.begin());
     auto const& values = l.effects.front().second;
@@ -159,26 +166,25 @@ std::vector<known_fit> comparable(label const& l, known_fits const& known, json 
     return all;
 }
 
-/// Whether a window of onsets, out of a whole scenario, holds the true one.
-bool holds_onset(bounds const& window, bounds const& all, double truth) {
-    bool const never = truth >= all.upper && window.upper >= all.upper;
-    return never || window.contains(std::max(truth, all.lower), 1e-9);
-}
-
-/// The true onsets lie in their windows, if the truth explains the data.
-void judge_onsets(label const& l, std::vector<known_fit> const& known, json const& cause,
-                  judgement& j) {
-    auto const onsets = member(cause, "onsets");
+/// The true onsets and ends lie in their windows, if the truth explains the data. What never acts
+/// begins at the end, and ends at the begin.
+void judge_times(label const& l, std::vector<known_fit> const& known, json const& cause,
+                 char const* key, double episode::*time, judgement& j) {
+    if (known.empty()) return;
     auto const& truth = known.back();
     if (truth.effects != names_in(member(cause, "effects")) || truth.inflation > 1 - 1e-6) return;
-    for (auto const& [scenario, about] : onsets.items()) {
+    bool const of_end = time == &episode::to;
+    auto const times = member(cause, key);
+    for (auto const& [scenario, about] : times.items()) {
         auto const window = hull_in(about);
         auto const all = bounds_in(member(about, "prior"));
         if (!window || !all) continue;
-        double const at = true_onset(l, scenario);
+        auto const when = true_episode(l, scenario);
+        double const at = when.never() ? (of_end ? all->lower : all->upper) : when.*time;
         j.onset_windows.push_back((window->upper - window->lower) / (all->upper - all->lower));
-        j.proof(holds_onset(*window, *all, at), "onset",
-                scenario + " in " + text_of(*window) + ", in truth " + short_text(at));
+        j.proof(window->contains(std::clamp(at, all->lower, all->upper), 1e-9), "onset",
+                scenario + (of_end ? " ends in " : " begins in ") + text_of(*window) +
+                    ", in truth " + short_text(at));
     }
 }
 
@@ -215,7 +221,8 @@ void judge_causes(label const& l, known_fits const& known, json const& d, judgem
             }
             auto const fits = comparable(l, known, c);
             judge_hulls(fits, member(c, "parameters"), effects, j);
-            judge_onsets(l, fits, c, j);
+            judge_times(l, fits, c, "onsets", &episode::from, j);
+            judge_times(l, fits, c, "ends", &episode::to, j);
             auto const answer = member(d, "answer");
             if (member(answer, "kind") == "effects" &&
                 names_in(member(answer, "effects")) == effects)

@@ -102,17 +102,14 @@ std::optional<std::vector<std::string>> label::held_by() const {
         result.push_back(holds(effect_named(name)) ? name : name + "_wider");
         if (!holds(effect_named(result.back()))) return std::nullopt;
     }
-    auto const onsets = values("onsets");
-    if (std::all_of(onsets.begin(), onsets.end(), [](auto const& o) { return o.second == 0; }))
-        return result;
-    std::string acting; // where it does, it does from the start on
+    if (!partial()) return result;
+    std::string acting; // where it does, it does all the time
     bool everywhere = true;
     for (auto const& scenario : fit_scenarios(more)) {
-        auto const at = onsets.find(scenario);
-        double const onset = at == onsets.end() ? 0 : at->second;
-        if (onset > 0 && std::isfinite(onset)) return std::nullopt;
-        everywhere = everywhere && onset == 0;
-        if (onset == 0) acting += (acting.empty() ? "@" : "+") + scenario;
+        auto const when = true_episode(*this, scenario);
+        if (when.begins_later() || when.ends()) return std::nullopt;
+        everywhere = everywhere && when.always();
+        if (when.always()) acting += (acting.empty() ? "@" : "+") + scenario;
     }
     if (acting.empty()) return std::nullopt;
     for (auto& name : result) name += everywhere ? "" : acting;
@@ -197,10 +194,13 @@ std::vector<gust_pulse> true_gusts(label const& l, std::string const& scenario) 
     return all;
 }
 
-double true_onset(label const& l, std::string const& scenario) {
-    auto const all = l.values("onsets");
-    auto const place = all.find(scenario);
-    return place == all.end() ? 0 : place->second;
+episode true_episode(label const& l, std::string const& scenario) {
+    auto const time = [&](char const* column, double usual) {
+        auto const all = l.values(column);
+        auto const place = all.find(scenario);
+        return place == all.end() ? usual : place->second;
+    };
+    return {time("onsets", 0), time("ends", for_ever)};
 }
 
 world true_world(label const& l, constants const& fixed, scenario const& plan) {
@@ -208,7 +208,7 @@ world true_world(label const& l, constants const& fixed, scenario const& plan) {
     w.motor = plan.motor;
     w.rudder = plan.rudder;
     w.gusts = true_gusts(l, plan.name);
-    begin_effects_at(w, true_onset(l, plan.name));
+    act_within(w, true_episode(l, plan.name));
     return w;
 }
 

@@ -31,6 +31,8 @@ struct label {
     std::optional<std::vector<std::string>> held_by() const;
     /// Whether one does without wider priors, in all scenarios.
     bool attainable() const;
+    /// Whether effects act in some scenarios only, or for some time only.
+    bool partial() const { return !values("onsets").empty() || !values("ends").empty(); }
 };
 
 /// Any table whose columns are named and begin with case, family, effects, params.
@@ -41,8 +43,8 @@ world world_of(label const& l, constants const& fixed);
 /// The true start of a scenario, and its gusts, where the label says so.
 std::optional<channels> true_start(label const& l, std::string const& scenario);
 std::vector<gust_pulse> true_gusts(label const& l, std::string const& scenario);
-/// When the catalogue's effects begin there: 0 where the label does not say otherwise.
-double true_onset(label const& l, std::string const& scenario);
+/// When the catalogue's effects act there: always, where the label does not say otherwise.
+episode true_episode(label const& l, std::string const& scenario);
 /// All of it, in a scenario with these inputs.
 world true_world(label const& l, constants const& fixed, scenario const& plan);
 

@@ -14,7 +14,7 @@ world world_of(campaign const& c, measured_scenario const& s) {
     w.f = c.true_foreign;
     w.gusts = s.gusts;
     w.instruments = c.true_instruments;
-    begin_effects_at(w, s.onset);
+    act_within(w, s.acting);
     return w;
 }
 

@@ -22,7 +22,7 @@ std::vector<double> kinks(world const& w, polyline const& rudder, double end) {
                 all.push_back(t[i - 1] + (t[i] - t[i - 1]) * from / (from - to) + w.e.input_delay);
         }
     }
-    all.push_back(w.onset);
+    all.insert(all.end(), {w.acting.from, w.acting.to});
     for (auto const& g : w.gusts) all.insert(all.end(), {g.begin, g.begin + g.length});
     std::erase_if(all, [&](double x) { return !(x > 0 && x < end); });
     return all;
@@ -65,12 +65,12 @@ std::vector<state> states_at(world const& w, channels const& initial,
     stops.insert(stops.end(), times.begin(), times.end());
     std::sort(stops.begin(), stops.end());
 
-    world neutral; // until the effects begin
-    if (w.onset > 0) {
+    world neutral; // while the effects do not act
+    if (!w.acting.always()) {
         neutral = w;
         neutral.e = {};
     }
-    auto const acting = [&](double t) -> world const& { return t < w.onset ? neutral : w; };
+    auto const acting = [&](double t) -> world const& { return w.acting.holds(t) ? w : neutral; };
     state now{};
     std::copy(initial.begin(), initial.end(), now.begin());
     // The lag begins at rest, the motor at zero.
@@ -97,7 +97,8 @@ std::vector<state> states_at(world const& w, channels const& initial,
             now = runge_kutta(model, start, now, begin + k * h, h, between(k / steps),
                               between((k + 1) / steps));
         t = stop;
-        here = stop == w.onset ? command_at(w, rudder, stop) : there;
+        bool const changes = stop == w.acting.from || stop == w.acting.to;
+        here = changes ? command_at(acting(stop), rudder, stop) : there;
         record();
     }
     return result;

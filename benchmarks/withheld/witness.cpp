@@ -56,14 +56,14 @@ channels start_of(scenario const& plan, json const& witness) {
     return start;
 }
 
-/// Effects that act in some scenarios only are none in the others, and begin where they are said
-/// to.
+/// Effects that act in some scenarios only are none in the others, and begin and end where they are
+/// said to.
 void switch_off(world& w, json const& cause, std::string const& scenario) {
     for (auto const& name : names_in(member(cause, "effects"))) {
-        double const onset = onset_in(name, scenario);
-        if (onset == 0) continue;
-        if (std::isfinite(onset)) {
-            begin_effects_at(w, onset); // such an effect stands alone
+        auto const when = episode_in(name, scenario);
+        if (when.always()) continue;
+        if (!when.never()) {
+            act_within(w, when); // such an effect stands alone
             continue;
         }
         for (auto const& p : effect_named(name)->parameters)

@@ -86,17 +86,21 @@ inline void print_constants(sivid::diagnosis const& d) {
     std::cout << "\n";
 }
 
-/// When the effect of the answer begins in each scenario in which it does so later.
-inline void print_onsets(sivid::diagnosis const& d) {
+/// When the effect of the answer begins and ends in each scenario in which it does so midway.
+inline void print_times(sivid::diagnosis const& d) {
     if (d.answer != sivid::answer_kind::effects || d.causes.empty()) return;
-    for (auto const& o : d.causes.front().onsets) {
-        bool const known = o.hull && o.prior && width(*o.hull) < width(*o.prior);
-        std::cout << "  it begins in " << value_words(o)
-                  << (known ? ", within " + sivid::report::outward_text(range_of(*o.hull)) +
-                                  " s (proved)"
-                            : std::string{"; no other time is excluded"})
-                  << "\n";
-    }
+    auto const print = [](char const* what, std::vector<sivid::named_estimate> const& times) {
+        for (auto const& o : times) {
+            bool const known = o.hull && o.prior && width(*o.hull) < width(*o.prior);
+            std::cout << what << value_words(o)
+                      << (known ? ", within " + sivid::report::outward_text(range_of(*o.hull)) +
+                                      " s (proved)"
+                                : std::string{"; no other time is excluded"})
+                      << "\n";
+        }
+    };
+    print("  it begins in ", d.causes.front().onsets);
+    print("  it ends in ", d.causes.front().ends);
 }
 
 inline void print_holdout(sivid::diagnosis const& d) {
@@ -225,7 +229,7 @@ inline void print_summary(sivid::diagnosis const& d, std::string const& id,
         }
     }
     std::cout << "\n";
-    detail::print_onsets(d);
+    detail::print_times(d);
     detail::print_constants(d);
     for (auto const& e : view.at_ends) {
         std::cout << "  " << report::end_words(e) << "\n";

@@ -149,7 +149,7 @@ inline bool may_include_approximate(std::string_view other, std::string_view inc
         {"sivid/diagnosis/candidate/screening.hpp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/candidate/detail/candidate_fit.hpp",
          {"fit/fit.hpp", "fit/detail/thinned.hpp"}},
-        {"sivid/diagnosis/candidate/detail/onset_fit.hpp",
+        {"sivid/diagnosis/candidate/detail/episode_fit.hpp",
          {"fit/fit.hpp", "fit/detail/thinned.hpp"}},
         {"sivid/diagnosis/hold_out/detail/holdout_judgement.hpp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/claim/detail/claim_review.hpp", {"fit/detail/campaign.hpp"}},

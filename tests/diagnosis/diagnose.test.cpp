@@ -6,6 +6,7 @@
 #include "diagnosis/small_catalogue.hpp"
 #include "support/catch.hpp"
 #include "support/pendulum.hpp"
+#include "support/sweep.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -288,24 +289,29 @@ TEST_CASE("an effect that acts in some experiments only is found with them") {
     for (auto const& e : late.effects) CHECK(e.find("late@") == std::string::npos);
 }
 
-TEST_CASE("an effect that begins later is found, and the windows hold its onsets") {
+TEST_CASE("an effect that begins later or ends is found, and the windows hold when it does") {
     struct expectation {
         small_campaign::truth real;
         std::string effect;
         double value;
-        std::vector<double> onsets;
+        std::vector<double> onsets, ends{9, 9, 9};
     };
-    for (auto const& [real, effect, value, onsets] :
-         {expectation{small_campaign::with_slope(0.4), "slope", 0.4, {1, 2.05, 0.513}},
-          {small_campaign::with_drag(0.6), "quadratic", 0.6, {0.8, 1.234, 1.9}},
-          {small_campaign::with_slope(-0.5), "slope", -0.5, {0, 1.5, 9}}}) {
+    std::vector<expectation> const all{
+        {small_campaign::with_slope(0.4), "slope", 0.4, {1, 2.05, 0.513}},
+        {small_campaign::with_drag(0.6), "quadratic", 0.6, {0, 0, 9}, {2, 1.711, 9}},
+        {small_campaign::with_slope(0.5), "slope", 0.5, {0.8, 1.305, 0}, {2.2, 3, 1.4}},
+        {small_campaign::with_drag(0.6), "quadratic", 0.6, {0.8, 1.234, 1.9}},
+        {small_campaign::with_slope(-0.5), "slope", -0.5, {0, 1.5, 9}},
+        {small_campaign::with_slope(0.5), "slope", 0.5, {0, 0, 0}, {1.6, 2.305, 9}}};
+    for (std::size_t n = 0; n < support::swept(std::size_t{3}, all.size()); ++n) {
+        auto const& [real, effect, value, onsets, ends] = all[n];
         auto p = small_campaign::problem();
         p.experiments.clear();
         for (std::size_t e = 0; e < onsets.size(); ++e) {
             small_campaign::truth later;
-            later.missing = [&, begin = onsets[e], force = real.missing](double t, double v,
-                                                                         double u) {
-                return t >= begin ? force(t, v, u) : 0;
+            later.missing = [begin = onsets[e], end = ends[e],
+                             force = real.missing](double t, double v, double u) {
+                return t >= begin && t < end ? force(t, v, u) : 0;
             };
             p.experiments.push_back(small_campaign::experiment(e, later));
         }
@@ -322,23 +328,29 @@ TEST_CASE("an effect that begins later is found, and the windows hold its onsets
         REQUIRE(c.parameters.size() == 1);
         REQUIRE(c.parameters[0].hull);
         CHECK(contains(*c.parameters[0].hull, value));
-        CHECK_FALSE(c.onsets.empty());
-        for (auto const& o : c.onsets) {
-            CAPTURE(o.name, o.value);
-            double const truth = onsets[static_cast<std::size_t>(o.name[1] - '1')];
-            REQUIRE((o.hull && o.prior));
-            CHECK(contains(*o.hull, std::min(truth, 4.0)));
-            CHECK(contains(*o.hull, o.value));
-            CHECK(std::abs(o.value - std::min(truth, 4.0)) < 0.3);
-            CHECK(width(*o.hull) < width(*o.prior));
-        }
+        bool const over = ends[0] < 9;
+        CHECK_FALSE((over ? c.ends : c.onsets).empty());
+        auto const check = [](std::vector<named_estimate> const& times,
+                              std::vector<double> const& true_ones) {
+            for (auto const& o : times) {
+                double const truth = true_ones[static_cast<std::size_t>(o.name[1] - '1')];
+                CAPTURE(o.name, o.value, truth);
+                REQUIRE((o.hull && o.prior));
+                CHECK(contains(*o.hull, std::min(truth, 4.0)));
+                CHECK(contains(*o.hull, o.value));
+                CHECK(std::abs(o.value - std::min(truth, 4.0)) < 0.3);
+                CHECK(width(*o.hull) < width(*o.prior));
+            }
+        };
+        check(c.onsets, onsets);
+        check(c.ends, ends);
         CHECK_FALSE(d.next);
     }
     // From the start on, or not at all, there is no onset to be named.
     for (auto const& real : {small_campaign::with_slope(0.4), small_campaign::truth{}}) {
         auto const d = run(real).result;
         for (auto const& e : d.effects) CHECK(e == "slope");
-        for (auto const& c : d.causes) CHECK(c.onsets.empty());
+        for (auto const& c : d.causes) CHECK((c.onsets.empty() && c.ends.empty()));
     }
 }
 

@@ -179,7 +179,7 @@ TEST_CASE("an effect in some experiments only has a switch and is none where tha
 TEST_CASE("an effect that begins later has the time in its name, which reads back") {
     for (double const t : {1.5, 0.1, 1.0 / 3, 1234567.25, 1e-7, -2.5, 0.0}) {
         auto const e = only_within(doubled("a"), {"E2", "E4"}, {t, effect::from_start});
-        CHECK(e.has_onset());
+        CHECK(e.begins_later());
         auto const read = effects_named({doubled("a")}, {e.name}).front();
         CHECK(read.name == e.name);
         CHECK(read.only_in == e.only_in);
@@ -189,12 +189,28 @@ TEST_CASE("an effect that begins later has the time in its name, which reads bac
     auto const e = only_within(doubled("a"), {"E2", "E4"}, {1.5, effect::from_start});
     CHECK(e.name == "a@E2>=1.5+E4");
     CHECK(effects_named({doubled("a")}, {"a_wider@E2>=2"}).front().parameters[0].widened == 4);
-    CHECK_FALSE(effects_named({doubled("a")}, {"a@E2+E4"}).front().has_onset());
-    CHECK_FALSE(doubled("a").has_onset());
-    for (auto const* bad : {"a@E2>=", "a@E2>=soon", "a@E2>=1.5s"}) {
+    CHECK_FALSE(effects_named({doubled("a")}, {"a@E2+E4"}).front().begins_later());
+    CHECK_FALSE(doubled("a").begins_later());
+    for (auto const* bad :
+         {"a@E2>=", "a@E2>=soon", "a@E2>=1.5s", "a@E2<", "a@E2<x", "a@E2>=1<", "a@E2<3>=1"}) {
         CHECK_THROWS_WITH(effects_named({doubled("a")}, {bad}),
                           ContainsSubstring("is no time in seconds"));
     }
+    // One that ends again, or ends only.
+    auto const episode = only_within(doubled("a"), {"E1", "E2", "E3"}, {1.5, effect::from_start, 2},
+                                     {4, 0.25, effect::for_ever});
+    CHECK(episode.name == "a@E1>=1.5<4+E2<0.25+E3>=2");
+    CHECK(episode.begins_later());
+    CHECK(episode.ends());
+    auto const read = effects_named({doubled("a")}, {episode.name}).front();
+    CHECK(read.only_in == episode.only_in);
+    CHECK(read.since == episode.since);
+    CHECK(read.until == episode.until);
+    auto const ended = effects_named({doubled("a")}, {"a@E2<3"}).front();
+    CHECK_FALSE(ended.begins_later());
+    CHECK(ended.ends());
+    CHECK_THROWS_WITH(effects_named({doubled("a")}, {"a@E2>=3<3"}),
+                      ContainsSubstring("ends in E2 before it begins"));
 }
 
 TEST_CASE("mistakes in effects are named") {

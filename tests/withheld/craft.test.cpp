@@ -356,12 +356,12 @@ TEST_CASE("halving the step changes nothing with slow and late instruments") {
             CHECK_THAT(a[i][k], WithinAbs(b[i][k], 1e-7));
 }
 
-TEST_CASE("effects that begin later") {
+TEST_CASE("effects that begin later or end") {
     // Down a slope from 0.8 s on.
     world w = frictionless(2);
     w.e.slope_x = 0.03;
     w.e.gyro_bias = 0.2;
-    begin_effects_at(w, 0.8);
+    act_within(w, {0.8});
     auto const slid = states_at(w, {0, 0, 0, 0, 0, 0}, {0.8, 2}, careful_step);
     CHECK_THAT(slid[0][3], WithinAbs(0, 1e-15));
     CHECK_THAT(slid[1][0], WithinAbs(0.03 * 9.81 * 1.2, 1e-9));
@@ -374,14 +374,14 @@ TEST_CASE("effects that begin later") {
     world band = lively();
     band.e.rudder_deadband = 0.1;
     band.e.payload = 0.2;
-    begin_effects_at(band, 1.2);
+    act_within(band, {1.2});
     channels const start{1, 0, 0, 0, 0, 0};
     auto const both = states_at(band, start, {1.2, 3}, careful_step);
     auto const before = states_at(lively(), start, {1.2}, careful_step).back();
     for (std::size_t i = 0; i < channel_count; ++i)
         CHECK_THAT(both[0][i], WithinAbs(before[i], 1e-10));
     world rest = band;
-    rest.onset = 0;
+    rest.acting = {};
     for (auto* p : {&rest.motor, &rest.rudder}) {
         polyline const whole = *p;
         *p = sampled([&](double t) { return whole.at(t + 1.2); }, 1.8);
@@ -394,12 +394,37 @@ TEST_CASE("effects that begin later") {
 
     world never = lively();
     never.e.payload = 0.2;
-    begin_effects_at(never, std::numeric_limits<double>::infinity());
+    act_within(never, {for_ever});
     CHECK(states_at(never, start, {3}, 1e-3).back() ==
           states_at(lively(), start, {3}, 1e-3).back());
     world lag = lively();
     lag.e.rudder_lag = 0.2;
-    CHECK_THROWS_AS(begin_effects_at(lag, 1), std::invalid_argument);
+    CHECK_THROWS_AS(act_within(lag, {1}), std::invalid_argument);
+    CHECK_THROWS_AS(act_within(lag, {0, 1}), std::invalid_argument);
+
+    // From 0.8 to 1.1 s: what was gained by then stays.
+    act_within(w, {0.8, 1.1});
+    auto const ended = states_at(w, {0, 0, 0, 0, 0, 0}, {1.1, 2}, careful_step);
+    for (auto const& s : ended) CHECK_THAT(s[0], WithinAbs(0.03 * 9.81 * 0.3, 1e-9));
+    CHECK(readings(w, {0, 0, 0, 0, 0, 0}, {1.2}, careful_step)[0][2] == 0);
+    // From the start, until the rudder is what is commanded again.
+    world whole = band, first = band;
+    whole.acting = {};
+    act_within(first, {0, 1.2});
+    auto const same = states_at(whole, start, {1.2}, careful_step).back();
+    auto const first_states = states_at(first, start, {1.2, 3}, careful_step);
+    world then = lively();
+    for (auto* p : {&then.motor, &then.rudder}) {
+        polyline const all = *p;
+        *p = sampled([&](double t) { return all.at(t + 1.2); }, 1.8);
+    }
+    channels passed{};
+    std::copy_n(same.begin(), channel_count, passed.begin());
+    auto const later = states_at(then, passed, {1.8}, careful_step).back();
+    for (std::size_t i = 0; i < channel_count; ++i) {
+        CHECK_THAT(first_states[0][i], WithinAbs(same[i], 1e-10));
+        CHECK_THAT(first_states[1][i], WithinAbs(later[i], 1e-4));
+    }
 }
 
 TEST_CASE("what acts in place of the inputs") {

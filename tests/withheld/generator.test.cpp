@@ -162,8 +162,8 @@ TEST_CASE("what each family is about") {
         auto const part = draw_campaign(5, i, {family::experiments});
         bool acts = false, rests = false;
         for (auto const& s : part.scenarios) {
-            acts = acts || (!s.plan.holdout && s.onset == 0);
-            rests = rests || (!s.plan.holdout && std::isinf(s.onset));
+            acts = acts || (!s.plan.holdout && s.acting.always());
+            rests = rests || (!s.plan.holdout && s.acting.never());
         }
         CHECK(acts);
         CHECK(rests);
@@ -172,9 +172,16 @@ TEST_CASE("what each family is about") {
 
         auto const later = draw_campaign(5, i, {family::onset});
         for (auto const& s : later.scenarios) {
-            CHECK(s.onset > 0);
-            CHECK(s.onset < s.plan.duration);
+            CHECK(s.acting.begins_later());
+            CHECK(s.acting.from < s.plan.duration);
+            CHECK_FALSE(s.acting.ends());
         }
+        auto const episode = draw_campaign(5, i, {family::episode});
+        for (auto const& s : episode.scenarios) {
+            CHECK(s.acting.begins_later() == (i % 2 == 1));
+            CHECK(s.acting.to < s.plan.duration);
+        }
+        CHECK(largest_deviation(episode, episode.true_effects, {}) >= 3);
         auto const strong = draw_campaign(5, i, {family::strong});
         bool beyond = false;
         for (auto const& p : effect_named(strong.effects.at(0))->parameters)

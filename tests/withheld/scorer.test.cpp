@@ -5,6 +5,7 @@
 #include "consistency.hpp"
 #include "judge.hpp"
 #include "places.hpp"
+#include "reading.hpp"
 #include "summary.hpp"
 
 #include "io/support.hpp"
@@ -237,8 +238,8 @@ TEST_CASE("answers to what no candidate holds") {
     auto later = with("onset", "payload", {0.3});
     later.more["onsets"] = "S1=0.4 S2=3.2";
     CHECK(judge(later, unexplained).right);
-    CHECK(true_onset(later, "S2") == 3.2);
-    CHECK(true_onset(later, "S3") == 0);
+    CHECK(true_episode(later, "S2").from == 3.2);
+    CHECK(true_episode(later, "S3").always());
     auto const three = labelled("three", {"payload", "gyro_bias", "rudder_trim"});
     CHECK(judge(three, unexplained).right);
     CHECK(judge(three, answering({"payload", "gyro_bias", "rudder_trim"})).right);
@@ -446,10 +447,14 @@ TEST_CASE("missing rates and offsets of sensors against the truth") {
 }
 
 TEST_CASE("an effect that begins later is held to its windows") {
-    CHECK(onset_in("wind", "S1") == 0);
-    CHECK(onset_in("wind@S1>=0.25+S3", "S1") == 0.25);
-    CHECK(onset_in("wind@S1>=0.25+S3", "S3") == 0);
-    CHECK(std::isinf(onset_in("wind@S1>=0.25+S3", "S2")));
+    CHECK(episode_in("wind", "S1").always());
+    CHECK(episode_in("wind@S1>=0.25+S3", "S1").from == 0.25);
+    CHECK(episode_in("wind@S1>=0.25+S3", "S3").always());
+    CHECK(episode_in("wind@S1>=0.25+S3", "S2").never());
+    CHECK(episode_in("wind@S1>=0.25<3.5+S3<2", "S1").from == 0.25);
+    CHECK(episode_in("wind@S1>=0.25<3.5+S3<2", "S1").to == 3.5);
+    CHECK(episode_in("wind@S1>=0.25<3.5+S3<2", "S3").from == 0);
+    CHECK(episode_in("wind@S1>=0.25<3.5+S3<2", "S3").to == 2);
     CHECK(plain_name("wind_wider@S1>=0.25") == "wind");
     auto l = labelled("onset", {"quadratic_yaw_damping"});
     l.effects[0].second = {0.1};
@@ -494,13 +499,50 @@ TEST_CASE("an effect that begins later is held to its windows") {
     CHECK(kinds_of(contradictions_in(d)) == strings{"onset"});
 }
 
+TEST_CASE("an effect that ends is held to its windows") {
+    auto l = labelled("episode", {"quadratic_yaw_damping"});
+    l.effects[0].second = {0.1};
+    l.more["onsets"] = "S1=0.5 S2=inf";
+    l.more["ends"] = "S1=3";
+    l.more["fit_true"] = "0.95";
+    CHECK_FALSE(l.held_by());
+    auto const told = [&](std::string const& name, bounds const& on, bounds const& off,
+                          bounds const& k) {
+        auto d = answering({name});
+        auto const time = [](double value, bounds const& b) {
+            return json{{"value", value}, {"hull", {b.lower, b.upper}}, {"prior", {0, 4}}};
+        };
+        d["causes"] = {{{"effects", {name}},
+                        {"verdict", "explains"},
+                        {"inflation", {0.9, 0.95}},
+                        {"onsets", {{"S1", time(0.45, on)}, {"S2", time(3.5, {0, 4})}}},
+                        {"ends", {{"S1", time(2.9, off)}}},
+                        {"parameters", {{name + ".k", {k.lower, k.upper}}}}}};
+        return kinds_of(judge(l, d).false_proofs);
+    };
+    std::string const both = "quadratic_yaw_damping@S1>=0.45<2.9+S2>=3.5";
+    CHECK(told(both, {0.4, 0.6}, {2.8, 3.1}, {0, 0.2}).empty());
+    CHECK(told(both, {0.4, 0.6}, {2.8, 2.9}, {0, 0.2}) == strings{"onset"});
+    CHECK(told(both, {0.4, 0.6}, {2.8, 3.1}, {0, 0.09}) == strings{"hull"});
+    // Who knows of no end speaks of another question.
+    std::string const begins = "quadratic_yaw_damping@S1>=0.45+S2>=3.5";
+    CHECK(told(begins, {0.6, 0.7}, {2.8, 2.9}, {0, 0.09}).empty());
+    l.more.erase("ends");
+    CHECK(told(begins, {0.6, 0.7}, {2, 4}, {0, 0.2}) == strings{"onset"});
+    l.more = {{"ends", "S1=3"}, {"fit_true", "0.95"}};
+    std::string const ends = "quadratic_yaw_damping@S1<2.9";
+    CHECK(told(ends, {0, 4}, {2.8, 2.9}, {0, 0.2}) == strings{"onset"});
+    CHECK(told(begins, {0.6, 0.7}, {2.8, 2.9}, {0, 0.09}).empty());
+    CHECK(judge(l, answering({ends})).right);
+}
+
 TEST_CASE("an effect in some scenarios is named with them, and held to them") {
     CHECK(plain_name("wind_wider@S1+S3") == "wind");
     CHECK(effect_named("wind@S1") == effect_named("wind"));
-    CHECK(acts_in("wind", "S1"));
-    CHECK(acts_in("wind@S1+S3", "S3"));
-    CHECK_FALSE(acts_in("wind@S1+S3", "S2"));
-    CHECK_FALSE(acts_in("wind@S12", "S1"));
+    CHECK_FALSE(episode_in("wind", "S1").never());
+    CHECK_FALSE(episode_in("wind@S1+S3", "S3").never());
+    CHECK(episode_in("wind@S1+S3", "S2").never());
+    CHECK(episode_in("wind@S12", "S1").never());
     auto l = labelled("experiments", {"quadratic_yaw_damping"});
     l.more["starts"] = "S1(0,0,0,0,0,0) S2(0,0,0,0,0,0) S3(0,0,0,0,0,0) H1(0,0,0,0,0,0)";
     using held = std::optional<strings>;

@@ -196,6 +196,7 @@ struct cause {
     /// explain the data. `hull`: proved, whenever it begins in the others; `prior`: all the
     /// scenario.
     std::vector<named_estimate> onsets{};
+    std::vector<named_estimate> ends{}; ///< the same of when it ends
 };
 
 enum class answer_kind {

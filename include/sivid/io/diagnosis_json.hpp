@@ -135,8 +135,8 @@ private:
         json_.end_array();
     }
     /// {"S1": {"value": t, "hull": [lower, upper], "prior": [begin, end]}, ...}
-    void onsets(std::vector<named_estimate> const& all) {
-        json_.key("onsets").begin_object();
+    void times(char const* key, std::vector<named_estimate> const& all) {
+        json_.key(key).begin_object();
         for (auto const& o : all) {
             json_.key(o.name).begin_object(one_line).key("value").nearest(o.value);
             maybe("hull", o.hull);
@@ -199,7 +199,8 @@ private:
             json_.key("score").nearest(c.score);
             hulls("parameters", c.parameters);
             values("estimates", c.parameters);
-            onsets(c.onsets);
+            times("onsets", c.onsets);
+            times("ends", c.ends);
             witness(c.witness);
             strings("assumptions", c.assumptions);
             strings("untouched", c.untouched);

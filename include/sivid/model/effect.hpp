@@ -64,12 +64,19 @@ struct effect {
     std::vector<std::string> only_in{};
     /// When it begins in each of these [s], from then on it acts; none: at their start.
     std::vector<double> since{};
+    /// When it ends in each of these [s], from then on it does not act; none: never.
+    std::vector<double> until{};
 
     /// Whether it begins in some experiment later than that does.
-    [[nodiscard]] bool has_onset() const {
+    [[nodiscard]] bool begins_later() const {
         return std::any_of(since.begin(), since.end(), [](double t) { return t > from_start; });
     }
-    static constexpr double from_start = -std::numeric_limits<double>::infinity();
+    /// Whether it ends in some experiment.
+    [[nodiscard]] bool ends() const {
+        return std::any_of(until.begin(), until.end(), [](double t) { return t < for_ever; });
+    }
+    static constexpr double for_ever = std::numeric_limits<double>::infinity();
+    static constexpr double from_start = -for_ever;
 };
 
 /// What an effect sees of a model under construction and may change. Names are the model's own;
@@ -124,16 +131,18 @@ private:
 /// The effect with priors four times as wide, under its name and "_wider".
 [[nodiscard]] SIVID_DECL effect widened(effect e);
 
-/// The effect in these experiments only, under its name and "@S4+S5"; "@S4>=1.5+S5" where it begins
-/// in S4 at 1.5 s.
+/// The effect in these experiments only, under its name and "@S4+S5"; "@S4>=1.5<4+S5" where it
+/// begins in S4 at 1.5 s and ends there at 4 s.
 /// @param since  for each of them, `effect::from_start` or a time [s]; none: all from the start
+/// @param until  for each of them, `effect::for_ever` or a time [s]; none: none ends
 [[nodiscard]] SIVID_DECL effect only_within(effect e, std::vector<std::string> experiments,
-                                            std::vector<double> since = {});
+                                            std::vector<double> since = {},
+                                            std::vector<double> until = {});
 
 /// Those of a catalogue that have these names, in the order of the names; `widened` ones, and those
 /// `only_within` some experiments, too.
-/// @throws std::invalid_argument  for a name that the catalogue lacks, and an onset that is no
-/// number
+/// @throws std::invalid_argument  for a name that the catalogue lacks, an onset or an end that is
+/// no number, and an end that comes before its onset
 [[nodiscard]] SIVID_DECL std::vector<effect> effects_named(std::vector<effect> const& catalogue,
                                                            std::vector<std::string> const& names);
 

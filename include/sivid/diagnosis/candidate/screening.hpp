@@ -7,7 +7,7 @@
 #include <sivid/diagnosis/candidate/beyond_prior.hpp>
 #include <sivid/diagnosis/candidate/candidate.hpp>
 #include <sivid/diagnosis/candidate/detail/candidate_fit.hpp>
-#include <sivid/diagnosis/candidate/detail/onset_fit.hpp>
+#include <sivid/diagnosis/candidate/detail/episode_search.hpp>
 #include <sivid/diagnosis/candidate/detail/screened.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 
@@ -128,35 +128,26 @@ public:
         return explained(3);
     }
 
-    /// Tries single effects of the plan as such that begin in each experiment at a time of its own,
-    /// and adds those that explain the data so. Those with delays or states of their own are left
-    /// out.
-    void try_onsets() {
-        std::vector<onset_fit> searches;
+    /// Tries single effects of the plan as such that begin in each experiment at a time of its own
+    /// (or end, or both), and adds those that explain the data so. Those with delays or states of
+    /// their own are left out.
+    /// @param ends  whether effects that end are tried, too
+    void try_episodes(bool ends) {
+        std::vector<episode_search::single> effects;
         for (auto const& one : singles()) {
             auto const* always = find(one);
             if (always == nullptr || remembers(always->problem.model, base_.model)) continue;
-            searches.emplace_back(base_, catalogue_[one.front()], always->fit.parameters,
-                                  [this] { return in_time(); });
+            effects.push_back({catalogue_[one.front()], always->fit.parameters});
         }
         std::mutex asking;
-        options_.workers(searches.size(), [&](std::size_t k) {
-            if (may_try(searches[k].name() + " from a time on", asking)) searches[k].look_roughly();
-        });
-        std::stable_sort(searches.begin(), searches.end(),
-                         [](auto const& a, auto const& b) { return a.squares() < b.squares(); });
-        constexpr std::ptrdiff_t most = 4;
-        if (std::ssize(searches) > most) searches.erase(searches.begin() + most, searches.end());
-        options_.workers(searches.size(), [&](std::size_t k) {
-            if (in_time()) searches[k].look_closely();
-        });
-        for (auto& found : searches) {
-            if (!found.explains()) continue;
+        episode_search const search(base_, std::move(effects), options_.workers,
+                                    {[&](std::string const& name) { return may_try(name, asking); },
+                                     [this] { return in_time(); }});
+        for (auto const& found : search(ends)) {
             screened s{{{}, 0, {}, {}}, found.problem(), found.fit()};
-            s.figures.effects = {index_of_effect(catalogue_, found.begun())};
-            s.figures.inflation = s.fit.inflation;
-            s.figures.squares = s.fit.squares;
-            s.figures.unknowns = s.problem.prior.size() + found.onsets().size();
+            s.figures.effects = {index_of_effect(catalogue_, found.acting())};
+            take_figures(s);
+            s.figures.unknowns += found.times();
             if (find(s.figures.effects) == nullptr) tried_.push_back(std::move(s));
         }
     }

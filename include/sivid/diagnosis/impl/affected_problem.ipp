@@ -7,15 +7,22 @@
 namespace sivid {
 
 namespace diagnosis_detail {
-/// A formula where it stays as it is, so that the model folds; a held input with a knot where the
-/// effect begins.
+/// A formula where it stays as it is, so that the model folds; a held input with knots where the
+/// effect begins and ends.
 inline signal switch_of(effect const& e, experiment const& x) {
     auto const& in = e.only_in;
     auto const k = static_cast<std::size_t>(std::find(in.begin(), in.end(), x.name) - in.begin());
-    if (k < e.since.size() && e.since[k] > x.begin) {
-        return sampled_signal({x.begin, e.since[k]}, {0, 1}, interpolation::hold);
+    double on = k < in.size() ? 1 : 0;
+    double const since = k < e.since.size() ? e.since[k] : effect::from_start;
+    double const until = k < e.until.size() ? e.until[k] : effect::for_ever;
+    bool const begins = since > x.begin, ends = until > x.begin && until < effect::for_ever;
+    if (begins || ends) {
+        std::vector<double> times{x.begin}, values{begins ? 0.0 : 1.0};
+        if (begins) times.push_back(since), values.push_back(1);
+        if (ends) times.push_back(until), values.push_back(0);
+        return sampled_signal(std::move(times), std::move(values), interpolation::hold);
     }
-    double const on = k < in.size() ? 1 : 0;
+    if (until <= x.begin) on = 0;
     return analytic_signal::from([on](auto const&) { return on; });
 }
 } // namespace diagnosis_detail

@@ -154,7 +154,7 @@ private:
             (void)answer_by_proof(d);
         }
         bool const alone = going && unanswered(d.answer);
-        for (auto const further : {&diagnostician::try_confined, &diagnostician::try_onsets,
+        for (auto const further : {&diagnostician::try_confined, &diagnostician::try_episodes,
                                    &diagnostician::try_threes}) {
             if (!going || !unanswered(d.answer) || !(this->*further)(tried)) continue;
             order = try_candidates(tried, 0.2 * options_.verdict_share);
@@ -197,15 +197,16 @@ private:
         }
         return tried.candidates().size() > before;
     }
-    /// Effects that begin in the midst of experiments.
+    /// Effects that begin or end in the midst of experiments. Where one instrument may be the cause,
+    /// an effect that comes and goes would be a guess.
     /// @returns  whether some explain the data
-    [[nodiscard]] bool try_onsets(screening& tried) {
+    [[nodiscard]] bool try_episodes(screening& tried) {
         std::vector<std::string> names;
         for (auto const& e : run_.base.experiments) names.push_back(e.name);
         if (!run_.result.tried.complete() || !can_stand_in_a_name(names)) return false;
         auto const before = tried.candidates().size();
         kept_ = (0.1 * options_.onsets.share + 0.2 * options_.verdict_share) * options_.seconds;
-        tried.try_onsets();
+        tried.try_episodes(!one_sensor_explains(run_.places));
         return tried.candidates().size() > before;
     }
     /// Three effects, where neither bounds that are too small nor one instrument may be the cause.
@@ -222,7 +223,7 @@ private:
         constexpr std::size_t most = 8;
         return scenarios.size() <= most &&
                std::all_of(scenarios.begin(), scenarios.end(), [](std::string const& s) {
-                   return s.find_first_of("@+,>") == std::string::npos;
+                   return s.find_first_of("@+,<>") == std::string::npos;
                });
     }
     [[nodiscard]] std::vector<std::size_t> closest_singles(std::size_t most) const {

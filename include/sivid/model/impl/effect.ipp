@@ -22,11 +22,12 @@ inline std::string time_text(double t) {
     return {text.data(), end.ptr};
 }
 
-/// Cuts the onset off "S4>=1.5"; the start where there is none.
-inline double onset_in(std::string& experiment) {
-    auto const at = experiment.find(">=");
-    if (at == std::string::npos) return effect::from_start;
-    auto const text = experiment.substr(at + 2);
+/// Cuts the time off that stands behind a sign at the end of "S4>=1.5" or "S4<4"; `otherwise` where
+/// there is none.
+inline double time_behind(std::string_view sign, std::string& experiment, double otherwise) {
+    auto const at = experiment.find(sign);
+    if (at == std::string::npos) return otherwise;
+    auto const text = experiment.substr(at + sign.size());
     auto const t = parse_nearest(text);
     if (!t) throw std::invalid_argument("effect: '" + text + "' is no time in seconds");
     experiment.resize(at);
@@ -69,19 +70,28 @@ SIVID_DECL effect widened(effect e) {
 }
 
 SIVID_DECL effect only_within(effect e, std::vector<std::string> experiments,
-                              std::vector<double> since) {
+                              std::vector<double> since, std::vector<double> until) {
     std::string names, words;
     for (std::size_t k = 0; k < experiments.size(); ++k) {
-        bool const later = k < since.size() && since[k] > effect::from_start;
-        auto const at = later ? detail::time_text(since[k]) : std::string{};
-        names += (names.empty() ? "@" : "+") + experiments[k] + (later ? ">=" + at : "");
-        words += (words.empty() ? ", in " : ", ") + experiments[k] +
-                 (later ? " from " + at + " s on" : "");
+        names += (names.empty() ? "@" : "+") + experiments[k];
+        words += (words.empty() ? ", in " : ", ") + experiments[k];
+        bool const ends = k < until.size() && until[k] < effect::for_ever;
+        if (k < since.size() && since[k] > effect::from_start) {
+            auto const at = detail::time_text(since[k]);
+            names += ">=" + at;
+            words += " from " + at + (ends ? " s" : " s on");
+        }
+        if (ends) {
+            auto const at = detail::time_text(until[k]);
+            names += "<" + at;
+            words += " until " + at + " s";
+        }
     }
     e.name += names;
     if (!e.about.empty()) e.about += words + " only";
     e.only_in = std::move(experiments);
     e.since = std::move(since);
+    e.until = std::move(until);
     return e;
 }
 
@@ -92,15 +102,21 @@ SIVID_DECL std::vector<effect> effects_named(std::vector<effect> const& catalogu
         bool known = std::any_of(catalogue.begin(), catalogue.end(),
                                  [&](effect const& e) { return e.name == name; });
         auto within = known ? std::vector<std::string>{} : detail::experiments_in(name);
-        std::vector<double> since;
-        for (auto& x : within) since.push_back(detail::onset_in(x));
+        std::vector<double> since, until;
+        for (auto& x : within) {
+            until.push_back(detail::time_behind("<", x, effect::for_ever));
+            since.push_back(detail::time_behind(">=", x, effect::from_start));
+            if (!(since.back() < until.back()))
+                throw std::invalid_argument("effect '" + name + "' ends in " + x +
+                                            " before it begins");
+        }
         known = std::any_of(catalogue.begin(), catalogue.end(),
                             [&](effect const& e) { return e.name == name; });
         bool const wider = !known && name.ends_with(detail::wider);
         if (wider) name.resize(name.size() - detail::wider.size());
         auto const& found = catalogue[index_of(catalogue, name, "effect")];
         result.push_back(wider ? widened(found) : found);
-        if (!within.empty()) result.back() = only_within(result.back(), within, since);
+        if (!within.empty()) result.back() = only_within(result.back(), within, since, until);
     }
     return result;
 }

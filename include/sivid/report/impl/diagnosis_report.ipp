@@ -69,12 +69,15 @@ inline candidate_view drawn(cause const& c, std::map<std::string, interval> cons
             }
         }
     }
-    for (named_estimate const& o : c.onsets) { // the witness begins there
-        auto e = o;
-        e.name = "onset in " + o.name;
-        out.parameters.push_back(drawn(e, priors));
-        out.parameters.back().verified = c.verdict == cause_verdict::explains;
-    }
+    auto const times = [&](char const* what, std::vector<named_estimate> const& of) {
+        for (named_estimate e : of) { // the witness begins, or ends, there
+            e.name = what + e.name;
+            out.parameters.push_back(drawn(e, priors));
+            out.parameters.back().verified = c.verdict == cause_verdict::explains;
+        }
+    };
+    times("onset in ", c.onsets);
+    times("end in ", c.ends);
     if (c.witness) {
         witness_view w{.parameters = drawn(c.witness->parameters)};
         for (auto const& s : c.witness->starts) w.initial.push_back({s.scenario, drawn(s.states)});

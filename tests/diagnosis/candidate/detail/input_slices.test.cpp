@@ -125,28 +125,52 @@ TEST_CASE("slices of inputs are no wider than they must be") {
     CHECK(shifted.approximate(1.25) == 1);
 }
 
-TEST_CASE("a switch lies within its slice for every onset in it") {
+TEST_CASE("a switch lies within its slice whenever in it it goes on and off") {
     support::draws d(11);
-    for (int n = 0; n < 2000; ++n) {
+    double open_most = 0;
+    for (int n = 0; n < 4000; ++n) {
         double const begin = d.uniform(-1.0, 1.0), end = begin + d.uniform(0.0, 3.0);
         auto const time = [&] {
             auto const which = d.below(6);
             return which == 0 ? begin : which == 1 ? end : d.uniform(begin - 0.5, end + 0.5);
         };
-        double a = time(), b = d.below(4) == 0 ? a : time();
-        if (b < a) std::swap(a, b);
-        auto const wide = switched_within(begin, end, interval(a, b));
-        double const onset = d.below(3) == 0 ? a : d.below(2) == 0 ? b : d.uniform(a, b);
-        INFO("onset " << onset << " in " << a << " to " << b << ", seen " << begin << " to "
-                      << end);
-        for (double const t : {begin, end, a, b, onset, d.uniform(begin, end)}) {
-            if (t < begin || t > end) continue;
-            require_within(wide, t, t >= onset ? 1 : 0);
-            if (b >= end) require_within(wide, t, 0); // never
+        auto const slice = [&] {
+            double a = time(), b = d.below(4) == 0 ? a : time();
+            return a < b ? interval(a, b) : interval(b, a);
+        };
+        auto const within = [&](interval const& x) {
+            return d.below(3) == 0   ? x.lower()
+                   : d.below(2) == 0 ? x.upper()
+                                     : d.uniform(x.lower(), x.upper());
+        };
+        switch_times times{slice()};
+        bool const ends = d.below(2) == 0;
+        if (ends) times.off = slice();
+        auto const wide = switched_within(begin, end, times);
+        double const on = within(times.on), off = ends ? within(times.off) : HUGE_VAL;
+        INFO("on " << on << " in " << times.on.lower() << " to " << times.on.upper() << ", off "
+                   << off << " in " << times.off.lower() << " to " << times.off.upper() << ", seen "
+                   << begin << " to " << end);
+        for (double const t : {begin, end, times.on.lower(), times.on.upper(), on, off,
+                               times.off.lower(), times.off.upper(), d.uniform(begin, end)}) {
+            if (!(t >= begin && t <= end)) continue;
+            require_within(wide, t, on <= t && t < off ? 1 : 0);
+            if (times.on.upper() >= end) require_within(wide, t, 0); // never
+            if (ends && times.off.upper() >= end && on <= t) require_within(wide, t, 1);
             // No wider than it must be.
             auto const k = wide.piece(t);
             bool const open = wide.error_bound(k, t) > 0;
-            CHECK((!open || (t >= a && (t < b || b >= end))));
+            bool const may_be_on =
+                t >= times.on.lower() && (t < times.off.upper() || times.off.upper() >= end);
+            bool const may_be_off =
+                t < times.on.upper() || times.on.upper() >= end || t >= times.off.lower();
+            CHECK(open == (may_be_on && may_be_off));
         }
+        double const open = open_time(begin, end, times);
+        CHECK((open >= 0 && open <= end - begin + 1e-12));
+        open_most = std::max(open_most, open);
     }
+    CHECK(open_most > 1);
+    CHECK(open_time(0, 4, {interval(1, 2), interval(2.5, 3)}) == 1.5);
+    CHECK(open_time(0, 4, {interval(1, 3), interval(2, 4)}) == 3);
 }

@@ -5,6 +5,9 @@
 #include <sivid/compiled.hpp>
 #include <sivid/measurement/signal.hpp>
 #include <sivid/number/interval.hpp>
+#include <sivid/number/interval_traits.hpp>
+
+#include <limits>
 
 namespace sivid {
 
@@ -36,15 +39,24 @@ namespace sivid {
 [[nodiscard]] SIVID_DECL sampled_signal delayed_within(sampled_signal const& u, double begin,
                                                        double end, interval const& delays);
 
-/// A switch that goes from 0 to 1 at a time within `onset` and stays there, as a held input with
-/// error bounds: 0 before, anything from 0 to 1 within, 1 after.
-/// @given  begin <= end; onset is not empty
-/// @guarantee  for every onset in the interval the switch (1 from the onset on) lies within the
-///             result from `begin` to `end`; where the interval reaches to `end`, so does one that
-///             stays 0
-/// @cost  three samples at most
+/// When a switch goes on and off again, each at a time within an interval. Times at or after the
+/// end of an experiment may stand for never.
+struct switch_times {
+    interval on;
+    interval off = interval_traits<interval>::point(std::numeric_limits<double>::max());
+};
+
+/// A switch that is 1 from a time within `times.on` to one within `times.off` and else 0, as a held
+/// input with error bounds: 0 or 1 where all such switches agree, else anything between.
+/// @given  begin <= end; neither interval is empty
+/// @guarantee  every such switch lies within the result from `begin` to `end`; where `times.on`
+///             reaches to `end`, so does one that stays 0
+/// @cost  five samples at most
 [[nodiscard]] SIVID_DECL sampled_signal switched_within(double begin, double end,
-                                                        interval const& onset);
+                                                        switch_times const& times);
+
+/// How long switches of these times may differ, from `begin` to `end`.
+[[nodiscard]] SIVID_DECL double open_time(double begin, double end, switch_times const& times);
 
 } // namespace sivid
 

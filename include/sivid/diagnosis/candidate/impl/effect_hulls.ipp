@@ -27,6 +27,10 @@ namespace diagnosis_detail {
 
 class hulls_by_slices {
 public:
+    struct episode {
+        double on = effect::from_start, off = effect::for_ever;
+    };
+
     hulls_by_slices(identification_problem const& base, std::vector<effect> const& effects,
                     effect_hull_options const& options)
         : base_(&base),
@@ -46,15 +50,16 @@ public:
         return over_lags(whole);
     }
 
-    /// Of the only effect, whenever it begins.
-    /// @param likely  when, for each experiment: onsets next to it are not tried
-    [[nodiscard]] onset_hulls over_onsets(std::vector<double> const& likely) {
+    /// Of the only effect, whenever it acts.
+    /// @param first  what may be, for each experiment
+    /// @param likely  when it is likely: times next to these are not tried
+    [[nodiscard]] episode_hulls over_episodes(std::vector<switch_times> first,
+                                              std::vector<episode> const& likely) {
         auto const whole = affected(*base_, *effects_);
-        onset_hulls known{whole.prior, {}};
-        for (auto const& x : whole.experiments) known.onsets.push_back(measured_time(x));
+        episode_hulls known{whole.prior, std::move(first)};
         // What is excluded at all mostly is so by few boxes.
         for (double const most : {1.0 / 200, 1.0 / 50, 1.0 / 12}) {
-            if (!cut_onsets(whole, known, likely, most)) break;
+            if (!cut_times(whole, known, likely, most)) break;
         }
         return known;
     }
@@ -163,50 +168,62 @@ private:
         }
         return hulls.size() == 0 ? nothing_of(whole.prior) : hulls;
     }
-    /// The problem with each switch open over what is known of its onset, for the experiments of
+    /// The problem with each switch open over what is known of its times, for the experiments of
     /// which that is much and one more.
     [[nodiscard]] static identification_problem
-    switched(identification_problem const& whole, onset_hulls const& known,
+    switched(identification_problem const& whole, episode_hulls const& known,
              std::size_t one = static_cast<std::size_t>(-1)) {
         auto result = whole;
         result.prior = known.parameters;
         result.experiments.clear();
-        for (std::size_t s = 0; s < known.onsets.size(); ++s) {
+        for (std::size_t s = 0; s < known.times.size(); ++s) {
             auto x = whole.experiments[s];
             auto const all = measured_time(x);
-            if (s != one && !(width(known.onsets[s]) < 0.5 * width(all))) continue;
-            x.inputs.back() = switched_within(x.begin, all.upper(), known.onsets[s]);
+            double const open = open_time(x.begin, all.upper(), known.times[s]);
+            if (s != one && !(open < 0.5 * width(all))) continue;
+            x.inputs.back() = switched_within(x.begin, all.upper(), known.times[s]);
             result.experiments.push_back(std::move(x));
         }
         start_added_states(result);
         return result;
     }
-    /// Cuts onsets off at both ends, as long as some are excluded.
+    /// One end of what is known of one time.
+    struct side {
+        std::size_t experiment;
+        interval switch_times::*range;
+        bool late;
+        double likely;
+        double share; ///< of what is far from the likely time
+    };
+    static constexpr double least_share = 1.0 / 32;
+
+    /// Cuts times off at both ends, as long as some are excluded.
     /// @param most  share of the boxes for each attempt
     /// @returns  false where nothing explains the data
-    bool cut_onsets(identification_problem const& whole, onset_hulls& known,
-                    std::vector<double> const& likely, double most) {
-        struct side {
-            std::size_t experiment;
-            bool late;
-            double share; ///< of what is far from the likely onset
-        };
-        constexpr double least = 1.0 / 32;
-        std::vector<side> sides; // late ones come easily: no effect before them
-        for (bool const late : {true, false}) {
-            for (std::size_t s = 0; s < known.onsets.size(); ++s)
-                sides.push_back({s, late, late ? 1 : 4 * least});
+    bool cut_times(identification_problem const& whole, episode_hulls& known,
+                   std::vector<episode> const& likely, double most) {
+        std::vector<side> sides; // those come easily behind which nothing acts
+        for (bool const easy : {true, false}) {
+            double const share = easy ? 1 : 4 * least_share;
+            for (std::size_t s = 0; s < known.times.size(); ++s) {
+                sides.push_back({s, &switch_times::on, easy, likely[s].on, share});
+                sides.push_back({s, &switch_times::off, !easy, likely[s].off, share});
+            }
         }
+        std::erase_if(sides, [&](side const& x) {
+            auto const& range = known.times[x.experiment].*x.range;
+            return !(range.lower() < range.upper());
+        });
         for (bool open = true; open && limit_();) {
             bool moved = false;
             open = false;
-            for (auto& [s, late, share] : sides) {
-                while (cut_onsets(whole, known, s, likely[s], late, share, most)) {
+            for (auto& x : sides) {
+                while (cut_times(whole, known, x, most)) {
                     moved = true;
-                    share = std::min(1.0, 2 * share);
+                    x.share = std::min(1.0, 2 * x.share);
                 }
-                open |= share > least;
-                share = std::max(least, share / 2);
+                open |= x.share > least_share;
+                x.share = std::max(least_share, x.share / 2);
             }
             open |= moved;
             auto const all = switched(whole, known);
@@ -217,21 +234,21 @@ private:
         }
         return true;
     }
-    /// Cuts onsets of one experiment off at an end, this share of those far from the likely one.
+    /// Cuts this share of the times off that are far from the likely one.
     /// @returns  whether they were excluded
-    [[nodiscard]] bool cut_onsets(identification_problem const& whole, onset_hulls& known,
-                                  std::size_t s, double likely, bool late, double share,
-                                  double most_boxes) {
+    [[nodiscard]] bool cut_times(identification_problem const& whole, episode_hulls& known,
+                                 side const& x, double most_boxes) {
+        auto const s = x.experiment;
         auto const all = measured_time(whole.experiments[s]);
-        auto const now = known.onsets[s];
-        double const end = late ? now.upper() : now.lower();
-        double const most = 0.875 * (std::clamp(likely, now.lower(), now.upper()) - end);
-        double const cut = end + share * most;
+        auto const now = known.times[s].*x.range;
+        double const end = x.late ? now.upper() : now.lower();
+        double const most = 0.875 * (std::clamp(x.likely, now.lower(), now.upper()) - end);
+        double const cut = end + x.share * most;
         if (!(std::abs(cut - end) > options_->accuracy * width(all)) || !limit_()) return false;
         auto slice = known;
-        slice.onsets[s] = late ? interval(cut, end) : interval(end, cut);
+        slice.times[s].*x.range = x.late ? interval(cut, end) : interval(end, cut);
         if (hull_of(switched(whole, slice, s), most_boxes, of_time)) return false;
-        known.onsets[s] = late ? interval(now.lower(), cut) : interval(cut, now.upper());
+        known.times[s].*x.range = x.late ? interval(now.lower(), cut) : interval(cut, now.upper());
         return true;
     }
 
@@ -297,24 +314,33 @@ SIVID_DECL box effect_hulls(identification_problem const& base, std::vector<effe
     return diagnosis_detail::hulls_by_slices(base, effects, options)();
 }
 
-SIVID_DECL onset_hulls hulls_with_onsets(identification_problem const& base, effect e,
-                                         effect_hull_options const& options) {
-    std::vector<double> likely;
+SIVID_DECL episode_hulls hulls_of_episodes(identification_problem const& base, effect e,
+                                           effect_hull_options const& options) {
+    using slices = diagnosis_detail::hulls_by_slices;
+    std::vector<slices::episode> likely;
+    std::vector<switch_times> first;
     std::vector<std::string> names;
+    bool const begins = e.begins_later() || !e.ends(), ends = e.ends();
     for (auto const& x : base.experiments) {
         auto const& in = e.only_in;
         auto const k =
             static_cast<std::size_t>(std::find(in.begin(), in.end(), x.name) - in.begin());
-        bool const never = !in.empty() && k == in.size();
-        likely.push_back(never                ? detail::infinity
-                         : k < e.since.size() ? e.since[k]
-                                              : effect::from_start);
+        auto& l = likely.emplace_back();
+        if (!in.empty() && k == in.size()) // not there: it never begins, or ends at once
+            (begins ? l.on : l.off) = begins ? effect::for_ever : effect::from_start;
+        if (k < e.since.size()) l.on = e.since[k];
+        if (k < e.until.size()) l.off = e.until[k];
+        auto const all = measured_time(x);
+        auto& may = first.emplace_back(switch_times{interval(x.begin)});
+        if (begins) may.on = all;
+        if (ends) may.off = all;
         names.push_back(x.name);
     }
     e.only_in = std::move(names); // the switch is set for each slice
     e.since.clear();
+    e.until.clear();
     std::vector<effect> const effects{std::move(e)};
-    return diagnosis_detail::hulls_by_slices(base, effects, options).over_onsets(likely);
+    return slices(base, effects, options).over_episodes(std::move(first), likely);
 }
 
 } // namespace sivid

@@ -154,18 +154,49 @@ SIVID_DECL sampled_signal delayed_within(sampled_signal const& u, double begin, 
     return std::move(result).take();
 }
 
-SIVID_DECL sampled_signal switched_within(double begin, double end, interval const& onset) {
-    std::vector<double> times, values, errors;
-    auto const from = [&](double t, double value, double error) {
-        times.push_back(t);
+namespace diagnosis_detail {
+/// From one time to the next at which what is known of a switch changes: it may be off, on, or
+/// either. The last one is the end itself.
+struct switch_piece {
+    double from, to;
+    bool may_be_off, may_be_on;
+};
+inline std::vector<switch_piece> switch_pieces(double begin, double end, switch_times const& t) {
+    std::vector<double> knots{begin, end};
+    for (double const at : {t.on.lower(), t.on.upper(), t.off.lower(), t.off.upper()})
+        if (begin < at && at < end) knots.push_back(at);
+    std::sort(knots.begin(), knots.end());
+    knots.erase(std::unique(knots.begin(), knots.end()), knots.end());
+    knots.push_back(end);
+    std::vector<switch_piece> pieces;
+    for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
+        double const from = knots[k], to = knots[k + 1];
+        bool const off = t.on.upper() >= to || t.off.lower() <= from;
+        bool const on = t.on.lower() <= from && t.off.upper() >= to;
+        pieces.push_back({from, to, off || !on, on});
+    }
+    return pieces;
+}
+} // namespace diagnosis_detail
+
+SIVID_DECL sampled_signal switched_within(double begin, double end, switch_times const& times) {
+    std::vector<double> at, values, errors;
+    for (auto const& p : diagnosis_detail::switch_pieces(begin, end, times)) {
+        bool const open = p.may_be_off && p.may_be_on;
+        double const value = open ? 0.5 : p.may_be_on ? 1 : 0, error = open ? 0.5 : 0;
+        if (!values.empty() && values.back() == value) continue;
+        at.push_back(p.from);
         values.push_back(value);
         errors.push_back(error);
-    };
-    double const first = std::max(begin, onset.lower()), last = onset.upper();
-    if (first > begin) from(begin, 0, 0);
-    if (first < last || last >= end) from(first, 0.5, 0.5);
-    if (last < end) from(std::max(begin, last), 1, 0);
-    return {std::move(times), std::move(values), interpolation::hold, std::move(errors)};
+    }
+    return {std::move(at), std::move(values), interpolation::hold, std::move(errors)};
+}
+
+SIVID_DECL double open_time(double begin, double end, switch_times const& times) {
+    double sum = 0;
+    for (auto const& p : diagnosis_detail::switch_pieces(begin, end, times))
+        if (p.may_be_off && p.may_be_on) sum += p.to - p.from;
+    return sum;
 }
 
 } // namespace sivid

@@ -89,13 +89,14 @@ private:
         effect_hull_options options;
         std::vector<effect> effects;
         for (auto const e : s.figures.effects) effects.push_back(run_->catalogue[e]);
-        bool const later = effects.size() == 1 && effects.front().has_onset();
+        bool const later =
+            effects.size() == 1 && (effects.front().begins_later() || effects.front().ends());
         auto const& most = later ? options_->onsets : options_->hulls;
         options.test = effort_->test();
         options.seconds = effort_->seconds_of(most);
         options.boxes = most.boxes;
         options.keep_going = [this] { return effort_->go_on(); };
-        auto const hulls = later ? bound_onsets(effects.front(), c, options)
+        auto const hulls = later ? bound_times(effects.front(), c, options)
                                  : effect_hulls(run_->base, effects, options);
         auto const own = run_->base.prior.size();
         for (std::size_t k = 0; k < c.parameters.size(); ++k) {
@@ -104,15 +105,19 @@ private:
         run_->answer_hull = hulls;
     }
 
-    /// When the effect begins; and hulls that hold whenever that is.
-    [[nodiscard]] box bound_onsets(effect const& e, cause& c, effect_hull_options const& options) {
-        auto const found = hulls_with_onsets(run_->base, e, options);
+    /// When the effect begins and ends; and hulls that hold whenever that is.
+    [[nodiscard]] box bound_times(effect const& e, cause& c, effect_hull_options const& options) {
+        auto const found = hulls_of_episodes(run_->base, e, options);
         for (std::size_t k = 0; k < e.only_in.size(); ++k) {
-            if (!(e.since[k] > effect::from_start)) continue;
             auto const& all = run_->base.experiments;
             auto const s = index_of(all, e.only_in[k], "experiment");
-            c.onsets.push_back(
-                {all[s].name, "s", e.since[k], found.onsets[s], measured_time(all[s])});
+            auto const add = [&](auto& to, double at, interval const& range) {
+                to.push_back({all[s].name, "s", at, range, measured_time(all[s])});
+            };
+            if (k < e.since.size() && e.since[k] > effect::from_start)
+                add(c.onsets, e.since[k], found.times[s].on);
+            if (k < e.until.size() && e.until[k] < effect::for_ever)
+                add(c.ends, e.until[k], found.times[s].off);
         }
         return found.parameters;
     }
