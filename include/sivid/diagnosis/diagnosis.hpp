@@ -171,7 +171,8 @@ struct confined_gap {
 struct holdout_figures {
     inflation_range inflation_before = unknown_inflation();
     inflation_range inflation_after = unknown_inflation();
-    /// The same over all parameters that do as well on the fit data.
+    /// The same over all parameters that explain the fit data; where none is known to, over all
+    /// that do as well on these as the witness.
     std::optional<inflation_range> over_fits_before, over_fits_after;
     std::vector<std::string> channels;
     std::vector<double> rmse_before, rmse_after;  ///< one per channel

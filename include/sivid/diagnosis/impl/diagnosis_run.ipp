@@ -25,7 +25,7 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
         run.candidates[run.answer].problem.model.about.inputs.size() == inputs.size();
     bool const one_by_one = test.workers.threads <= 1;
     auto const judge = [&](screened const& candidate, verified_inflation const& bound,
-                           double share) {
+                           box const& explaining, double share) {
         auto const judged = data.judged_by(candidate, run.base, run.catalogue);
         inflation_options search;
         search.seconds = seconds / 2;
@@ -35,14 +35,15 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
             return std::chrono::duration<double>(now - begin).count() < end &&
                    !test.run.enclosure.cancelled();
         });
-        return judge_by_holdout(candidate, bound, judged, search);
+        return judge_by_holdout(candidate, bound, explaining, judged, search);
     };
     test.workers(answered ? 2 : 1, [&](std::size_t k) {
         if (k == 0) {
             double const share = answered && one_by_one ? 0.5 : 1;
-            run.holdout_before = judge(run.candidates.front(), run.base_bound, share);
+            run.holdout_before = judge(run.candidates.front(), run.base_bound, {}, share);
         } else {
-            run.holdout_after = judge(run.candidates[run.answer], run.answer_bound, 1);
+            run.holdout_after =
+                judge(run.candidates[run.answer], run.answer_bound, run.answer_hull, 1);
         }
     });
     if (!answered) return;

@@ -9,8 +9,6 @@
 #include <sivid/diagnosis/holdout.hpp>
 #include <sivid/diagnosis/verification.hpp>
 #include <sivid/paving/inflation/detail/holdout_inflation.hpp>
-#include <sivid/paving/judge/box_explorer.hpp>
-#include <sivid/paving/judge/data_test.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,24 +22,22 @@ namespace sivid {
 
 namespace diagnosis_detail {
 
-/// Share of samples whose bound meets the outputs of the box of parameters, and the mean width of
-/// these outputs over that of the bounds.
-inline void add_tube(identification_problem const& judged, box const& parameters,
-                     data_test_options const& test, holdout_judgement& result) {
-    auto const everything = box_explorer::without_limit(judged);
-    data_test runs(everything, test);
-    std::size_t samples = 0;
-    std::size_t met = 0;
+/// Share of samples whose bound meets the predicted outputs, and the mean width of these over that
+/// of the bounds; neither where some are not predicted.
+inline void measure_tube(identification_problem const& judged,
+                         std::vector<std::vector<interval>> const& outputs,
+                         holdout_judgement& result) {
+    if (outputs.size() != judged.experiments.size()) return;
+    std::size_t samples = 0, met = 0;
     double width_sum = 0;
-    for (std::size_t s = 0; s < judged.experiments.size(); ++s) {
-        auto const answer = runs.run(s, judged.experiments[s].initial, parameters);
-        if (answer->outputs() < answer->measurements) return;
-        auto const values = output_ranges(*answer, parameters);
-        for (std::size_t y = 0; y < values.size(); ++y) {
-            if (!is_bounded(values[y])) return;
+    for (std::size_t s = 0; s < outputs.size(); ++s) {
+        auto const data = sorted(judged.experiments[s].measurements);
+        if (outputs[s].size() != data.size()) return;
+        for (std::size_t y = 0; y < data.size(); ++y) {
+            if (!is_bounded(outputs[s][y])) return;
             ++samples;
-            met += disjoint(values[y], answer->bounds[y]) ? 0 : 1;
-            width_sum += width(values[y]) / width(answer->bounds[y]);
+            met += disjoint(outputs[s][y], data[y].bound) ? 0 : 1;
+            width_sum += width(outputs[s][y]) / width(data[y].bound);
         }
     }
     if (samples == 0) return;
@@ -54,13 +50,13 @@ inline void add_tube(identification_problem const& judged, box const& parameters
 /// Judges a fitted candidate by hold-out experiments. Their own starts, nuisances, are fitted;
 /// nothing else is.
 /// @param bound   what was proved about the candidate's fit
+/// @param explaining  contains every parameter that explains the fit data; empty: not known
 /// @param judged  `holdout::judged_by` of the candidate
 /// @param search  what the bounds may spend
 /// @guarantee  `at_witness` and `over_fits` enclose what they say
-[[nodiscard]] inline holdout_judgement judge_by_holdout(screened const& fitted,
-                                                        verified_inflation const& bound,
-                                                        identification_problem const& judged,
-                                                        inflation_options const& search) {
+[[nodiscard]] inline holdout_judgement
+judge_by_holdout(screened const& fitted, verified_inflation const& bound, box const& explaining,
+                 identification_problem const& judged, inflation_options const& search) {
     holdout_judgement result;
     auto const& p = bound.witness ? bound.witness->parameters : fitted.fit.parameters;
     if (p.size() != judged.prior.size()) return result;
@@ -79,7 +75,11 @@ inline void add_tube(identification_problem const& judged, box const& parameters
     }
     bool const delayed = judged.model.has_memory();
     if (!delayed && bound.witness) {
-        inflation_bound fit{bound.range, bound.witness, bound.hull, 0, 0, 0};
+        // All parameters that explain the data; where none does, those as good as the witness.
+        bool const explains = bound.range.upper() <= 1;
+        inflation_bound fit{
+            bound.range, bound.witness, explains ? explaining : bound.hull, 0, 0, 0};
+        if (explains) fit.value = interval_traits<interval>::bounds(bound.range.lower(), 1);
         auto proved = holdout_inflation(fitted.problem, fit, judged, search);
         if (starts_follow_parameters(judged)) {
             // The search lets added states start anywhere in their ranges: only what it says from
@@ -89,6 +89,8 @@ inline void add_tube(identification_problem const& judged, box const& parameters
             }
         }
         result.over_fits = proved.over_fits;
+        if (!starts_follow_parameters(judged))
+            diagnosis_detail::measure_tube(judged, proved.outputs, result);
         auto const both = intersect(result.at_witness, proved.at_witness);
         if (!is_empty(both)) result.at_witness = both;
     }
@@ -106,9 +108,6 @@ inline void add_tube(identification_problem const& judged, box const& parameters
     }
     for (std::size_t y = 0; y < channels.size(); ++y) {
         result.rmse.push_back(std::sqrt(squares[y] / count[y]));
-    }
-    if (!delayed && bound.hull.size() == p.size()) {
-        diagnosis_detail::add_tube(judged, bound.hull, search.test, result);
     }
     return result;
 }

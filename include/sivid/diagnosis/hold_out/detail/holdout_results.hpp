@@ -14,7 +14,8 @@ namespace sivid {
 /// How a fitted candidate does on hold-out data.
 struct holdout_judgement {
     inflation_range at_witness = unknown_inflation(); ///< of the fit's witness
-    /// Over all parameters whose fit inflation is at most the proved upper bound.
+    /// Over all parameters that explain the fit data; where none is known to, over those whose fit
+    /// inflation is at most the proved upper bound.
     std::optional<inflation_range> over_fits;
     std::vector<double> rmse; ///< per channel; NaN: not measured
     double covered = std::numeric_limits<double>::quiet_NaN();

@@ -8,6 +8,7 @@
 #include <sivid/paving/inflation.hpp>
 
 #include <cstddef>
+#include <vector>
 
 namespace sivid {
 
@@ -18,6 +19,9 @@ struct holdout_bound {
     interval over_fits{0.0, detail::infinity};
     /// Contains it at the witness of the fit; everything when there is none.
     interval at_witness{0.0, detail::infinity};
+    /// Contains what each held-out experiment's measured outputs are at these parameters, from some
+    /// start: by experiment, in the order of time; fewer where their enclosures end early.
+    std::vector<std::vector<interval>> outputs;
     std::size_t boxes = 0;
     std::size_t integrations = 0;
     double seconds = 0;

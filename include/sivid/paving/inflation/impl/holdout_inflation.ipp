@@ -6,9 +6,13 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/number/guard.hpp>
+#include <sivid/paving/contract/detail/cut_contraction.hpp>
+#include <sivid/paving/contract/detail/predicted_outputs.hpp>
 #include <sivid/paving/inflation.hpp>
 #include <sivid/paving/inflation/detail/inflation_relaxation.hpp>
+#include <sivid/paving/invert.hpp>
 #include <sivid/paving/judge/box_explorer.hpp>
+#include <sivid/paving/judge/data_test.hpp>
 #include <sivid/paving/judge/detail/response_search.hpp>
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/reduction.hpp>
@@ -19,52 +23,36 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 namespace sivid {
 
-/// Over a box of parameters, the largest over the experiments of the (q+1)-th largest misfit, from
-/// above, when each experiment starts at the given state.
-/// @guarantee  an upper bound of \f$ \max_p \min_{x_0} \f$: these starts are some starts
-[[nodiscard]] inline double inflation_from_above(inflation_bounder::responses const& known,
-                                                 std::vector<std::size_t> const& outliers,
-                                                 box const& part,
-                                                 std::vector<std::vector<double>> const& starts) {
-    constexpr double within = 1 - 1e-12; // in the decimal box, not only in its enclosure
-    double worst = 0;
-    for (std::size_t s = 0; s < known.size(); ++s) {
-        auto const& r = *known[s];
-        auto const inner = expand(r, part);
-        auto middle = inner.middle;
-        auto reach = inner.reach;
-        for (std::size_t i = 0; i < r.unknowns.initial.size(); ++i) {
-            auto const& side = r.unknowns.initial[i];
-            if (side.radius == 0) continue;
-            double const q = (starts[s][i] - side.centre) / side.radius;
-            middle[side.variable] = std::isfinite(q) ? std::clamp(q, -within, within) : 0;
-            reach[side.variable] = 0;
-        }
-        auto const ranges = output_ranges(r, expand(r, std::move(middle), std::move(reach)));
-        std::vector<double> misfits(r.measurements, detail::infinity);
-        for (std::size_t y = 0; y < ranges.size(); ++y) {
-            misfits[y] = upper(misfit(ranges[y], r.bounds[y]));
-        }
-        worst = std::max(worst, largest_after(std::move(misfits), outliers[s]));
-    }
-    return worst;
-}
-
 namespace paving_detail {
 
-/// A box that may contain parameters that fit, with the hold-out inflation over it.
+/// A box that may contain parameters that fit, with the hold-out inflation over them.
 struct holdout_box : explored_box {
     double least = 0;
     double most = detail::infinity;
-    bool fits = true;     ///< perhaps
-    bool settled = false; ///< neither this nor whether it fits is worth a closer look
+    std::vector<std::vector<interval>> outputs;        ///< of the held-out experiments
+    bool fits = true;                                  ///< perhaps
+    bool settled_below = false, settled_above = false; ///< no closer look would say more
 };
+
+/// The measurements that are met where the inflation is at most `level`.
+[[nodiscard]] inline response_list grown(response_list const& known, double level,
+                                         std::vector<std::size_t> const& outliers) {
+    response_list result;
+    for (std::size_t s = 0; s < known.size(); ++s) {
+        auto r = std::make_shared<response>(*known[s]);
+        r->allowed = outliers[s];
+        for (auto& bound : r->bounds) bound = sivid::grown(bound, level);
+        result.push_back(std::move(r));
+    }
+    return result;
+}
 
 /// Which boxes may have the least or the largest hold-out inflation.
 class holdout_policy {
@@ -89,18 +77,26 @@ public:
         auto const [fit_known, own_known] = split(b.known);
         auto const [fit_outliers, own_outliers] = split(outliers);
         auto const found = inflation_bounder(fit_known, fit_outliers, b.set)(fit_upper);
-        b.fits = !(found.lower > fit_upper);
+        auto const met = grown(fit_known, fit_upper, fit_outliers);
+        auto const whole = b.set;
+        b.fits = !(found.lower > fit_upper) && contract(met, b.set);
         if (!b.fits) return;
+        // Much smaller, it may be integrated once more before it is split.
+        for (std::size_t j = 0; j < whole.size(); ++j)
+            if (width(b.set[j]) < 0.7 * width(whole[j])) b.fresh = false;
         auto const own = inflation_bounder(own_known, own_outliers, b.set)(0);
         b.least = std::max(b.least, own.lower);
-        b.most = std::min(
-            b.most, inflation_from_above(own_known, own_outliers, b.set,
-                                         own.starts.empty() ? middles(own_known) : own.starts));
+        double const about = predict(b, met, own_known, own_outliers, own.starts);
+        if (!b.fits) return;
         double const tolerance = share * (std::isfinite(b.most) ? b.most : std::max(b.least, 1.0));
         double const fit_tolerance = share * fit_upper;
-        double unclear = found.slack;
+        double unclear = found.slack, own_unclear = own.slack;
         for (double const blur : found.blur) unclear += blur;
-        b.settled = b.most - b.least <= tolerance && unclear <= fit_tolerance;
+        for (double const blur : own.blur) own_unclear += blur;
+        bool const fit_is_clear = unclear <= fit_tolerance;
+        b.settled_above = fit_is_clear && b.most - about <= tolerance;
+        b.settled_below =
+            fit_is_clear && (own_unclear <= tolerance || b.most - b.least <= tolerance);
         for (std::size_t s = 0; s < b.known.size(); ++s) {
             auto const& r = *b.known[s];
             bool const cut = r.outputs() < r.measurements;
@@ -108,13 +104,63 @@ public:
             bool const vague = is_fit ? !(found.blur[s] <= 0.3 * fit_tolerance) ||
                                             (cut && found.slack <= 0.5 * fit_tolerance)
                                       : !(r.blur() <= 0.3 * tolerance);
-            b.stale[s] = vague && !b.settled;
+            b.stale[s] = vague && !(b.settled_above && b.settled_below);
         }
         b.smear = spread(own_known, b.set);
         for (std::size_t j = 0; j < b.smear.size(); ++j) b.smear[j] += found.smear[j];
     }
 
 private:
+    /// @returns  false where nothing is left
+    [[nodiscard]] static bool contract(response_list const& met, box& set) {
+        for (int round = 0; round < 4; ++round) {
+            auto const before = set;
+            if (!cut_contraction{}(met, set)) return false;
+            bool moved = false;
+            for (std::size_t j = 0; j < set.size(); ++j)
+                moved |= width(set[j]) < 0.9 * width(before[j]);
+            if (!moved) break;
+        }
+        return true;
+    }
+    /// What the parameters of the box that fit say of the held-out outputs.
+    /// @returns  about the largest inflation among them
+    [[nodiscard]] static double predict(node& b, response_list const& met, response_list const& own,
+                                        std::vector<std::size_t> const& budgets,
+                                        std::vector<std::vector<double>> const& starts) {
+        auto const from = starts.empty() ? middles(own) : starts;
+        auto const predicted = output_prediction(met, own, from, b.set)();
+        if (predicted.none) {
+            b.fits = false;
+            return 0;
+        }
+        double most = 0, about = 0;
+        bool const known_starts = std::all_of(own.begin(), own.end(), [](auto const& r) {
+            auto const& x = r->unknowns.initial;
+            return std::all_of(x.begin(), x.end(),
+                               [](auto const& side) { return side.radius == 0; });
+        });
+        for (std::size_t s = 0; s < own.size(); ++s) {
+            auto const& r = *own[s];
+            auto ranges = predicted.ranges[s];
+            // What was known of the whole holds here, if it is of the same starts.
+            if (known_starts && s < b.outputs.size()) {
+                for (std::size_t y = 0; y < std::min(ranges.size(), b.outputs[s].size()); ++y)
+                    ranges[y] = intersect(ranges[y], b.outputs[s][y]);
+            }
+            std::vector<double> misfits(r.measurements, detail::infinity), likely = misfits;
+            for (std::size_t y = 0; y < ranges.size(); ++y) {
+                misfits[y] = upper(misfit(ranges[y], r.bounds[y]));
+                likely[y] = predicted.about[s][y];
+            }
+            most = std::max(most, largest_after(std::move(misfits), budgets[s]));
+            about = std::max(about, largest_after(std::move(likely), budgets[s]));
+            if (s == b.outputs.size()) b.outputs.emplace_back();
+            b.outputs[s] = std::move(ranges);
+        }
+        b.most = std::min(b.most, most);
+        return about;
+    }
     [[nodiscard]] static std::vector<std::vector<double>>
     middles(inflation_bounder::responses const& known) {
         std::vector<std::vector<double>> starts;
@@ -173,6 +219,25 @@ public:
         }
         return interval_traits<interval>::bounds(least, most);
     }
+    /// The outputs of the held-out experiments over all parameters that fit, in the order of time;
+    /// empty where they are not known.
+    [[nodiscard]] std::vector<std::vector<interval>> outputs() const {
+        std::vector<std::vector<interval>> all;
+        bool first = true;
+        for (auto const* list : {&search_.waiting(), &search_.stuck()}) {
+            for (auto const& b : *list) {
+                if (first) all = b.outputs;
+                first = false;
+                if (b.outputs.size() != all.size()) return {};
+                for (std::size_t s = 0; s < all.size(); ++s) {
+                    all[s].resize(std::min(all[s].size(), b.outputs[s].size()));
+                    for (std::size_t y = 0; y < all[s].size(); ++y)
+                        all[s][y] = hull(all[s][y], b.outputs[s][y]);
+                }
+            }
+        }
+        return all;
+    }
     [[nodiscard]] std::size_t tested() const { return search_.tested(); }
     [[nodiscard]] std::size_t integrations() const { return search_.integrations(); }
 
@@ -183,7 +248,7 @@ private:
         for (bool const above : {true, false}) {
             policy.from_above = above;
             auto const* next = search_.next();
-            if (next == nullptr || next->settled) continue;
+            if (next == nullptr || (above ? next->settled_above : next->settled_below)) continue;
             if (std::none_of(search_.stuck().begin(), search_.stuck().end(),
                              [&](holdout_box const& b) { return policy.before(b, *next); })) {
                 return true;
@@ -194,6 +259,26 @@ private:
 
     response_search<holdout_policy> search_;
 };
+
+/// What a search leaves of a box by the measurements of the fit alone, in the coordinates of the
+/// problem: products of parameters are told apart from their factors here.
+/// @guarantee  every parameter of the start whose fit inflation is at most `level` stays
+[[nodiscard]] inline box contracted_by_fit(identification_problem posed, std::size_t fitted,
+                                           double level, box const& start,
+                                           inflation_options const& options, double seconds) {
+    if (!std::isfinite(level) || start.size() == 0) return start;
+    posed.experiments.resize(fitted);
+    for (auto& e : posed.experiments) {
+        for (auto& m : e.measurements) m.bound = grown(m.bound, level);
+    }
+    data_test test(posed, options.test);
+    inversion_options search{.accuracy_of_hull = true, .hull_gain = 0.02, .keep_outside = false};
+    search.seconds = seconds;
+    search.boxes = options.work;
+    search.keep_going = [&options] { return !options.test.run.enclosure.cancelled(); };
+    auto const paving = invert(test, start, search).paving;
+    return paving.has_outer() ? intersect(paving.outer_hull(), start) : start;
+}
 
 } // namespace paving_detail
 
@@ -233,14 +318,18 @@ SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
     both.experiments.insert(both.experiments.end(), holdout.experiments.begin(),
                             holdout.experiments.end());
     auto const map = reduction::find(both, dependence_of(both));
-    auto const start =
+    auto const whole =
         fitted.hull.size() == fit.prior.size() ? intersect(fitted.hull, fit.prior) : fit.prior;
-    paving_detail::holdout_range search(map ? map->problem() : both, fit.experiments.size(),
-                                        fitted.value.upper(), map ? map->forward(start) : start,
+    auto const& posed = map ? map->problem() : both;
+    auto const start = paving_detail::contracted_by_fit(
+        posed, fit.experiments.size(), fitted.value.upper(), map ? map->forward(whole) : whole,
+        timely, 0.3 * options.seconds);
+    paving_detail::holdout_range search(posed, fit.experiments.size(), fitted.value.upper(), start,
                                         timely);
     search.narrow(options.work,
                   [&] { return in_time() && (!options.keep_going || options.keep_going()); });
     result.over_fits = search.range();
+    result.outputs = search.outputs();
     if (is_empty(result.over_fits)) result.over_fits = result.at_witness;
     result.boxes += search.tested();
     result.integrations += search.integrations();
