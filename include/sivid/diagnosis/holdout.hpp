@@ -3,8 +3,11 @@
 #define SIVID_DIAGNOSIS_HOLDOUT_HPP
 
 #include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/diagnosis/candidate/detail/effect_hulls.hpp>
 #include <sivid/diagnosis/candidate/detail/screened.hpp>
+#include <sivid/space/box.hpp>
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -23,14 +26,27 @@ public:
     [[nodiscard]] identification_problem judged_by(screened const& fitted,
                                                    identification_problem const& base,
                                                    std::vector<effect> const& catalogue) const {
+        return affected(with_own(base), effects_of(fitted, catalogue));
+    }
+    /// The same over a box of its parameters, without a delay or a play (`without_memory`).
+    [[nodiscard]] std::optional<identification_problem>
+    judged_over(screened const& fitted, identification_problem const& base,
+                std::vector<effect> const& catalogue, box const& parameters) const {
+        return without_memory(with_own(base), effects_of(fitted, catalogue), parameters);
+    }
+    [[nodiscard]] static std::vector<effect> effects_of(screened const& fitted,
+                                                        std::vector<effect> const& catalogue) {
         std::vector<effect> chosen;
         for (auto const e : fitted.figures.effects) chosen.push_back(catalogue[e]);
-        auto plain = base;
-        plain.experiments = experiments_;
-        return affected(plain, chosen);
+        return chosen;
     }
 
 private:
+    [[nodiscard]] identification_problem with_own(identification_problem base) const {
+        base.experiments = experiments_;
+        return base;
+    }
+
     std::vector<experiment> experiments_;
 };
 

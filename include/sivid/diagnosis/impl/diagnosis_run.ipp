@@ -10,6 +10,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 namespace sivid {
@@ -27,6 +28,13 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
     auto const judge = [&](screened const& candidate, verified_inflation const& bound,
                            box const& explaining, double share) {
         auto const judged = data.judged_by(candidate, run.base, run.catalogue);
+        std::optional<fitted_set> over;
+        if (judged.model.has_memory() && explaining.size() == judged.prior.size()) {
+            auto const effects = holdout::effects_of(candidate, run.catalogue);
+            auto fit = without_memory(run.base, effects, explaining);
+            auto own = data.judged_over(candidate, run.base, run.catalogue, explaining);
+            if (fit && own) over = {std::move(*fit), std::move(*own)};
+        }
         inflation_options search;
         search.seconds = seconds / 2;
         search.work = boxes / 2 * (run.base.experiments.size() + judged.experiments.size() + 1);
@@ -35,7 +43,7 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
             return std::chrono::duration<double>(now - begin).count() < end &&
                    !test.run.enclosure.cancelled();
         });
-        return judge_by_holdout(candidate, bound, explaining, judged, search);
+        return judge_by_holdout(candidate, bound, explaining, judged, over, search);
     };
     test.workers(answered ? 2 : 1, [&](std::size_t k) {
         if (k == 0) {

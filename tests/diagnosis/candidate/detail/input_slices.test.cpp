@@ -105,6 +105,51 @@ TEST_CASE("a late input lies within its slice for every delay") {
     }
 }
 
+TEST_CASE("a late input lies about its line in the delay, for every delay") {
+    support::draws d(9);
+    double most_gained = 0;
+    for (int n = 0; n < 400; ++n) {
+        auto const u = drawn(d, interpolation::linear, d.below(3) == 0);
+        auto const [begin, end] = span_of(d, u);
+        double const low = d.below(3) == 0 ? 0.0 : d.uniform(0.0, 1.0);
+        double const high = low + (d.below(4) == 0 ? 0.0 : std::exp(d.uniform(-8.0, 0.5)));
+        auto const late = late_by_parameter(u, begin, end, interval(low, high));
+        for (int i = 0; i < 60; ++i) {
+            double const tau = d.below(4) == 0   ? low
+                               : d.below(3) == 0 ? high
+                                                 : std::min(high, d.uniform(low, high));
+            double t = d.uniform(begin, end);
+            if (d.below(3) == 0) { // about a knot
+                auto const k = d.below(u.times().size());
+                t = std::clamp(u.times()[k] + tau + d.uniform(-1e-3, 1e-3), begin, end);
+            }
+            double const past = std::max(begin, t - tau);
+            auto const& w = late.middle;
+            auto const k = w.piece(t);
+            double const line =
+                w.approximate(t) + late.minus_slope.approximate(t) * (tau - late.middle_delay);
+            double const error = w.error_bound(k, t);
+            for (double const sign : {-1.0, 0.0, 1.0}) {
+                double const truth = at_edge(u, sign).approximate(past);
+                INFO("delay " << tau << " of " << low << " to " << high << ", t " << t);
+                CHECK(std::abs(truth - line) <= error + 1e-13 * (1 + std::abs(truth)));
+            }
+            if (u.exact() && high > low) {
+                auto const wide = delayed_within(u, begin, end, interval(low, high));
+                double const there = wide.error_bound(wide.piece(t), t);
+                if (there > 0) most_gained = std::max(most_gained, 1 - error / there);
+            }
+        }
+    }
+    CHECK(most_gained > 0.99);
+    // Along a line the delay alone says all; about the knot, half of the change of slope.
+    sampled_signal const bend({0.0, 1.0, 2.0}, {0.0, 1.0, 1.0}, interpolation::linear);
+    auto const late = late_by_parameter(bend, 0, 2, interval(0.1, 0.2));
+    CHECK(late.middle.error_bound(late.middle.piece(0.7), 0.7) < 1e-12);
+    CHECK(late.minus_slope.approximate(0.7) == -1);
+    CHECK(std::abs(late.middle.error_bound(late.middle.piece(1.15), 1.15) - 0.025) < 1e-9);
+}
+
 TEST_CASE("slices of inputs are no wider than they must be") {
     // A ramp of slope 2: a lag of tau stays 2 tau behind, a delay of tau, too.
     sampled_signal const ramp({0.0, 1.0, 2.0, 3.0}, {0.0, 2.0, 4.0, 6.0}, interpolation::linear);

@@ -29,7 +29,7 @@ holdout_judgement judged(small_campaign::truth const& real, std::vector<std::siz
     holdout const kept({small_campaign::experiment(2, real)});
     inflation_options search;
     search.seconds = 2;
-    return judge_by_holdout(fitted, bound, {}, kept.judged_by(fitted, base, catalogue), search);
+    return judge_by_holdout(fitted, bound, {}, kept.judged_by(fitted, base, catalogue), {}, search);
 }
 
 } // namespace

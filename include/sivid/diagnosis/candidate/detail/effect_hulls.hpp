@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace sivid {
@@ -41,6 +42,18 @@ struct effect_hull_options {
 [[nodiscard]] SIVID_DECL box effect_hulls(identification_problem const& base,
                                           std::vector<effect> const& effects,
                                           effect_hull_options const& options = {});
+
+/// A problem with effects whose parameters lie in a box, as one without a delay or a play of an
+/// input: that is an input with error bounds for its range there (`late_by_parameter`, with the
+/// distance from the range's middle as a parameter in the delay's place; `delayed_within`,
+/// `played`, without a parameter).
+/// @returns  nothing where more than one input has a memory, where a channel is late, and where the
+///           input is a formula
+/// @guarantee  whatever the effects' problem has as an output for parameters in the box, this one
+///             has for some input within its errors
+[[nodiscard]] SIVID_DECL std::optional<identification_problem>
+without_memory(identification_problem const& base, std::vector<effect> const& effects,
+               box const& parameters);
 
 /// What is known of an effect that begins or ends in the midst of experiments.
 struct episode_hulls {

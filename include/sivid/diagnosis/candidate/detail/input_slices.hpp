@@ -39,6 +39,23 @@ namespace sivid {
 [[nodiscard]] SIVID_DECL sampled_signal delayed_within(sampled_signal const& u, double begin,
                                                        double end, interval const& delays);
 
+/// A recorded input that acts late, for every delay in an interval, with the delay as a parameter:
+///   \f$ u(t - \tau) \in middle(t) + minus\_slope(t) \, (\tau - \tau_0), \f$
+/// as an input with error bounds and a held one. Straight lines leave no error but about their
+/// knots, where the slope changes by s: there half of s times what is left of the delays' half
+/// width, which is of second order in it once the knot's own time is short.
+struct late_input {
+    sampled_signal middle, minus_slope;
+    double middle_delay = 0; ///< tau_0
+};
+
+/// @param u       straight lines between samples
+/// @param delays  0 or more; before `begin` the input is what it is there
+/// @guarantee  for every delay the late input lies within what is returned from `begin` to `end`
+/// @cost  three times as many samples, each looks at those within the delays' width
+[[nodiscard]] SIVID_DECL late_input late_by_parameter(sampled_signal const& u, double begin,
+                                                      double end, interval const& delays);
+
 /// When a switch goes on and off again, each at a time within an interval. Times at or after the
 /// end of an experiment may stand for never.
 struct switch_times {

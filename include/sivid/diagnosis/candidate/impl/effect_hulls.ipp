@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -50,6 +51,18 @@ public:
         return over_lags(whole);
     }
 
+    /// See `without_memory`.
+    [[nodiscard]] std::optional<identification_problem> without_memory(box const& p) const {
+        auto const whole = affected(*base_, *effects_);
+        auto const& model = whole.model;
+        if (!model.channel_delays.empty() || model.input_memory.size() > 1) return std::nullopt;
+        if (!model.has_memory()) return with_prior(whole, p);
+        auto const& memory = model.input_memory[0];
+        auto const j = index_of_parameter(whole, whole.model.about.constants[memory.constant].name);
+        if (j == whole.prior.size() || !is_recorded(whole, memory)) return std::nullopt;
+        return posed(whole, memory, linear_delay(whole, memory), j, p);
+    }
+
     /// Of the only effect, whenever it acts.
     /// @param first  what may be, for each experiment
     /// @param likely  when it is likely: times next to these are not tried
@@ -68,6 +81,7 @@ private:
     // Shares of the boxes and of the time that is left.
     static constexpr double of_late_slice = 1.0 / 32;
     static constexpr double of_quick_slice = 1.0 / 8;
+    static constexpr double of_octave = 1.0 / 8;
     static constexpr double of_onset_hull = 1.0 / 80;
     static constexpr double of_time = 1.0 / 4;
 
@@ -110,20 +124,80 @@ private:
         return box(std::vector<interval>(whole.size(), interval_traits<interval>::empty()));
     }
 
-    /// Halves of the prior, the widest first, until they are excluded or narrow.
+    /// The effect whose only parameter is the delay of one recorded input by straight lines, and
+    /// does nothing else; none otherwise.
+    [[nodiscard]] std::optional<std::size_t> linear_delay(identification_problem const& whole,
+                                                          signal_memory const& memory) const {
+        if (memory.kind != memory_kind::delay) return std::nullopt;
+        for (auto const& x : whole.experiments) {
+            auto const& u = std::get<sampled_signal>(x.inputs[memory.index]);
+            if (u.kind() != interpolation::linear) return std::nullopt;
+        }
+        auto const& name = whole.model.about.constants[memory.constant].name;
+        for (std::size_t k = 0; k < effects_->size(); ++k) {
+            auto const& e = (*effects_)[k];
+            bool const only = e.parameters.size() == 1 && !e.on_rates && !e.on_channels;
+            if (only && e.name + "." + e.parameters[0].name == name) return k;
+        }
+        return std::nullopt;
+    }
+    /// The problem for delays within a range, with the distance from its middle as a parameter in
+    /// the place of the delay: the input's slope is a further input, by which it acts.
+    [[nodiscard]] identification_problem with_delays(signal_memory const& memory, std::size_t which,
+                                                     interval const& delays) const {
+        auto effects = *effects_;
+        auto& e = effects[which];
+        for (auto const& x : base_->experiments) e.only_in.push_back(x.name);
+        e.order = std::numeric_limits<int>::min(); // what others see is late
+        auto const input = base_->model.about.inputs[memory.index].name;
+        e.on_inputs = [input](effect_scope& h) { h.input(input) += h.parameter(); };
+        auto problem = affected(*base_, effects);
+        auto const j = index_of_parameter(problem, e.name + "." + e.parameters[0].name);
+        double middle = mid(delays);
+        for (auto& x : problem.experiments) {
+            auto const& u = std::get<sampled_signal>(x.inputs[memory.index]);
+            auto late = late_by_parameter(u, x.begin, x.end(), delays);
+            middle = late.middle_delay;
+            x.inputs.back() = std::move(late.minus_slope);
+            x.inputs[memory.index] = std::move(late.middle);
+        }
+        problem.prior[j] =
+            interval_traits<interval>::sub(delays, interval_traits<interval>::point(middle));
+        start_added_states(problem);
+        return problem;
+    }
+    /// The problem for a range of delays or plays, as an input with errors.
+    [[nodiscard]] static identification_problem within(identification_problem const& whole,
+                                                       signal_memory const& memory, std::size_t j,
+                                                       interval const& range) {
+        auto middle = mid(whole.prior);
+        middle[j] = mid(range);
+        auto problem = resolve_memory(whole, middle).problem;
+        for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
+            auto const& as_recorded = whole.experiments[s];
+            auto& e = problem.experiments[s];
+            auto const& u = std::get<sampled_signal>(as_recorded.inputs[memory.index]);
+            e.inputs[memory.index] = memory.kind == memory_kind::play
+                                         ? played(u, e.begin, e.end(), range).within
+                                         : delayed_within(u, e.begin, e.end(), range);
+        }
+        start_added_states(problem);
+        return problem;
+    }
+
+    /// Slices of the prior, the widest first, each cut to what it leaves or halved, until they are
+    /// excluded or narrow.
     [[nodiscard]] box over_sizes(identification_problem const& whole, signal_memory const& memory) {
+        using traits = interval_traits<interval>;
         auto const& name = whole.model.about.constants[memory.constant].name;
         auto const j = index_of_parameter(whole, name);
         if (j == whole.prior.size()) return whole.prior; // a known size
-        for (auto const& e : whole.experiments) {
-            if (!std::holds_alternative<sampled_signal>(e.inputs[memory.index])) return whole.prior;
-        }
+        if (!is_recorded(whole, memory)) return whole.prior;
+        auto const delay = linear_delay(whole, memory);
         struct slice {
             interval range;
-            box others; ///< contains what the slice leaves
+            box left; ///< of all parameters, contains what the slice leaves
         };
-        auto middle = mid(whole.prior);
-        box const rest = resolve_memory(whole, middle).problem.prior;
         std::vector<slice> waiting;   // the widest first: in order of coming
         constexpr int begin_with = 8; // wider ones are rarely excluded
         auto const at = [&](int k) {
@@ -133,40 +207,73 @@ private:
                    : k == begin_with ? all.upper()
                                      : all.lower() + way * (all.upper() - all.lower());
         };
-        for (int k = 0; k < begin_with; ++k) waiting.push_back({interval(at(k), at(k + 1)), rest});
+        auto const add_slice = [&](interval const& range, box left) {
+            left[j] = range;
+            waiting.push_back({range, std::move(left)});
+        };
+        for (int k = 0; k < begin_with; ++k) add_slice(interval(at(k), at(k + 1)), whole.prior);
         double const narrow = options_->accuracy * width(whole.prior[j]);
         box hulls;
         for (std::size_t next = 0; next < waiting.size(); ++next) {
             auto const now = waiting[next];
             if (!limit_()) {
-                add(hulls, joined(now.others, j, now.range));
+                add(hulls, now.left);
                 continue;
             }
-            middle[j] = mid(now.range);
-            auto problem = resolve_memory(whole, middle).problem;
-            problem.prior = now.others;
-            for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
-                auto const& as_recorded = whole.experiments[s];
-                auto& e = problem.experiments[s];
-                auto const& u = std::get<sampled_signal>(as_recorded.inputs[memory.index]);
-                e.inputs[memory.index] = memory.kind == memory_kind::play
-                                             ? played(u, e.begin, e.end(), now.range).within
-                                             : delayed_within(u, e.begin, e.end(), now.range);
+            auto const found = hull_of(posed(whole, memory, delay, j, now.left), of_late_slice);
+            if (!found) continue;
+            auto left = delay ? *found : joined(*found, j, now.range);
+            if (delay) {
+                auto const middle = traits::point(mid(now.range));
+                left[j] = intersect(traits::add(middle, left[j]), now.range);
+                if (is_empty(left[j])) continue;
+                // Closer, the input has less of an error.
+                if (width(left[j]) < 0.7 * width(now.range)) {
+                    add_slice(left[j], left);
+                    continue;
+                }
             }
-            start_added_states(problem);
-            auto const left = hull_of(problem, of_late_slice);
-            if (!left) continue;
-            double const half = mid(now.range);
-            bool const splits = now.range.lower() < half && half < now.range.upper();
-            if (!(width(now.range) > narrow) || !splits) {
-                add(hulls, joined(*left, j, now.range));
+            double const half = mid(left[j]);
+            bool const splits = left[j].lower() < half && half < left[j].upper();
+            if (!(width(left[j]) > narrow) || !splits) {
+                add(hulls, left);
                 continue;
             }
-            using traits = interval_traits<interval>;
-            waiting.push_back({traits::bounds(now.range.lower(), half), *left});
-            waiting.push_back({traits::bounds(half, now.range.upper()), *left});
+            add_slice(traits::bounds(left[j].lower(), half), left);
+            add_slice(traits::bounds(half, left[j].upper()), left);
         }
         return hulls.size() == 0 ? nothing_of(whole.prior) : hulls;
+    }
+    [[nodiscard]] static bool is_recorded(identification_problem const& problem,
+                                          signal_memory const& memory) {
+        return std::all_of(
+            problem.experiments.begin(), problem.experiments.end(), [&](experiment const& e) {
+                return std::holds_alternative<sampled_signal>(e.inputs[memory.index]);
+            });
+    }
+    [[nodiscard]] static identification_problem with_prior(identification_problem problem,
+                                                           box prior) {
+        problem.prior = std::move(prior);
+        return problem;
+    }
+    /// The problem over a box of all parameters, of which side j is the memory's size.
+    [[nodiscard]] identification_problem posed(identification_problem const& whole,
+                                               signal_memory const& memory,
+                                               std::optional<std::size_t> delay, std::size_t j,
+                                               box const& parameters) const {
+        if (!delay) {
+            return with_prior(within(whole, memory, j, parameters[j]), without(parameters, j));
+        }
+        auto problem = with_delays(memory, *delay, parameters[j]);
+        auto sides = parameters;
+        sides[j] = problem.prior[j];
+        return with_prior(std::move(problem), std::move(sides));
+    }
+    /// A box without side `j`.
+    [[nodiscard]] static box without(box const& all, std::size_t j) {
+        std::vector<interval> sides(all.begin(), all.end());
+        sides.erase(sides.begin() + static_cast<std::ptrdiff_t>(j));
+        return box(std::move(sides));
     }
     /// The problem with each switch open over what is known of its times, for the experiments of
     /// which that is much and one more.
@@ -273,8 +380,24 @@ private:
                 break;
             }
         }
+        // Over a range of time constants an octave long the rest is nearly a polynomial in them.
+        auto const j = first_lag(whole);
+        double const end = j < whole.prior.size() ? whole.prior[j].upper() : 0;
+        double from = end > 0 ? whole.prior[j].lower() : 0;
+        for (; from > 0 && 2 * from < end && limit_(); from *= 2) {
+            auto octave = whole;
+            octave.prior[j] = interval(from, 2 * from);
+            if (auto const left = hull_of(octave, of_octave, of_time)) add(hulls, *left);
+            whole.prior[j] = interval(2 * from, end);
+        }
         if (auto const left = hull_of(whole, 1)) add(hulls, *left);
         return hulls.size() == 0 ? nothing_of(whole.prior) : hulls;
+    }
+    /// The side of the first effect that is a lag.
+    [[nodiscard]] std::size_t first_lag(identification_problem const& whole) const {
+        for (auto const& e : *effects_)
+            if (e.lags) return index_of_parameter(whole, e.name + "." + e.parameters[0].name);
+        return whole.prior.size();
     }
     /// Whether what the lag sees is the recorded input.
     [[nodiscard]] bool acts_first(std::size_t k) const {
@@ -312,6 +435,12 @@ private:
 SIVID_DECL box effect_hulls(identification_problem const& base, std::vector<effect> const& effects,
                             effect_hull_options const& options) {
     return diagnosis_detail::hulls_by_slices(base, effects, options)();
+}
+
+SIVID_DECL std::optional<identification_problem> without_memory(identification_problem const& base,
+                                                                std::vector<effect> const& effects,
+                                                                box const& parameters) {
+    return diagnosis_detail::hulls_by_slices(base, effects, {}).without_memory(parameters);
 }
 
 SIVID_DECL episode_hulls hulls_of_episodes(identification_problem const& base, effect e,

@@ -154,6 +154,85 @@ SIVID_DECL sampled_signal delayed_within(sampled_signal const& u, double begin, 
     return std::move(result).take();
 }
 
+SIVID_DECL late_input late_by_parameter(sampled_signal const& u, double begin, double end,
+                                        interval const& delays) {
+    using traits = interval_traits<interval>;
+    late_input late;
+    double const middle = late.middle_delay = mid(delays);
+    double farthest = std::max(std::abs(begin), std::abs(end));
+    for (double const t : u.times()) farthest = std::max(farthest, std::abs(t));
+    double const unit = 4 * std::numeric_limits<double>::epsilon();
+    double const rounding = unit * (farthest + delays.upper()); // of a sum of times
+    double const reach =
+        std::max(delays.upper() - middle, middle - delays.lower()) * (1 + unit) + rounding;
+
+    // Where the slope changes, and by how much: from 0 at the begin, where u(begin) is left.
+    struct knot {
+        double time;
+        interval change;
+    };
+    auto slope = u.slope<interval>(u.piece(begin));
+    std::vector<knot> knots{{begin, slope}};
+    std::vector<double> times{begin}, slopes{0.0};
+    double steepest = mag(slope), vague = rad(slope);
+    auto const turn = [&](double at, interval const& to) {
+        double const t = std::max(begin, at + middle);
+        if (!(t > times.back())) { // as close as rounding: the later one holds
+            slopes.back() = -mid(to);
+            return;
+        }
+        times.push_back(t);
+        slopes.push_back(-mid(to));
+    };
+    turn(begin, slope);
+    for (std::size_t k = 1; k + 1 < u.times().size(); ++k) {
+        if (!(u.times()[k] > begin)) continue;
+        auto const next = u.slope<interval>(k);
+        knots.push_back({u.times()[k], traits::sub(next, slope)});
+        turn(u.times()[k], next);
+        slope = next;
+        steepest = std::max(steepest, mag(slope));
+        vague = std::max(vague, rad(slope));
+    }
+    late.minus_slope = sampled_signal(std::move(times), std::move(slopes), interpolation::hold);
+
+    std::vector<double> grid_times;
+    for (auto const& k : knots)
+        for (double const side : {-reach, 0.0, reach}) grid_times.push_back(k.time + middle + side);
+    auto const grid = measurement_detail::grid_of(std::move(grid_times), begin, end);
+    // The lines between these times turn there but for the rounding of the times themselves.
+    double const slack =
+        8 * (static_cast<double>(knots.size()) + 2) * steepest * rounding + 4 * reach * vague;
+    measurement_detail::widened_signal result(interpolation::linear);
+    std::size_t first = 0;
+    for (std::size_t n = 0; n < grid.size(); ++n) {
+        auto const past = traits::sub(interval(grid[n]), interval(middle));
+        double const seen = std::max(begin, mid(past));
+        auto value = u.value<interval>(u.piece(seen), interval(seen));
+        double error = slack;
+        while (first + 1 < knots.size() && knots[first].time < grid[n] - middle - 2 * reach)
+            ++first;
+        for (std::size_t k = first; k < knots.size(); ++k) {
+            if (knots[k].time > grid[n] - middle + 2 * reach) break;
+            auto const off = traits::abs(traits::sub(past, interval(knots[k].time)));
+            auto const left = traits::max(traits::sub(interval(reach), off), interval(0.0));
+            auto const half = traits::mul(traits::mul(interval(0.5), knots[k].change), left);
+            value = traits::add(value, half);
+            error += mag(half);
+        }
+        if (!u.exact()) {
+            double const from = n == 0 ? grid[n] : grid[n - 1];
+            double const to = n + 1 == grid.size() ? grid[n] : grid[n + 1];
+            error +=
+                diagnosis_detail::seen_between(u, begin, from - middle - reach, to - middle + reach)
+                    .error;
+        }
+        result.add(grid[n], value, error * (1 + unit * static_cast<double>(knots.size() + 4)));
+    }
+    late.middle = std::move(result).take();
+    return late;
+}
+
 namespace diagnosis_detail {
 /// From one time to the next at which what is known of a switch changes: it may be off, on, or
 /// either. The last one is the end itself.

@@ -47,16 +47,24 @@ inline void measure_tube(identification_problem const& judged,
 
 } // namespace diagnosis_detail
 
+/// A candidate's problems over a box of its parameters, on the data that it was fitted to and on
+/// held-out ones: without delays and plays.
+struct fitted_set {
+    identification_problem fit, judged;
+};
+
 /// Judges a fitted candidate by hold-out experiments. Their own starts, nuisances, are fitted;
 /// nothing else is.
 /// @param bound   what was proved about the candidate's fit
 /// @param explaining  contains every parameter that explains the fit data; empty: not known
+/// @param over    over that box, if the candidate has a delay or a play; else unused
 /// @param judged  `holdout::judged_by` of the candidate
 /// @param search  what the bounds may spend
 /// @guarantee  `at_witness` and `over_fits` enclose what they say
 [[nodiscard]] inline holdout_judgement
 judge_by_holdout(screened const& fitted, verified_inflation const& bound, box const& explaining,
-                 identification_problem const& judged, inflation_options const& search) {
+                 identification_problem const& judged, std::optional<fitted_set> const& over,
+                 inflation_options const& search) {
     holdout_judgement result;
     auto const& p = bound.witness ? bound.witness->parameters : fitted.fit.parameters;
     if (p.size() != judged.prior.size()) return result;
@@ -74,23 +82,28 @@ judge_by_holdout(screened const& fitted, verified_inflation const& bound, box co
         result.at_witness = interval_traits<interval>::bounds(0, result.at_witness.upper());
     }
     bool const delayed = judged.model.has_memory();
-    if (!delayed && bound.witness) {
+    bool const explains = bound.range.upper() <= 1;
+    if (bound.witness && (!delayed || (over && explains))) {
         // All parameters that explain the data; where none does, those as good as the witness.
-        bool const explains = bound.range.upper() <= 1;
         inflation_bound fit{
             bound.range, bound.witness, explains ? explaining : bound.hull, 0, 0, 0};
         if (explains) fit.value = interval_traits<interval>::bounds(bound.range.lower(), 1);
-        auto proved = holdout_inflation(fitted.problem, fit, judged, search);
+        if (delayed) {
+            fit.witness.reset();
+            fit.hull = over->fit.prior;
+        }
+        auto proved = delayed ? holdout_inflation(over->fit, fit, over->judged, search)
+                              : holdout_inflation(fitted.problem, fit, judged, search);
         if (starts_follow_parameters(judged)) {
             // The search lets added states start anywhere in their ranges: only what it says from
             // below holds.
             for (auto* range : {&proved.over_fits, &proved.at_witness}) {
                 *range = interval_traits<interval>::bounds(range->lower(), detail::infinity);
             }
+        } else {
+            diagnosis_detail::measure_tube(judged, proved.outputs, result);
         }
         result.over_fits = proved.over_fits;
-        if (!starts_follow_parameters(judged))
-            diagnosis_detail::measure_tube(judged, proved.outputs, result);
         auto const both = intersect(result.at_witness, proved.at_witness);
         if (!is_empty(both)) result.at_witness = both;
     }
