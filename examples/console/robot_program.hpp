@@ -136,7 +136,7 @@ inline int diagnose_folder(sivid::recorded_model const& model,
     }
     if (!kept.empty() && left() > 0 && !interrupted()) {
         progress.note("judging by the held-out data");
-        sivid::judge_by_holdout(run, kept, std::min(left(), 0.1 * budget), options.test, 120);
+        sivid::judge_by_holdout(run, kept, std::min(left(), 0.25 * budget), options.test);
         write();
     }
     progress.finish();

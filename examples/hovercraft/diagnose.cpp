@@ -74,7 +74,7 @@ int run(diagnose_command const& c) {
     write(); // whatever happens to what follows
     if (!kept.empty() && left() > 0 && !console::interrupted()) {
         progress.note("judging by the held-out data");
-        sivid::judge_by_holdout(run, kept, std::min(left(), std::max(6.0, 0.1 * c.budget)),
+        sivid::judge_by_holdout(run, kept, std::min(left(), std::max(6.0, 0.25 * c.budget)),
                                 options.test);
         write();
     }

@@ -77,7 +77,7 @@ struct diagnosis_run {
 /// place where such data are read, after everything is chosen.
 /// @param seconds, boxes  what all of it may spend, see `step_effort`
 SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds = 6,
-                                 data_test_options const& test = {}, std::size_t boxes = 24);
+                                 data_test_options const& test = {}, std::size_t boxes = 120);
 
 } // namespace sivid
 

@@ -3,8 +3,8 @@
 #define SIVID_DIAGNOSIS_HOLDOUT_HPP
 
 #include <sivid/diagnosis/affected_problem.hpp>
-#include <sivid/diagnosis/candidate/detail/effect_hulls.hpp>
 #include <sivid/diagnosis/candidate/detail/screened.hpp>
+#include <sivid/diagnosis/candidate/detail/sliced_input.hpp>
 #include <sivid/space/box.hpp>
 
 #include <optional>
@@ -28,11 +28,15 @@ public:
                                                    std::vector<effect> const& catalogue) const {
         return affected(with_own(base), effects_of(fitted, catalogue));
     }
-    /// The same over a box of its parameters, without a delay or a play (`without_memory`).
+    /// The same over a box of its parameters, if one of them changes a recorded input so that
+    /// enclosures do not follow (`sliced_input_of`).
     [[nodiscard]] std::optional<identification_problem>
     judged_over(screened const& fitted, identification_problem const& base,
                 std::vector<effect> const& catalogue, box const& parameters) const {
-        return without_memory(with_own(base), effects_of(fitted, catalogue), parameters);
+        auto const own = with_own(base);
+        auto const effects = effects_of(fitted, catalogue);
+        auto const sliced = sliced_input_of(own, effects);
+        return sliced ? std::optional{sliced->over(parameters)} : std::nullopt;
     }
     [[nodiscard]] static std::vector<effect> effects_of(screened const& fitted,
                                                         std::vector<effect> const& catalogue) {

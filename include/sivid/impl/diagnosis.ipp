@@ -3,7 +3,9 @@
 #define SIVID_IMPL_DIAGNOSIS_IPP
 
 #include <sivid/diagnosis/candidate/impl/effect_hulls.ipp>
+#include <sivid/diagnosis/candidate/impl/episode_hulls.ipp>
 #include <sivid/diagnosis/candidate/impl/input_slices.ipp>
+#include <sivid/diagnosis/candidate/impl/sliced_input.ipp>
 #include <sivid/diagnosis/gap/impl/confined_gap.ipp>
 #include <sivid/diagnosis/impl/affected_problem.ipp>
 #include <sivid/diagnosis/impl/diagnose.ipp>

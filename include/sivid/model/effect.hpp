@@ -58,6 +58,13 @@ struct effect {
         bool rests = false; ///< it begins at 0, else at the input
     };
     std::optional<input_lag> lags{};
+    /// Where the effect is a dead band or a saturation of an input and nothing else: its only
+    /// parameter is the size of the input from which on it moves, or stands.
+    struct input_threshold {
+        std::string input;
+        bool stands = false; ///< beyond it (saturation), else within (dead band)
+    };
+    std::optional<input_threshold> threshold{};
     /// The experiments in which it acts, others do not see it; none: it acts in all. Such an effect
     /// has a switch, an input of its name that is 1 where it acts and else 0; no delay and no state
     /// of its own.
@@ -127,6 +134,10 @@ private:
     std::size_t first_parameter_ = 0;
     effect const* effect_ = nullptr; ///< whose edit it is
 };
+
+/// Whether the inputs that an effect changes are the recorded ones: no other changes inputs before.
+[[nodiscard]] SIVID_DECL bool acts_on_recorded_inputs(std::vector<effect> const& effects,
+                                                      std::size_t which);
 
 /// The effect with priors four times as wide, under its name and "_wider".
 [[nodiscard]] SIVID_DECL effect widened(effect e);

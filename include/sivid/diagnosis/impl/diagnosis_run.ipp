@@ -29,14 +29,14 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
                            box const& explaining, double share) {
         auto const judged = data.judged_by(candidate, run.base, run.catalogue);
         std::optional<fitted_set> over;
-        if (judged.model.has_memory() && explaining.size() == judged.prior.size()) {
+        if (explaining.size() == judged.prior.size()) {
             auto const effects = holdout::effects_of(candidate, run.catalogue);
-            auto fit = without_memory(run.base, effects, explaining);
+            auto const fit = sliced_input_of(run.base, effects);
             auto own = data.judged_over(candidate, run.base, run.catalogue, explaining);
-            if (fit && own) over = {std::move(*fit), std::move(*own)};
+            if (fit && own) over = {fit->over(explaining), std::move(*own)};
         }
         inflation_options search;
-        search.seconds = seconds / 2;
+        search.seconds = (candidate.figures.effects.empty() ? 0.3 : 0.7) * seconds;
         search.work = boxes / 2 * (run.base.experiments.size() + judged.experiments.size() + 1);
         search.test = limited(test, [&test, begin, end = share * seconds] {
             auto const now = std::chrono::steady_clock::now();
@@ -47,7 +47,7 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
     };
     test.workers(answered ? 2 : 1, [&](std::size_t k) {
         if (k == 0) {
-            double const share = answered && one_by_one ? 0.5 : 1;
+            double const share = answered && one_by_one ? 0.3 : 1;
             run.holdout_before = judge(run.candidates.front(), run.base_bound, {}, share);
         } else {
             run.holdout_after =

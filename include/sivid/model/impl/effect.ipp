@@ -62,6 +62,14 @@ SIVID_DECL interval effect_parameter::prior() const {
     return hull(moved(lower, upper), moved(upper, lower));
 }
 
+SIVID_DECL bool acts_on_recorded_inputs(std::vector<effect> const& effects, std::size_t which) {
+    for (std::size_t i = 0; i < effects.size(); ++i) {
+        auto const& other = effects[i];
+        if (i != which && other.on_inputs && other.order <= effects[which].order) return false;
+    }
+    return true;
+}
+
 SIVID_DECL effect widened(effect e) {
     e.name += detail::wider;
     if (!e.about.empty()) e.about += ", beyond the prior that was stated";

@@ -43,6 +43,7 @@ SIVID_DECL effect input_dead_band(std::string const& name, std::string const& in
     e.on_inputs = [input](effect_scope& m) {
         m.input(input) = deadband(m.input(input), m.parameter());
     };
+    e.threshold = {input, false};
     return e;
 }
 
@@ -72,6 +73,7 @@ SIVID_DECL effect input_saturation(std::string const& name, std::string const& i
     e.on_inputs = [input](effect_scope& m) {
         m.input(input) = saturate(m.input(input), -m.parameter(), m.parameter());
     };
+    e.threshold = {input, true};
     return e;
 }
 

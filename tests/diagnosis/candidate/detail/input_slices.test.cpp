@@ -126,8 +126,7 @@ TEST_CASE("a late input lies about its line in the delay, for every delay") {
             double const past = std::max(begin, t - tau);
             auto const& w = late.middle;
             auto const k = w.piece(t);
-            double const line =
-                w.approximate(t) + late.minus_slope.approximate(t) * (tau - late.middle_delay);
+            double const line = w.approximate(t) + late.slope.approximate(t) * (tau - late.at);
             double const error = w.error_bound(k, t);
             for (double const sign : {-1.0, 0.0, 1.0}) {
                 double const truth = at_edge(u, sign).approximate(past);
@@ -146,8 +145,50 @@ TEST_CASE("a late input lies about its line in the delay, for every delay") {
     sampled_signal const bend({0.0, 1.0, 2.0}, {0.0, 1.0, 1.0}, interpolation::linear);
     auto const late = late_by_parameter(bend, 0, 2, interval(0.1, 0.2));
     CHECK(late.middle.error_bound(late.middle.piece(0.7), 0.7) < 1e-12);
-    CHECK(late.minus_slope.approximate(0.7) == -1);
+    CHECK(late.slope.approximate(0.7) == -1);
     CHECK(std::abs(late.middle.error_bound(late.middle.piece(1.15), 1.15) - 0.025) < 1e-9);
+}
+
+TEST_CASE("an input behind a threshold lies about its line in that, for every threshold") {
+    support::draws d(10);
+    for (int n = 0; n < 1200; ++n) {
+        auto const kind = n % 2 == 0 ? interpolation::linear : interpolation::hold;
+        auto const u = drawn(d, kind, d.below(3) == 0);
+        auto const [begin, end] = span_of(d, u);
+        bool const stands = d.below(2) == 0;
+        double const low = d.below(3) == 0 ? 0.0 : d.uniform(0.0, 1.5);
+        double const high = low + (d.below(6) == 0 ? 0.0 : std::exp(d.uniform(-8.0, 0.5)));
+        auto const in = threshold_by_parameter(u, begin, end, stands, interval(low, high));
+        for (int i = 0; i < 40; ++i) {
+            double const p = d.below(4) == 0   ? low
+                             : d.below(3) == 0 ? high
+                                               : std::min(high, d.uniform(low, high));
+            double const t = d.below(4) == 0
+                                 ? std::clamp(u.times()[d.below(u.times().size())], begin, end)
+                                 : d.uniform(begin, end);
+            double const line = in.middle.approximate(t) + in.slope.approximate(t) * (p - in.at);
+            double const error = in.middle.error_bound(in.middle.piece(t), t);
+            for (double const sign : {-1.0, 0.0, 1.0}) {
+                double const x = at_edge(u, sign).approximate(t);
+                double const cut = std::clamp(x, -p, p);
+                double const truth = stands ? cut : x - cut;
+                INFO("threshold " << p << " of " << low << " to " << high << ", t " << t
+                                  << ", input " << x);
+                CHECK(std::abs(truth - line) <= error + 1e-13 * (1 + std::abs(truth)));
+            }
+        }
+    }
+    // A ramp: errors about the threshold only.
+    sampled_signal const ramp({0.0, 2.0}, {-2.0, 2.0}, interpolation::linear);
+    for (bool const stands : {true, false}) {
+        auto const in = threshold_by_parameter(ramp, 0, 2, stands, interval(0.9, 1.1));
+        for (double const t : {0.2, 0.4, 0.8, 1.0, 1.2, 1.6, 1.9})
+            CHECK(in.middle.error_bound(in.middle.piece(t), t) < 1e-12);
+        CHECK(std::abs(in.middle.error_bound(in.middle.piece(1.5), 1.5) - 0.05) < 1e-9);
+        CHECK(in.slope.approximate(1.7) == (stands ? 1 : -1));
+        CHECK(in.slope.approximate(0.3) == (stands ? -1 : 1));
+        CHECK(in.slope.approximate(1.2) == 0);
+    }
 }
 
 TEST_CASE("slices of inputs are no wider than they must be") {

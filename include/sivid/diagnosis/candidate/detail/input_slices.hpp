@@ -39,22 +39,34 @@ namespace sivid {
 [[nodiscard]] SIVID_DECL sampled_signal delayed_within(sampled_signal const& u, double begin,
                                                        double end, interval const& delays);
 
-/// A recorded input that acts late, for every delay in an interval, with the delay as a parameter:
-///   \f$ u(t - \tau) \in middle(t) + minus\_slope(t) \, (\tau - \tau_0), \f$
-/// as an input with error bounds and a held one. Straight lines leave no error but about their
-/// knots, where the slope changes by s: there half of s times what is left of the delays' half
-/// width, which is of second order in it once the knot's own time is short.
-struct late_input {
-    sampled_signal middle, minus_slope;
-    double middle_delay = 0; ///< tau_0
+/// An input that depends on a parameter p: \f$ u(t) \in middle(t) + slope(t) (p - p_0), \f$ where
+/// the middle has error bounds, and the slope is held.
+struct input_of_parameter {
+    sampled_signal middle, slope;
+    double at = 0; ///< p_0, the middle of the parameter's interval
 };
 
+/// A recorded input that acts late, for every delay in an interval, with the delay as a parameter.
+/// Straight lines leave no error but about their knots, where the slope changes by s: there half of
+/// s times what is left of the delays' half width.
 /// @param u       straight lines between samples
 /// @param delays  0 or more; before `begin` the input is what it is there
 /// @guarantee  for every delay the late input lies within what is returned from `begin` to `end`
 /// @cost  three times as many samples, each looks at those within the delays' width
-[[nodiscard]] SIVID_DECL late_input late_by_parameter(sampled_signal const& u, double begin,
-                                                      double end, interval const& delays);
+[[nodiscard]] SIVID_DECL input_of_parameter late_by_parameter(sampled_signal const& u, double begin,
+                                                              double end, interval const& delays);
+
+/// A recorded input behind a dead band or a saturation, for every threshold in an interval, in the
+/// same form. Where the input's size is not about the threshold, it is a line in that; there, an
+/// error remains of half of what is left of the interval's half width.
+/// @param stands      beyond the threshold: saturation; else dead band
+/// @param thresholds  0 or more
+/// @guarantee  for every threshold the input lies within what is returned from `begin` to `end`
+/// @cost  up to eight times as many samples
+[[nodiscard]] SIVID_DECL input_of_parameter threshold_by_parameter(sampled_signal const& u,
+                                                                   double begin, double end,
+                                                                   bool stands,
+                                                                   interval const& thresholds);
 
 /// When a switch goes on and off again, each at a time within an interval. Times at or after the
 /// end of an experiment may stand for never.

@@ -154,11 +154,11 @@ SIVID_DECL sampled_signal delayed_within(sampled_signal const& u, double begin, 
     return std::move(result).take();
 }
 
-SIVID_DECL late_input late_by_parameter(sampled_signal const& u, double begin, double end,
-                                        interval const& delays) {
+SIVID_DECL input_of_parameter late_by_parameter(sampled_signal const& u, double begin, double end,
+                                                interval const& delays) {
     using traits = interval_traits<interval>;
-    late_input late;
-    double const middle = late.middle_delay = mid(delays);
+    input_of_parameter late;
+    double const middle = late.at = mid(delays);
     double farthest = std::max(std::abs(begin), std::abs(end));
     for (double const t : u.times()) farthest = std::max(farthest, std::abs(t));
     double const unit = 4 * std::numeric_limits<double>::epsilon();
@@ -194,7 +194,7 @@ SIVID_DECL late_input late_by_parameter(sampled_signal const& u, double begin, d
         steepest = std::max(steepest, mag(slope));
         vague = std::max(vague, rad(slope));
     }
-    late.minus_slope = sampled_signal(std::move(times), std::move(slopes), interpolation::hold);
+    late.slope = sampled_signal(std::move(times), std::move(slopes), interpolation::hold);
 
     std::vector<double> grid_times;
     for (auto const& k : knots)
@@ -231,6 +231,80 @@ SIVID_DECL late_input late_by_parameter(sampled_signal const& u, double begin, d
     }
     late.middle = std::move(result).take();
     return late;
+}
+
+SIVID_DECL input_of_parameter threshold_by_parameter(sampled_signal const& u, double begin,
+                                                     double end, bool stands,
+                                                     interval const& thresholds) {
+    using traits = interval_traits<interval>;
+    bool const holds = u.kind() == interpolation::hold;
+    input_of_parameter result;
+    double const middle = result.at = mid(thresholds);
+    double const unit = 4 * std::numeric_limits<double>::epsilon();
+    double const half =
+        std::max(thresholds.upper() - middle, middle - thresholds.lower()) * (1 + unit);
+    double farthest = std::max(std::abs(begin), std::abs(end));
+    for (double const t : u.times()) farthest = std::max(farthest, std::abs(t));
+
+    // The knots, and where the input's size passes the ends of the interval, its middle, and 0.
+    std::vector<double> times = u.times();
+    double largest = 0, steepest = 0;
+    auto const at = [&](double t) { return u.approximate(t); };
+    for (std::size_t k = 0; k < u.times().size(); ++k) {
+        largest = std::max(largest, std::abs(u.values()[k]));
+        double const s = mid(u.slope<interval>(u.piece(u.times()[k])));
+        steepest = std::max(steepest, std::abs(s));
+        if (holds || s == 0) continue;
+        for (double const level : {middle - half, middle, middle + half, 0.0})
+            for (double const sign : {1.0, -1.0})
+                times.push_back(u.times()[k] + (sign * level - u.values()[k]) / s);
+    }
+    auto const before = u.piece(begin); // straight lines go on to the left, too
+    if (!holds) {
+        double const s = mid(u.slope<interval>(before));
+        for (double const level : {middle - half, middle, middle + half, 0.0})
+            for (double const sign : {1.0, -1.0})
+                if (s != 0) times.push_back(begin + (sign * level - at(begin)) / s);
+    }
+    std::erase_if(times, [&](double t) { return !(t >= begin && t <= end); });
+    auto const grid = measurement_detail::grid_of(std::move(times), begin, end);
+    largest = std::max({largest, std::abs(at(begin)), std::abs(at(end))});
+    // The times at which levels are passed are rounded, which moves the input by so much at most.
+    double const slack = 16 * unit * (largest + middle + half + steepest * farthest);
+
+    measurement_detail::widened_signal values(u.kind());
+    std::vector<double> slope_times, slopes;
+    for (std::size_t n = 0; n < grid.size(); ++n) {
+        auto const piece = u.piece(grid[n]);
+        auto const recorded = u.value<interval>(piece, interval(grid[n]));
+        auto const size = traits::abs(recorded);
+        // On which side the input is, on the way to the next time.
+        bool const last = n + 1 == grid.size();
+        double const soon = holds || last ? grid[n] : grid[n] + 0.5 * (grid[n + 1] - grid[n]);
+        double const typical = mid(u.value<interval>(piece, interval(soon)));
+        double const sign = typical < 0 ? -1 : 1;
+        bool const beyond = std::abs(typical) >= middle;
+        auto const signed_size = [&](interval const& x) { return traits::mul(interval(sign), x); };
+        auto value =
+            stands ? signed_size(traits::min(size, interval(middle)))
+                   : signed_size(traits::max(traits::sub(size, interval(middle)), interval(0.0)));
+        auto const left = traits::max(
+            traits::sub(interval(half), traits::abs(traits::sub(size, interval(middle)))),
+            interval(0.0));
+        auto const bent = traits::mul(interval(stands ? -0.5 : 0.5), left);
+        value = traits::add(value, signed_size(bent));
+        double const from = n == 0 ? grid[n] : grid[n - 1], to = last ? grid[n] : grid[n + 1];
+        double const own = std::max({u.error_bound(u.piece(from), from),
+                                     u.error_bound(piece, grid[n]), u.error_bound(piece, to)});
+        values.add(grid[n], value, mag(bent) + own + slack);
+        double const slope = beyond ? (stands ? sign : -sign) : 0;
+        if (!slopes.empty() && slopes.back() == slope) continue;
+        slope_times.push_back(grid[n]);
+        slopes.push_back(slope);
+    }
+    result.middle = std::move(values).take();
+    result.slope = sampled_signal(std::move(slope_times), std::move(slopes), interpolation::hold);
+    return result;
 }
 
 namespace diagnosis_detail {

@@ -5,6 +5,7 @@
 #include <sivid/diagnosis/candidate/detail/candidate_order.hpp>
 #include <sivid/diagnosis/candidate/detail/describe_candidate.hpp>
 #include <sivid/diagnosis/candidate/detail/effect_hulls.hpp>
+#include <sivid/diagnosis/candidate/detail/episode_hulls.hpp>
 #include <sivid/diagnosis/claim/detail/claim_review.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/diagnosis/gap/detail/gap_proof.hpp>

@@ -48,7 +48,7 @@ inline void measure_tube(identification_problem const& judged,
 } // namespace diagnosis_detail
 
 /// A candidate's problems over a box of its parameters, on the data that it was fitted to and on
-/// held-out ones: without delays and plays.
+/// held-out ones (`sliced_input_of`).
 struct fitted_set {
     identification_problem fit, judged;
 };
@@ -57,7 +57,7 @@ struct fitted_set {
 /// nothing else is.
 /// @param bound   what was proved about the candidate's fit
 /// @param explaining  contains every parameter that explains the fit data; empty: not known
-/// @param over    over that box, if the candidate has a delay or a play; else unused
+/// @param over    over that box, where the candidate has one
 /// @param judged  `holdout::judged_by` of the candidate
 /// @param search  what the bounds may spend
 /// @guarantee  `at_witness` and `over_fits` enclose what they say
@@ -83,17 +83,18 @@ judge_by_holdout(screened const& fitted, verified_inflation const& bound, box co
     }
     bool const delayed = judged.model.has_memory();
     bool const explains = bound.range.upper() <= 1;
-    if (bound.witness && (!delayed || (over && explains))) {
+    bool const sliced = over && explains;
+    if (bound.witness && (!delayed || sliced)) {
         // All parameters that explain the data; where none does, those as good as the witness.
         inflation_bound fit{
             bound.range, bound.witness, explains ? explaining : bound.hull, 0, 0, 0};
         if (explains) fit.value = interval_traits<interval>::bounds(bound.range.lower(), 1);
-        if (delayed) {
+        if (sliced) { // the witness is no point of it
             fit.witness.reset();
             fit.hull = over->fit.prior;
         }
-        auto proved = delayed ? holdout_inflation(over->fit, fit, over->judged, search)
-                              : holdout_inflation(fitted.problem, fit, judged, search);
+        auto proved = sliced ? holdout_inflation(over->fit, fit, over->judged, search)
+                             : holdout_inflation(fitted.problem, fit, judged, search);
         if (starts_follow_parameters(judged)) {
             // The search lets added states start anywhere in their ranges: only what it says from
             // below holds.

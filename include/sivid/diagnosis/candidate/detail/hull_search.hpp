@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_CANDIDATE_DETAIL_HULL_SEARCH_HPP
+#define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_HULL_SEARCH_HPP
+
+#include <sivid/model/problem.hpp>
+#include <sivid/paving/invert.hpp>
+#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/data_test_options.hpp>
+#include <sivid/paving/products/dependence.hpp>
+#include <sivid/paving/products/reduction.hpp>
+#include <sivid/paving/work_limit.hpp>
+#include <sivid/space/box.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sivid {
+
+struct effect_hull_options {
+    double seconds = 10;
+    std::size_t boxes = 4000; ///< of the last search; a slice gets a share of them
+    /// A delay, a play or a threshold is told no more finely than this share of its prior, where it
+    /// is not a parameter.
+    double accuracy = 1.0 / 128;
+    std::function<bool()> keep_going{}; ///< false ends it with what is proved until then
+    data_test_options test{};
+};
+
+/// What problems leave of their priors, one after the other, within one limit for all.
+class hull_search {
+public:
+    explicit hull_search(effect_hull_options const& options)
+        : options_(&options), limit_(options.seconds, options.keep_going) {}
+
+    [[nodiscard]] bool in_time() const { return limit_(); }
+    [[nodiscard]] double accuracy() const { return options_->accuracy; }
+
+    /// Nothing when it explains nothing. Without a fit, which excludes nothing.
+    /// @param share  of the boxes, and of the time that is left where that has no share of its own
+    [[nodiscard]] std::optional<box> operator()(identification_problem const& problem, double share,
+                                                std::optional<double> time = std::nullopt) const {
+        if (problem.prior.size() == 0) return problem.prior;
+        auto const map = reduction::find(problem, dependence_of(problem));
+        auto const& posed = map ? map->problem() : problem;
+        data_test test(posed, limited(options_->test, limit_));
+        inversion_options search{
+            .accuracy_of_hull = true, .hull_gain = 0.02, .keep_outside = false};
+        search.seconds = time.value_or(share) * limit_.seconds();
+        search.boxes = static_cast<std::size_t>(share * static_cast<double>(options_->boxes));
+        search.keep_going = limit_;
+        auto const paving = invert(test, posed.prior, search).paving;
+        if (!paving.has_outer()) return std::nullopt;
+        auto const left = paving.outer_hull();
+        return map ? map->backward(problem.prior, left) : left;
+    }
+
+private:
+    effect_hull_options const* options_;
+    work_limit limit_;
+};
+
+/// Which side of a problem's prior a parameter is; their number where it is not among them.
+[[nodiscard]] inline std::size_t index_of_parameter(identification_problem const& problem,
+                                                    std::string const& name) {
+    auto const& names = problem.choice.unknown;
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+/// A box of empty sides, as one of all parameters that explain what nothing does.
+[[nodiscard]] inline box nothing_of(box const& whole) {
+    return box(std::vector<interval>(whole.size(), interval_traits<interval>::empty()));
+}
+
+} // namespace sivid
+
+#endif
