@@ -36,7 +36,17 @@ public:
         auto const own = with_own(base);
         auto const effects = effects_of(fitted, catalogue);
         auto const sliced = sliced_input_of(own, effects);
-        return sliced ? std::optional{sliced->over(parameters)} : std::nullopt;
+        if (!sliced) return std::nullopt;
+        auto result = sliced->over(parameters);
+        // All samples count, and outliers of all of an experiment.
+        std::size_t wanted = 0, kept = 0;
+        bool whole = true;
+        for (auto const& x : experiments_) {
+            wanted += x.measurements.size();
+            whole = whole && (x.outliers == 0 || result.experiments.size() == experiments_.size());
+        }
+        for (auto const& x : result.experiments) kept += x.measurements.size();
+        return whole && kept == wanted ? std::optional{std::move(result)} : std::nullopt;
     }
     [[nodiscard]] static std::vector<effect> effects_of(screened const& fitted,
                                                         std::vector<effect> const& catalogue) {

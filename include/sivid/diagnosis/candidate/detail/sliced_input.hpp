@@ -15,10 +15,11 @@
 namespace sivid {
 
 /// A problem in which one parameter of the effects changes a recorded input in a way that
-/// enclosures follow badly (a delay, a play, a dead band, a saturation). Over a range of that
-/// parameter the input is one with error bounds, and where that is possible a line in the parameter
-/// besides, which keeps its place among the unknowns (`late_by_parameter`,
-/// `threshold_by_parameter`); else it has none there (`delayed_within`, `played`).
+/// enclosures follow badly (a delay, also of channels, a play, a dead band, a saturation). Over a
+/// range of that parameter the input is one with error bounds, and where that is possible a line in
+/// the parameter besides, which keeps its place among the unknowns (`late_by_parameter`,
+/// `threshold_by_parameter`, `with_late_channels`); else it has none there (`delayed_within`,
+/// `played`).
 struct sliced_input {
     std::size_t side = 0;      ///< of the prior of all parameters
     bool is_parameter = false; ///< whether it stays an unknown
@@ -28,13 +29,14 @@ struct sliced_input {
 };
 
 /// @param base, effects  outlive what is returned
-/// @returns  nothing where no effect is such a one: several inputs have a memory, a channel is
-/// late,
-///           or the input is a formula; or not the recorded input, but what another effect leaves
-///           of it, is changed
+/// @returns  nothing where no effect is such a one, or several are delays and plays; where the
+/// input
+///           is a formula, or not the recorded input, but what another effect leaves of it, is
+///           changed
 /// @guarantee  whatever outputs the effects' problem has for parameters in the box, the one over
 /// the
-///             box has for some input within its errors, the other parameters being the same
+///             box has for some input within its errors, the other parameters being the same; with
+///             late channels experiments are split, and samples may be left out
 [[nodiscard]] SIVID_DECL std::optional<sliced_input>
 sliced_input_of(identification_problem const& base, std::vector<effect> const& effects);
 

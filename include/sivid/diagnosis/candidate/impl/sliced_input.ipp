@@ -7,6 +7,7 @@
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/candidate/detail/hull_search.hpp>
 #include <sivid/diagnosis/candidate/detail/input_slices.hpp>
+#include <sivid/diagnosis/candidate/detail/late_channels.hpp>
 #include <sivid/diagnosis/candidate/resolve_memory.hpp>
 
 #include <algorithm>
@@ -113,11 +114,47 @@ inline std::optional<sliced_input> sliced_memory(identification_problem const& b
 
 } // namespace diagnosis_detail
 
+namespace diagnosis_detail {
+/// Channels that show the past.
+inline std::optional<sliced_input> sliced_latency(identification_problem const& base,
+                                                  std::vector<effect> const& effects,
+                                                  identification_problem const& whole) {
+    auto const& model = whole.model;
+    auto const constant = model.channel_delays.front().constant;
+    std::vector<bool> late(model.about.channels.size(), false);
+    for (auto const& d : model.channel_delays) {
+        if (d.constant != constant) return std::nullopt;
+        late[d.index] = true;
+    }
+    auto const& name = model.about.constants[constant].name;
+    auto const j = index_of_parameter(whole, name);
+    if (j == whole.prior.size() || !(whole.prior[j].lower() >= 0)) return std::nullopt;
+    auto const of_time = [&](node_id n) { return (model.g.depends(n) & on_time) != 0; };
+    if (std::any_of(model.rate.begin(), model.rate.end(), of_time)) return std::nullopt;
+    for (std::size_t y = 0; y < late.size(); ++y)
+        if (late[y] && of_time(model.observe[y])) return std::nullopt;
+    for (std::size_t i = 0; i < base.model.about.inputs.size(); ++i)
+        if (!is_recorded(base, i)) return std::nullopt;
+    for (std::size_t k = 0; k < effects.size(); ++k) {
+        auto const& e = effects[k];
+        bool const only = e.parameters.size() == 1 && !e.on_rates && !e.on_inputs;
+        if (!only || full_name(e) != name) continue;
+        return sliced_input{j, true, [&base, &effects, k, late, j](box const& all) {
+                                return with_late_channels(base, effects, k, late, j, all);
+                            }};
+    }
+    return std::nullopt;
+}
+} // namespace diagnosis_detail
+
 SIVID_DECL std::optional<sliced_input> sliced_input_of(identification_problem const& base,
                                                        std::vector<effect> const& effects) {
     auto whole = affected(base, effects);
-    if (!whole.model.channel_delays.empty() || whole.model.input_memory.size() > 1)
-        return std::nullopt;
+    if (!whole.model.channel_delays.empty()) {
+        if (!whole.model.input_memory.empty()) return std::nullopt;
+        return diagnosis_detail::sliced_latency(base, effects, whole);
+    }
+    if (whole.model.input_memory.size() > 1) return std::nullopt;
     if (whole.model.has_memory())
         return diagnosis_detail::sliced_memory(base, effects, std::move(whole));
     for (std::size_t k = 0; k < effects.size(); ++k) {

@@ -102,7 +102,7 @@ judge_by_holdout(screened const& fitted, verified_inflation const& bound, box co
                 *range = interval_traits<interval>::bounds(range->lower(), detail::infinity);
             }
         } else {
-            diagnosis_detail::measure_tube(judged, proved.outputs, result);
+            diagnosis_detail::measure_tube(sliced ? over->judged : judged, proved.outputs, result);
         }
         result.over_fits = proved.over_fits;
         auto const both = intersect(result.at_witness, proved.at_witness);

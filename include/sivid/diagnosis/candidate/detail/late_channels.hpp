@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_CANDIDATE_DETAIL_LATE_CHANNELS_HPP
+#define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_LATE_CHANNELS_HPP
+
+#include <sivid/compiled.hpp>
+#include <sivid/model/effect.hpp>
+#include <sivid/model/problem.hpp>
+#include <sivid/space/box.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace sivid {
+
+/// A problem in which channels show the past, over a box of all parameters, without any delay.
+///   What a late channel shows at t is what it would show then of the same motion begun tau later
+///   under late inputs. So each experiment is split in two: one measures the other channels, and
+///   one the late ones, of a motion whose clock stands until a and runs from b on, where [a, b] is
+///   the range of tau; between, it runs at the rate
+///     \f$ (b - \tau)/(b - a), \f$
+///   so that from b on it is tau late: a line in tau, as the late inputs are but for small errors
+///   (`late_by_parameter`). No derivative of the channels is needed.
+/// @param base     without effects
+/// @param effects  those of the whole problem
+/// @param which    of them is the late sensor, alone with its parameter
+/// @param side     of the box: that parameter, whose place the distance from the middle takes
+/// @given  recorded inputs; no equation and no late channel depends on the time itself
+/// @guarantee  parameters of the box that explain the data explain this problem: late samples
+///             between a and b are left out, and each part may have all the outliers
+[[nodiscard]] SIVID_DECL identification_problem with_late_channels(
+    identification_problem const& base, std::vector<effect> const& effects, std::size_t which,
+    std::vector<bool> const& late, std::size_t side, box const& all);
+
+} // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/diagnosis/candidate/impl/late_channels.ipp>
+#endif
+
+#endif

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_CANDIDATE_IMPL_LATE_CHANNELS_IPP
+#define SIVID_DIAGNOSIS_CANDIDATE_IMPL_LATE_CHANNELS_IPP
+
+#include <sivid/diagnosis/candidate/detail/late_channels.hpp>
+
+#include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/diagnosis/candidate/detail/input_slices.hpp>
+#include <sivid/diagnosis/candidate/detail/seen_input.hpp>
+#include <sivid/measurement/detail/widened_signal.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace sivid {
+
+namespace diagnosis_detail {
+
+/// The same signal with a larger error between two times.
+inline sampled_signal widened_between(sampled_signal const& u, double from, double until,
+                                      double more) {
+    std::vector<double> times = u.times();
+    times.push_back(from);
+    times.push_back(until);
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    measurement_detail::widened_signal result(u.kind());
+    for (double const t : times) {
+        auto const k = u.piece(t);
+        // A held piece has its error up to the next time.
+        bool const here =
+            t >= from && (t < until || (t == until && u.kind() != interpolation::hold));
+        result.add(t, u.value<interval>(k, interval(t)), u.error_bound(k, t) + (here ? more : 0));
+    }
+    return std::move(result).take();
+}
+
+/// The clock of a motion that begins late: see `with_late_channels`.
+struct late_clock {
+    double stands, runs; ///< until the first of these times it stands, from the second on it runs
+    sampled_signal rate, slope;
+
+    late_clock(double begin, interval const& delays) {
+        double const unit = 4 * std::numeric_limits<double>::epsilon();
+        stands = begin + std::max(0.0, delays.lower());
+        runs = std::max(begin + delays.upper(), stands);
+        runs += unit * (std::abs(runs) + std::abs(begin) + delays.upper() + 1e-6);
+        double const length = runs - stands;
+        double const at = (runs - begin - mid(delays)) / length;
+        // Rounding of the rate, and of the slope times a distance below the length.
+        double const error =
+            8 * unit * (1 + std::abs(at) + (std::abs(runs) + std::abs(begin)) / length);
+        std::vector<double> times, rates, slopes, errors;
+        auto const from = [&](double t, double r, double s, double e) {
+            times.push_back(t);
+            rates.push_back(r);
+            slopes.push_back(s);
+            errors.push_back(e);
+        };
+        if (stands > begin) from(begin, 0, 0, 0);
+        from(stands, at, -1 / length, error);
+        from(runs, 1, 0, 0);
+        rate = sampled_signal(times, std::move(rates), interpolation::hold, std::move(errors));
+        slope = sampled_signal(std::move(times), std::move(slopes), interpolation::hold);
+    }
+};
+
+} // namespace diagnosis_detail
+
+SIVID_DECL identification_problem with_late_channels(identification_problem const& base,
+                                                     std::vector<effect> const& effects,
+                                                     std::size_t which,
+                                                     std::vector<bool> const& late,
+                                                     std::size_t side, box const& all) {
+    auto const constant = [](double c) {
+        return analytic_signal::from([c](auto const&) { return c; });
+    };
+    auto with_clock = effects;
+    auto& e = with_clock[which];
+    auto const parameter = e.name + "." + e.parameters[0].name;
+    auto const clock = e.name + "_clock", clock_slope = e.name + "_clock_slope";
+    auto const slope_of = [name = e.name](std::string const& input) {
+        return name + "_slope_" + input;
+    };
+    std::vector<std::string> inputs, everywhere;
+    for (auto const& u : base.model.about.inputs) inputs.push_back(u.name);
+    for (auto const& x : base.experiments) everywhere.push_back(x.name);
+    e.on_channels = nullptr;
+    e.order = std::numeric_limits<int>::min(); // what others see is late
+    e.on_inputs = [inputs, slope_of](effect_scope& h) {
+        for (auto const& u : inputs) h.input(u) += h.input(slope_of(u)) * h.parameter();
+    };
+    // Effects without a parameter, for the sake of their inputs.
+    std::vector<std::string> own{clock, clock_slope};
+    for (auto const& u : inputs) own.push_back(slope_of(u));
+    auto const states = affected(base, effects).model.about.states;
+    for (auto const& name : own) {
+        auto& helper = with_clock.emplace_back();
+        helper.name = name;
+        helper.only_in = everywhere;
+        if (name != clock) continue;
+        helper.order = std::numeric_limits<int>::max(); // all rates are slow
+        helper.on_rates = [states, clock, clock_slope, parameter](effect_scope& h) {
+            auto const rate = h.input(clock) + h.input(clock_slope) * h.constant(parameter);
+            for (auto const& s : states) h.rate(s.name) = rate * h.rate(s.name);
+        };
+    }
+    auto problem = affected(base, with_clock);
+    auto const place = [&](std::string const& name) {
+        return index_of(problem.model.about.inputs, name, "input");
+    };
+    std::vector<experiment> parts;
+    for (auto const& x : problem.experiments) {
+        auto in_time = x, behind = x;
+        std::erase_if(in_time.measurements, [&](auto const& m) { return late[m.channel]; });
+        for (auto const& name : own) in_time.inputs[place(name)] = constant(name == clock ? 1 : 0);
+        diagnosis_detail::late_clock const time(x.begin, all[side]);
+        std::erase_if(behind.measurements, [&](auto const& m) {
+            return !late[m.channel] || (m.time > time.stands && m.time < time.runs);
+        });
+        behind.name += "_late";
+        behind.inputs[place(clock)] = time.rate;
+        behind.inputs[place(clock_slope)] = time.slope;
+        for (std::size_t i = 0; i < inputs.size(); ++i) {
+            auto const& u = std::get<sampled_signal>(x.inputs[i]);
+            auto& slope = behind.inputs[place(slope_of(inputs[i]))];
+            sampled_signal middle;
+            if (u.kind() == interpolation::linear) {
+                auto line = late_by_parameter(u, x.begin, x.end(), all[side]);
+                middle = std::move(line.middle);
+                slope = std::move(line.slope);
+            } else {
+                middle = delayed_within(u, x.begin, x.end(), all[side]);
+                slope = constant(0);
+            }
+            // While the clock is slow, the input is one of the first ones.
+            auto const first = diagnosis_detail::seen_between(
+                u, x.begin, x.begin, x.begin + 2 * (time.runs - time.stands));
+            behind.inputs[i] = diagnosis_detail::widened_between(
+                middle, time.stands, time.runs, width(first.values) + 2 * first.error);
+        }
+        for (auto* part : {&in_time, &behind}) {
+            part->outliers = std::min(part->outliers, part->measurements.size());
+            if (!part->measurements.empty()) parts.push_back(std::move(*part));
+        }
+    }
+    problem.experiments = std::move(parts);
+    problem.prior = all;
+    problem.prior[side] = interval_traits<interval>::sub(all[side], interval(mid(all[side])));
+    start_added_states(problem);
+    return problem;
+}
+
+} // namespace sivid
+
+#endif
