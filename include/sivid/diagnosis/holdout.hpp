@@ -7,6 +7,7 @@
 #include <sivid/diagnosis/candidate/detail/sliced_input.hpp>
 #include <sivid/space/box.hpp>
 
+#include <cstddef>
 #include <optional>
 #include <utility>
 #include <vector>

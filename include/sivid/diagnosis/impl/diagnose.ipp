@@ -197,8 +197,7 @@ private:
         }
         return tried.candidates().size() > before;
     }
-    /// Effects that begin or end in the midst of experiments. Where one instrument may be the cause,
-    /// an effect that comes and goes would be a guess.
+    /// Effects that begin or end midway; where one instrument may be the cause, an end is a guess.
     /// @returns  whether some explain the data
     [[nodiscard]] bool try_episodes(screening& tried) {
         std::vector<std::string> names;

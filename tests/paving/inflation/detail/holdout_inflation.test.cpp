@@ -95,6 +95,7 @@ TEST_CASE("the range over all fits contains, and about equals, what samples show
 
 TEST_CASE("planted problems: every fit lies in the hold-out's range") {
     draws d(431);
+    std::size_t values = 0;
     for (std::size_t model = 0; model < support::planted_models; ++model) {
         auto const planted =
             support::tightened(support::plant(d, model, {.experiments = 2, .samples = 10}), 2);
@@ -116,7 +117,22 @@ TEST_CASE("planted problems: every fit lies in the hold-out's range") {
             }
             return worst;
         };
+        auto const known_start = std::all_of(holdout.experiments[0].initial.begin(),
+                                             holdout.experiments[0].initial.end(),
+                                             [](interval const& x) { return width(x) < 1e-12; });
+        auto const predicted = [&](std::vector<double> const& p) {
+            if (!known_start || found.outputs.empty()) return;
+            auto const y = planted.simulate(1, p, planted.starts[1]);
+            for (std::size_t i = 0; i < found.outputs[0].size(); ++i) {
+                auto const& range = found.outputs[0][i];
+                auto const value = static_cast<double>(y[i]);
+                CHECK(range.lower() <= value + 1e-9 * (1 + std::abs(value)));
+                CHECK(value <= range.upper() + 1e-9 * (1 + std::abs(value)));
+                ++values;
+            }
+        };
         auto const& w = fitted.witness->parameters;
+        predicted(w);
         CHECK(found.over_fits.lower() <= own(w) * (1 + 1e-6));
         CHECK(own(w) * (1 - 1e-6) <= found.over_fits.upper());
         CHECK(found.at_witness.lower() <= own(w) * (1 + 1e-6));
@@ -133,8 +149,10 @@ TEST_CASE("planted problems: every fit lies in the hold-out's range") {
             if (support::inflation_of(one, p, one.starts) > fitted.value.upper()) continue;
             CHECK(found.over_fits.lower() <= own(p) * (1 + 1e-6));
             CHECK(own(p) * (1 - 1e-6) <= found.over_fits.upper());
+            predicted(p);
         }
     }
+    CHECK(values > 100);
 }
 
 TEST_CASE("hold-out bounds at the limits") {
