@@ -30,7 +30,7 @@ struct diagnosis_options {
     double seconds = 60;              ///< for everything; what is not finished then stays undecided
     gap_options gap{};                ///< the certified inflation of the model
     step_effort answer{10, 0.04};     ///< the certified inflation of the answer
-    step_effort hulls{4000, 0.15};    ///< the hulls of the answer's parameters
+    step_effort hulls{4000, 0.35};    ///< the hulls of the answer's parameters
     step_effort onsets{4000, 0.35};   ///< the same where it begins later, and when it does
     step_effort exclusion{12, 0.03};  ///< one candidate that seems excluded ...
     step_effort exclusions{36, 0.08}; ///< ... and all of them

@@ -8,6 +8,7 @@
 #include <sivid/diagnosis/candidate/detail/input_slices.hpp>
 #include <sivid/diagnosis/candidate/detail/sliced_input.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -34,7 +35,7 @@ public:
 
 private:
     // Shares of the boxes and of the time that is left.
-    static constexpr double of_slice = 1.0 / 32;
+    static constexpr double least_of_slice = 1.0 / 256, most_of_slice = 1.0 / 16;
     static constexpr double of_quick_slice = 1.0 / 8;
     static constexpr double of_octave = 1.0 / 8;
     static constexpr double of_time = 1.0 / 4;
@@ -49,12 +50,17 @@ private:
         hulls = hulls.size() == 0 ? more : hull(hulls, more);
     }
 
-    /// Slices of the prior, the widest first, each cut to what it leaves or halved, until they are
-    /// excluded or narrow.
+    /// Slices of the prior, each cut to what it leaves or halved, until they are excluded or
+    /// narrow. What is excluded at all mostly is so by few boxes: all are tried with few, then with
+    /// more.
     [[nodiscard]] box over_slices(box const& prior, sliced_input const& sliced) const {
         using traits = interval_traits<interval>;
         auto const j = sliced.side;
-        std::vector<box> waiting;     // of all parameters, in the order of coming
+        struct slice {
+            box all; ///< parameters
+            double share;
+        };
+        std::vector<slice> waiting;   // in the order of coming
         constexpr int begin_with = 8; // wider slices are rarely excluded
         auto const at = [&](int k) {
             double const way = static_cast<double>(k) / begin_with;
@@ -63,30 +69,36 @@ private:
                    : k == begin_with ? all.upper()
                                      : all.lower() + way * (all.upper() - all.lower());
         };
-        auto const wait = [&](box all, interval const& range) {
+        auto const wait = [&](box all, interval const& range, double share) {
             all[j] = range;
-            waiting.push_back(std::move(all));
+            waiting.push_back({std::move(all), share});
         };
-        for (int k = 0; k < begin_with; ++k) wait(prior, interval(at(k), at(k + 1)));
+        for (int k = 0; k < begin_with; ++k)
+            wait(prior, interval(at(k), at(k + 1)), least_of_slice);
         double const narrow = search_.accuracy() * width(prior[j]);
         box hulls;
         for (std::size_t next = 0; next < waiting.size(); ++next) {
             auto const now = waiting[next];
             if (!search_.in_time()) {
-                add(hulls, now);
+                add(hulls, now.all);
                 continue;
             }
-            auto const found = search_(sliced.over(now), of_slice);
+            auto const& range = now.all[j];
+            auto const found = search_(sliced.over(now.all), now.share, of_time);
             if (!found) continue;
-            auto left = sliced.is_parameter ? *found : joined(*found, j, now[j]);
+            auto left = sliced.is_parameter ? *found : joined(*found, j, range);
             if (sliced.is_parameter) {
-                left[j] = intersect(traits::add(traits::point(mid(now[j])), left[j]), now[j]);
+                left[j] = intersect(traits::add(traits::point(mid(range)), left[j]), range);
                 if (is_empty(left[j])) continue;
                 // Closer, the input has less of an error.
-                if (width(left[j]) < 0.7 * width(now[j])) {
-                    wait(left, left[j]);
+                if (width(left[j]) < 0.7 * width(range)) {
+                    wait(left, left[j], now.share);
                     continue;
                 }
+            }
+            if (now.share < most_of_slice) {
+                wait(left, left[j], std::min(most_of_slice, 4 * now.share));
+                continue;
             }
             double const half = mid(left[j]);
             bool const splits = left[j].lower() < half && half < left[j].upper();
@@ -94,8 +106,8 @@ private:
                 add(hulls, left);
                 continue;
             }
-            wait(left, traits::bounds(left[j].lower(), half));
-            wait(left, traits::bounds(half, left[j].upper()));
+            wait(left, traits::bounds(left[j].lower(), half), least_of_slice);
+            wait(left, traits::bounds(half, left[j].upper()), least_of_slice);
         }
         return hulls.size() == 0 ? nothing_of(prior) : hulls;
     }
