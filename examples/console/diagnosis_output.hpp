@@ -113,6 +113,9 @@ inline void print_holdout(sivid::diagnosis const& d) {
               << report::inflation_text(range_of(h.inflation_after)) << " with it";
     if (d.shrink_holdout && std::isfinite(d.shrink_holdout->lower()))
         std::cout << ": the gap shrinks by " << report::shrink_text(range_of(*d.shrink_holdout));
+    if (d.shrink_over_fits && d.shrink_over_fits->lower() > 0)
+        std::cout << "; for every parameter that explains the other data, by "
+                  << report::shrink_text(range_of(*d.shrink_over_fits));
     std::cout << "\n";
 }
 

@@ -270,6 +270,8 @@ struct diagnosis {
     std::vector<std::vector<std::string>> indistinguishable;
     std::vector<std::string> unobservable; ///< effects that these channels and scenarios never show
     std::optional<interval> shrink_fit, shrink_holdout;
+    /// That on held-out data, whatever parameters of the answer explain the fit data.
+    std::optional<interval> shrink_over_fits;
     std::optional<unexplained_remainder> remainder; ///< of an unexplained gap
     std::optional<next_experiment> next;
     std::vector<std::string> assumptions; ///< all that anything proved rests on

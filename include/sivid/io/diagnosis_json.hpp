@@ -32,6 +32,7 @@ public:
         json_.key("shrink").begin_object(one_line);
         maybe("fit", d_->shrink_fit);
         maybe("holdout", d_->shrink_holdout);
+        maybe("holdout_over_fits", d_->shrink_over_fits);
         json_.end_object();
         remainder();
         next();

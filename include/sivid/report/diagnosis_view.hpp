@@ -178,6 +178,7 @@ struct diagnosis_view {
     std::vector<std::string> unobservable{};
     std::vector<std::string> absorbed{};  ///< effects that the priors are wide enough to take up
     range shrink_fit{}, shrink_holdout{}; ///< proved shares of the gap; empty: not applicable
+    range shrink_over_fits{}; ///< on held-out data, for every parameter that explains the others
     std::optional<remainder_view> remainder{};
     std::optional<next_experiment_view> next{};
 

@@ -66,6 +66,11 @@ namespace sivid::report {
 [[nodiscard]] SIVID_DECL bool says_shrink(range const& share);
 
 [[nodiscard]] SIVID_DECL std::string shrink_clause(range const& share, std::string_view data);
+/// Whether what is removed on held-out data is bounded for every parameter that explains the others.
+[[nodiscard]] SIVID_DECL bool says_shrink_over_fits(diagnosis_view const& v);
+/// The same of held-out data: for every parameter that explains the others where that is known, else
+/// at the witness.
+[[nodiscard]] SIVID_DECL std::string holdout_clause(diagnosis_view const& v);
 
 /// "with overflow an unexplained remainder of 3.1 to 3.2 times the measurement bounds is left
 /// (proved)"; empty when nothing is said of one.

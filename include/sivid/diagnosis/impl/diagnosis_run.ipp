@@ -70,6 +70,9 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
     figures.width_before = before.width;
     figures.width_after = after.width;
     run.result.shrink_holdout = shrink(figures.inflation_before, figures.inflation_after);
+    if (run.answer_bound.range.upper() <= 1 && figures.over_fits_after) {
+        run.result.shrink_over_fits = shrink(figures.inflation_before, *figures.over_fits_after);
+    }
     run.result.causes.front().holdout = std::move(figures);
 }
 

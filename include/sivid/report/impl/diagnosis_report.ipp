@@ -170,6 +170,7 @@ SIVID_DECL diagnosis_view view_of(diagnosis const& d, diagnosis_plot_data const&
                      .absorbed = options.absorbed,
                      .shrink_fit = detail::drawn(d.shrink_fit),
                      .shrink_holdout = detail::drawn(d.shrink_holdout),
+                     .shrink_over_fits = detail::drawn(d.shrink_over_fits),
                      .after = options.after,
                      .assumptions = d.assumptions,
                      .warnings = options.warnings,

@@ -188,6 +188,16 @@ SIVID_DECL std::string shrink_clause(range const& share, std::string_view data) 
     return on + "removes " + shrink_text(share) + " of the gap (proved)";
 }
 
+SIVID_DECL bool says_shrink_over_fits(diagnosis_view const& v) {
+    return !is_empty(v.shrink_over_fits) && v.shrink_over_fits.lo > 0;
+}
+
+SIVID_DECL std::string holdout_clause(diagnosis_view const& v) {
+    if (!says_shrink_over_fits(v)) return shrink_clause(v.shrink_holdout, "the held-out data");
+    return "on the held-out data it removes " + shrink_text(v.shrink_over_fits) +
+           " of the gap, for every parameter that explains the other data (proved)";
+}
+
 SIVID_DECL std::string remainder_clause(diagnosis_view const& v) {
     if (!v.remainder) return "";
     remainder_view const& r = *v.remainder;
@@ -275,7 +285,7 @@ SIVID_DECL std::string banner_sentence(diagnosis_view const& v) {
     if (v.answer == answer_state::effects && !v.effects.empty()) {
         parts.push_back(answer_clause(v));
         parts.push_back(alternatives_clause(v));
-        parts.push_back(shrink_clause(v.shrink_holdout, "the held-out data"));
+        parts.push_back(holdout_clause(v));
     } else if (v.answer == answer_state::open) {
         parts.push_back(open_clause(v));
         if (!v.confined.empty()) parts.push_back(confined_clause(v.confined.front()));

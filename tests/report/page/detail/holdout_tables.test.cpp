@@ -13,7 +13,7 @@ TEST_CASE("hold-out tables: figures, known and not") {
     diagnosis_view const v = hovercraft_diagnosis().view();
     auto const t = holdout_table(*v.candidates[0].holdout, v.shrink_holdout);
     REQUIRE(t.rows.size() == 11);
-    CHECK(t.rows[1][0] == "the same, for every parameter that fits as well");
+    CHECK(t.rows[1][0] == "the same, for every parameter that fits");
     CHECK(t.rows[2][2] == "98.2 to 100\xC2\xA0%");
     CHECK(t.rows[9][2] == "97.8\xC2\xA0%");
     CHECK(holdout_table({}, {}).rows.empty());

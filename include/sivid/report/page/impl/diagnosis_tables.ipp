@@ -48,6 +48,9 @@ SIVID_DECL std::vector<card> diagnosis_cards(diagnosis_view const& v) {
     }
     if (v.answer != answer_state::effects) {
         // There is no effect that would remove anything.
+    } else if (says_shrink_over_fits(v)) {
+        out.push_back({"gap removed, held-out data", shrink_text(v.shrink_over_fits),
+                       "\xE2\x9C\x93 proved for all that fits"});
     } else if (says_shrink(v.shrink_holdout)) {
         out.push_back({"gap removed, held-out data", shrink_text(v.shrink_holdout),
                        "\xE2\x9C\x93 proved at the witness"});
@@ -95,7 +98,7 @@ SIVID_DECL table summary_table(diagnosis_view const& v) {
     }
     if (v.answer == answer_state::effects) {
         std::string const fit = shrink_clause(v.shrink_fit, "the data used for fitting");
-        std::string const holdout = shrink_clause(v.shrink_holdout, "the held-out data");
+        std::string const holdout = holdout_clause(v);
         add("Shrink", fit + (fit.empty() || holdout.empty() ? "" : "; ") + holdout);
     }
     add("Next", next_words(v));

@@ -21,8 +21,9 @@ SIVID_DECL table holdout_table(holdout_view const& h, range const& shrink) {
                           inflation(h.inflation_after), proved});
     }
     if (says_something(h.over_fits_before) || says_something(h.over_fits_after)) {
-        t.rows.push_back({"the same, for every parameter that fits as well",
-                          inflation(h.over_fits_before), inflation(h.over_fits_after), proved});
+        t.rows.push_back(
+            {"the same, for every parameter that fits",
+             inflation(h.over_fits_before), inflation(h.over_fits_after), proved});
     }
     if (says_shrink(shrink)) t.rows.push_back({"gap removed", "", shrink_text(shrink), proved});
     auto const number = [](double x) {
