@@ -108,7 +108,7 @@ std::optional<std::vector<double>> farthest(fit_problem::linear_model const& mod
 
 reached reach(fit_problem const& problem, std::vector<double> const& x, std::size_t which) {
     constexpr double limit = 1 + 1e-3; // in bounds: the simulation's own error
-    reached r{x[which], x[which]};
+    reached r{x[which], x[which], {}};
     for (double const sign : {1.0, -1.0}) {
         auto best = x;
         double radius = 0.1;
@@ -132,6 +132,7 @@ reached reach(fit_problem const& problem, std::vector<double> const& x, std::siz
             else
                 radius /= 4;
         }
+        r.ends.push_back(std::move(best));
     }
     return r;
 }

@@ -16,6 +16,7 @@ namespace withheld {
 /// the data allow at least as much.
 struct reached {
     double lower = 0, upper = 0;
+    std::vector<std::vector<double>> ends; ///< points that attain them, about
 };
 reached reach(fit_problem const& problem, std::vector<double> const& x, std::size_t which);
 

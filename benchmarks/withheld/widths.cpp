@@ -7,6 +7,7 @@
 #include "reading.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace withheld {
@@ -28,12 +29,46 @@ std::optional<std::vector<double>> explaining(label const& truth, fit_problem co
     return problem.inflation(x) <= 1 || problem.tighten(x) <= 1 ? std::optional{x} : std::nullopt;
 }
 
+/// Points at the ends of what the data allow explain them: hulls hold these, too, and what is said
+/// of held-out data for every parameter.
+void attack(fit_problem const& problem, std::vector<double> const& inside, reached const& r,
+            json const& cause, bool known_starts, judgement& j) {
+    auto const over = bounds_in(member(member(cause, "holdout"), "over_fits_after"));
+    for (auto const& end : r.ends) {
+        for (double const share : {1.0, 0.999, 0.98}) {
+            auto x = inside;
+            for (std::size_t i = 0; i < x.size(); ++i) x[i] += share * (end[i] - inside[i]);
+            if (problem.inflation(x) > 1 - 1e-6) continue;
+            for (auto const& [name, value] : problem.values(x)) {
+                auto const hull = hull_in(member(member(cause, "parameters"), name));
+                if (!hull) continue;
+                ++j.hulls_checked;
+                j.proof(hull->contains(value, 1e-7 * (1 + std::abs(value))), "hull",
+                        name + " in " + text_of(*hull) + ", explains at " + short_text(value));
+            }
+            if (!over || !known_starts) break;
+            double const there = problem.inflation(x, true);
+            j.proof(there <= over->upper * (1 + 1e-3) && there >= over->lower * (1 - 1e-3),
+                    "holdout",
+                    joined(names_in(member(cause, "effects"))) + " over all fits " +
+                        text_of(*over) + ", at one of them " + short_text(there));
+            break;
+        }
+    }
+}
+
 void measure_hulls(label const& truth, recording const& data, json const& cause, judgement& j) {
     std::vector<effect const*> effects;
     for (auto const& [name, values] : truth.effects) effects.push_back(effect_named(name));
     fit_problem const problem(data, effects);
     bool const any_budget = std::any_of(data.scenarios.begin(), data.scenarios.end(),
                                         [](auto const& s) { return s.budget > 0; });
+    bool const known_starts =
+        std::all_of(data.scenarios.begin(), data.scenarios.end(), [](auto const& s) {
+            return !s.plan.holdout ||
+                   std::all_of(s.plan.initial.begin(), s.plan.initial.end(),
+                               [](auto const& side) { return side.lo == side.hi; });
+        });
     std::optional<std::vector<double>> x;
     if (!any_budget) x = explaining(truth, problem);
     auto const parameters = member(cause, "parameters");
@@ -46,6 +81,7 @@ void measure_hulls(label const& truth, recording const& data, json const& cause,
         if (x) {
             auto const r = reach(problem, *x, i);
             w.allowed = r.upper - r.lower;
+            attack(problem, *x, r, cause, known_starts, j);
         }
         // Both ends cut to the prior, as the data allow no more there.
         if (auto const hull = hull_in(member(parameters, v.name))) {
