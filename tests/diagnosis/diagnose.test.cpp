@@ -298,12 +298,12 @@ TEST_CASE("an effect that begins later or ends is found, and the windows hold wh
     };
     std::vector<expectation> const all{
         {small_campaign::with_slope(0.4), "slope", 0.4, {1, 2.05, 0.513}},
-        {small_campaign::with_drag(0.6), "quadratic", 0.6, {0, 0, 9}, {2, 1.711, 9}},
         {small_campaign::with_slope(0.5), "slope", 0.5, {0.8, 1.305, 0}, {2.2, 3, 1.4}},
+        {small_campaign::with_drag(0.6), "quadratic", 0.6, {0, 0, 9}, {2, 1.711, 9}},
         {small_campaign::with_drag(0.6), "quadratic", 0.6, {0.8, 1.234, 1.9}},
         {small_campaign::with_slope(-0.5), "slope", -0.5, {0, 1.5, 9}},
         {small_campaign::with_slope(0.5), "slope", 0.5, {0, 0, 0}, {1.6, 2.305, 9}}};
-    for (std::size_t n = 0; n < support::swept(std::size_t{3}, all.size()); ++n) {
+    for (std::size_t n = 0; n < support::swept(std::size_t{2}, all.size()); ++n) {
         auto const& [real, effect, value, onsets, ends] = all[n];
         auto p = small_campaign::problem();
         p.experiments.clear();

@@ -150,12 +150,12 @@ identification_problem with_late_position(int steps) {
 TEST_CASE("hulls of thresholds of an input contain them, and are narrow") {
     for (bool const stands : {true, false}) {
         std::vector<effect> const one{
-            stands ? effects::input_saturation("most", "u", "N", {0.05_dec, 1_dec})
+            stands ? effects::input_saturation("most", "u", "N", {0.05_dec, 2_dec})
                    : effects::input_dead_band("dead", "u", "N", {0_dec, 0.5_dec})};
         std::vector<double> const sizes{0.21, 0.4, 0.333, 0.07, 0.151};
         for (std::size_t n = 0; n < support::swept(std::size_t{1}, sizes.size()); ++n) {
             auto const problem = with_threshold(stands, sizes[n]);
-            auto const hulls = effect_hulls(problem, one, {.seconds = 20});
+            auto const hulls = effect_hulls(problem, one, {.seconds = 20, .boxes = 800});
             CAPTURE(stands, sizes[n], hulls[0], hulls[1]);
             CHECK(contains(hulls[0], 1.0));
             CHECK(contains(hulls[1], sizes[n]));
@@ -171,8 +171,9 @@ TEST_CASE("hulls of thresholds of an input contain them, and are narrow") {
             CHECK(contains(more[2], 0.0));
             CHECK(width(more[1]) < 0.35);
         }
+        if (!support::long_sweeps) continue;
         auto const none = effect_hulls(small_campaign::problem(), one, {.seconds = 10});
-        CHECK(contains(none[1], stands ? 1.0 : 0.0));
+        CHECK(contains(none[1], stands ? 1.9 : 0.0)); // beyond all that was commanded
     }
 }
 
