@@ -47,11 +47,12 @@ with_line(identification_problem const& base, std::vector<effect> effects, std::
     e.on_inputs = [name](effect_scope& h) { h.input(name) += h.parameter(); };
     auto problem = affected(base, effects);
     auto const j = index_of_parameter(problem, full_name(e));
+    auto const slope = index_of(problem.model.about.inputs, e.name, "input");
     auto prior = all;
     for (auto& x : problem.experiments) {
         input_of_parameter line = form(std::get<sampled_signal>(x.inputs[input]), x, all[j]);
         prior[j] = interval_traits<interval>::sub(all[j], interval(line.at));
-        x.inputs.back() = std::move(line.slope);
+        x.inputs[slope] = std::move(line.slope);
         x.inputs[input] = std::move(line.middle);
     }
     problem.prior = std::move(prior);
@@ -119,6 +120,10 @@ namespace diagnosis_detail {
 inline std::optional<sliced_input> sliced_latency(identification_problem const& base,
                                                   std::vector<effect> const& effects,
                                                   identification_problem const& whole) {
+    // A switch in time would have to be late, too.
+    if (std::any_of(effects.begin(), effects.end(),
+                    [](effect const& e) { return e.begins_later() || e.ends(); }))
+        return std::nullopt;
     auto const& model = whole.model;
     auto const constant = model.channel_delays.front().constant;
     std::vector<bool> late(model.about.channels.size(), false);
