@@ -199,3 +199,19 @@ TEST_CASE("the hull of a late sensor contains its latency, and is narrow") {
     auto const wrong = small_campaign::problem(small_campaign::with_drag(0.8));
     CHECK(is_empty(effect_hulls(wrong, slow, {.seconds = 60})[1]));
 }
+
+TEST_CASE("a delay beside an effect of one experiment: each input has its own place") {
+    auto problem = small_campaign::problem(small_campaign::with_delay(0.2));
+    auto real = small_campaign::with_slope(0.4);
+    real.delay = 0.2;
+    problem.experiments[1].measurements = small_campaign::experiment(1, real).measurements;
+    std::vector<effect> const effects{
+        only_within(effects::constant_rate("slope", "v", "m/s^2", {-1_dec, 1_dec}), {"E2"}),
+        late[0]};
+    auto const hulls = effect_hulls(problem, effects, {.seconds = 20, .boxes = 800});
+    CAPTURE(hulls[0], hulls[1], hulls[2]);
+    CHECK(contains(hulls[0], 1.0));
+    CHECK(contains(hulls[1], 0.4));
+    CHECK(contains(hulls[2], 0.2));
+    CHECK(width(hulls[2]) < 0.1);
+}
