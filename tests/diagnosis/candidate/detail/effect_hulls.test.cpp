@@ -148,7 +148,8 @@ identification_problem with_late_position(int steps) {
 } // namespace
 
 TEST_CASE("hulls of thresholds of an input contain them, and are narrow") {
-    for (bool const stands : {true, false}) {
+    for (bool const stands : {false, true}) {
+        if (stands && !support::long_sweeps) continue;
         std::vector<effect> const one{
             stands ? effects::input_saturation("most", "u", "N", {0.05_dec, 2_dec})
                    : effects::input_dead_band("dead", "u", "N", {0_dec, 0.5_dec})};
@@ -180,7 +181,7 @@ TEST_CASE("hulls of thresholds of an input contain them, and are narrow") {
 TEST_CASE("the hull of a late sensor contains its latency, and is narrow") {
     std::vector<effect> const slow{effects::sensor_latency("slow", {"p"}, {0_dec, 0.5_dec})};
     std::vector<int> const latencies{200, 57, 333, 1, 480, 100};
-    for (std::size_t n = 0; n < support::swept(std::size_t{2}, latencies.size()); ++n) {
+    for (std::size_t n = 0; n < support::swept(std::size_t{1}, latencies.size()); ++n) {
         auto const problem = with_late_position(latencies[n]);
         double const tau = 0.001 * latencies[n];
         auto const hulls = effect_hulls(problem, slow, {.seconds = 60});
@@ -196,6 +197,7 @@ TEST_CASE("the hull of a late sensor contains its latency, and is narrow") {
         CHECK(contains(more[1], tau));
         CHECK(contains(more[2], 0.0));
     }
+    if (!support::long_sweeps) return;
     auto const wrong = small_campaign::problem(small_campaign::with_drag(0.8));
     CHECK(is_empty(effect_hulls(wrong, slow, {.seconds = 60})[1]));
 }
