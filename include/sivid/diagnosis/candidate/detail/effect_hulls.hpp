@@ -14,15 +14,14 @@ namespace sivid {
 
 /// Encloses all parameters of a model with effects that explain the data: those of the model
 /// itself, then those of the effects.
-///   A delay or a play has no enclosure over a range, thresholds are kinks, and the equation of a
-///   lag
-/// is singular where its time constant is 0. Over a slice of their priors they are inputs with
-/// error bounds (`sliced_input_of`, `lagged_within`): slices that cannot explain the data are
-/// excluded, the hulls of the others are joined. Short time constants are such a slice; the others
-/// are an ordinary state, octave by octave.
+///   A delay or a play has no enclosure over a range, thresholds are kinks, and a lag's equation is
+/// singular where its time constant is 0. Over a slice of their priors they are inputs with error
+/// bounds (`sliced_input_of`, `lagged_within`): slices that cannot explain the data are excluded,
+/// the hulls of the others are joined. Short time constants are such a slice; the others are an
+/// ordinary state, octave by octave.
 /// @param base     without the effects
-/// @param effects  at most one with a delay or a play of an input, else all keep their priors, as
-///                 with delays of channels
+/// @param effects  at most one with a delay or a play, of an input or of channels: with several,
+///                 all keep their priors
 /// @guarantee  every parameter of `affected(base, effects)` that explains the data lies in the
 ///             result; empty when none does
 /// @throws std::invalid_argument  as `affected`

@@ -47,7 +47,10 @@ struct late_clock {
 
     late_clock(double begin, interval const& delays) {
         double const unit = 4 * std::numeric_limits<double>::epsilon();
-        stands = begin + std::max(0.0, delays.lower());
+        // Before the shortest latency has passed, whatever the rounding: what is shown then is the
+        // start.
+        double const shortest = std::max(0.0, delays.lower());
+        stands = std::max(begin, begin + shortest - unit * (std::abs(begin) + shortest));
         runs = std::max(begin + delays.upper(), stands);
         runs += unit * (std::abs(runs) + std::abs(begin) + delays.upper() + 1e-6);
         double const length = runs - stands;
