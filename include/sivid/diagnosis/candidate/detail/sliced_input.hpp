@@ -30,13 +30,10 @@ struct sliced_input {
 
 /// @param base, effects  outlive what is returned
 /// @returns  nothing where no effect is such a one, or several are delays and plays; where the
-/// input
-///           is a formula, or not the recorded input, but what another effect leaves of it, is
-///           changed
+///           input is a formula, or is changed by another effect before
 /// @guarantee  whatever outputs the effects' problem has for parameters in the box, the one over
-/// the
-///             box has for some input within its errors, the other parameters being the same; with
-///             late channels experiments are split, and samples may be left out
+///             the box has for some input within its errors, all else being the same; with late
+///             channels experiments are split, and samples may be left out
 [[nodiscard]] SIVID_DECL std::optional<sliced_input>
 sliced_input_of(identification_problem const& base, std::vector<effect> const& effects);
 
