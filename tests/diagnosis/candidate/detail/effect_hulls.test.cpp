@@ -217,3 +217,21 @@ TEST_CASE("a delay beside an effect of one experiment: each input has its own pl
     CHECK(contains(hulls[2], 0.2));
     CHECK(width(hulls[2]) < 0.1);
 }
+
+TEST_CASE("a late sensor of an experiment that does not begin at 0") {
+    auto problem = with_late_position(150);
+    for (auto& x : problem.experiments) { // all of it 2.7 s later
+        auto const u = std::get<sampled_signal>(x.inputs[0]);
+        auto times = u.times();
+        for (auto& t : times) t += 2.7;
+        x.inputs[0] = sampled_signal(times, u.values(), u.kind());
+        x.begin = 2.7;
+        for (auto& m : x.measurements) m.time += 2.7;
+    }
+    std::vector<effect> const slow{effects::sensor_latency("slow", {"p"}, {0_dec, 0.5_dec})};
+    auto const hulls = effect_hulls(problem, slow, {.seconds = 20, .boxes = 800});
+    CAPTURE(hulls[0], hulls[1]);
+    CHECK(contains(hulls[0], 1.0));
+    CHECK(contains(hulls[1], 0.15));
+    CHECK(width(hulls[1]) < 0.1);
+}
