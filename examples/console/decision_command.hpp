@@ -2,6 +2,7 @@
 #ifndef EXAMPLES_CONSOLE_DECISION_COMMAND_HPP
 #define EXAMPLES_CONSOLE_DECISION_COMMAND_HPP
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -30,6 +31,7 @@ struct decision_command {
     std::string name;                 ///< of the designed experiment; empty: SCENARIO-design
     double target = 0.5;              ///< the share of its width that a goal may keep
     double budget = 10;               ///< [s]
+    std::size_t boxes = 20'000;       ///< of gains
     bool quiet = false;
     std::string command_line;
 };

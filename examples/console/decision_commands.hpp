@@ -143,6 +143,7 @@ inline int run_control(sivid::recorded_model const& model,
     progress.note("gains for " + task.scenario() + ", for all that " + task.dataset() + " leaves");
     sivid::gain_options options;
     options.motions = detail::options_for(0.7 * c.budget, 60);
+    options.boxes = c.boxes;
     auto const found = sivid::find_gains(about->problem, gains, asked, about->feasible, options);
     auto const left = [&] { return std::max(0.2, c.budget - progress.elapsed()); };
     std::optional<sivid::verification> proof;

@@ -53,6 +53,8 @@ inline void add_law(CLI::App& s, decision d, decision_command& c) {
     if (d != decision::control) return;
     law->required();
     gain->required();
+    s.add_option("--boxes", c.boxes, "boxes of gains that are tested, at most")
+        ->capture_default_str();
 }
 
 /// What `design` is told.

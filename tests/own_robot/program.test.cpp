@@ -35,7 +35,7 @@ TEST_CASE("from a robot's log to gains that are proved for all that it leaves", 
     auto const scenario = (folder.path() / "push.json").string();
     auto const asked = [&](char const* what, std::vector<std::string> more) {
         std::vector<std::string> all{what,      result,     "--scenario", scenario,
-                                     "--quiet", "--budget", "5"};
+                                     "--quiet", "--budget", "25"};
         all.insert(all.end(), more.begin(), more.end());
         return run(all);
     };
