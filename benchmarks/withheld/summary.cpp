@@ -64,6 +64,15 @@ std::string number_text(std::optional<double> const& x, char const* format = "%.
     return buffer;
 }
 
+/// "wind.wx 0.02 of 0.01": what the hull leaves of its prior, and what the data allow.
+std::string hulls_text(std::vector<hull_width> const& hulls) {
+    std::string text;
+    for (auto const& h : hulls)
+        text += (text.empty() ? "" : "; ") + h.name + ' ' + number_text(h.of_prior) + " of " +
+                (h.allowed ? number_text(h.allowed) : "?");
+    return text;
+}
+
 constexpr std::size_t name_width = 11, cell_width = 12;
 
 std::string row(std::string const& name, tally& t) {
@@ -236,7 +245,7 @@ std::string csv(std::vector<judgement> const& all) {
         "case,family,truth,answer,right,place,absorbed,false_proofs,proofs,gap_certified,"
         "relation_proved,truth_explains,inflation_lower,inflation_upper,"
         "inflation_bound,shrink_lower,shrink_upper,shrink_true,seconds,missing,open,"
-        "contradictions\n";
+        "contradictions,hulls,holdout_ratio\n";
     auto const flag = [](bool b) { return b ? "1" : "0"; };
     auto const maybe = [&](std::optional<bool> const& b) { return b ? flag(*b) : ""; };
     for (auto const& j : all) {
@@ -253,7 +262,8 @@ std::string csv(std::vector<judgement> const& all) {
                 number_text(j.inflation_bound) + ',' + number_text(j.shrink_lower) + ',' +
                 number_text(j.shrink_upper) + ',' + number_text(j.shrink_true) + ',' +
                 number_text(j.seconds, "%.3f") + ',' + flag(j.missing) + ',' + flag(j.open) + ',' +
-                kinds(j.contradictions) + '\n';
+                kinds(j.contradictions) + ',' + hulls_text(j.hull_widths) + ',' +
+                number_text(j.holdout_ratio) + '\n';
     }
     return text;
 }
