@@ -56,6 +56,7 @@ struct truth {
     double delay = 0; ///< of the input
     double play = 0;  ///< half of a gap behind it
     int every = 100;  ///< milliseconds from one measurement to the next
+    sivid::interpolation between = sivid::interpolation::linear; ///< samples of the input
 };
 
 /// Measured every 0.1 s, unless the truth says otherwise, for 4 s, within +-0.02 m and +-0.03 m/s;
@@ -68,7 +69,7 @@ inline sivid::experiment experiment(std::size_t e, truth const& real) {
         times.push_back(0.05 * k);
         values.push_back(input(e, times.back()));
     }
-    sivid::sampled_signal const u(times, values, sivid::interpolation::linear);
+    sivid::sampled_signal const u(times, values, real.between);
     result.inputs = {u};
     double const v0 = e == 1 ? 0.5 : 0;
     result.initial = sivid::box{interval(0.0), interval(v0)};

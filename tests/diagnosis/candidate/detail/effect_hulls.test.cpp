@@ -2,6 +2,7 @@
 #include <sivid/diagnosis/candidate/detail/effect_hulls.hpp>
 
 #include "diagnosis/lagged_input.hpp"
+#include "diagnosis/late_position.hpp"
 #include "diagnosis/small_catalogue.hpp"
 #include "support/catch.hpp"
 #include "support/sweep.hpp"
@@ -111,9 +112,9 @@ TEST_CASE("hulls end in time, with what is proved until then") {
         problem, late, {.seconds = 60, .keep_going = [&asked] { return ++asked < 3; }});
     CHECK(contains(hulls[1], 0.2));
     CHECK(width(hulls[1]) == 0.5);
-    // A late input and a late sensor together stay as they are.
+    // Two changes of one input stay as they are.
     auto const both =
-        std::vector<effect>{late[0], effects::sensor_latency("slow", {"p"}, {0_dec, 0.5_dec})};
+        std::vector<effect>{late[0], effects::input_backlash("gap", "u", "N", {0_dec, 0.5_dec})};
     CHECK(width(effect_hulls(problem, both, {.seconds = 1})[1]) == 0.5);
 }
 
@@ -128,23 +129,6 @@ identification_problem with_threshold(bool stands, double size) {
     };
     return small_campaign::problem(real);
 }
-/// The position is shown `steps` milliseconds late.
-identification_problem with_late_position(int steps) {
-    auto problem = small_campaign::problem();
-    small_campaign::truth fine;
-    fine.every = 1;
-    for (std::size_t e = 0; e < 2; ++e) {
-        auto const all = small_campaign::experiment(e, fine).measurements; // p, v, p, v, ...
-        for (auto& m : problem.experiments[e].measurements) {
-            if (m.channel != 0) continue;
-            auto const past = static_cast<int>(std::lround(1000 * m.time)) - steps;
-            m.bound = past > 0 ? all[2 * static_cast<std::size_t>(past - 1)].bound
-                               : interval(-0.02, 0.02);
-        }
-    }
-    return problem;
-}
-
 } // namespace
 
 TEST_CASE("hulls of thresholds of an input contain them, and are narrow") {
@@ -182,7 +166,7 @@ TEST_CASE("the hull of a late sensor contains its latency, and is narrow") {
     std::vector<effect> const slow{effects::sensor_latency("slow", {"p"}, {0_dec, 0.5_dec})};
     std::vector<int> const latencies{200, 57, 333, 1, 480, 100};
     for (std::size_t n = 0; n < support::swept(std::size_t{1}, latencies.size()); ++n) {
-        auto const problem = with_late_position(latencies[n]);
+        auto const problem = diagnosis_support::with_late_position(latencies[n]);
         double const tau = 0.001 * latencies[n];
         auto const hulls = effect_hulls(problem, slow, {.seconds = 60});
         CAPTURE(tau, hulls[0], hulls[1]);
@@ -219,7 +203,7 @@ TEST_CASE("a delay beside an effect of one experiment: each input has its own pl
 }
 
 TEST_CASE("a late sensor of an experiment that does not begin at 0") {
-    auto problem = with_late_position(150);
+    auto problem = diagnosis_support::with_late_position(150);
     for (auto& x : problem.experiments) { // all of it 2.7 s later
         auto const u = std::get<sampled_signal>(x.inputs[0]);
         auto times = u.times();
@@ -234,4 +218,19 @@ TEST_CASE("a late sensor of an experiment that does not begin at 0") {
     CHECK(contains(hulls[0], 1.0));
     CHECK(contains(hulls[1], 0.15));
     CHECK(width(hulls[1]) < 0.1);
+}
+
+TEST_CASE("hulls of two memories at once contain both, and are narrow") {
+    small_campaign::truth real;
+    real.delay = 0.13;
+    std::vector<effect> const two{effects::sensor_latency("slow", {"p"}, {0_dec, 0.5_dec}),
+                                  late[0]};
+    auto const hulls = effect_hulls(diagnosis_support::with_late_position(60, real), two,
+                                    {.seconds = 60, .boxes = 400});
+    CAPTURE(hulls[0], hulls[1], hulls[2]);
+    CHECK(contains(hulls[0], 1.0));
+    CHECK(contains(hulls[1], 0.06));
+    CHECK(contains(hulls[2], 0.13));
+    CHECK((width(hulls[1]) < 0.1 && width(hulls[2]) < 0.15));
+    CHECK((hulls[1].lower() > 0 && hulls[2].lower() > 0));
 }

@@ -5,14 +5,14 @@
 #include <sivid/compiled.hpp>
 #include <sivid/model/effect.hpp>
 #include <sivid/model/problem.hpp>
-#include <sivid/space/box.hpp>
+#include <sivid/number/interval.hpp>
 
 #include <cstddef>
 #include <vector>
 
 namespace sivid {
 
-/// A problem in which channels show the past, over a box of all parameters, without any delay.
+/// A problem in which channels show the past, over a range of delays, without any delay.
 ///   What a late channel shows at t is what it would show then of the same motion begun tau later
 ///   under late inputs. So each experiment is split in two: one measures the other channels, and
 ///   one the late ones, of a motion whose clock stands until a and runs from b on, where [a, b] is
@@ -23,13 +23,14 @@ namespace sivid {
 /// @param base     without effects
 /// @param effects  those of the whole problem
 /// @param which    of them is the late sensor, alone with its parameter
-/// @param side     of the box: that parameter, whose place the distance from the middle takes
+/// @param delays   range of that parameter, whose place the distance from its middle takes
 /// @given  recorded inputs; no equation and no late channel depends on the time itself
-/// @guarantee  parameters of the box that explain the data explain this problem: late samples
+/// @guarantee  parameters with such a delay that explain the data explain this problem: late
+/// samples
 ///             between a and b are left out, and each part may have all the outliers
-[[nodiscard]] SIVID_DECL identification_problem with_late_channels(
-    identification_problem const& base, std::vector<effect> const& effects, std::size_t which,
-    std::vector<bool> const& late, std::size_t side, box const& all);
+[[nodiscard]] SIVID_DECL identification_problem
+with_late_channels(identification_problem const& base, std::vector<effect> const& effects,
+                   std::size_t which, std::vector<bool> const& late, interval const& delays);
 
 } // namespace sivid
 

@@ -14,28 +14,41 @@
 
 namespace sivid {
 
-/// A problem in which one parameter of the effects changes a recorded input in a way that
-/// enclosures follow badly (a delay, also of channels, a play, a dead band, a saturation). Over a
-/// range of that parameter the input is one with error bounds, and where that is possible a line in
-/// the parameter besides, which keeps its place among the unknowns (`late_by_parameter`,
+/// A problem in which parameters of the effects change recorded inputs in a way that enclosures
+/// follow badly: delays, also of channels, plays, dead bands, saturations. Over ranges of these
+/// parameters the inputs have error bounds, and where that is possible they are lines in the
+/// parameter besides, which keeps its place among the unknowns (`late_by_parameter`,
 /// `threshold_by_parameter`, `with_late_channels`); else it has none there (`delayed_within`,
 /// `played`).
 struct sliced_input {
-    std::size_t side = 0;      ///< of the prior of all parameters
-    bool is_parameter = false; ///< whether it stays an unknown
-    /// The problem over a box of all parameters.
-    ///   Its unknown for the side, if any, is the distance from the middle of the side.
+    struct side {
+        std::size_t index = 0;     ///< in the prior of all parameters
+        bool is_parameter = false; ///< whether it stays an unknown: the distance from its middle
+    };
+    std::vector<side> sides; ///< one at least
+    /// The problem over a box of all parameters. Its unknowns have their names, in some order.
     std::function<identification_problem(box const&)> over;
+    /// What the data tell that no such parameter touches: of inputs that stand still, on channels
+    /// that are not late. Its unknowns are the other parameters.
+    std::optional<identification_problem> untouched;
 };
 
 /// @param base, effects  outlive what is returned
-/// @returns  nothing where no effect is such a one, or several are delays and plays; where the
-///           input is a formula, or is changed by another effect before
+/// @returns  nothing where no effect is such a one; where the input of one that has to be is a
+///           formula, or two change one input
 /// @guarantee  whatever outputs the effects' problem has for parameters in the box, the one over
 ///             the box has for some input within its errors, all else being the same; with late
 ///             channels experiments are split, and samples may be left out
 [[nodiscard]] SIVID_DECL std::optional<sliced_input>
 sliced_input_of(identification_problem const& base, std::vector<effect> const& effects);
+
+/// What is left of a box of all parameters once a problem over it leaves `found` of its unknowns;
+/// nothing where that is empty.
+/// @param whole  the problem of all parameters, whose names count
+[[nodiscard]] SIVID_DECL std::optional<box> explained_by(identification_problem const& whole,
+                                                         sliced_input const& sliced, box all,
+                                                         identification_problem const& over,
+                                                         box const& found);
 
 } // namespace sivid
 

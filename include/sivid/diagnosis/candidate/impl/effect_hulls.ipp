@@ -28,7 +28,7 @@ public:
     [[nodiscard]] box operator()() {
         auto whole = affected(*base_, *effects_);
         if (auto const sliced = sliced_input_of(*base_, *effects_)) {
-            return over_slices(whole.prior, *sliced);
+            return over_slices(whole, *sliced);
         }
         return whole.model.has_memory() ? whole.prior : over_lags(std::move(whole));
     }
@@ -38,7 +38,7 @@ private:
     static constexpr double least_of_slice = 1.0 / 256, most_of_slice = 1.0 / 16;
     static constexpr double of_quick_slice = 1.0 / 8;
     static constexpr double of_octave = 1.0 / 8;
-    static constexpr double of_time = 1.0 / 4;
+    static constexpr double of_time = 1.0 / 4, of_untouched = 1.0 / 3;
 
     /// A box of all parameters from one without parameter `j`, and the range of that.
     [[nodiscard]] static box joined(box const& others, std::size_t j, interval const& range) {
@@ -50,66 +50,94 @@ private:
         hulls = hulls.size() == 0 ? more : hull(hulls, more);
     }
 
-    /// Slices of the prior, each cut to what it leaves or halved, until they are excluded or
-    /// narrow. What is excluded at all mostly is so by few boxes: all are tried with few, then with
-    /// more.
-    [[nodiscard]] box over_slices(box const& prior, sliced_input const& sliced) const {
-        using traits = interval_traits<interval>;
-        auto const j = sliced.side;
+    /// What the untouched data leave of the prior, in slices, each cut to what it leaves or halved,
+    /// until they are excluded or narrow. What is excluded at all mostly is so by few boxes: all
+    /// are tried with few, then with more.
+    [[nodiscard]] box over_slices(identification_problem const& whole,
+                                  sliced_input const& sliced) const {
         struct slice {
             box all; ///< parameters
             double share;
         };
-        std::vector<slice> waiting;   // in the order of coming
-        constexpr int begin_with = 8; // wider slices are rarely excluded
-        auto const at = [&](int k) {
-            double const way = static_cast<double>(k) / begin_with;
-            auto const& all = prior[j];
-            return k == 0            ? all.lower()
-                   : k == begin_with ? all.upper()
-                                     : all.lower() + way * (all.upper() - all.lower());
-        };
-        auto const wait = [&](box all, interval const& range, double share) {
-            all[j] = range;
-            waiting.push_back({std::move(all), share});
-        };
-        for (int k = 0; k < begin_with; ++k)
-            wait(prior, interval(at(k), at(k + 1)), least_of_slice);
-        double const narrow = search_.accuracy() * width(prior[j]);
+        auto prior = whole.prior;
+        if (sliced.untouched && search_.in_time()) {
+            auto const found = search_(*sliced.untouched, 1, of_untouched);
+            auto const left = found ? explained_by(whole, sliced, prior, *sliced.untouched, *found)
+                                    : std::nullopt;
+            if (!left) return nothing_of(prior);
+            prior = *left;
+        }
+        std::vector<slice> waiting{{prior, least_of_slice}};     // in the order of coming
+        int const begin_with = sliced.sides.size() == 1 ? 8 : 4; // wider ones are rarely excluded
+        for (auto const& side : sliced.sides) {
+            auto const& all = prior[side.index];
+            std::vector<slice> finer;
+            double from = all.lower();
+            for (int k = 1; k <= begin_with; ++k) {
+                double const way = static_cast<double>(k) / begin_with;
+                double const to =
+                    k == begin_with ? all.upper() : all.lower() + way * (all.upper() - all.lower());
+                for (auto const& s : waiting) {
+                    finer.push_back(s);
+                    finer.back().all[side.index] = interval(from, to);
+                }
+                from = to;
+            }
+            waiting = std::move(finer);
+        }
+        // Of several sides there are many slices, and most narrow ones are unknowns besides.
+        double const narrow = (sliced.sides.size() == 1 ? 1 : 4) * search_.accuracy();
         box hulls;
         for (std::size_t next = 0; next < waiting.size(); ++next) {
             auto const now = waiting[next];
+            if (hulls.size() != 0 && subset(now.all, hulls)) continue; // it changes nothing
             if (!search_.in_time()) {
                 add(hulls, now.all);
                 continue;
             }
-            auto const& range = now.all[j];
-            auto const found = search_(sliced.over(now.all), now.share, of_time);
+            auto const over = sliced.over(now.all);
+            auto const found = search_(over, now.share, of_time);
             if (!found) continue;
-            auto left = sliced.is_parameter ? *found : joined(*found, j, range);
-            if (sliced.is_parameter) {
-                left[j] = intersect(traits::add(traits::point(mid(range)), left[j]), range);
-                if (is_empty(left[j])) continue;
-                // Closer, the input has less of an error.
-                if (width(left[j]) < 0.7 * width(range)) {
-                    wait(left, left[j], now.share);
-                    continue;
-                }
+            auto const left = explained_by(whole, sliced, now.all, over, *found);
+            if (!left) continue;
+            // Closer, the inputs have less of an error.
+            bool const closer =
+                std::any_of(sliced.sides.begin(), sliced.sides.end(), [&](auto const& side) {
+                    auto const j = side.index;
+                    return width((*left)[j]) < 0.7 * width(now.all[j]);
+                });
+            if (closer) {
+                waiting.push_back({*left, now.share});
+                continue;
             }
             if (now.share < most_of_slice) {
-                wait(left, left[j], std::min(most_of_slice, 4 * now.share));
+                waiting.push_back({*left, std::min(most_of_slice, 4 * now.share)});
                 continue;
             }
-            double const half = mid(left[j]);
-            bool const splits = left[j].lower() < half && half < left[j].upper();
-            if (!(width(left[j]) > narrow) || !splits) {
-                add(hulls, left);
+            auto const j = widest(sliced, *left, whole.prior);
+            double const half = mid((*left)[j]);
+            bool const splits = (*left)[j].lower() < half && half < (*left)[j].upper();
+            if (!(width((*left)[j]) > narrow * width(whole.prior[j])) || !splits) {
+                add(hulls, *left);
                 continue;
             }
-            wait(left, traits::bounds(left[j].lower(), half), least_of_slice);
-            wait(left, traits::bounds(half, left[j].upper()), least_of_slice);
+            for (bool const lower : {true, false}) {
+                waiting.push_back({*left, least_of_slice});
+                auto& side = waiting.back().all[j];
+                side = lower ? interval(side.lower(), half) : interval(half, side.upper());
+            }
         }
-        return hulls.size() == 0 ? nothing_of(prior) : hulls;
+        return hulls.size() == 0 ? nothing_of(whole.prior) : hulls;
+    }
+    /// The sliced side that is the largest share of its prior.
+    [[nodiscard]] static std::size_t widest(sliced_input const& sliced, box const& all,
+                                            box const& prior) {
+        auto const share = [&](sliced_input::side const& s) {
+            return width(all[s.index]) / width(prior[s.index]);
+        };
+        return std::max_element(sliced.sides.begin(), sliced.sides.end(),
+                                [&](auto const& a, auto const& b) { return share(a) < share(b); })
+            ->index;
     }
 
     /// Where the time constant of a lag may be 0, short ones are excluded as inputs with errors, if

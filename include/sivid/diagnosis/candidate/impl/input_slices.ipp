@@ -149,6 +149,7 @@ SIVID_DECL input_of_parameter late_by_parameter(sampled_signal const& u, double 
     for (std::size_t k = 1; k + 1 < u.times().size(); ++k) {
         if (!(u.times()[k] > begin)) continue;
         auto const next = u.slope<interval>(k);
+        if (u.exact() && mag(next) == 0 && mag(slope) == 0) continue; // it stands still
         knots.push_back({u.times()[k], traits::sub(next, slope)});
         turn(u.times()[k], next);
         slope = next;

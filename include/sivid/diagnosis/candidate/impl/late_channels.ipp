@@ -5,6 +5,7 @@
 #include <sivid/diagnosis/candidate/detail/late_channels.hpp>
 
 #include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/diagnosis/candidate/detail/hull_search.hpp>
 #include <sivid/diagnosis/candidate/detail/input_slices.hpp>
 #include <sivid/diagnosis/candidate/detail/seen_input.hpp>
 #include <sivid/measurement/detail/widened_signal.hpp>
@@ -79,7 +80,7 @@ SIVID_DECL identification_problem with_late_channels(identification_problem cons
                                                      std::vector<effect> const& effects,
                                                      std::size_t which,
                                                      std::vector<bool> const& late,
-                                                     std::size_t side, box const& all) {
+                                                     interval const& delays) {
     auto const constant = [](double c) {
         return analytic_signal::from([c](auto const&) { return c; });
     };
@@ -122,7 +123,7 @@ SIVID_DECL identification_problem with_late_channels(identification_problem cons
         auto in_time = x, behind = x;
         std::erase_if(in_time.measurements, [&](auto const& m) { return late[m.channel]; });
         for (auto const& name : own) in_time.inputs[place(name)] = constant(name == clock ? 1 : 0);
-        diagnosis_detail::late_clock const time(x.begin, all[side]);
+        diagnosis_detail::late_clock const time(x.begin, delays);
         std::erase_if(behind.measurements, [&](auto const& m) {
             return !late[m.channel] || (m.time > time.stands && m.time < time.runs);
         });
@@ -134,11 +135,11 @@ SIVID_DECL identification_problem with_late_channels(identification_problem cons
             auto& slope = behind.inputs[place(slope_of(inputs[i]))];
             sampled_signal middle;
             if (u.kind() == interpolation::linear) {
-                auto line = late_by_parameter(u, x.begin, x.end(), all[side]);
+                auto line = late_by_parameter(u, x.begin, x.end(), delays);
                 middle = std::move(line.middle);
                 slope = std::move(line.slope);
             } else {
-                middle = delayed_within(u, x.begin, x.end(), all[side]);
+                middle = delayed_within(u, x.begin, x.end(), delays);
                 slope = constant(0);
             }
             // While the clock is slow, the input is one of the first ones.
@@ -153,9 +154,8 @@ SIVID_DECL identification_problem with_late_channels(identification_problem cons
         }
     }
     problem.experiments = std::move(parts);
-    problem.prior = all;
-    problem.prior[side] = interval_traits<interval>::sub(all[side], interval(mid(all[side])));
-    start_added_states(problem);
+    auto& side = problem.prior[index_of_parameter(problem, parameter)];
+    side = interval_traits<interval>::sub(delays, interval(mid(delays)));
     return problem;
 }
 

@@ -29,38 +29,72 @@ inline bool is_recorded(identification_problem const& problem, std::size_t input
                            return std::holds_alternative<sampled_signal>(e.inputs[input]);
                        });
 }
+/// Whether a recorded input has one value, which is exact.
+inline bool stands_still(sampled_signal const& u) {
+    auto const& v = u.values();
+    return u.exact() && std::all_of(v.begin(), v.end(), [&](double x) { return x == v.front(); });
+}
 inline std::string full_name(effect const& e) { return e.name + "." + e.parameters[0].name; }
 
-/// The problem over a box, with the effect `which` as a line in its only parameter: its slope is a
-/// further input, by which it acts.
-/// @param order  when it acts, among the effects
+/// The problem with an effect as a line in its only parameter: its slope is a further input, by
+/// which it acts, before all that is joined later.
+/// @param range  of the parameter, whose place the distance from its middle takes
 /// @param form   (input, experiment, range) -> input_of_parameter
 template <class Form>
-[[nodiscard]] identification_problem
-with_line(identification_problem const& base, std::vector<effect> effects, std::size_t which,
-          std::size_t input, int order, box const& all, Form const& form) {
-    auto& e = effects[which];
+[[nodiscard]] identification_problem with_line(identification_problem const& base, effect e,
+                                               std::size_t input, interval const& range,
+                                               Form const& form) {
+    e.only_in.clear();
     for (auto const& x : base.experiments) e.only_in.push_back(x.name);
-    e.order = order;
     e.parameters[0].neutral = decimal{}; // where its slope is 0, it does nothing
+    e.threshold.reset();
     auto const name = base.model.about.inputs[input].name;
     e.on_inputs = [name](effect_scope& h) { h.input(name) += h.parameter(); };
-    auto problem = affected(base, effects);
-    auto const j = index_of_parameter(problem, full_name(e));
+    auto problem = affected(base, {e});
     auto const slope = index_of(problem.model.about.inputs, e.name, "input");
-    auto prior = all;
     for (auto& x : problem.experiments) {
-        input_of_parameter line = form(std::get<sampled_signal>(x.inputs[input]), x, all[j]);
-        prior[j] = interval_traits<interval>::sub(all[j], interval(line.at));
+        input_of_parameter line = form(std::get<sampled_signal>(x.inputs[input]), x, range);
+        problem.prior[problem.prior.size() - 1] =
+            interval_traits<interval>::sub(range, interval(line.at));
         x.inputs[slope] = std::move(line.slope);
         x.inputs[input] = std::move(line.middle);
     }
-    problem.prior = std::move(prior);
-    start_added_states(problem);
     return problem;
 }
 
-/// The problem over a box, with a delay or a play within its range there as an error of the input.
+/// One parameter that changes a recorded input, taken out of the effects.
+struct input_change {
+    std::size_t effect, input;
+    sliced_input::side side;
+    bool is_delay, is_play;
+
+    /// The problem with this change over a range of its parameter.
+    [[nodiscard]] identification_problem
+    operator()(identification_problem base, sivid::effect const& e, interval const& range) const {
+        if (side.is_parameter) {
+            auto const form = [&](auto const& u, experiment const& x, interval const& all) {
+                return is_delay
+                           ? late_by_parameter(u, x.begin, x.end(), all)
+                           : threshold_by_parameter(u, x.begin, x.end(), e.threshold->stands, all);
+            };
+            return with_line(base, e, input, range, form);
+        }
+        for (auto& x : base.experiments) {
+            auto const u = std::get<sampled_signal>(x.inputs[input]);
+            x.inputs[input] = is_play ? played(u, x.begin, x.end(), range).within
+                                      : delayed_within(u, x.begin, x.end(), range);
+        }
+        return base;
+    }
+    /// Whether it does nothing in an experiment.
+    [[nodiscard]] bool idle_in(experiment const& x) const {
+        auto const& u = std::get<sampled_signal>(x.inputs[input]);
+        return stands_still(u) && (is_delay || (!is_play && u.values().front() == 0));
+    }
+};
+
+/// The problem over a box, with the delay or play of a constant of the model, or of an effect that
+/// changes other things too, as an error of the input.
 [[nodiscard]] inline identification_problem with_errors(identification_problem const& whole,
                                                         signal_memory const& memory, std::size_t j,
                                                         box const& all) {
@@ -79,108 +113,193 @@ with_line(identification_problem const& base, std::vector<effect> effects, std::
     return problem;
 }
 
-/// A delay or a play.
-inline std::optional<sliced_input> sliced_memory(identification_problem const& base,
-                                                 std::vector<effect> const& effects,
-                                                 identification_problem whole) {
-    auto const memory = whole.model.input_memory[0];
-    auto const& name = whole.model.about.constants[memory.constant].name;
-    sliced_input result{index_of_parameter(whole, name), false, nullptr};
-    if (result.side == whole.prior.size() || !is_recorded(whole, memory.index)) return std::nullopt;
-    auto const all_linear = [&] {
-        return std::all_of(whole.experiments.begin(), whole.experiments.end(), [&](auto const& x) {
-            return std::get<sampled_signal>(x.inputs[memory.index]).kind() == interpolation::linear;
-        });
-    };
-    for (std::size_t k = 0; k < effects.size(); ++k) {
-        auto const& e = effects[k];
-        bool const only = e.parameters.size() == 1 && !e.on_rates && !e.on_channels;
-        if (memory.kind != memory_kind::delay || !only || full_name(e) != name || !all_linear())
-            continue;
-        result.is_parameter = true;
-        result.over = [&base, &effects, k, memory](box const& all) {
-            auto const late = [](auto const& u, experiment const& x, interval const& delays) {
-                return late_by_parameter(u, x.begin, x.end(), delays);
+/// Finds the parameters to be sliced.
+class sliced_input_finder {
+public:
+    sliced_input_finder(identification_problem const& base, std::vector<effect> const& effects)
+        : base_(&base), effects_(&effects), whole_(affected(base, effects)) {}
+
+    [[nodiscard]] std::optional<sliced_input> operator()() {
+        auto const& memory = whole_.model.input_memory;
+        for (auto const& m : memory) {
+            auto const change = change_by(m);
+            if (change) {
+                changes_.push_back(*change);
+            } else {
+                bool const alone = memory.size() == 1 && whole_.model.channel_delays.empty();
+                return alone ? by_errors(m) : std::nullopt;
+            }
+        }
+        if (!whole_.model.channel_delays.empty() && !find_late_sensor()) return std::nullopt;
+        for (std::size_t k = 0; k < effects_->size(); ++k)
+            if (auto const change = change_by_threshold(k)) changes_.push_back(*change);
+        for (auto const& c : changes_) {
+            auto const same = [&](input_change const& other) { return other.input == c.input; };
+            if (std::count_if(changes_.begin(), changes_.end(), same) > 1) return std::nullopt;
+        }
+        if (changes_.empty() && !late_) return std::nullopt;
+        return joined();
+    }
+
+private:
+    [[nodiscard]] std::size_t side_of(effect const& e) const {
+        return index_of_parameter(whole_, full_name(e));
+    }
+    /// The effect that is nothing but this memory, with one parameter.
+    [[nodiscard]] std::optional<input_change> change_by(signal_memory const& m) const {
+        auto const& name = whole_.model.about.constants[m.constant].name;
+        if (!is_recorded(whole_, m.index)) return std::nullopt;
+        for (std::size_t k = 0; k < effects_->size(); ++k) {
+            auto const& e = (*effects_)[k];
+            if (e.parameters.size() != 1 || full_name(e) != name || e.on_rates || e.on_channels)
+                continue;
+            bool const is_play = m.kind == memory_kind::play;
+            auto const linear = [&](experiment const& x) {
+                return std::get<sampled_signal>(x.inputs[m.index]).kind() == interpolation::linear;
             };
-            constexpr int first = std::numeric_limits<int>::min(); // what others see is late
-            return with_line(base, effects, k, memory.index, first, all, late);
+            auto const& all = whole_.experiments;
+            bool const line = !is_play && std::all_of(all.begin(), all.end(), linear);
+            return input_change{k, m.index, {side_of(e), line}, !is_play, is_play};
+        }
+        return std::nullopt;
+    }
+    [[nodiscard]] std::optional<input_change> change_by_threshold(std::size_t k) const {
+        auto const& e = (*effects_)[k];
+        if (!e.threshold || !e.only_in.empty() || e.parameters.size() != 1) return std::nullopt;
+        auto const input = index_of(base_->model.about.inputs, e.threshold->input, "input");
+        for (auto const& m : whole_.model.input_memory)
+            if (m.index == input) return std::nullopt; // what it sees is changed before
+        auto const j = side_of(e);
+        bool const exact = j < whole_.prior.size() && whole_.prior[j].lower() >= 0;
+        if (!acts_on_recorded_inputs(*effects_, k) || !exact || !is_recorded(*base_, input))
+            return std::nullopt;
+        return input_change{k, input, {j, true}, false, false};
+    }
+    /// Channels that show the past, by one effect that does nothing else.
+    [[nodiscard]] bool find_late_sensor() {
+        // A switch in time would have to be late, too.
+        if (std::any_of(effects_->begin(), effects_->end(),
+                        [](effect const& e) { return e.begins_later() || e.ends(); }))
+            return false;
+        auto const& model = whole_.model;
+        auto const constant = model.channel_delays.front().constant;
+        late_channels_.assign(model.about.channels.size(), false);
+        for (auto const& d : model.channel_delays) {
+            if (d.constant != constant) return false;
+            late_channels_[d.index] = true;
+        }
+        auto const of_time = [&](node_id n) { return (model.g.depends(n) & on_time) != 0; };
+        if (std::any_of(model.rate.begin(), model.rate.end(), of_time)) return false;
+        for (std::size_t y = 0; y < late_channels_.size(); ++y)
+            if (late_channels_[y] && of_time(model.observe[y])) return false;
+        for (std::size_t i = 0; i < base_->model.about.inputs.size(); ++i)
+            if (!is_recorded(*base_, i)) return false;
+        for (std::size_t k = 0; k < effects_->size(); ++k) {
+            auto const& e = (*effects_)[k];
+            bool const only = e.parameters.size() == 1 && !e.on_rates && !e.on_inputs;
+            if (!only || full_name(e) != model.about.constants[constant].name) continue;
+            auto const j = side_of(e);
+            if (j == whole_.prior.size() || !(whole_.prior[j].lower() >= 0)) return false;
+            late_ = k;
+            late_side_ = j;
+            return true;
+        }
+        return false;
+    }
+
+    [[nodiscard]] std::optional<sliced_input> by_errors(signal_memory const& m) const {
+        auto const j = index_of_parameter(whole_, whole_.model.about.constants[m.constant].name);
+        if (j == whole_.prior.size() || !is_recorded(whole_, m.index)) return std::nullopt;
+        return sliced_input{
+            {{j, false}},
+            [whole = whole_, m, j](box const& all) { return with_errors(whole, m, j, all); },
+            std::nullopt};
+    }
+    [[nodiscard]] sliced_input joined() const {
+        sliced_input result;
+        std::vector<effect> others; // of the changes
+        std::size_t late_among = 0;
+        for (std::size_t k = 0; k < effects_->size(); ++k) {
+            if (late_ && *late_ == k) late_among = others.size();
+            if (std::none_of(changes_.begin(), changes_.end(),
+                             [&](input_change const& c) { return c.effect == k; }))
+                others.push_back((*effects_)[k]);
+        }
+        for (auto const& c : changes_) result.sides.push_back(c.side);
+        if (late_) result.sides.push_back({late_side_, true});
+        auto const names = whole_.choice.unknown;
+        result.over = [names, others, late_among, base = base_, effects = effects_,
+                       changes = changes_, late = late_, late_side = late_side_,
+                       late_channels = late_channels_](box const& all) {
+            auto problem = *base;
+            for (auto const& c : changes)
+                problem = c(std::move(problem), (*effects)[c.effect], all[c.side.index]);
+            problem = late ? with_late_channels(problem, others, late_among, late_channels,
+                                                all[late_side])
+                           : affected(problem, others);
+            for (std::size_t j = 0; j < names.size(); ++j) {
+                auto const k = index_of_parameter(problem, names[j]);
+                bool const shifted =
+                    (late && j == late_side) ||
+                    std::any_of(changes.begin(), changes.end(),
+                                [&](input_change const& c) { return c.side.index == j; });
+                if (k < problem.prior.size() && !shifted) problem.prior[k] = all[j];
+            }
+            start_added_states(problem);
+            return problem;
         };
+        result.untouched = untouched(others, late_among);
         return result;
     }
-    result.over = [whole = std::move(whole), memory, j = result.side](box const& all) {
-        return with_errors(whole, memory, j, all);
-    };
-    return result;
-}
-
-} // namespace diagnosis_detail
-
-namespace diagnosis_detail {
-/// Channels that show the past.
-inline std::optional<sliced_input> sliced_latency(identification_problem const& base,
-                                                  std::vector<effect> const& effects,
-                                                  identification_problem const& whole) {
-    // A switch in time would have to be late, too.
-    if (std::any_of(effects.begin(), effects.end(),
-                    [](effect const& e) { return e.begins_later() || e.ends(); }))
-        return std::nullopt;
-    auto const& model = whole.model;
-    auto const constant = model.channel_delays.front().constant;
-    std::vector<bool> late(model.about.channels.size(), false);
-    for (auto const& d : model.channel_delays) {
-        if (d.constant != constant) return std::nullopt;
-        late[d.index] = true;
+    [[nodiscard]] std::optional<identification_problem> untouched(std::vector<effect> others,
+                                                                  std::size_t late_among) const {
+        if (late_) others.erase(others.begin() + static_cast<std::ptrdiff_t>(late_among));
+        auto problem = affected(*base_, others);
+        std::vector<experiment> kept;
+        for (auto& x : problem.experiments) {
+            bool const idle = std::all_of(changes_.begin(), changes_.end(),
+                                          [&](input_change const& c) { return c.idle_in(x); });
+            if (late_)
+                std::erase_if(x.measurements,
+                              [&](auto const& m) { return late_channels_[m.channel]; });
+            x.outliers = std::min(x.outliers, x.measurements.size());
+            if (idle && !x.measurements.empty()) kept.push_back(std::move(x));
+        }
+        if (kept.empty() || problem.prior.size() == 0) return std::nullopt;
+        problem.experiments = std::move(kept);
+        return problem;
     }
-    auto const& name = model.about.constants[constant].name;
-    auto const j = index_of_parameter(whole, name);
-    if (j == whole.prior.size() || !(whole.prior[j].lower() >= 0)) return std::nullopt;
-    auto const of_time = [&](node_id n) { return (model.g.depends(n) & on_time) != 0; };
-    if (std::any_of(model.rate.begin(), model.rate.end(), of_time)) return std::nullopt;
-    for (std::size_t y = 0; y < late.size(); ++y)
-        if (late[y] && of_time(model.observe[y])) return std::nullopt;
-    for (std::size_t i = 0; i < base.model.about.inputs.size(); ++i)
-        if (!is_recorded(base, i)) return std::nullopt;
-    for (std::size_t k = 0; k < effects.size(); ++k) {
-        auto const& e = effects[k];
-        bool const only = e.parameters.size() == 1 && !e.on_rates && !e.on_inputs;
-        if (!only || full_name(e) != name) continue;
-        return sliced_input{j, true, [&base, &effects, k, late, j](box const& all) {
-                                return with_late_channels(base, effects, k, late, j, all);
-                            }};
-    }
-    return std::nullopt;
-}
+
+    identification_problem const* base_;
+    std::vector<effect> const* effects_;
+    identification_problem whole_;
+    std::vector<input_change> changes_;
+    std::optional<std::size_t> late_; ///< the effect that is a late sensor
+    std::size_t late_side_ = 0;
+    std::vector<bool> late_channels_;
+};
+
 } // namespace diagnosis_detail
 
 SIVID_DECL std::optional<sliced_input> sliced_input_of(identification_problem const& base,
                                                        std::vector<effect> const& effects) {
-    auto whole = affected(base, effects);
-    if (!whole.model.channel_delays.empty()) {
-        if (!whole.model.input_memory.empty()) return std::nullopt;
-        return diagnosis_detail::sliced_latency(base, effects, whole);
+    return diagnosis_detail::sliced_input_finder(base, effects)();
+}
+
+SIVID_DECL std::optional<box> explained_by(identification_problem const& whole,
+                                           sliced_input const& sliced, box all,
+                                           identification_problem const& over, box const& found) {
+    using traits = interval_traits<interval>;
+    for (std::size_t j = 0; j < all.size(); ++j) {
+        auto const k = index_of_parameter(over, whole.choice.unknown[j]);
+        if (k == found.size()) continue;
+        auto left = found[k];
+        for (auto const& s : sliced.sides)
+            if (s.index == j && s.is_parameter) left = traits::add(interval(mid(all[j])), left);
+        all[j] = intersect(left, all[j]);
+        if (is_empty(all[j])) return std::nullopt;
     }
-    if (whole.model.input_memory.size() > 1) return std::nullopt;
-    if (whole.model.has_memory())
-        return diagnosis_detail::sliced_memory(base, effects, std::move(whole));
-    for (std::size_t k = 0; k < effects.size(); ++k) {
-        auto const& e = effects[k];
-        if (!e.threshold || !e.only_in.empty() || e.parameters.size() != 1) continue;
-        auto const input = index_of(base.model.about.inputs, e.threshold->input, "input");
-        auto const j = index_of_parameter(whole, diagnosis_detail::full_name(e));
-        bool const acts_first = acts_on_recorded_inputs(effects, k);
-        bool const exact = j < whole.prior.size() && whole.prior[j].lower() >= 0;
-        if (!acts_first || !exact || !diagnosis_detail::is_recorded(base, input)) continue;
-        return sliced_input{j, true, [&base, &effects, k, input](box const& all) {
-                                auto const form = [&](auto const& u, experiment const& x,
-                                                      interval const& range) {
-                                    return threshold_by_parameter(
-                                        u, x.begin, x.end(), effects[k].threshold->stands, range);
-                                };
-                                return diagnosis_detail::with_line(base, effects, k, input,
-                                                                   effects[k].order, all, form);
-                            }};
-    }
-    return std::nullopt;
+    return all;
 }
 
 } // namespace sivid

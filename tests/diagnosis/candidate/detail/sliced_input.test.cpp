@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/diagnosis/candidate/detail/sliced_input.hpp>
+
+#include "diagnosis/late_position.hpp"
+#include "support/catch.hpp"
+#include "support/sweep.hpp"
+
+#include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/diagnosis/candidate/detail/hull_search.hpp>
+#include <sivid/model/effects.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <random>
+#include <string>
+#include <vector>
+
+using namespace sivid;
+using namespace sivid::literals;
+
+namespace {
+
+effect const late = effects::input_delay("late", "u", {0_dec, 0.5_dec});
+effect const slow = effects::sensor_latency("slow", {"p"}, {0_dec, 0.5_dec});
+effect const gap = effects::input_backlash("gap", "u", "N", {0_dec, 0.5_dec});
+effect const dead = effects::input_dead_band("dead", "u", "N", {0_dec, 0.5_dec});
+
+/// What is planted of each effect: milliseconds, newtons.
+struct planted {
+    int late = 0, slow = 0;
+    double gap = 0, dead = 0;
+
+    [[nodiscard]] double of(std::string const& name) const {
+        return name == "late.tau"   ? 0.001 * late
+               : name == "slow.tau" ? 0.001 * slow
+               : name == "gap.b"    ? gap
+               : name == "dead.b"   ? dead
+                                    : 1;
+    }
+};
+
+/// Bounds that the truth nearly touches, on a side that chance decides; one sample is far off
+/// where outliers are allowed.
+identification_problem measured(planted const& true_ones, interpolation between,
+                                std::size_t outliers, std::mt19937& chance) {
+    small_campaign::truth real;
+    real.between = between;
+    real.delay = 0.001 * true_ones.late;
+    real.play = true_ones.gap;
+    double const band = true_ones.dead;
+    if (band > 0)
+        real.missing = [band](double, double, double u) { return -std::clamp(u, -band, band); };
+    auto problem = diagnosis_support::with_late_position(true_ones.slow, real);
+    std::uniform_real_distribution<double> share(-0.3, 0.3); // 60 % are filled already
+    for (auto& x : problem.experiments) {
+        for (auto& m : x.measurements) {
+            double const move = share(chance) * width(m.bound) / 2;
+            m.bound = interval(m.bound.lower() + move, m.bound.upper() + move);
+        }
+        x.outliers = outliers;
+        for (std::size_t k = 0; k < outliers; ++k) {
+            auto& m = x.measurements[(17 * k + 40) % x.measurements.size()];
+            m.bound = interval(m.bound.lower() + 3, m.bound.upper() + 3);
+        }
+    }
+    return problem;
+}
+
+} // namespace
+
+TEST_CASE("slices that hold the truth are never excluded, nor is it cut off") {
+    std::vector<std::vector<effect>> const forms{{late, slow}, {slow, dead}, {gap, slow},
+                                                 {slow},       {late},       {dead}};
+    std::mt19937 chance(20261125);
+    std::uniform_real_distribution<double> some(0, 1);
+    for (std::size_t n = 0; n < support::swept(std::size_t{8}, std::size_t{200}); ++n) {
+        auto const& form = forms[n % forms.size()];
+        auto const has = [&](char const* name) {
+            return std::any_of(form.begin(), form.end(),
+                               [&](effect const& e) { return e.name == name; });
+        };
+        planted true_ones;
+        if (has("late")) true_ones.late = static_cast<int>(450 * some(chance));
+        if (has("slow")) true_ones.slow = static_cast<int>(450 * some(chance));
+        if (has("gap")) true_ones.gap = 0.4 * some(chance);
+        if (has("dead")) true_ones.dead = 0.4 * some(chance);
+        auto const between = n % 2 == 0 || has("gap") ? interpolation::linear : interpolation::hold;
+        auto const base = measured(true_ones, between, n % 3 == 2 ? 1 : 0, chance);
+        auto const whole = affected(base, form);
+        auto const sliced = sliced_input_of(base, form);
+        REQUIRE(sliced);
+        CHECK(sliced->sides.size() == form.size());
+        // The truth somewhere in a range, or at its end.
+        auto all = whole.prior;
+        for (auto const& side : sliced->sides) {
+            double const at = true_ones.of(whole.choice.unknown[side.index]);
+            double const size = 0.1 * some(chance);
+            double const where = n % 4 == 0 ? 0 : n % 4 == 1 ? 1 : some(chance);
+            all[side.index] = intersect(interval(at - where * size, at + (1 - where) * size),
+                                        whole.prior[side.index]);
+        }
+        auto const over = sliced->over(all);
+        auto const found = hull_search({.seconds = 5, .boxes = 60})(over, 1);
+        CAPTURE(n, true_ones.late, true_ones.slow, true_ones.gap, true_ones.dead, all);
+        REQUIRE(found);
+        auto const left = explained_by(whole, *sliced, all, over, *found);
+        REQUIRE(left);
+        for (std::size_t j = 0; j < whole.prior.size(); ++j) {
+            CAPTURE(whole.choice.unknown[j], (*left)[j]);
+            CHECK(contains((*left)[j], true_ones.of(whole.choice.unknown[j])));
+        }
+    }
+}
+
+TEST_CASE("data that a sliced parameter does not touch stand alone") {
+    auto problem = small_campaign::problem();
+    CHECK_FALSE(sliced_input_of(problem, {late})->untouched); // both inputs move
+    auto const only_speed = sliced_input_of(problem, {slow})->untouched;
+    REQUIRE(only_speed);
+    CHECK(only_speed->choice.unknown == std::vector<std::string>{"k"});
+    for (auto const& x : only_speed->experiments)
+        CHECK(std::all_of(x.measurements.begin(), x.measurements.end(),
+                          [](auto const& m) { return m.channel == 1; }));
+    auto const constant = [](double value, std::vector<double> errors = {}) {
+        return sampled_signal({0, 2, 4}, {value, value, value}, interpolation::linear,
+                              std::move(errors));
+    };
+    auto const kept = [&](effect const& e, signal const& u) {
+        problem.experiments[1].inputs[0] = u;
+        auto const rest = sliced_input_of(problem, {e})->untouched;
+        return rest ? rest->experiments.size() : 0;
+    };
+    CHECK(kept(late, constant(0.3)) == 1);
+    CHECK(kept(late, constant(0.3, {0, 0.1, 0})) == 0); // its errors come late, too
+    CHECK(kept(dead, constant(0.3)) == 0);
+    CHECK(kept(dead, constant(0)) == 1);
+    CHECK(kept(gap, constant(0)) == 0);
+    problem.experiments[1].outliers = 3;
+    CHECK(sliced_input_of(problem, {dead})->untouched->experiments[0].outliers == 3);
+}
+
+TEST_CASE("which parameters are sliced") {
+    auto const problem = small_campaign::problem();
+    CHECK_FALSE(sliced_input_of(problem, {}));
+    CHECK_FALSE(
+        sliced_input_of(problem, {effects::constant_rate("slope", "v", "m/s^2", {-1_dec, 1_dec})}));
+    CHECK_FALSE(sliced_input_of(problem, {late, gap})); // both change u
+    auto const behind = sliced_input_of(problem, {dead, late});
+    REQUIRE(behind); // a threshold of a late input is an ordinary parameter
+    REQUIRE(behind->sides.size() == 1);
+    CHECK(behind->sides[0].index == 2);
+    auto const two = sliced_input_of(problem, {slow, dead});
+    REQUIRE(two);
+    CHECK(two->sides.size() == 2);
+    auto formula = problem;
+    formula.experiments[0].inputs[0] = analytic_signal::from([](auto const& t) { return t; });
+    for (auto const& e : {late, dead, gap, slow}) CHECK_FALSE(sliced_input_of(formula, {e}));
+}
