@@ -112,12 +112,14 @@ reached reach(fit_problem const& problem, std::vector<double> const& x, std::siz
     for (double const sign : {1.0, -1.0}) {
         auto best = x;
         double radius = 0.1;
-        for (int round = 0; round < 12 && radius > 1e-4; ++round) {
-            // Products of parameters are no lines: what misses the bounds is corrected once.
+        for (int round = 0; round < 24 && radius > 1e-4; ++round) {
+            // Products of parameters are no lines: what misses the bounds is corrected by shorter
+            // moves.
             auto at = best;
             bool explains = false;
-            for (int correction = 0; correction < 2 && !explains; ++correction) {
-                auto const move = farthest(problem.linear(at), at, which, sign, radius);
+            double within = radius;
+            for (int correction = 0; correction < 4 && !explains; ++correction, within /= 8) {
+                auto const move = farthest(problem.linear(at), at, which, sign, within);
                 if (!move) break;
                 for (std::size_t i = 0; i < at.size(); ++i)
                     at[i] = std::clamp(at[i] + (*move)[i], 0.0, 1.0);
