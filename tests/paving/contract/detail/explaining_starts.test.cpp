@@ -170,3 +170,41 @@ TEST_CASE("nothing is claimed without starts, with outputs that were not reached
     CHECK_FALSE(explaining_starts(still, part)());
     CHECK_FALSE(explaining_starts(still, box{between(-0.01, 0.01)})()); // `assess` says so
 }
+
+TEST_CASE("outputs from starts that follow the parameters lie within their affine forms") {
+    draws d(22);
+    std::size_t followed = 0;
+    for (unsigned trial = 0; trial < support::swept(20U, 1000U); ++trial) {
+        random_experiment e(d, 5, trial % 2 == 0 ? 0.05 : 0.5);
+        for (std::size_t y = 0; y < 5; ++y) e.known.bounds.push_back(between(-0.1, 0.1));
+        box part{between(-0.4, 0.7), between(2, 2), between(5.002, 5.008)};
+        if (trial % 3 == 0) part[0] = interval(0.25); // a point of a side
+        start_follower follower(e.known, part);
+        auto const rule = start_rule_search().propose(follower.forms());
+        REQUIRE(rule.middle.size() == 2);
+        REQUIRE(rule.slope.size() == 4);
+        auto const outputs = follower(rule);
+        REQUIRE(outputs); // its starts stay within their boxes
+        ++followed;
+        for (int point = 0; point < 20; ++point) {
+            std::vector<double> at;
+            for (int j = 0; j < 2; ++j)
+                at.push_back(point < 4 ? ((point >> j) & 1) * 2 - 1 : d.uniform(-1, 1));
+            auto const q = e.follow(rule, part, at);
+            for (std::size_t y = 0; y < 5; ++y) {
+                auto const exact = e.value(y, q);
+                rational least(outputs->value[y]), most = least;
+                for (std::size_t j = 0; j < 2; ++j) {
+                    auto const& slope = outputs->slope[j * 5 + y];
+                    rational const one = rational(slope.lower()) * rational(at[j]);
+                    rational const other = rational(slope.upper()) * rational(at[j]);
+                    least += std::min(one, other);
+                    most += std::max(one, other);
+                }
+                rational const own(e.known.radius[y]), rest(outputs->rest[y]);
+                CHECK((least - rest <= exact - own && exact + own <= most + rest));
+            }
+        }
+    }
+    CHECK(followed > 0);
+}

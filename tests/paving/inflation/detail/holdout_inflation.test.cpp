@@ -82,6 +82,8 @@ TEST_CASE("the range over all fits contains, and about equals, what samples show
                         CHECK(found.over_fits.upper() <= 1.1 * most);
                     }
                     CHECK(std::isfinite(found.over_fits.upper()));
+                    // The start follows the parameter.
+                    if (outliers == 0) CHECK(found.over_fits.upper() <= 1.2 * most);
                 }
                 double const p = fitted.witness->parameters[0];
                 double const exact = holdout_at(p, spread, outliers);

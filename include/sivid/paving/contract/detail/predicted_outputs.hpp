@@ -5,6 +5,8 @@
 #include <sivid/paving/contract/detail/cut_certificate.hpp>
 #include <sivid/paving/contract/detail/cut_program.hpp>
 #include <sivid/paving/contract/detail/misfit_block.hpp>
+#include <sivid/paving/contract/detail/start_follower.hpp>
+#include <sivid/paving/contract/detail/start_rule.hpp>
 #include <sivid/paving/response/local_response.hpp>
 #include <sivid/space/box.hpp>
 
@@ -30,24 +32,21 @@ struct predicted_outputs {
 ///   \f$ y(d) \le \sum_i w_i b_i - \min_d (\sum_i w_i y_i(d) - y(d)) \f$ with the ends b_i.
 /// Correlated parameters, which a box cannot describe, are so described by the data.
 /// @param measured  those that are met, without outliers; ones that allow some are left out
-/// @param others    at the starts that are given
+/// @param others    uncertain starts of theirs follow the parameters (`start_follower`)
 /// @param part      inside the boxes that the responses were computed for (trusted)
-/// @guarantee  `ranges` contains the outputs of all such parameters from these starts; for any
+/// @guarantee  `ranges` contains the outputs of all such parameters, each from some start; for any
 ///             weights
 /// @cost  two linear programs and certificates for each output that the parameters move
 class output_prediction {
     using traits = interval_traits<interval>;
 
 public:
-    output_prediction(response_list const& measured, response_list const& others,
-                      std::vector<std::vector<double>> const& starts, box const& part)
+    output_prediction(response_list const& measured, response_list const& others, box const& part)
         : measured_(&measured),
           others_(&others),
-          starts_(&starts),
           part_(&part),
           known_(measured, part),
-          own_(others, part, fixed_starts()),
-          count_(known_.count) {
+          own_(others, part) {
         for (std::size_t s = 0; s < measured.size(); ++s) {
             auto const& r = *measured[s];
             auto const local = expand(r, part);
@@ -56,84 +55,97 @@ public:
             scales_.push_back(std::move(misfits.scale));
             blocks_.push_back(std::move(misfits.functions));
         }
-        // Their starts are points: unknowns without reach, behind those of the measured ones.
-        for (auto& places : own_.places) {
-            for (auto& p : places) {
-                if (p.unknown >= part.size()) p.unknown = count_++;
-            }
-        }
     }
 
     [[nodiscard]] predicted_outputs operator()() const {
         predicted_outputs result;
-        cut_program program(count_, blocks_);
+        cut_program program(known_.count, blocks_);
         for (std::size_t s = 0; s < others_->size() && !result.none; ++s) {
             auto const& r = *(*others_)[s];
-            auto const local = expand_at_start(s);
-            auto ranges = output_ranges(r, local);
-            std::vector<double> about(ranges.size(), 0.0);
-            for (std::size_t y = 0; y < ranges.size() && !result.none; ++y) {
+            start_follower follower(r, *part_);
+            auto const [goals, ranges] =
+                follower.has_starts() ? from_rule(r, follower) : from_known_start(s);
+            auto& own = result.ranges.emplace_back(ranges);
+            auto& about = result.about.emplace_back(r.outputs(), 0.0);
+            for (std::size_t y = 0; y < r.outputs() && !result.none; ++y) {
                 for (double const sign : {1.0, -1.0}) {
-                    auto const likely = tighten(program, s, y, sign, local, ranges[y], result.none);
-                    auto const off = sign * (likely - mid(r.bounds[y])) / rad(r.bounds[y]);
-                    about[y] = std::max(about[y], off);
+                    double const likely =
+                        tighten(program, r, y, goals[y], sign, own[y], result.none);
+                    about[y] =
+                        std::max(about[y], sign * (likely - mid(r.bounds[y])) / rad(r.bounds[y]));
                 }
             }
-            result.ranges.push_back(std::move(ranges));
-            result.about.push_back(std::move(about));
         }
         return result;
     }
 
 private:
-    /// Where a start lies in its side, well inside.
-    [[nodiscard]] double at_start(std::size_t s, std::size_t i) const {
-        constexpr double within = 1 - 1e-12; // in the decimal box, not only in its enclosure
-        auto const& side = (*others_)[s]->unknowns.initial[i];
-        double const q = ((*starts_)[s][i] - side.centre) / side.radius;
-        return std::isfinite(q) ? std::clamp(q, -within, within) : 0;
+    /// An output, as linear programs and their certificates see it.
+    struct goal {
+        double value = 0;
+        std::vector<double> slope; ///< by the known unknowns
+        combined_polynomial exact; ///< the output, but for `rest`
+        interval rest{0.0};
+    };
+    struct outputs {
+        std::vector<goal> goals;
+        std::vector<interval> ranges;
+    };
+    [[nodiscard]] goal empty_goal(double value) const {
+        return {value, std::vector<double>(known_.count, 0.0), combined_polynomial(known_.count)};
     }
-    [[nodiscard]] std::vector<box> fixed_starts() const {
-        std::vector<box> result;
-        for (std::size_t s = 0; s < others_->size(); ++s) {
-            auto const& initial = (*others_)[s]->unknowns.initial;
-            box points(initial.size());
-            for (std::size_t i = 0; i < points.size(); ++i) {
-                double const q = initial[i].radius > 0 ? at_start(s, i) : 0;
-                points[i] = interval(initial[i].centre + q * initial[i].radius);
-            }
-            result.push_back(std::move(points));
+
+    /// As polynomials in the parameters.
+    [[nodiscard]] outputs from_known_start(std::size_t s) const {
+        auto const& r = *(*others_)[s];
+        auto const local = expand(r, *part_);
+        outputs result{{}, output_ranges(r, local)};
+        for (std::size_t y = 0; y < r.outputs(); ++y) {
+            auto g = empty_goal(local.value[y]);
+            auto const& places = own_.places[s];
+            for (std::size_t v = 0; v < places.size(); ++v)
+                g.slope[places[v].unknown] += local.slope[v * r.outputs() + y];
+            g.exact.add(r, {{y, 1.0}}, places);
+            result.goals.push_back(std::move(g));
         }
         return result;
     }
-    [[nodiscard]] local_response expand_at_start(std::size_t s) const {
-        auto const& r = *(*others_)[s];
-        unknowns_of_part inner(r, *part_);
-        for (std::size_t i = 0; i < r.unknowns.initial.size(); ++i) {
-            auto const& side = r.unknowns.initial[i];
-            if (side.radius == 0) continue;
-            inner.middle[side.variable] = at_start(s, i);
-            inner.reach[side.variable] = 0;
+    /// As affine functions of the parameters, from a start that follows these.
+    [[nodiscard]] outputs from_rule(response const& r, start_follower& follower) const {
+        outputs result;
+        auto const rule = start_rule_search().propose(follower.forms());
+        auto const affine = follower(rule);
+        for (std::size_t y = 0; y < r.outputs(); ++y) {
+            auto g = empty_goal(affine ? affine->value[y] : mid(r.bounds[y]));
+            auto range =
+                affine ? traits::bounds(-affine->rest[y], affine->rest[y]) : traits::entire();
+            g.rest = traits::add(traits::point(g.value), range);
+            for (std::size_t j = 0; affine && j < follower.parameters().size(); ++j) {
+                auto const& slope = affine->slope[j * r.outputs() + y];
+                auto const unknown = follower.parameters()[j];
+                g.slope[unknown] = mid(slope);
+                g.exact.add_linear(unknown, slope);
+                range = traits::add(range, traits::mul(slope, traits::bounds(-1.0, 1.0)));
+            }
+            result.goals.push_back(std::move(g));
+            result.ranges.push_back(traits::add(traits::point(result.goals.back().value), range));
         }
-        return expand(r, std::move(inner.middle), std::move(inner.reach));
+        return result;
     }
 
     /// Cuts an output's range off at one end.
     /// @returns  about what it can reach
-    [[nodiscard]] double tighten(cut_program& program, std::size_t s, std::size_t y, double sign,
-                                 local_response const& local, interval& range, bool& none) const {
-        auto const& r = *(*others_)[s];
-        auto const& places = own_.places[s];
-        std::vector<double> goal(count_, 0.0);
+    [[nodiscard]] double tighten(cut_program& program, response const& r, std::size_t y,
+                                 goal const& of, double sign, interval& range, bool& none) const {
+        std::vector<double> along(of.slope);
         double spread = 0;
-        for (std::size_t v = 0; v < places.size(); ++v) {
-            double const slope = local.slope[v * r.outputs() + y];
-            if (places[v].unknown < part_->size()) goal[places[v].unknown] = sign * slope;
+        for (auto& slope : along) {
             spread += std::abs(slope);
+            slope *= sign;
         }
         double const end = sign > 0 ? range.upper() : range.lower();
         if (!std::isfinite(end) || !(spread > worth_a_program * rad(r.bounds[y]))) return end;
-        auto const cut = program(goal);
+        auto const cut = program(along);
         if (cut.weights.empty()) return end;
         std::vector<measurement_weight> weights;
         for (auto const& w : cut.weights)
@@ -142,18 +154,19 @@ private:
             none = certified_empty(*measured_, known_, weights);
             return end;
         }
-        combined_polynomial start(count_);
-        start.add(r, {{y, -sign}}, places);
+        auto start = of.exact;
+        if (sign > 0) start.negate();
         measured_sum const sum(*measured_, known_, weights, std::move(start));
         double const least = sum.outputs.lower_bound();
         if (std::isfinite(least)) {
             double const most = upper(traits::sub(sum.most, traits::point(least)));
             auto const below = traits::bounds(-detail::infinity, most);
-            range = traits::intersect(range, sign > 0 ? below : traits::neg(below));
+            range = traits::intersect(range,
+                                      traits::add(sign > 0 ? below : traits::neg(below), of.rest));
             none = none || is_empty(range); // its own range was proved, too
         }
-        double about = local.value[y];
-        for (std::size_t v = 0; v < cut.point.size(); ++v) about += sign * goal[v] * cut.point[v];
+        double about = of.value;
+        for (std::size_t v = 0; v < cut.point.size(); ++v) about += of.slope[v] * cut.point[v];
         return about;
     }
 
@@ -162,10 +175,8 @@ private:
 
     response_list const* measured_;
     response_list const* others_;
-    std::vector<std::vector<double>> const* starts_;
     box const* part_;
     shared_unknowns known_, own_;
-    std::size_t count_;
     std::vector<minimax_block> blocks_; ///< in units of e
     std::vector<std::vector<double>> scales_;
 };

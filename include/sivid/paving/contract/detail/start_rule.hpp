@@ -64,6 +64,28 @@ public:
         }
     }
 
+    /// A rule that comes close: about the best starts of the middle of the box, and slopes by least
+    /// squares, shortened so that starts stay in their boxes.
+    /// @guarantee  none but that
+    [[nodiscard]] start_rule propose(misfit_forms const& forms) {
+        constexpr double inside = 1 - 4e-6; // whoever follows it linearises about it
+        take(forms);
+        std::vector<minimax_block> blocks(1);
+        auto const solved = best_in_the_middle(blocks);
+        matrix slope = guess();
+        start_rule rule;
+        for (Eigen::Index i = 0; i < s_; ++i) {
+            double const at = solved.point.empty() ? 0 : solved.point[static_cast<std::size_t>(i)];
+            double const middle = std::isfinite(at) ? std::clamp(at, -inside, inside) : 0;
+            double const sum = slope.row(i).cwiseAbs().sum(), room = inside - std::abs(middle);
+            double const share = sum <= room ? 1 : sum > room ? room / sum : 0; // NaN: none
+            rule.middle.push_back(middle);
+            for (Eigen::Index j = 0; j < p_; ++j)
+                rule.slope.push_back(share > 0 ? share * slope(i, j) : 0);
+        }
+        return rule;
+    }
+
 private:
     using vector = Eigen::VectorXd;
     using matrix = Eigen::MatrixXd;
@@ -89,20 +111,24 @@ private:
         margin_.head(n) = Eigen::Map<vector const>(forms.margin.data(), n);
     }
 
-    /// @param may_leave_out  look for a function that stands in the way
-    /// @returns nothing when the rule does what it should; else that function, or the number of all
-    ///   when there is none
-    [[nodiscard]] std::optional<std::size_t> solve(bool may_leave_out) {
-        auto const none = static_cast<std::size_t>(offset_.size());
-        // The middle of the box alone.
-        std::vector<minimax_block> blocks(1);
+    /// The best starts of the middle of the box alone.
+    [[nodiscard]] approximate_minimax best_in_the_middle(std::vector<minimax_block>& blocks) {
         rows_.assign(1, {});
         for (Eigen::Index y = 0; y < offset_.size(); ++y) {
             if (margin_[y] < infinity) add_row(blocks[0], y, nullptr);
         }
         finish(blocks[0], s_);
+        return minimax_solver(static_cast<std::size_t>(s_), blocks)();
+    }
+
+    /// @param may_leave_out  look for a function that stands in the way
+    /// @returns nothing when the rule does what it should; else that function, or the number of all
+    ///   when there is none
+    [[nodiscard]] std::optional<std::size_t> solve(bool may_leave_out) {
+        auto const none = static_cast<std::size_t>(offset_.size());
+        std::vector<minimax_block> blocks(1);
+        auto solved = best_in_the_middle(blocks);
         auto unknowns = static_cast<std::size_t>(s_);
-        auto solved = minimax_solver(unknowns, blocks)();
         if (!(solved.value <= 0)) return may_leave_out ? blocking(solved, unknowns, blocks) : none;
         vector const start = Eigen::Map<vector const>(solved.point.data(), s_);
         // What the parameters change, the starts make good as far as they can.

@@ -86,7 +86,7 @@ public:
             if (width(b.set[j]) < 0.7 * width(whole[j])) b.fresh = false;
         auto const own = inflation_bounder(own_known, own_outliers, b.set)(0);
         b.least = std::max(b.least, own.lower);
-        double const about = predict(b, met, own_known, own_outliers, own.starts);
+        double const about = predict(b, met, own_known, own_outliers);
         if (!b.fits) return;
         double const tolerance = share * (std::isfinite(b.most) ? b.most : std::max(b.least, 1.0));
         double const fit_tolerance = share * fit_upper;
@@ -126,10 +126,8 @@ private:
     /// What the parameters of the box that fit say of the held-out outputs.
     /// @returns  about the largest inflation among them
     [[nodiscard]] static double predict(node& b, response_list const& met, response_list const& own,
-                                        std::vector<std::size_t> const& budgets,
-                                        std::vector<std::vector<double>> const& starts) {
-        auto const from = starts.empty() ? middles(own) : starts;
-        auto const predicted = output_prediction(met, own, from, b.set)();
+                                        std::vector<std::size_t> const& budgets) {
+        auto const predicted = output_prediction(met, own, b.set)();
         if (predicted.none) {
             b.fits = false;
             return 0;
@@ -160,15 +158,6 @@ private:
         }
         b.most = std::min(b.most, most);
         return about;
-    }
-    [[nodiscard]] static std::vector<std::vector<double>>
-    middles(inflation_bounder::responses const& known) {
-        std::vector<std::vector<double>> starts;
-        for (auto const& r : known) {
-            auto& x0 = starts.emplace_back();
-            for (auto const& side : r->unknowns.initial) x0.push_back(side.centre);
-        }
-        return starts;
     }
     /// How far each parameter moves the misfit that it moves most.
     [[nodiscard]] static std::vector<double> spread(inflation_bounder::responses const& known,
