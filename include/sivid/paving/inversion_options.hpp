@@ -34,6 +34,9 @@ struct inversion_options {
     /// doubled, twice in a row (0: never), and each of its faces is touched by a box that the test
     /// saw sharply. `stop_reason::hulls_rest`.
     double hull_gain = 0;
+    /// A hull of at most this share of the prior's volume rests whether or not its faces are seen
+    /// sharply: uncertain starts may blur all that is seen.
+    double small_hull = 0;
     /// Stop when the inner volume reaches this fraction of the outer one (1: never), whatever the
     /// accuracy. `stop_reason::inside_share`.
     double sufficient_ratio = 0.5;

@@ -48,7 +48,7 @@ public:
         auto const& posed = map ? map->problem() : problem;
         data_test test(posed, limited(options_->test, limit_));
         inversion_options search{
-            .accuracy_of_hull = true, .hull_gain = 0.02, .keep_outside = false};
+            .accuracy_of_hull = true, .hull_gain = 0.02, .small_hull = 1e-3, .keep_outside = false};
         search.seconds = time.value_or(share) * limit_.seconds();
         search.boxes = static_cast<std::size_t>(share * static_cast<double>(options_->boxes));
         search.keep_going = limit_;

@@ -248,7 +248,8 @@ private:
         return rest_(
             tested_, options_.hull_gain, [this] { return waiting_.hull(paving_.outer_hull()); },
             [this](box const& around) {
-                return batches_.hold_faces(paving_, around, options_.hull_gain);
+                return volume(around) <= options_.small_hull ||
+                       batches_.hold_faces(paving_, around, options_.hull_gain);
             });
     }
 
