@@ -120,6 +120,7 @@ posed random_posed(draws& d) {
     p.search.keep_outside = d.coin();
     p.search.sufficient_ratio = d.coin() ? 0.5 : 0.95;
     p.search.hull_gain = d.below(3) == 0 ? 0.02 : 0;
+    p.search.small_hull = d.below(4) == 0 ? 0.1 : 0;
     p.search.accuracy_of_hull = d.coin();
     p.search.order = d.below(4) == 0 ? search_order::first_in : search_order::largest_first;
     p.search.batches = 1 + d.below(3);
