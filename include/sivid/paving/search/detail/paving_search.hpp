@@ -245,12 +245,11 @@ private:
     }
 
     [[nodiscard]] bool hull_rests() {
-        return rest_(
-            tested_, options_.hull_gain, [this] { return waiting_.hull(paving_.outer_hull()); },
-            [this](box const& around) {
-                return volume(around) <= options_.small_hull ||
-                       batches_.hold_faces(paving_, around, options_.hull_gain);
-            });
+        auto const hull = [this] { return waiting_.hull(paving_.outer_hull()); };
+        return rest_(tested_, options_.hull_gain, hull, [this](box const& around) {
+            return volume(around) <= options_.small_hull ||
+                   batches_.hold_faces(paving_, around, options_.hull_gain);
+        });
     }
 
     [[nodiscard]] double volume(box const& x) const { return relative_volume(x, prior_).upper(); }
