@@ -54,6 +54,7 @@ inline void add_law(CLI::App& s, decision d, decision_command& c) {
     law->required();
     gain->required();
     s.add_option("--boxes", c.boxes, "boxes of gains that are tested, at most")
+        ->check(number_between(1.0, 1e15))
         ->capture_default_str();
 }
 

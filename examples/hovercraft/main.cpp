@@ -201,7 +201,8 @@ private:
         s->add_option("--budget", c.budget, "seconds, from when the data are read")
             ->check(console::number_between(0.0, 1e9))
             ->capture_default_str();
-        s->add_option("--boxes", c.boxes, "test at most so many boxes");
+        s->add_option("--boxes", c.boxes, "test at most so many boxes")
+            ->check(console::number_between(0.0, 1e15)); // below 0 it would become very many
         s->add_option("--memory", c.memory, "at most so many megabytes of boxes and knowledge")
             ->check(console::number_between(0.0, 1e9));
         s->add_option("--checkpoint", c.checkpoint,

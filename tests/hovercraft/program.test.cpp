@@ -203,6 +203,8 @@ TEST_CASE("bad input or usage: one message, exit code 2, nothing written") {
     refused({"identify", h3, "--out", o, "--accuracy", "2"}, "--accuracy");
     refused({"identify", h3, "--out", o, "--budget", "nan"}, "nan is not a number from 0");
     refused({"identify", h3, "--out", o, "--checkpoint", "nan"}, "nan is not a number from 0");
+    refused({"identify", h3, "--out", o, "--boxes", "-1"}, "-1 is not a number from 0");
+    refused({"control", o, "--boxes", "-1"}, "-1 is not a number from 1");
     refused({"identify", h3, "--out", o, "--lift", "wing"}, "wing");
     refused({"fly"}, "");
     refused({"generate", "--scenario", "S7", "--out", o, "--absolute", "0.1"}, "S7");

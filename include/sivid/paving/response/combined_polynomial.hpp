@@ -37,11 +37,6 @@ public:
         add_term(std::move(e), c);
     }
 
-    void negate() {
-        constant_ = traits::neg(constant_);
-        for (auto& [e, c] : terms_) c = traits::neg(c);
-    }
-
     /// Where a variable of a response lies: \f$ q_v = middle + reach \cdot d_{unknown} \f$.
     struct place {
         std::size_t unknown = 0;

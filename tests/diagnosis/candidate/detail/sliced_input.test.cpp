@@ -51,7 +51,7 @@ identification_problem measured(planted const& true_ones, interpolation between,
     if (band > 0)
         real.missing = [band](double, double, double u) { return -std::clamp(u, -band, band); };
     auto problem = diagnosis_support::with_late_position(true_ones.slow, real);
-    std::uniform_real_distribution<double> share(-0.3, 0.3); // 60 % are filled already
+    std::uniform_real_distribution<double> share(-0.385, 0.385); // 60 % are filled already
     for (auto& x : problem.experiments) {
         for (auto& m : x.measurements) {
             double const move = share(chance) * width(m.bound) / 2;

@@ -20,8 +20,8 @@ namespace sivid {
 /// the hulls of the others are joined. Short time constants are such a slice; the others are an
 /// ordinary state, octave by octave.
 /// @param base     without the effects
-/// @param effects  at most one with a delay or a play, of an input or of channels: with several,
-///                 all keep their priors
+/// @param effects  delays and plays of different inputs, and one delay of channels: where
+///                 `sliced_input_of` cannot take them apart, all keep their priors
 /// @guarantee  every parameter of `affected(base, effects)` that explains the data lies in the
 ///             result; empty when none does
 /// @throws std::invalid_argument  as `affected`

@@ -25,9 +25,8 @@ namespace sivid {
 /// @param which    of them is the late sensor, alone with its parameter
 /// @param delays   range of that parameter, whose place the distance from its middle takes
 /// @given  recorded inputs; no equation and no late channel depends on the time itself
-/// @guarantee  parameters with such a delay that explain the data explain this problem: late
-/// samples
-///             between a and b are left out, and each part may have all the outliers
+/// @guarantee  parameters with such a delay that explain the data explain this problem: samples of
+///             late channels between a and b are left out, each part may have all the outliers
 [[nodiscard]] SIVID_DECL identification_problem
 with_late_channels(identification_problem const& base, std::vector<effect> const& effects,
                    std::size_t which, std::vector<bool> const& late, interval const& delays);

@@ -62,34 +62,39 @@ template <class Form>
     return problem;
 }
 
+/// A recorded input behind a delay or a play of any size in a range.
+[[nodiscard]] inline sampled_signal remembered_within(experiment const& x, signal_memory const& m,
+                                                      interval const& range) {
+    auto const& u = std::get<sampled_signal>(x.inputs[m.index]);
+    return m.kind == memory_kind::play ? played(u, x.begin, x.end(), range).within
+                                       : delayed_within(u, x.begin, x.end(), range);
+}
+
 /// One parameter that changes a recorded input, taken out of the effects.
 struct input_change {
     std::size_t effect, input;
     sliced_input::side side;
-    bool is_delay, is_play;
+    std::optional<signal_memory> memory; ///< none: a threshold
 
     /// The problem with this change over a range of its parameter.
     [[nodiscard]] identification_problem
     operator()(identification_problem base, sivid::effect const& e, interval const& range) const {
         if (side.is_parameter) {
             auto const form = [&](auto const& u, experiment const& x, interval const& all) {
-                return is_delay
+                return memory
                            ? late_by_parameter(u, x.begin, x.end(), all)
                            : threshold_by_parameter(u, x.begin, x.end(), e.threshold->stands, all);
             };
             return with_line(base, e, input, range, form);
         }
-        for (auto& x : base.experiments) {
-            auto const u = std::get<sampled_signal>(x.inputs[input]);
-            x.inputs[input] = is_play ? played(u, x.begin, x.end(), range).within
-                                      : delayed_within(u, x.begin, x.end(), range);
-        }
+        for (auto& x : base.experiments) x.inputs[input] = remembered_within(x, *memory, range);
         return base;
     }
     /// Whether it does nothing in an experiment.
     [[nodiscard]] bool idle_in(experiment const& x) const {
         auto const& u = std::get<sampled_signal>(x.inputs[input]);
-        return stands_still(u) && (is_delay || (!is_play && u.values().front() == 0));
+        return stands_still(u) &&
+               (memory ? memory->kind == memory_kind::delay : u.values().front() == 0);
     }
 };
 
@@ -99,13 +104,9 @@ struct input_change {
                                                         signal_memory const& memory, std::size_t j,
                                                         box const& all) {
     auto problem = resolve_memory(whole, mid(all)).problem;
-    for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
-        auto& e = problem.experiments[s];
-        auto const& u = std::get<sampled_signal>(whole.experiments[s].inputs[memory.index]);
-        e.inputs[memory.index] = memory.kind == memory_kind::play
-                                     ? played(u, e.begin, e.end(), all[j]).within
-                                     : delayed_within(u, e.begin, e.end(), all[j]);
-    }
+    for (std::size_t s = 0; s < problem.experiments.size(); ++s)
+        problem.experiments[s].inputs[memory.index] =
+            remembered_within(whole.experiments[s], memory, all[j]);
     std::vector<interval> sides(all.begin(), all.end());
     sides.erase(sides.begin() + static_cast<std::ptrdiff_t>(j));
     problem.prior = box(std::move(sides));
@@ -153,13 +154,13 @@ private:
             auto const& e = (*effects_)[k];
             if (e.parameters.size() != 1 || full_name(e) != name || e.on_rates || e.on_channels)
                 continue;
-            bool const is_play = m.kind == memory_kind::play;
             auto const linear = [&](experiment const& x) {
                 return std::get<sampled_signal>(x.inputs[m.index]).kind() == interpolation::linear;
             };
             auto const& all = whole_.experiments;
-            bool const line = !is_play && std::all_of(all.begin(), all.end(), linear);
-            return input_change{k, m.index, {side_of(e), line}, !is_play, is_play};
+            bool const line =
+                m.kind == memory_kind::delay && std::all_of(all.begin(), all.end(), linear);
+            return input_change{k, m.index, {side_of(e), line}, m};
         }
         return std::nullopt;
     }
@@ -173,7 +174,7 @@ private:
         bool const exact = j < whole_.prior.size() && whole_.prior[j].lower() >= 0;
         if (!acts_on_recorded_inputs(*effects_, k) || !exact || !is_recorded(*base_, input))
             return std::nullopt;
-        return input_change{k, input, {j, true}, false, false};
+        return input_change{k, input, {j, true}, std::nullopt};
     }
     /// Channels that show the past, by one effect that does nothing else.
     [[nodiscard]] bool find_late_sensor() {

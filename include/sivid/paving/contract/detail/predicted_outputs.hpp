@@ -84,7 +84,10 @@ private:
     struct goal {
         double value = 0;
         std::vector<double> slope; ///< by the known unknowns
-        combined_polynomial exact; ///< the output, but for `rest`
+        /// The output itself, where its start is known.
+        std::vector<combined_polynomial::place> const* places = nullptr;
+        /// Else it is linear in these, but for `rest`.
+        std::vector<std::pair<std::size_t, interval>> linear{};
         interval rest{0.0};
     };
     struct outputs {
@@ -92,7 +95,7 @@ private:
         std::vector<interval> ranges;
     };
     [[nodiscard]] goal empty_goal(double value) const {
-        return {value, std::vector<double>(known_.count, 0.0), combined_polynomial(known_.count)};
+        return {value, std::vector<double>(known_.count, 0.0)};
     }
 
     /// As polynomials in the parameters.
@@ -105,7 +108,7 @@ private:
             auto const& places = own_.places[s];
             for (std::size_t v = 0; v < places.size(); ++v)
                 g.slope[places[v].unknown] += local.slope[v * r.outputs() + y];
-            g.exact.add(r, {{y, 1.0}}, places);
+            g.places = &places;
             result.goals.push_back(std::move(g));
         }
         return result;
@@ -124,7 +127,7 @@ private:
                 auto const& slope = affine->slope[j * r.outputs() + y];
                 auto const unknown = follower.parameters()[j];
                 g.slope[unknown] = mid(slope);
-                g.exact.add_linear(unknown, slope);
+                g.linear.emplace_back(unknown, slope);
                 range = traits::add(range, traits::mul(slope, traits::bounds(-1.0, 1.0)));
             }
             result.goals.push_back(std::move(g));
@@ -154,8 +157,10 @@ private:
             none = certified_empty(*measured_, known_, weights);
             return end;
         }
-        auto start = of.exact;
-        if (sign > 0) start.negate();
+        combined_polynomial start(known_.count);
+        if (of.places != nullptr) start.add(r, {{y, -sign}}, *of.places);
+        for (auto const& [unknown, slope] : of.linear)
+            start.add_linear(unknown, traits::mul(traits::point(-sign), slope));
         measured_sum const sum(*measured_, known_, weights, std::move(start));
         double const least = sum.outputs.lower_bound();
         if (std::isfinite(least)) {

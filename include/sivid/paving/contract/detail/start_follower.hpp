@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace sivid {
@@ -55,8 +54,9 @@ public:
     [[nodiscard]] bool has_starts() const { return !starts_.empty(); }
 
     /// The misfits about the starts of the last rule, at first the middles of their sides.
-    [[nodiscard]] misfit_forms forms() const {
-        auto const local = expand(*known_, middle_, reach_);
+    [[nodiscard]] misfit_forms forms() {
+        if (!local_) local_ = expand(*known_, middle_, reach_);
+        auto const& local = *local_;
         auto const count = known_->outputs();
         misfit_forms f;
         f.parameters = parameters_.size();
@@ -88,10 +88,10 @@ public:
     /// @cost  a re-expansion
     [[nodiscard]] std::optional<affine_outputs> operator()(start_rule const& rule) {
         if (!follow(rule)) return std::nullopt;
-        auto local = expand(*known_, middle_, reach_);
+        auto const& local = local_.emplace(expand(*known_, middle_, reach_));
         auto const count = known_->outputs();
         auto const n = parameters_.size();
-        affine_outputs result;
+        affine_outputs result{local.value, local.rest, {}};
         for (std::size_t j = 0; j < n; ++j) {
             for (std::size_t y = 0; y < count; ++y) {
                 auto change = traits::point(local.slope[variables_[j] * count + y]);
@@ -106,8 +106,6 @@ public:
                 result.slope.push_back(change);
             }
         }
-        result.value = std::move(local.value);
-        result.rest = std::move(local.rest);
         return result;
     }
 
@@ -141,6 +139,7 @@ private:
     std::vector<std::size_t> parameters_; ///< sides of the part
     std::vector<std::size_t> variables_;  ///< theirs
     std::vector<normalised_unknowns::side const*> starts_;
+    std::optional<local_response> local_; ///< about the last rule
 };
 
 } // namespace sivid
