@@ -4,6 +4,7 @@
 
 #include <sivid/enclosure/runge_kutta/tableau.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -43,6 +44,11 @@ struct enclosure_options {
     /// Asked before each step, by the thread that makes it: false ends the enclosure there
     /// (`failure_reason::cancelled`); what was proved until then stays proved. Empty: never asked.
     std::function<bool()> keep_going = nullptr;
+
+    /// Steps across a kink may be shorter than the shortest of the others by this.
+    static constexpr double at_kinks = 1e-3;
+    /// Where a set rests on a kink, steps of this length are always short enough.
+    [[nodiscard]] double resting_step() const { return 1e-4 * std::min(1.0, minimum_step / 1e-7); }
 
     [[nodiscard]] bool cancelled() const { return keep_going && !keep_going(); }
 };

@@ -4,6 +4,7 @@
 
 #include <sivid/enclosure/taylor/detail/parametric_flow_accept.hpp>
 #include <sivid/enclosure/taylor/detail/parametric_flow_attempt.hpp>
+#include <sivid/enclosure/taylor/detail/parametric_flow_barrier.hpp>
 #include <sivid/enclosure/taylor/detail/parametric_flow_class.hpp>
 #include <sivid/enclosure/taylor/detail/parametric_flow_tails.hpp>
 
@@ -322,23 +323,26 @@ typename parametric_flow<Model>::mask parametric_flow<Model>::advance(C const& l
             lane.held = lane.next < length;
             if (lane.held)
                 lane.next = std::min(lane.next, std::max(0.5 * rest, options_.minimum_step));
+            lane.cut = lane.near < lane.next;
+            if (lane.cut) lane.next = lane.near;
             lane.proposed = lane.next;
-            lane.free = lane.next < 0.5 * rest && !lane.held;
+            lane.free = lane.next < 0.5 * rest && !lane.held && !lane.cut;
             lane.tried = infinity;
             lane.forced = false;
             lane.why = enclosure_failure{};
             lane.why.reason = failure_reason::minimum_step;
         }
         // Before a lane gives up, it tries the shortest step itself.
-        if (lane.next < options_.minimum_step && lane.tried > options_.minimum_step) {
-            lane.next = options_.minimum_step;
+        double const shortest_step = shortest(l);
+        if (lane.next < shortest_step && lane.tried > shortest_step) {
+            lane.next = shortest_step;
             lane.proposed = std::max(lane.proposed, lane.next);
             lane.forced = true;
         }
         double const target = lane.next >= rest ? end : from + lane.next;
         lane.tried = lane.next;
         if (++lane.attempts > 60 || !(target > from) ||
-            (lane.next < options_.minimum_step && target < end)) {
+            (lane.next < shortest_step && target < end)) {
             if (lane.why.reason == failure_reason::undefined) {
                 C const half = (C(lane.why.until) - set_.time) * 0.5;
                 lane.why.note(edge(
@@ -367,9 +371,14 @@ typename parametric_flow<Model>::mask parametric_flow<Model>::advance(C const& l
         auto& lane = lanes_[l];
         if (!side_by_side::test(moved, l)) {
             if (!smooth) lane.rough = false; // a shorter step may miss the kink
+            lane.cut = lane.cut || lane.rough;
             continue;
         }
-        if (lane.next < lane.proposed || lane.free) {
+        bool held = false; // such steps lose little, however many they are
+        for (auto const& state : held_) held = held || side_by_side::test(state.lanes, l);
+        lane.crossing = smooth || held ? 0 : lane.crossing + 1;
+        lane.near = lane.cut ? 4 * lane.next : infinity;
+        if (!lane.cut && (lane.next < lane.proposed || lane.free)) {
             // Aim at a tenth of the allowed truncation; what is too long costs a whole attempt.
             double const ratio = side_by_side::get(ratio_, l);
             double const exponent = 1 / static_cast<double>(order + 1);

@@ -66,7 +66,13 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
         return refuse(why, failure_reason::undefined, set, from, point_box<I>(set.centre));
     }
     double h = propose(limit, from, x);
+    bool cut = near_ < h; // by a kink: the length says nothing about smooth steps
+    if (cut) h = near_;
     double const proposed = h;
+    bool const resting = crossing_ >= crossing_steps;
+    auto const least = [&] { // crossing a kink takes shorter steps
+        return options_.minimum_step * (cut && !resting ? enclosure_options::at_kinks : 1);
+    };
     bool smooth = true;
     bool undefined = false;
     bool unsolved = false;
@@ -76,7 +82,7 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
     for (int attempt = 0; attempt < 60; ++attempt) {
         double const to = h >= limit - from ? limit : from + h;
         if (!(to > from)) break;
-        if (h < options_.minimum_step && to < limit) break;
+        if (h < least() && to < limit) break;
         until = to;
         tube_step<I> step;
         step.from = from;
@@ -144,6 +150,7 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
         }
         if (became_rough) { // a kink lies in the tube: a set-valued step of first order
             smooth = false;
+            cut = true;
             start_order = 0;
             h = std::min(h, options_.maximum_step);
             continue;
@@ -156,16 +163,29 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
         // Truncation within the tolerance? At kinks the first-order error is what it is: there the
         // step only has to be short against the change of the set.
         double ratio = 0;
+        std::vector<double> crossing(n); // what a step across a kink may lose
+        if (!smooth && !resting) {
+            step.jumps = tube_.jumped();
+            tube_.expand_with_variations(from, times, b, q);
+            for (std::size_t i = 0; i < n; ++i) crossing[i] = allowed_at_kink(x, i);
+            for (auto const& e : flow_->entries()) {
+                if (step.jumps || e.column >= n) continue;
+                crossing[e.row] += 0.25 * traits::upper(length) * traits::mag(tube_.jacobian(e)) *
+                                   traits::width(x[e.column]);
+            }
+        }
         for (std::size_t i = 0; i < n; ++i) {
             double const error = scaled_radius(lagrange_[i], traits::upper(length), step.order);
-            double const limit_i = smooth ? allowed(x, i) : 1e3 * allowed(x, i);
-            if (error / limit_i > ratio) {
+            double const limit_i = smooth    ? allowed(x, i)
+                                   : resting ? 1e3 * allowed(x, i)
+                                             : crossing[i];
+            if (!(error / limit_i <= ratio)) {
                 ratio = error / limit_i;
                 why.component = i;
             }
         }
-        bool const shortest = h <= 4 * options_.minimum_step ||
-                              (!smooth && h <= 1e-4 * std::min(1.0, options_.minimum_step / 1e-7));
+        bool const shortest = h <= 4 * least() ||
+                              (!smooth && resting && h <= options_.resting_step());
         if (ratio > 1 && !shortest) {
             if (smooth && !options_.method && step.order < options_.order && ratio < 1e4) {
                 extra_order_ += 2;
@@ -173,6 +193,10 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
             }
             double const power = 1.0 / static_cast<double>(step.order);
             h *= std::clamp(0.9 * std::pow(1 / ratio, power), 0.1, 0.8);
+            if (!smooth && !resting) { // a shorter step may miss the kink
+                smooth = true;
+                start_order = 0;
+            }
             continue;
         }
         formula_.reset();
@@ -190,6 +214,7 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
         undefined = tube_.undefined();
         if (undefined || (smooth && q > 1 && tube_.kinked())) {
             smooth = undefined;
+            cut = true;
             if (undefined) tried = b;
             if (undefined) h *= reject_factor;
             start_order = 0;
@@ -208,7 +233,10 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
             h *= reject_factor;
             continue;
         }
-        // A step that the end of the interval cut short teaches nothing.
+        crossing_ = smooth ? 0 : crossing_ + 1;
+        near_ = cut ? 4 * h : HUGE_VAL;
+        // A step that the end of the interval or a kink cut short teaches nothing.
+        if (cut) return step;
         if (h < proposed) {
             learned_ = std::max(0.05, learned_ * h / proposed);
         } else if (h < 0.5 * (limit - from)) {

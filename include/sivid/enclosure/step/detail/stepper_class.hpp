@@ -103,6 +103,9 @@ public:
 
 private:
     static constexpr double reject_factor = 0.5;
+    /// Steps of first order, at most, that are kept short to cross a kink with little loss. A set
+    /// that needs more rests on the kink, and loses it all however short the steps are.
+    static constexpr int crossing_steps = 40;
 
     /// @throws std::invalid_argument for order 0
     [[nodiscard]] static std::size_t highest(enclosure_options const& options) {
@@ -117,6 +120,10 @@ private:
     [[nodiscard]] double allowed(basic_box<I> const& x, std::size_t i) const {
         return options_.tolerance * (1 + traits::mag(x[i])) +
                options_.relative_tolerance * traits::width(x[i]);
+    }
+    /// What a step across a kink may lose: little of what the set spans.
+    [[nodiscard]] double allowed_at_kink(basic_box<I> const& x, std::size_t i) const {
+        return 10 * options_.tolerance * (1 + traits::mag(x[i])) + 0.02 * traits::width(x[i]);
     }
     /// \f$ \sum_{k<order} s^k x_i^{[k]} + s^{order} last_i \f$ by Horner's rule.
     [[nodiscard]] static basic_box<I> sum(expansion<I> const& e, I const& s, std::size_t order,
@@ -187,6 +194,8 @@ private:
     basic_box<I> tube_lagrange_;  ///< x^[q](B)
     double learned_ = 1;          ///< accepted over estimated step length
     std::size_t extra_order_ = 0; ///< what wide sets need above the centre's order
+    double near_ = HUGE_VAL; ///< about the longest step that the neighbourhood of a kink allows
+    int crossing_ = 0;       ///< steps of first order since the last smooth one
 };
 
 #ifdef SIVID_COMPILED // its members are compiled once

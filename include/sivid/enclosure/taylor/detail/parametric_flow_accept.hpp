@@ -110,6 +110,7 @@ void parametric_flow<Model>::accept(mask moved, C const& to, std::size_t order,
             g.swap(image_);
         }
     }
+    release_states(moved, next, lost);
     if (perturbed_) {
         square all;
         sizes(length, flow_order, 0, all);

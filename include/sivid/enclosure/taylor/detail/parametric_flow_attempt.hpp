@@ -73,10 +73,24 @@ parametric_flow<Model>::bound_flow(square const& base, square const& last, mask 
 template <class Model>
 typename parametric_flow<Model>::mask
 parametric_flow<Model>::short_enough(mask trying, C const& h, std::size_t order,
-                                     std::vector<C> const& truncation) {
+                                     std::vector<C> const& truncation, square const& slopes) {
+    auto const n = truncation.size();
+    // A set that rests on a kink is not carried across by short steps: there the old ones do.
+    mask resting{};
+    for (std::size_t l = 0; l < width; ++l) {
+        if (lanes_[l].crossing >= crossing_steps) resting = resting | side_by_side::only(l);
+    }
     C ratio{}; // of the truncation to what is allowed
-    for (std::size_t i = 0; i < truncation.size(); ++i) {
-        C const share = truncation[i] / (allowed(i) * (order > 0 ? 10.0 : 1e4));
+    for (std::size_t i = 0; i < n; ++i) {
+        C bearable = allowed(i) * 10.0;
+        if (order == 0) {
+            C crossing = allowed_at_kink(i);
+            for (std::size_t c = 0; c < n && !slopes.empty(); ++c) {
+                crossing += slopes[i * n + c] * (set_.centre[c].spread() + set_.reach[c]) * 0.5;
+            }
+            bearable = side_by_side::select(resting, bearable * 1e3, crossing);
+        }
+        C const share = truncation[i] / bearable;
         // NaN counts as too large.
         auto const more = !(share <= ratio);
         ratio = side_by_side::select(more, share, ratio);
@@ -90,8 +104,9 @@ parametric_flow<Model>::short_enough(mask trying, C const& h, std::size_t order,
     for (std::size_t l = 0; l < width; ++l) {
         if (lanes_[l].forced) forced = forced | side_by_side::only(l);
     }
-    mask const enough =
-        ((h <= C(4 * options_.minimum_step)) & !forced) | (order > 0 ? mask{} : mask(h <= C(1e-4)));
+    C const least = each_lane<C>([&](std::size_t l) { return 4 * shortest(l); });
+    mask const enough = ((h <= least) & !forced) |
+                        (order > 0 ? mask{} : resting & (h <= C(options_.resting_step())));
     mask const too_long = trying & !(ratio <= C(1.0)) & !enough;
     if (side_by_side::any(too_long)) {
         auto const shorten = each_lane<C>([&](std::size_t l) {
@@ -121,6 +136,7 @@ parametric_flow<Model>::attempt(mask trying, C const& to, std::size_t order, std
     std::size_t const K = order;
     std::size_t const L = flow_order;
     C const half = C(0.5);
+    held_.assign(K == 0 ? n : 0, held_state{});
     if (K > 0) {
         mask kinked = centre_.kinked();
         kinked |= derivative_.kinked();
@@ -137,7 +153,7 @@ parametric_flow<Model>::attempt(mask trying, C const& to, std::size_t order, std
         mask const bounded = bound_tails(h, K, L);
         if (side_by_side::all(bounded | !trying)) {
             tails_ = true;
-            trying = carries_well(short_enough(trying, h, K, truncation_), h, L);
+            trying = carries_well(short_enough(trying, h, K, truncation_, {}), h, L);
             if (!side_by_side::any(trying)) return mask{};
             guess_tube(h, K);
             square all;
@@ -182,6 +198,7 @@ parametric_flow<Model>::attempt(mask trying, C const& to, std::size_t order, std
     mask proved{};
     for (int round = 0; round < 3; ++round) {
         for (std::size_t i = 0; i < n; ++i) tube_box_[i] = widened(path_[i], room_[i]);
+        if (K == 0) hold_states(trying, h, times);
         tube_.expand(set_.time, times, tube_box_, K + 1);
         mask undefined = trying & tube_.undefined();
         if (side_by_side::any(undefined)) {
@@ -197,18 +214,24 @@ parametric_flow<Model>::attempt(mask trying, C const& to, std::size_t order, std
         }
         // Without series terms x(h) = x(0) + h f(b) holds for every member, jumps or not. With them
         // no sign varies here (it would be a kink), and V carries the members as usual.
+        // A lane with a held state goes the same way.
         jumps = K == 0 ? trying & tube_.jumped() : mask{};
+        for (auto const& state : held_) jumps = jumps | (trying & state.lanes);
         std::vector<C> share(n);
         for (std::size_t i = 0; i < n; ++i) {
             auto const& lagrange = tube_.state(i, K + 1);
             truncation_[i] = lagrange.norm() * power * up;
-            share[i] = (lagrange.spread() + lagrange.r()) * power;
+            share[i] = K > 0 ? (lagrange.spread() + lagrange.r()) * power
+                             : without_last_variable(lagrange, *shape_).r() * power;
+            if (K == 0) share[i] = side_by_side::select(held_[i].lanes, C(0.0), share[i]);
         }
-        trying = short_enough(trying, h, K, share);
+        if (K > 0) trying = short_enough(trying, h, K, share, {});
         if (!side_by_side::any(trying)) return mask{};
         last.assign(n * n, C(0.0));
         w.assign(n * n, C(0.0));
         for (std::size_t i = 0; i < n; ++i) spread[i] = set_.reach[i];
+        if (side_by_side::any(jumps))
+            trying = short_enough(trying & jumps, h, K, share, {}) | (trying & !jumps);
         if (side_by_side::any(trying & !jumps)) {
             tube_.add_variations(L);
             undefined = trying & !jumps & tube_.undefined();
@@ -229,6 +252,7 @@ parametric_flow<Model>::attempt(mask trying, C const& to, std::size_t order, std
                     last[i * n + c] = tube_.variation(i, c, L).norm() * flow_power * up;
                 }
             }
+            if (K == 0) trying = short_enough(trying & !jumps, h, K, share, last) | (trying & jumps);
             mask const bounded = bound_flow(base, last, trying & !jumps, w);
             mask const unbounded = trying & !jumps & !bounded;
             if (side_by_side::any(unbounded)) {
@@ -252,7 +276,8 @@ parametric_flow<Model>::attempt(mask trying, C const& to, std::size_t order, std
         std::array<double, width> worst{};
         for (std::size_t i = 0; i < n; ++i) {
             C const image = (truncation_[i] + spread[i]) * up;
-            auto const inside = image < room_[i];
+            auto inside = image < room_[i];
+            if (K == 0) inside = inside | held_[i].lanes;
             proved = proved & inside;
             if (side_by_side::all(inside | !trying)) continue;
             for (std::size_t l = 0; l < width; ++l) {

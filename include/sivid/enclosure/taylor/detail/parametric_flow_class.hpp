@@ -186,12 +186,36 @@ private:
         bool held = false;   ///< by `gentle`
         bool rough = false;  ///< at a kink: the next attempt is of first order
         bool forced = false; ///< the shortest step, although the coefficients suggest less
+        bool cut = false;    ///< by a kink: the length says nothing about smooth steps
+        double near = infinity; ///< about the longest step that the neighbourhood of a kink allows
+        std::size_t crossing = 0; ///< steps of first order since the last smooth one
+    };
+
+    /// Steps of first order, at most, that are kept short to cross a kink with little loss. A set
+    /// that needs more rests on the kink, and loses it all however short the steps are.
+    static constexpr std::size_t crossing_steps = 40;
+    /// A state during a step of first order that the right-hand side holds between bounds.
+    struct held_state {
+        mask lanes{};
+        C lower{}, upper{}; ///< at the end
     };
 
     [[nodiscard]] C allowed(std::size_t i) const {
         auto const& p = set_.centre[i];
         return (side_by_side::abs(p.c()[0]) + C(1.0)) * options_.tolerance +
                (p.spread() + set_.reach[i]) * options_.relative_tolerance;
+    }
+    /// What a step across a kink may lose: little of what the set spans, besides what is lost anyway
+    /// since the slopes differ on its two sides.
+    [[nodiscard]] C allowed_at_kink(std::size_t i) const {
+        auto const& p = set_.centre[i];
+        return (side_by_side::abs(p.c()[0]) + C(1.0)) * (options_.tolerance * 10) +
+               (p.spread() + set_.reach[i]) * 0.02;
+    }
+    [[nodiscard]] double shortest(std::size_t lane) const {
+        return options_.minimum_step * (lanes_[lane].cut && lanes_[lane].crossing < crossing_steps
+                                            ? enclosure_options::at_kinks
+                                            : 1);
     }
     void expand(std::size_t order);
     void expand_flow(std::size_t flow_order);
@@ -209,12 +233,15 @@ private:
     /// @returns the lanes in which that is proved
     [[nodiscard]] mask bound_tails(C const& h, std::size_t order, std::size_t flow_order);
     /// The lanes of `trying` whose truncation is small enough.
+    /// @param slopes  at kinks: h |df_i/dx_c| over the step; empty where no derivative exists
     [[nodiscard]] mask short_enough(mask trying, C const& h, std::size_t order,
-                                    std::vector<C> const& truncation);
+                                    std::vector<C> const& truncation, square const& slopes);
     [[nodiscard]] mask carries_well(mask trying, C const& h, std::size_t flow_order);
     /// @returns the lanes of `trying` whose step to `to` is proved
     [[nodiscard]] mask attempt(mask trying, C const& to, std::size_t order, std::size_t flow_order,
                                square& w, mask& jumps);
+    void hold_states(mask trying, C const& h, tube_entry const& times);
+    void release_states(mask moved, std::vector<polynomial>& next, std::vector<C>& lost);
     void accept(mask moved, C const& to, std::size_t order, std::size_t flow_order, square const& w,
                 mask jumps);
     void sizes(C const& h, std::size_t order, std::size_t from, square& result) const;
@@ -270,6 +297,7 @@ private:
     std::vector<column_entry> image_; ///< of a generator; its memory is used again
     std::vector<tube_entry> path_, tube_box_, swept_;
     std::vector<C> room_, truncation_;
+    std::vector<held_state> held_; ///< of the last step of first order; else empty
     bool tails_ = false; ///< the last attempt was proved by the tails of the series alone
     C ratio_{};          ///< of the last attempt's truncation to what is allowed
     std::array<lane_state, width> lanes_;
