@@ -10,7 +10,8 @@ namespace support {
 std::vector<reference_sensitivity>
 reference_sensitivities(dual_rate const& rate, extended_state const& x0, extended_state const& p,
                         double from, std::vector<double> const& times,
-                        std::vector<sivid::sampled_signal> const& inputs, extended tolerance) {
+                        std::vector<sivid::sampled_signal> const& inputs, extended tolerance,
+                        bool kinks) {
     auto const n = x0.size();
     auto const columns = n + p.size();
     auto const both = [&](extended t, extended_state const& z, extended_state const&,
@@ -39,7 +40,10 @@ reference_sensitivities(dual_rate const& rate, extended_state const& x0, extende
         for (std::size_t k = 0; k < columns; ++k) z.push_back(i == k ? 1 : 0);
     }
     std::vector<reference_sensitivity> result;
-    for (auto const& y : reference_states(both, z, p, from, times, inputs, tolerance)) {
+    auto const states =
+        kinks ? reference_states<dormand_prince>(both, z, p, from, times, inputs, tolerance)
+              : reference_states(both, z, p, from, times, inputs, tolerance);
+    for (auto const& y : states) {
         reference_sensitivity r;
         r.x.assign(y.begin(), y.begin() + static_cast<std::ptrdiff_t>(n));
         for (std::size_t i = 0; i < n; ++i) {

@@ -88,11 +88,12 @@ struct reference_sensitivity {
 using dual_rate = rate_on<dual>;
 
 /// States and \f$ \partial x / \partial (x_0, p) \f$ at the `times`.
+/// @param kinks  the derivatives of the right-hand side may jump
 std::vector<reference_sensitivity>
 reference_sensitivities(dual_rate const& rate, extended_state const& x0, extended_state const& p,
                         double from, std::vector<double> const& times,
                         std::vector<sivid::sampled_signal> const& inputs = {},
-                        extended tolerance = 1e-16L);
+                        extended tolerance = 1e-16L, bool kinks = false);
 
 } // namespace support
 

@@ -192,7 +192,10 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
                 continue;
             }
             double const power = 1.0 / static_cast<double>(step.order);
-            h *= std::clamp(0.9 * std::pow(1 / ratio, power), 0.1, 0.8);
+            // At a kink the loss may be in proportion to the length, and stay too large.
+            double const shorter =
+                h * std::clamp(0.9 * std::pow(1 / ratio, power), 0.1, smooth ? 0.8 : 0.4);
+            h = smooth ? shorter : std::max(shorter, std::min(h, least()));
             if (!smooth && !resting) { // a shorter step may miss the kink
                 smooth = true;
                 start_order = 0;

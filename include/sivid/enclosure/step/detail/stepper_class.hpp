@@ -105,7 +105,7 @@ private:
     static constexpr double reject_factor = 0.5;
     /// Steps of first order, at most, that are kept short to cross a kink with little loss. A set
     /// that needs more rests on the kink, and loses it all however short the steps are.
-    static constexpr int crossing_steps = 40;
+    static constexpr int crossing_steps = 20;
 
     /// @throws std::invalid_argument for order 0
     [[nodiscard]] static std::size_t highest(enclosure_options const& options) {

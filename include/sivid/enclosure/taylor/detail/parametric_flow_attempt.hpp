@@ -105,14 +105,17 @@ parametric_flow<Model>::short_enough(mask trying, C const& h, std::size_t order,
         if (lanes_[l].forced) forced = forced | side_by_side::only(l);
     }
     C const least = each_lane<C>([&](std::size_t l) { return 4 * shortest(l); });
-    mask const enough = ((h <= least) & !forced) |
-                        (order > 0 ? mask{} : resting & (h <= C(options_.resting_step())));
+    mask const enough =
+        order > 0 ? (h <= least) & !forced
+                  : (h <= least) | (resting & (h <= C(options_.resting_step())));
     mask const too_long = trying & !(ratio <= C(1.0)) & !enough;
     if (side_by_side::any(too_long)) {
         auto const shorten = each_lane<C>([&](std::size_t l) {
             double const x = side_by_side::get(ratio, l);
             if (!std::isfinite(x)) return 0.5;
-            return std::clamp(0.9 * std::pow(x, -1.0 / static_cast<double>(order + 1)), 0.3, 0.9);
+            // At a kink the loss may be in proportion to the length, and stay too large.
+            return std::clamp(0.9 * std::pow(x, -1.0 / static_cast<double>(order + 1)), 0.3,
+                              order > 0 ? 0.9 : 0.4);
         });
         reject(too_long, failure_reason::minimum_step, shorten);
     }

@@ -193,7 +193,7 @@ private:
 
     /// Steps of first order, at most, that are kept short to cross a kink with little loss. A set
     /// that needs more rests on the kink, and loses it all however short the steps are.
-    static constexpr std::size_t crossing_steps = 40;
+    static constexpr std::size_t crossing_steps = 20;
     /// A state during a step of first order that the right-hand side holds between bounds.
     struct held_state {
         mask lanes{};
