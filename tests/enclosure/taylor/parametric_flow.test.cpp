@@ -433,6 +433,105 @@ TEST_CASE("parametric flow: jumps of the right-hand side, as a differential incl
     check_run<1, 1>(*f, options, {between(-0.1, 0.3)}, {}, 0.6, exact);
 }
 
+namespace {
+
+/// The first time in (from, to] at which `crosses` holds, to the last digits; `to` where none.
+template <class Condition>
+extended first_time(extended from, extended to, Condition const& crosses) {
+    for (extended low = from; low < to;) {
+        extended high = std::min(low + 1e-3L, to);
+        if (crosses(high)) {
+            for (int k = 0; k < 60; ++k) {
+                extended const middle = (low + high) / 2;
+                (crosses(middle) ? high : low) = middle;
+            }
+            return high;
+        }
+        low = high;
+    }
+    return to;
+}
+
+/// A block on a rough floor, x' = v, v' = a sin t - mu sign(v), by closed forms between the times
+/// at which it stops, sticks and breaks away.
+extended_state block(extended end, extended x, extended v, extended mu, extended a) {
+    extended t = 0;
+    while (t < end) {
+        extended const push = a * std::sin(t);
+        extended s = v > 0 ? 1 : v < 0 ? -1 : push > mu ? 1 : push < -mu ? -1 : 0;
+        if (s == 0) {
+            t = first_time(t, end, [&](extended later) {
+                return std::fabs(a * std::sin(later)) > mu;
+            });
+            continue;
+        }
+        auto const speed = [&](extended later) {
+            return v - a * (std::cos(later) - std::cos(t)) - s * mu * (later - t);
+        };
+        extended const stop =
+            first_time(t, end, [&](extended later) { return s * speed(later) < 0; });
+        extended const h = stop - t;
+        x += v * h - a * (std::sin(stop) - std::sin(t)) + a * std::cos(t) * h - s * mu * h * h / 2;
+        v = stop < end ? 0 : speed(stop);
+        t = stop;
+    }
+    return {x, v};
+}
+
+} // namespace
+
+TEST_CASE("parametric flow: a block that sticks, and one that sticks and slips") {
+    auto const f =
+        flow_of(model_of({2, 2, 0, 100}, [](auto const& t, auto const& x, auto const& p,
+                                            auto const&) {
+            using sivid::sign;
+            using sivid::sin;
+            return vector<std::decay_t<decltype(x)>>({x[1], p[1] * sin(t) - p[0] * sign(x[1])});
+        }));
+    exact_solution const exact = [](extended t, auto const& x, auto const& p) {
+        return block(t, x[0], x[1], p[0], p[1]);
+    };
+    box const start{between(-0.01, 0.01), between(0.99, 1.01)};
+    auto options = patient(8, 1e-10);
+    options.relative_tolerance = 1e-4;
+    options.minimum_step = 1e-7;
+    // The floor holds it for good: hardly a step is needed, and hardly anything is lost.
+    CHECK(check_run<4, 3>(*f, options, start, {between(1.98, 2.02), between(0.99, 1.01)}, 6, exact,
+                          1, 1e-9L) < 60);
+    // It stops seven times, and breaks away after each.
+    check_run<4, 3>(*f, options, start, {between(1.99, 2.01), between(2.99, 3.01)}, 12, exact, 2,
+                    1e-9L);
+    // Not every member sticks, and those that do break away at times that differ.
+    check_run<4, 2>(*f, options, start, {between(1.8, 2.2), between(1.9, 2.1)}, 3, exact, 3, 1e-9L);
+    // From rest, and from both directions.
+    check_run<4, 2>(*f, options, {interval(0.0), interval(0.0)},
+                    {between(0.9, 1.1), between(1.4, 1.6)}, 2, exact, 4, 1e-9L);
+    check_run<4, 2>(*f, options, {interval(0.0), between(-0.1, 0.1)},
+                    {between(0.9, 1.1), between(0.5, 1.5)}, 2, exact, 5, 1e-9L);
+}
+
+TEST_CASE("parametric flow: a place that repels is left at any time") {
+    // x' = sign(x) - c: what starts at 0 may stay there for a while (Filippov), while |c| < 1.
+    auto const f = flow_of(
+        model_of({1, 1, 0, 100}, [](auto const&, auto const& x, auto const& p, auto const&) {
+            using sivid::sign;
+            return vector<std::decay_t<decltype(x)>>({sign(x[0]) - p[0]});
+        }));
+    for (extended const rest : {0.0L, 0.1L, 0.5L}) {
+        for (int const way : {-1, 1}) {
+            exact_solution const exact = [=](extended t, auto const& x, auto const& p) {
+                extended const s = x[0] > 0 ? 1 : x[0] < 0 ? -1 : way;
+                extended const moving = x[0] == 0 ? std::max<extended>(t - rest, 0) : t;
+                return extended_state{x[0] + (s - p[0]) * moving};
+            };
+            check_run<2, 1>(*f, patient(4, 1e-2), {interval(0.0)}, {between(-0.3, 0.4)}, 0.8,
+                            exact);
+            check_run<2, 1>(*f, patient(4, 1e-2), {between(0, 0.1)}, {between(-0.3, 0.4)}, 0.8,
+                            exact);
+        }
+    }
+}
+
 TEST_CASE("parametric flow: the sign of a parameter that spans zero") {
     // constant in time for each parameter: one of three linear equations
     auto const f = flow_of(
