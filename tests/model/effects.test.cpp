@@ -99,6 +99,15 @@ TEST_CASE("effects of equations") {
           1e-15);
     CHECK(rate(stribeck, 0, 1, 0) == 2);
     CHECK(rate(effects::drift("e", "c", prior), 0, 1, 0.5) == 2 * (1 + 0.5 * 3));
+    // Here the position is its own velocity: x' = 2 + k max(stop - x, 0) at x = -0.5.
+    using side = effects::stop_side;
+    auto const stop = [](decimal at, side s) {
+        return effects::end_stop("e", "x", "x", "1/s", prior, at, s);
+    };
+    CHECK(rate(stop(1_dec, side::lower), 0, 1, 0.5) == 2.75);
+    CHECK(rate(stop(-1_dec, side::lower), 0, 1, 0.5) == 2);
+    CHECK(rate(stop(-1_dec, side::upper), 0, 1, 0.5) == 1.75);
+    CHECK(rate(stop(1_dec, side::upper), 0, 1, 0.5) == 2);
 }
 
 TEST_CASE("effects of sensors") {

@@ -57,7 +57,8 @@ SIVID_DECL effect linear_damping(std::string const& name, std::string const& sta
 /// x' - k |x| x.
 SIVID_DECL effect quadratic_damping(std::string const& name, std::string const& state,
                                     std::string const& unit, range const& k);
-/// x' - k x/sqrt(x^2 + s^2): dry friction, smooth within about the speed s of rest.
+/// x' - k x/sqrt(x^2 + s^2): dry friction, smooth within about the speed s of rest. With s = 0 it
+/// is x' - k sign(x): what comes to rest sticks until something stronger than k moves it.
 SIVID_DECL effect dry_friction(std::string const& name, std::string const& state,
                                std::string const& unit, range const& k, decimal smooth_below);
 /// x' - (k + s e^(-(x/v)^2)) x/sqrt(x^2 + e^2): dry friction that is stronger by s near rest, and
@@ -65,6 +66,12 @@ SIVID_DECL effect dry_friction(std::string const& name, std::string const& state
 SIVID_DECL effect stribeck_friction(std::string const& name, std::string const& state,
                                     std::string const& unit, range const& k, range const& s,
                                     decimal fades_above, decimal smooth_below);
+/// v' + k max(stop - x, 0) for a lower stop, v' - k max(x - stop, 0) for an upper one: an elastic
+/// contact of the position x, whose velocity is v; k in `unit`, per mass.
+enum class stop_side { lower, upper };
+SIVID_DECL effect end_stop(std::string const& name, std::string const& position,
+                           std::string const& velocity, std::string const& unit, range const& k,
+                           decimal stop, stop_side side);
 /// A constant that drifts: c (1 + k t).
 SIVID_DECL effect drift(std::string const& name, std::string const& constant, range const& k);
 

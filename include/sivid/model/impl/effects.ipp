@@ -119,7 +119,26 @@ SIVID_DECL effect dry_friction(std::string const& name, std::string const& state
     auto e = detail::one(name, "k", unit, k, "dry friction in the equation of " + state);
     e.on_rates = [state, smooth_below](effect_scope& m) {
         auto const& x = m.state(state);
-        m.rate(state) -= m.parameter() * x / sqrt(sqr(x) + sqr(expression(smooth_below)));
+        auto const direction = nearest(smooth_below) == 0
+                                   ? sign(x)
+                                   : x / sqrt(sqr(x) + sqr(expression(smooth_below)));
+        m.rate(state) -= m.parameter() * direction;
+    };
+    return e;
+}
+
+SIVID_DECL effect end_stop(std::string const& name, std::string const& position,
+                           std::string const& velocity, std::string const& unit, range const& k,
+                           decimal stop, stop_side side) {
+    auto e = detail::one(name, "k", unit, k, "contact of " + position + " with an end stop");
+    e.on_rates = [position, velocity, stop, side](effect_scope& m) {
+        auto const above = m.state(position) - expression(stop);
+        expression const none = 0_dec;
+        if (side == stop_side::lower) {
+            m.rate(velocity) += m.parameter() * max(-above, none);
+        } else {
+            m.rate(velocity) -= m.parameter() * max(above, none);
+        }
     };
     return e;
 }
