@@ -51,9 +51,8 @@ bounce elastic_ball(extended t, extended height, extended stiffness) {
 } // namespace
 
 TEST_CASE("a ball bounces ten times on a stiff floor, by any set") {
-    auto const f = support::flow_of(
-        support::model_of({2, 1, 0, 20}, [](auto const&, auto const& x, auto const& p,
-                                            auto const&) {
+    auto const f = support::flow_of(support::model_of(
+        {2, 1, 0, 20}, [](auto const&, auto const& x, auto const& p, auto const&) {
             auto rate = x;
             rate[0] = x[1];
             rate[1] = -gravity - p[0] * min(x[0], 0 * x[0]);

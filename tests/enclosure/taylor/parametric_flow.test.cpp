@@ -460,9 +460,8 @@ extended_state block(extended end, extended x, extended v, extended mu, extended
         extended const push = a * std::sin(t);
         extended s = v > 0 ? 1 : v < 0 ? -1 : push > mu ? 1 : push < -mu ? -1 : 0;
         if (s == 0) {
-            t = first_time(t, end, [&](extended later) {
-                return std::fabs(a * std::sin(later)) > mu;
-            });
+            t = first_time(t, end,
+                           [&](extended later) { return std::fabs(a * std::sin(later)) > mu; });
             continue;
         }
         auto const speed = [&](extended later) {
@@ -481,9 +480,8 @@ extended_state block(extended end, extended x, extended v, extended mu, extended
 } // namespace
 
 TEST_CASE("parametric flow: a block that sticks, and one that sticks and slips") {
-    auto const f =
-        flow_of(model_of({2, 2, 0, 100}, [](auto const& t, auto const& x, auto const& p,
-                                            auto const&) {
+    auto const f = flow_of(
+        model_of({2, 2, 0, 100}, [](auto const& t, auto const& x, auto const& p, auto const&) {
             using sivid::sign;
             using sivid::sin;
             return vector<std::decay_t<decltype(x)>>({x[1], p[1] * sin(t) - p[0] * sign(x[1])});

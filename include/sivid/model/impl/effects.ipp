@@ -119,9 +119,8 @@ SIVID_DECL effect dry_friction(std::string const& name, std::string const& state
     auto e = detail::one(name, "k", unit, k, "dry friction in the equation of " + state);
     e.on_rates = [state, smooth_below](effect_scope& m) {
         auto const& x = m.state(state);
-        auto const direction = nearest(smooth_below) == 0
-                                   ? sign(x)
-                                   : x / sqrt(sqr(x) + sqr(expression(smooth_below)));
+        auto const direction =
+            nearest(smooth_below) == 0 ? sign(x) : x / sqrt(sqr(x) + sqr(expression(smooth_below)));
         m.rate(state) -= m.parameter() * direction;
     };
     return e;

@@ -185,8 +185,8 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
                 why.component = i;
             }
         }
-        bool const shortest = h <= 4 * least() ||
-                              (!smooth && resting && h <= options_.resting_step());
+        bool const shortest =
+            h <= 4 * least() || (!smooth && resting && h <= options_.resting_step());
         if (ratio > 1 && !shortest) {
             if (smooth && !options_.method && step.order < options_.order && ratio < 1e4) {
                 extra_order_ += 2;

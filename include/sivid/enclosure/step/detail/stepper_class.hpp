@@ -71,6 +71,8 @@ public:
         long_length_ = options_.maximum_step;
         long_pause_ = 0;
         learned_ = 1;
+        near_ = HUGE_VAL;
+        crossing_ = 0;
         extra_order_ = 0;
     }
 
@@ -121,8 +123,8 @@ private:
         return options_.tolerance * (1 + traits::mag(x[i])) +
                options_.relative_tolerance * traits::width(x[i]);
     }
-    /// What a step across a kink may lose: a small share of what the set spans, besides what is lost
-    /// anyway since the slopes differ on its two sides.
+    /// What a step across a kink may lose: a small share of what the set spans, besides what is
+    /// lost anyway since the slopes differ on its two sides.
     [[nodiscard]] double allowed_at_kink(basic_box<I> const& x, std::size_t i, double share) const {
         return 10 * options_.tolerance * (1 + traits::mag(x[i])) + share * traits::width(x[i]);
     }

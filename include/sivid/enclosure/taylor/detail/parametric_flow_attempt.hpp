@@ -105,9 +105,8 @@ parametric_flow<Model>::short_enough(mask trying, C const& h, std::size_t order,
         if (lanes_[l].forced) forced = forced | side_by_side::only(l);
     }
     C const least = each_lane<C>([&](std::size_t l) { return 4 * shortest(l); });
-    mask const enough =
-        order > 0 ? (h <= least) & !forced
-                  : (h <= least) | (resting & (h <= C(options_.resting_step())));
+    mask const enough = order > 0 ? (h <= least) & !forced
+                                  : (h <= least) | (resting & (h <= C(options_.resting_step())));
     mask const too_long = trying & !(ratio <= C(1.0)) & !enough;
     if (side_by_side::any(too_long)) {
         auto const shorten = each_lane<C>([&](std::size_t l) {
@@ -255,7 +254,8 @@ parametric_flow<Model>::attempt(mask trying, C const& to, std::size_t order, std
                     last[i * n + c] = tube_.variation(i, c, L).norm() * flow_power * up;
                 }
             }
-            if (K == 0) trying = short_enough(trying & !jumps, h, K, share, last) | (trying & jumps);
+            if (K == 0)
+                trying = short_enough(trying & !jumps, h, K, share, last) | (trying & jumps);
             mask const bounded = bound_flow(base, last, trying & !jumps, w);
             mask const unbounded = trying & !jumps & !bounded;
             if (side_by_side::any(unbounded)) {

@@ -3,7 +3,8 @@
 #define SIVID_ENCLOSURE_TAYLOR_DETAIL_PARAMETRIC_FLOW_BARRIER_HPP
 
 /// @file
-/// States that the right-hand side holds where they are, such as the velocity of a body that sticks.
+/// States that the right-hand side holds where they are, such as the velocity of a body that
+/// sticks.
 
 #include <sivid/enclosure/taylor/detail/parametric_flow_class.hpp>
 
@@ -39,16 +40,15 @@ void parametric_flow<Model>::hold_states(mask trying, C const& h, tube_entry con
         tube_entry const box = tube_box_[i];
         auto const all = rough_bounds(box);
         auto const range = rough_bounds(set_.centre[i]);
-        C const reach =
-            set_.reach[i] +
-            (side_by_side::abs(range.lower) + side_by_side::abs(range.upper)) * slack +
-            C(polynomial::tiny);
+        C const reach = set_.reach[i] +
+                        (side_by_side::abs(range.lower) + side_by_side::abs(range.upper)) * slack +
+                        C(polynomial::tiny);
         struct side {
             double sign; ///< -1: the lower side, seen in a mirror
             C start, outer, inner;
-            mask known{};  ///< the lanes with a bound
-            C end{};       ///< the least bound at the end of the step
-            C during{};    ///< and until then
+            mask known{};    ///< the lanes with a bound
+            C end{};         ///< the least bound at the end of the step
+            C during{};      ///< and until then
             C low{}, high{}; ///< of the c that are still to be tried
         };
         auto const side_of = [&](double sign) {
@@ -66,12 +66,12 @@ void parametric_flow<Model>::hold_states(mask trying, C const& h, tube_entry con
             C const most = s.sign > 0 ? rate.upper : -rate.lower;
             C const moved = s.start + most * h + side_by_side::abs(most * h) * slack;
             mask const falls = most < C(0.0);
-            C const end = side_by_side::select(
-                falls, side_by_side::max(moved, c),
-                side_by_side::max(s.start, c) + (moved - s.start) + side_by_side::abs(c) * slack);
+            C const end = side_by_side::select(falls, side_by_side::max(moved, c),
+                                               side_by_side::max(s.start, c) + (moved - s.start) +
+                                                   side_by_side::abs(c) * slack);
             C const during = side_by_side::select(falls, side_by_side::max(s.start, c), end);
-            mask const good = trying & !tube_.undefined() & (during < s.outer) &
-                              (!s.known | (end < s.end));
+            mask const good =
+                trying & !tube_.undefined() & (during < s.outer) & (!s.known | (end < s.end));
             s.known = s.known | good;
             s.end = side_by_side::select(good, end, s.end);
             s.during = side_by_side::select(good, during, s.during);

@@ -182,11 +182,11 @@ private:
         double next = 0;          ///< length to try
         double tried = 0;         ///< the last one tried since the last accepted step
         double learned = 1;
-        bool free = false;   ///< neither the end of the interval nor `gentle` had a say in it
-        bool held = false;   ///< by `gentle`
-        bool rough = false;  ///< at a kink: the next attempt is of first order
-        bool forced = false; ///< the shortest step, although the coefficients suggest less
-        bool cut = false;    ///< by a kink: the length says nothing about smooth steps
+        bool free = false;      ///< neither the end of the interval nor `gentle` had a say in it
+        bool held = false;      ///< by `gentle`
+        bool rough = false;     ///< at a kink: the next attempt is of first order
+        bool forced = false;    ///< the shortest step, although the coefficients suggest less
+        bool cut = false;       ///< by a kink: the length says nothing about smooth steps
         double near = infinity; ///< about the longest step that the neighbourhood of a kink allows
         std::size_t crossing = 0; ///< steps of first order since the last smooth one
     };
@@ -205,8 +205,8 @@ private:
         return (side_by_side::abs(p.c()[0]) + C(1.0)) * options_.tolerance +
                (p.spread() + set_.reach[i]) * options_.relative_tolerance;
     }
-    /// What a step across a kink may lose: a small share of what the set spans, besides what is lost
-    /// anyway since the slopes differ on its two sides.
+    /// What a step across a kink may lose: a small share of what the set spans, besides what is
+    /// lost anyway since the slopes differ on its two sides.
     [[nodiscard]] C allowed_at_kink(std::size_t i, double share) const {
         auto const& p = set_.centre[i];
         return (side_by_side::abs(p.c()[0]) + C(1.0)) * (options_.tolerance * 10) +
@@ -298,8 +298,8 @@ private:
     std::vector<tube_entry> path_, tube_box_, swept_;
     std::vector<C> room_, truncation_;
     std::vector<held_state> held_; ///< of the last step of first order; else empty
-    bool tails_ = false; ///< the last attempt was proved by the tails of the series alone
-    C ratio_{};          ///< of the last attempt's truncation to what is allowed
+    bool tails_ = false;           ///< the last attempt was proved by the tails of the series alone
+    C ratio_{};                    ///< of the last attempt's truncation to what is allowed
     std::array<lane_state, width> lanes_;
     mask running_{};
     bool stale_ = true;          ///< the expansions are not those of the present sets
