@@ -113,7 +113,7 @@ void find(truth const& missing, std::string const& name, double size, double sha
 
 } // namespace
 
-TEST_CASE("a slide that sticks is diagnosed; one motion with sticking is proved to explain all") {
+TEST_CASE("a slide that sticks is diagnosed, and one motion with sticking proved to explain all") {
     find({0.9, 0, 0.3}, "dry_friction", 0.9, 1); // boxes of frictions are not told apart yet
 }
 

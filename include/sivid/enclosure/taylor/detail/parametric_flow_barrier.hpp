@@ -9,6 +9,7 @@
 #include <sivid/enclosure/taylor/detail/parametric_flow_class.hpp>
 
 #include <cstddef>
+#include <vector>
 
 namespace sivid {
 
