@@ -64,9 +64,9 @@ TEST_CASE("a ball bounces ten times on a stiff floor, by any set") {
         double end;
     };
     for (auto const& [set, part, widest, end] :
-         {plan{carried_set::taylor_model, 1e-8, 1e-3, 7.7},
-          plan{carried_set::doubleton, 1e-10, 1e-3, 7.7},
-          plan{carried_set::taylor_model, 1e-3, 0.08, 1.7}}) {
+         {plan{carried_set::taylor_model, 1e-10, 1e-2, 7.7},
+          plan{carried_set::doubleton, 1e-11, 1e-2, 7.7},
+          plan{carried_set::taylor_model, 1e-3, 0.05, 1.0}}) {
         box const start{between(0.5 * (1 - part), 0.5 * (1 + part)), interval(0.0)};
         box const stiffness{between(1000 * (1 - part), 1000 * (1 + part))};
         auto const motion = enclose(f, start, stiffness, 0, end, set);

@@ -41,10 +41,13 @@ planted_problem plant(draws& d, shape const& s, planted_rate const& rate, box co
         }
         problem.experiments.push_back(x);
     }
-    result.simulate = [rate = rate.on<extended>(), times, channels](std::size_t e,
-                                                                    std::vector<double> const& p,
-                                                                    std::vector<double> const& x0) {
-        auto const states = reference_states(rate, extend(x0), extend(p), 0, times[e], {}, 1e-14L);
+    result.simulate = [rate = rate.on<extended>(), times, channels,
+                       kinked = how.kinked](std::size_t e, std::vector<double> const& p,
+                                            std::vector<double> const& x0) {
+        auto const states =
+            kinked ? reference_states<dormand_prince>(rate, extend(x0), extend(p), 0, times[e], {},
+                                                      1e-13L, 0.05)
+                   : reference_states(rate, extend(x0), extend(p), 0, times[e], {}, 1e-14L);
         extended_state y;
         for (std::size_t k = 0; k < states.size(); ++k) y.push_back(states[k][channels[e][k]]);
         return y;
@@ -63,7 +66,9 @@ planted_problem plant(draws& d, shape const& s, planted_rate const& rate, box co
     return result;
 }
 
-planted_problem plant(draws& d, std::size_t model, planting const& how) {
+planted_problem plant(draws& d, std::size_t model, planting const& asked) {
+    auto how = asked;
+    how.kinked = model % planted_models == 3;
     switch (model % planted_models) {
     case 0:
         return plant(

@@ -48,6 +48,7 @@ struct planting {
     double noise = 0.02;      ///< half-width of the bounds
     double spread = 0;        ///< half-width of the initial boxes
     double horizon = 3;
+    bool kinked = false; ///< the rate: its reference must not pass over them
 };
 
 /// What is planted: recorded for the library, on extended numbers for the reference.

@@ -167,8 +167,7 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
         if (!smooth && !resting) {
             step.jumps = tube_.jumped();
             tube_.expand_with_variations(from, times, b, q);
-            double const share = step.jumps ? 0.02 : 2e-3;
-            for (std::size_t i = 0; i < n; ++i) crossing[i] = allowed_at_kink(x, i, share);
+            for (std::size_t i = 0; i < n; ++i) crossing[i] = allowed_at_kink(x, i);
             for (auto const& e : flow_->entries()) {
                 if (step.jumps || e.column >= n) continue;
                 crossing[e.row] += 0.25 * traits::upper(length) * traits::mag(tube_.jacobian(e)) *

@@ -84,7 +84,7 @@ parametric_flow<Model>::short_enough(mask trying, C const& h, std::size_t order,
     for (std::size_t i = 0; i < n; ++i) {
         C bearable = allowed(i) * 10.0;
         if (order == 0) {
-            C crossing = allowed_at_kink(i, slopes.empty() ? 0.02 : 2e-3);
+            C crossing = allowed_at_kink(i);
             for (std::size_t c = 0; c < n && !slopes.empty(); ++c) {
                 crossing += slopes[i * n + c] * (set_.centre[c].spread() + set_.reach[c]) * 0.25;
             }

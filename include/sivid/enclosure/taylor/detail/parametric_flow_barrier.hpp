@@ -38,8 +38,8 @@ void parametric_flow<Model>::hold_states(mask trying, C const& h, tube_entry con
     for (std::size_t i = 0; i < held_.size(); ++i) {
         held_[i] = held_state{};
         if (!flow_->sensitive(i, i)) continue;
-        tube_entry const box = tube_box_[i];
-        auto const all = rough_bounds(box);
+        tube_entry const whole = tube_box_[i];
+        auto const all = rough_bounds(whole);
         auto const range = rough_bounds(set_.centre[i]);
         C const reach = set_.reach[i] +
                         (side_by_side::abs(range.lower) + side_by_side::abs(range.upper)) * slack +
@@ -72,7 +72,7 @@ void parametric_flow<Model>::hold_states(mask trying, C const& h, tube_entry con
                                                    side_by_side::abs(c) * slack);
             C const during = side_by_side::select(falls, side_by_side::max(s.start, c), end);
             mask const good =
-                trying & !tube_.undefined() & (during < s.outer) & (!s.known | (end < s.end));
+                trying & !tube_.undefined() & (during < s.outer) & ((!s.known) | (end < s.end));
             s.known = s.known | good;
             s.end = side_by_side::select(good, end, s.end);
             s.during = side_by_side::select(good, during, s.during);
@@ -93,10 +93,10 @@ void parametric_flow<Model>::hold_states(mask trying, C const& h, tube_entry con
             }
             held = held & (upper.end + lower.end < plain * 0.5);
         }
-        tube_box_[i] = box;
+        tube_box_[i] = whole;
         if (!side_by_side::any(held)) continue;
         held_[i] = {held, -lower.end, upper.end};
-        tube_box_[i] = select(held, entry(-lower.during, upper.during), box);
+        tube_box_[i] = select(held, entry(-lower.during, upper.during), whole);
     }
 }
 

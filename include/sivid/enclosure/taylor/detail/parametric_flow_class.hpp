@@ -207,10 +207,10 @@ private:
     }
     /// What a step across a kink may lose: a small share of what the set spans, besides what is
     /// lost anyway since the slopes differ on its two sides.
-    [[nodiscard]] C allowed_at_kink(std::size_t i, double share) const {
+    [[nodiscard]] C allowed_at_kink(std::size_t i) const {
         auto const& p = set_.centre[i];
         return (side_by_side::abs(p.c()[0]) + C(1.0)) * (options_.tolerance * 10) +
-               (p.spread() + set_.reach[i]) * share;
+               (p.spread() + set_.reach[i]) * 0.02;
     }
     [[nodiscard]] double shortest(std::size_t lane) const {
         return options_.minimum_step * (lanes_[lane].cut && lanes_[lane].crossing < crossing_steps
