@@ -92,7 +92,8 @@ void find(truth const& missing, std::string const& name, double size, double sha
         effects::constant_rate("offset", "v", "m/s^2", {-3_dec, 3_dec}),
         effects::quadratic_damping("quadratic_damping", "v", "1/m", {0_dec, 3_dec})};
     diagnosis_options options;
-    options.seconds = 30;
+    options.seconds = 120; // a slow machine needs them; the work is limited by the boxes
+    options.hulls.boxes = 64;
     auto const d = diagnose(std::move(problem), catalogue, options).result;
     INFO(d.seconds << " s");
     for (auto const& c : find_contradictions(d)) FAIL_CHECK(c.claim + ": " + c.reason);

@@ -30,7 +30,8 @@ struct enclosure_options {
     /// tolerance * (1 + |x_i|) + relative_tolerance * width of the enclosure of x_i.
     double tolerance = 1e-13;
     double relative_tolerance = 1e-4;
-    /// Steps are never shorter than this, except where an input's knot or the end is closer. Here
+    /// Steps are never shorter than this, except where an input's knot or the end is closer, and
+    /// for a few steps that cross a kink. Here
     /// and below in the unit of time of the model. Runs of experiments (`run_options`) scale both
     /// for records that last less than one unit, or more than a hundred.
     double minimum_step = 1e-7;
@@ -47,6 +48,8 @@ struct enclosure_options {
 
     /// Steps across a kink may be shorter than the shortest of the others by this.
     static constexpr double at_kinks = 1e-3;
+    /// Share of what a set spans that one of them may lose.
+    [[nodiscard]] double kink_share() const { return std::min(0.02, 1e3 * relative_tolerance); }
     /// Where a set rests on a kink, steps of this length are always short enough.
     [[nodiscard]] double resting_step() const { return 1e-4 * std::min(1.0, minimum_step / 1e-7); }
 

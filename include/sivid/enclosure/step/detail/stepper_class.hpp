@@ -126,7 +126,8 @@ private:
     /// What a step across a kink may lose: a small share of what the set spans, besides what is
     /// lost anyway since the slopes differ on its two sides.
     [[nodiscard]] double allowed_at_kink(basic_box<I> const& x, std::size_t i) const {
-        return 10 * options_.tolerance * (1 + traits::mag(x[i])) + 0.02 * traits::width(x[i]);
+        return 10 * options_.tolerance * (1 + traits::mag(x[i])) +
+               options_.kink_share() * traits::width(x[i]);
     }
     /// \f$ \sum_{k<order} s^k x_i^{[k]} + s^{order} last_i \f$ by Horner's rule.
     [[nodiscard]] static basic_box<I> sum(expansion<I> const& e, I const& s, std::size_t order,

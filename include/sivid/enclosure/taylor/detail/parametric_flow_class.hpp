@@ -210,7 +210,7 @@ private:
     [[nodiscard]] C allowed_at_kink(std::size_t i) const {
         auto const& p = set_.centre[i];
         return (side_by_side::abs(p.c()[0]) + C(1.0)) * (options_.tolerance * 10) +
-               (p.spread() + set_.reach[i]) * 0.02;
+               (p.spread() + set_.reach[i]) * options_.kink_share();
     }
     [[nodiscard]] double shortest(std::size_t lane) const {
         return options_.minimum_step * (lanes_[lane].cut && lanes_[lane].crossing < crossing_steps
