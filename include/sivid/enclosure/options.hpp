@@ -4,7 +4,6 @@
 
 #include <sivid/enclosure/runge_kutta/tableau.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -30,10 +29,9 @@ struct enclosure_options {
     /// tolerance * (1 + |x_i|) + relative_tolerance * width of the enclosure of x_i.
     double tolerance = 1e-13;
     double relative_tolerance = 1e-4;
-    /// Steps are never shorter than this, except where an input's knot or the end is closer, and
-    /// for a few steps that cross a kink. Here
-    /// and below in the unit of time of the model. Runs of experiments (`run_options`) scale both
-    /// for records that last less than one unit, or more than a hundred.
+    /// Steps are never shorter than this, except where an input's knot or the end is closer, or a
+    /// kink is crossed. Here and below in the unit of time of the model. Runs of experiments
+    /// (`run_options`) scale both for records that last less than one unit, or more than a hundred.
     double minimum_step = 1e-7;
     double maximum_step = 1.0;
     std::size_t maximum_steps = 1'000'000;
@@ -45,13 +43,6 @@ struct enclosure_options {
     /// Asked before each step, by the thread that makes it: false ends the enclosure there
     /// (`failure_reason::cancelled`); what was proved until then stays proved. Empty: never asked.
     std::function<bool()> keep_going = nullptr;
-
-    /// Steps across a kink may be shorter than the shortest of the others by this.
-    static constexpr double at_kinks = 1e-3;
-    /// Share of what a set spans that one of them may lose.
-    [[nodiscard]] double kink_share() const { return std::min(0.02, 1e3 * relative_tolerance); }
-    /// Where a set rests on a kink, steps of this length are always short enough.
-    [[nodiscard]] double resting_step() const { return 1e-4 * std::min(1.0, minimum_step / 1e-7); }
 
     [[nodiscard]] bool cancelled() const { return keep_going && !keep_going(); }
 };

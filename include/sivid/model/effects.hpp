@@ -66,9 +66,10 @@ SIVID_DECL effect dry_friction(std::string const& name, std::string const& state
 SIVID_DECL effect stribeck_friction(std::string const& name, std::string const& state,
                                     std::string const& unit, range const& k, range const& s,
                                     decimal fades_above, decimal smooth_below);
+/// Where an end stop stands: below or above all that is free.
+enum class stop_side { lower, upper };
 /// v' + k max(stop - x, 0) for a lower stop, v' - k max(x - stop, 0) for an upper one: an elastic
 /// contact of the position x, whose velocity is v; k in `unit`, per mass.
-enum class stop_side { lower, upper };
 SIVID_DECL effect end_stop(std::string const& name, std::string const& position,
                            std::string const& velocity, std::string const& unit, range const& k,
                            decimal stop, stop_side side);

@@ -496,6 +496,10 @@ TEST_CASE("parametric flow: a block that sticks, and one that sticks and slips")
     // The floor holds it for good: hardly a step is needed, and hardly anything is lost.
     CHECK(check_run<4, 3>(*f, options, start, {between(1.98, 2.02), between(0.99, 1.01)}, 6, exact,
                           1, 1e-9L) < 60);
+    parametric_flow<taylor_model<double>> run(*f, options, 4, 3);
+    run.begin(0, start, {between(1.98, 2.02), between(0.99, 1.01)});
+    while (run.time() < 6) REQUIRE(run.step(6));
+    CHECK(width(run.set().hull()[1]) < 3e-5);
     // It stops, sticks and breaks away, again and again.
     check_run<4, 3>(*f, options, start, {between(1.99, 2.01), between(2.99, 3.01)}, 12, exact, 2,
                     1e-9L);

@@ -69,10 +69,8 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
     bool cut = near_ < h; // by a kink: the length says nothing about smooth steps
     if (cut) h = near_;
     double const proposed = h;
-    bool const resting = crossing_ >= crossing_steps;
-    auto const least = [&] { // crossing a kink takes shorter steps
-        return options_.minimum_step * (cut && !resting ? enclosure_options::at_kinks : 1);
-    };
+    bool const resting = crossing_ >= enclosure_detail::crossing_steps;
+    auto const least = [&] { return enclosure_detail::shortest_step(options_, cut && !resting); };
     bool smooth = true;
     bool undefined = false;
     bool unsolved = false;
@@ -163,10 +161,11 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
         // Truncation within the tolerance? At kinks the first-order error is what it is: there the
         // step only has to be short against the change of the set.
         double ratio = 0;
-        std::vector<double> crossing(n); // what a step across a kink may lose
-        if (!smooth && !resting) {
-            step.jumps = tube_.jumped();
-            tube_.expand_with_variations(from, times, b, q);
+        step.jumps = tube_.jumped();
+        bool const crosses = !smooth && !resting;
+        std::vector<double> crossing(crosses ? n : 0); // what such a step may lose
+        if (crosses) {
+            tube_.add_variations(q);
             for (std::size_t i = 0; i < n; ++i) crossing[i] = allowed_at_kink(x, i);
             for (auto const& e : flow_->entries()) {
                 if (step.jumps || e.column >= n) continue;
@@ -179,13 +178,13 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
             double const limit_i = smooth    ? allowed(x, i)
                                    : resting ? 1e3 * allowed(x, i)
                                              : crossing[i];
-            if (!(error / limit_i <= ratio)) {
+            if (error / limit_i > ratio) {
                 ratio = error / limit_i;
                 why.component = i;
             }
         }
-        bool const shortest =
-            h <= 4 * least() || (!smooth && resting && h <= options_.resting_step());
+        bool const shortest = h <= 4 * least() ||
+                              (!smooth && resting && h <= enclosure_detail::resting_step(options_));
         if (ratio > 1 && !shortest) {
             if (smooth && !options_.method && step.order < options_.order && ratio < 1e4) {
                 extra_order_ += 2;
@@ -196,7 +195,7 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
             double const shorter =
                 h * std::clamp(0.9 * std::pow(1 / ratio, power), 0.1, smooth ? 0.8 : 0.4);
             h = smooth ? shorter : std::max(shorter, std::min(h, least()));
-            if (!smooth && !resting) { // a shorter step may miss the kink
+            if (crosses) { // a shorter step may miss the kink
                 smooth = true;
                 start_order = 0;
             }
@@ -212,12 +211,11 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
                 continue;
             }
         }
-        step.jumps = tube_.jumped();
-        tube_.expand_with_variations(from, times, b, q);
+        if (!crosses) tube_.expand_with_variations(from, times, b, q);
         undefined = tube_.undefined();
         if (undefined || (smooth && q > 1 && tube_.kinked())) {
             smooth = undefined;
-            cut = true;
+            cut = cut || !undefined;
             if (undefined) tried = b;
             if (undefined) h *= reject_factor;
             start_order = 0;

@@ -11,6 +11,7 @@
 #include <sivid/enclosure/series/domain_edge.hpp>
 #include <sivid/enclosure/series/expansion.hpp>
 #include <sivid/enclosure/set/doubleton.hpp>
+#include <sivid/enclosure/step/detail/kink_steps.hpp>
 #include <sivid/enclosure/step/detail/tube_step.hpp>
 #include <sivid/enclosure/step/perturbed_step.hpp>
 #include <sivid/enclosure/stiff/detail/dissipative_step.hpp>
@@ -105,9 +106,6 @@ public:
 
 private:
     static constexpr double reject_factor = 0.5;
-    /// Steps of first order, at most, that are kept short to cross a kink with little loss. A set
-    /// that needs more rests on the kink, and loses it all however short the steps are.
-    static constexpr int crossing_steps = 20;
 
     /// @throws std::invalid_argument for order 0
     [[nodiscard]] static std::size_t highest(enclosure_options const& options) {
@@ -127,7 +125,7 @@ private:
     /// lost anyway since the slopes differ on its two sides.
     [[nodiscard]] double allowed_at_kink(basic_box<I> const& x, std::size_t i) const {
         return 10 * options_.tolerance * (1 + traits::mag(x[i])) +
-               options_.kink_share() * traits::width(x[i]);
+               enclosure_detail::kink_share(options_) * traits::width(x[i]);
     }
     /// \f$ \sum_{k<order} s^k x_i^{[k]} + s^{order} last_i \f$ by Horner's rule.
     [[nodiscard]] static basic_box<I> sum(expansion<I> const& e, I const& s, std::size_t order,
@@ -198,8 +196,8 @@ private:
     basic_box<I> tube_lagrange_;  ///< x^[q](B)
     double learned_ = 1;          ///< accepted over estimated step length
     std::size_t extra_order_ = 0; ///< what wide sets need above the centre's order
-    double near_ = HUGE_VAL; ///< about the longest step that the neighbourhood of a kink allows
-    int crossing_ = 0;       ///< steps of first order since the last smooth one
+    double near_ = HUGE_VAL;   ///< about the longest step that the neighbourhood of a kink allows
+    std::size_t crossing_ = 0; ///< steps of first order since the last smooth one
 };
 
 #ifdef SIVID_COMPILED // its members are compiled once

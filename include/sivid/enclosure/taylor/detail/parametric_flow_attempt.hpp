@@ -78,7 +78,8 @@ parametric_flow<Model>::short_enough(mask trying, C const& h, std::size_t order,
     // A set that rests on a kink is not carried across by short steps: there the old ones do.
     mask resting{};
     for (std::size_t l = 0; l < width; ++l) {
-        if (lanes_[l].crossing >= crossing_steps) resting = resting | side_by_side::only(l);
+        if (lanes_[l].crossing >= enclosure_detail::crossing_steps)
+            resting = resting | side_by_side::only(l);
     }
     C ratio{}; // of the truncation to what is allowed
     for (std::size_t i = 0; i < n; ++i) {
@@ -105,8 +106,9 @@ parametric_flow<Model>::short_enough(mask trying, C const& h, std::size_t order,
         if (lanes_[l].forced) forced = forced | side_by_side::only(l);
     }
     C const least = each_lane<C>([&](std::size_t l) { return 4 * shortest(l); });
-    mask const enough = order > 0 ? (h <= least) & !forced
-                                  : (h <= least) | (resting & (h <= C(options_.resting_step())));
+    mask const enough =
+        order > 0 ? (h <= least) & !forced
+                  : (h <= least) | (resting & (h <= C(enclosure_detail::resting_step(options_))));
     mask const too_long = trying & !(ratio <= C(1.0)) & !enough;
     if (side_by_side::any(too_long)) {
         auto const shorten = each_lane<C>([&](std::size_t l) {

@@ -10,6 +10,7 @@
 #include <sivid/enclosure/series/domain_edge.hpp>
 #include <sivid/enclosure/series/expansion.hpp>
 #include <sivid/enclosure/set/parametric_set.hpp>
+#include <sivid/enclosure/step/detail/kink_steps.hpp>
 #include <sivid/enclosure/step/perturbed_step.hpp>
 #include <sivid/model/series/detail/twofold_arithmetic.hpp>
 #include <sivid/model/series/taylor_arithmetic.hpp>
@@ -191,9 +192,6 @@ private:
         std::size_t crossing = 0; ///< steps of first order since the last smooth one
     };
 
-    /// Steps of first order, at most, that are kept short to cross a kink with little loss. A set
-    /// that needs more rests on the kink, and loses it all however short the steps are.
-    static constexpr std::size_t crossing_steps = 20;
     /// A state during a step of first order that the right-hand side holds between bounds.
     struct held_state {
         mask lanes{};
@@ -210,12 +208,12 @@ private:
     [[nodiscard]] C allowed_at_kink(std::size_t i) const {
         auto const& p = set_.centre[i];
         return (side_by_side::abs(p.c()[0]) + C(1.0)) * (options_.tolerance * 10) +
-               (p.spread() + set_.reach[i]) * options_.kink_share();
+               (p.spread() + set_.reach[i]) * enclosure_detail::kink_share(options_);
     }
     [[nodiscard]] double shortest(std::size_t lane) const {
-        return options_.minimum_step * (lanes_[lane].cut && lanes_[lane].crossing < crossing_steps
-                                            ? enclosure_options::at_kinks
-                                            : 1);
+        auto const& l = lanes_[lane];
+        return enclosure_detail::shortest_step(
+            options_, l.cut && l.crossing < enclosure_detail::crossing_steps);
     }
     void expand(std::size_t order);
     void expand_flow(std::size_t flow_order);
@@ -240,7 +238,9 @@ private:
     /// @returns the lanes of `trying` whose step to `to` is proved
     [[nodiscard]] mask attempt(mask trying, C const& to, std::size_t order, std::size_t flow_order,
                                square& w, mask& jumps);
+    /// Of a step of first order: bounds of the states that their own rates hold.
     void hold_states(mask trying, C const& h, tube_entry const& times);
+    /// Gives them these bounds.
     void release_states(mask moved, std::vector<polynomial>& next, std::vector<C>& lost);
     void accept(mask moved, C const& to, std::size_t order, std::size_t flow_order, square const& w,
                 mask jumps);
