@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Inputs that move between two samples: the bound on how much a rate varies there was taken from
 // the inputs at the samples, and relations that hold were called refuted.
-#include <sivid/diagnosis/relation/detail/broken_relation.hpp>
+#include <sivid/paving/relation/detail/broken_relation.hpp>
 
 #include "diagnosis/planted_motion.hpp"
 #include "support/catch.hpp"

@@ -12,11 +12,11 @@
 #include <sivid/diagnosis/gap/detail/verified_inflation.hpp>
 #include <sivid/diagnosis/hold_out/detail/holdout_results.hpp>
 #include <sivid/diagnosis/holdout.hpp>
-#include <sivid/diagnosis/relation/relation_finding.hpp>
 #include <sivid/model/effect.hpp>
 #include <sivid/model/manoeuvre.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/judge/data_test_options.hpp>
+#include <sivid/paving/relation/relation_finding.hpp>
 
 #include <cstddef>
 #include <functional>

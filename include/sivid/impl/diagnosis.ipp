@@ -12,6 +12,5 @@
 #include <sivid/diagnosis/impl/diagnose.ipp>
 #include <sivid/diagnosis/impl/diagnosis_run.ipp>
 #include <sivid/diagnosis/impl/manoeuvre.ipp>
-#include <sivid/diagnosis/relation/impl/separation.ipp>
 
 #endif

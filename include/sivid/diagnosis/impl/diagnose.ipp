@@ -19,9 +19,9 @@
 #include <sivid/diagnosis/gap/detail/gap_proof.hpp>
 #include <sivid/diagnosis/gap/detail/part_inflation.hpp>
 #include <sivid/diagnosis/manoeuvre.hpp>
-#include <sivid/diagnosis/relation/detail/broken_relation.hpp>
 #include <sivid/diagnosis/sensor/detail/sensor_discharge.hpp>
 #include <sivid/diagnosis/verification.hpp>
+#include <sivid/paving/relation/detail/broken_relation.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -5,9 +5,13 @@
 #include <sivid/model/graph/arithmetic.hpp>
 #include <sivid/model/graph/graph.hpp>
 #include <sivid/model/graph/program.hpp>
+#include <sivid/model/graph/rewrite.hpp>
 #include <sivid/space/box.hpp>
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace sivid {
@@ -25,7 +29,15 @@ struct leaf_ranges {
 class graph_range {
 public:
     graph_range(graph const& g, std::vector<node_id> const& outputs)
-        : program_(g, outputs), values_(program_.memory<arithmetic>()), undefined_(g.size(), 0) {}
+        : program_(g, outputs),
+          values_(program_.memory<arithmetic>()),
+          undefined_(g.size(), 0),
+          direction_of_(g.size(), -1) {
+        auto const needed = reachable(g, outputs);
+        for (std::size_t k = 0; k < needed.size(); ++k) {
+            if (needed[k]) add_direction(g, static_cast<node_id>(k));
+        }
+    }
 
     void evaluate(leaf_ranges const& at) {
         program_.read(values_, [&at](operation op, std::size_t k) -> interval const& {
@@ -36,6 +48,7 @@ public:
         });
         program_.run<arithmetic>(values_, [this](program::step const& s, bool undefined) {
             undefined_[s.target] = undefined || undefined_[s.a] != 0 || undefined_[s.b] != 0;
+            if (direction_of_[s.target] >= 0) sharpen(s.target);
         });
     }
 
@@ -45,10 +58,89 @@ public:
 
 private:
     using arithmetic = proven_arithmetic<interval>;
+    using traits = interval_traits<interval>;
+
+    /// \f$ g x / \sqrt{x^2 + c} \f$ with \f$ c = \sum_k c_k \ge 0 \f$ and factors of g above and
+    /// below: dry friction, the direction of a velocity. \f$ x / \sqrt{x^2 + c} \f$ grows with x
+    /// from -1 to 1, where the quotient of the ranges may have no bound.
+    struct direction {
+        node_id x = 0;
+        std::vector<node_id> rest, above, below;
+    };
+
+    void add_direction(graph const& g, node_id i) {
+        if (g[i].op != operation::div && g[i].op != operation::mul) return;
+        direction found;
+        split(g, i, true, found);
+        for (auto const root : found.below) {
+            if (g[root].op != operation::sqrt) continue;
+            for (auto const x : found.above) {
+                if (!split_square(g, g[root].a, x, found.rest)) continue;
+                found.x = x;
+                found.above.erase(std::find(found.above.begin(), found.above.end(), x));
+                found.below.erase(std::find(found.below.begin(), found.below.end(), root));
+                direction_of_[i] = static_cast<std::int32_t>(directions_.size());
+                directions_.push_back(std::move(found));
+                return;
+            }
+        }
+    }
+    /// Factors of a node.
+    static void split(graph const& g, node_id i, bool above, direction& to) {
+        auto const& n = g[i];
+        if (n.op == operation::mul || n.op == operation::div) {
+            split(g, n.a, above, to);
+            split(g, n.b, n.op == operation::mul ? above : !above, to);
+        } else {
+            (above ? to.above : to.below).push_back(i);
+        }
+    }
+    /// Whether a sum has the summand \f$ x^2 \f$, and its other summands.
+    [[nodiscard]] static bool split_square(graph const& g, node_id sum, node_id x,
+                                           std::vector<node_id>& rest) {
+        rest.clear();
+        bool seen = false;
+        for (std::vector<node_id> open{sum}; !open.empty();) {
+            auto const k = open.back();
+            auto const& n = g[k];
+            open.pop_back();
+            if (n.op == operation::add) {
+                open.insert(open.end(), {n.a, n.b});
+            } else if (!seen && n.op == operation::sqr && n.a == x) {
+                seen = true;
+            } else {
+                rest.push_back(k);
+            }
+        }
+        return seen;
+    }
+    void sharpen(node_id target) {
+        if (undefined_[target] != 0) return;
+        auto const& d = directions_[static_cast<std::size_t>(direction_of_[target])];
+        auto const& x = values_[d.x];
+        auto c = traits::point(0.0);
+        for (auto const k : d.rest) c = traits::add(c, values_[k]);
+        if (!(c.lower() >= 0) || !is_bounded(x)) return;
+        bool undefined = false;
+        // The more c, the closer to 0.
+        auto const unit = [&](double v, bool up) {
+            auto const point = traits::point(v);
+            auto const square = traits::point((v < 0) == up ? c.upper() : c.lower());
+            auto const length = traits::sqrt(traits::add(traits::sqr(point), square), undefined);
+            return traits::div(point, length, undefined);
+        };
+        auto value = traits::bounds(unit(x.lower(), false).lower(), unit(x.upper(), true).upper());
+        for (auto const k : d.above) value = traits::mul(value, values_[k]);
+        for (auto const k : d.below) value = traits::div(value, values_[k], undefined);
+        auto const both = traits::intersect(values_[target], value);
+        if (!undefined && !is_empty(both)) values_[target] = both;
+    }
 
     program program_;
     std::vector<interval> values_;
     std::vector<char> undefined_;
+    std::vector<direction> directions_;
+    std::vector<std::int32_t> direction_of_; ///< of each node; -1: it is none
 };
 
 } // namespace sivid

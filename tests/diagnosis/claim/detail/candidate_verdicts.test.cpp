@@ -4,7 +4,7 @@
 #include "diagnosis/small_catalogue.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/diagnosis/relation/detail/broken_relation.hpp>
+#include <sivid/paving/relation/detail/broken_relation.hpp>
 
 #include <algorithm>
 

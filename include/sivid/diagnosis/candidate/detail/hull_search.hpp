@@ -8,6 +8,7 @@
 #include <sivid/paving/judge/data_test_options.hpp>
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/reduction.hpp>
+#include <sivid/paving/relation/relation_contraction.hpp>
 #include <sivid/paving/work_limit.hpp>
 #include <sivid/space/box.hpp>
 
@@ -52,7 +53,12 @@ public:
         search.seconds = time.value_or(share) * limit_.seconds();
         search.boxes = static_cast<std::size_t>(share * static_cast<double>(options_->boxes));
         search.keep_going = limit_;
-        auto const paving = invert(test, posed.prior, search).paving;
+        auto prior = posed.prior;
+        if (limit_() && test.reached(prior) < 1) {
+            prior = contract_by_relations(posed, {.keep_going = work_limit(search.seconds / 4, limit_)});
+            if (is_empty(prior)) return std::nullopt;
+        }
+        auto const paving = invert(test, prior, search).paving;
         if (!paving.has_outer()) return std::nullopt;
         auto const left = paving.outer_hull();
         return map ? map->backward(problem.prior, left) : left;

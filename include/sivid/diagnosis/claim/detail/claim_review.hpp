@@ -7,8 +7,8 @@
 #include <sivid/diagnosis/claim/detail/diagnosis_consistency.hpp>
 #include <sivid/diagnosis/claim/detail/place_report.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
-#include <sivid/diagnosis/relation/detail/untouched_relation.hpp>
 #include <sivid/number/interval_traits.hpp>
+#include <sivid/paving/relation/detail/untouched_relation.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -4,7 +4,7 @@
 
 #include <sivid/approximate/place/estimated_place.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
-#include <sivid/diagnosis/relation/relation_finding.hpp>
+#include <sivid/paving/relation/relation_finding.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 #ifndef SIVID_DIAGNOSIS_SENSOR_DETAIL_SENSOR_DISCHARGE_HPP
 #define SIVID_DIAGNOSIS_SENSOR_DETAIL_SENSOR_DISCHARGE_HPP
 
-#include <sivid/diagnosis/relation/detail/broken_relation.hpp>
 #include <sivid/diagnosis/sensor/detail/sensor_faults.hpp>
 #include <sivid/model/problem.hpp>
+#include <sivid/paving/relation/detail/broken_relation.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,12 +2,12 @@
 #ifndef SIVID_DIAGNOSIS_SENSOR_DETAIL_SENSOR_FAULTS_HPP
 #define SIVID_DIAGNOSIS_SENSOR_DETAIL_SENSOR_FAULTS_HPP
 
-#include <sivid/diagnosis/relation/detail/relation_windows.hpp>
-#include <sivid/diagnosis/relation/state_samples.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/model/unit.hpp>
 #include <sivid/number/text/nearest_text.hpp>
+#include <sivid/paving/relation/detail/relation_windows.hpp>
+#include <sivid/paving/relation/state_samples.hpp>
 
 #include <algorithm>
 #include <cmath>

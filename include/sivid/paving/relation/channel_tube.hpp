@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_RELATION_CHANNEL_TUBE_HPP
+#define SIVID_PAVING_RELATION_CHANNEL_TUBE_HPP
+
+#include <sivid/number/interval_traits.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// A declared bound on how a quantity moves between its samples: over any time of length `period`,
+/// its rate of change varies by at most `variation` (the difference of any two values of the rate).
+///   Unlike a bound on the second derivative it allows jumps of the rate: an actuator that
+///   switches, a gust, dry friction at rest.
+struct rate_variation {
+    double period = 0;    ///< [s]
+    double variation = 0; ///< in the quantity's unit per s
+};
+
+/// Where a quantity lies at all times, from bounds at some times and a declared rate variation.
+///   Between samples \f$ t_k, t_{k+1} \f$ at distance h, with
+///   \f$ s = (t - t_k)/h \f$: the quantity departs from the chord of its values at the samples by
+///   at most \f$ J h s (1 - s) \f$, J being what its rate can vary by within h (worst case: two
+///   slopes, as far apart as they may be, that meet at t). The chord lies between the chords of the
+///   bounds.
+class channel_tube {
+public:
+    using traits = interval_traits<interval>;
+
+    channel_tube() = default;
+    /// @param variations  what the rate varies by in the gap after each sample but the last one;
+    /// may
+    ///                    be infinite
+    /// @given  as many bounds as times, at least one; times increase strictly (checked)
+    channel_tube(std::vector<double> times, std::vector<interval> bounds,
+                 std::vector<double> const& variations)
+        : times_(std::move(times)), bounds_(std::move(bounds)) {
+        if (times_.empty() || times_.size() != bounds_.size() ||
+            variations.size() + 1 != times_.size()) {
+            throw std::invalid_argument(
+                "channel_tube: needs as many bounds as times, a variation for each gap");
+        }
+        for (std::size_t k = 0; k + 1 < times_.size(); ++k) {
+            if (!(times_[k] < times_[k + 1])) {
+                throw std::invalid_argument("channel_tube: times must increase strictly");
+            }
+            if (!(variations[k] >= 0)) {
+                throw std::invalid_argument("channel_tube: the rate variation must be stated");
+            }
+            auto const gap = detail::add_up(times_[k + 1], -times_[k]);
+            bend_.push_back(traits::mul(traits::point(gap), traits::point(variations[k])).upper());
+        }
+    }
+    channel_tube(std::vector<double> const& times, std::vector<interval> const& bounds,
+                 rate_variation const& law)
+        : channel_tube(times, bounds, in_gaps(law, times)) {}
+
+    /// What a declared law says of each gap.
+    [[nodiscard]] static std::vector<double> in_gaps(rate_variation const& law,
+                                                     std::vector<double> const& times) {
+        if (!(law.period > 0) || !(law.variation >= 0)) {
+            throw std::invalid_argument("channel_tube: the rate variation must be stated");
+        }
+        std::vector<double> result;
+        for (std::size_t k = 0; k + 1 < times.size(); ++k) {
+            // The least number of periods that cover the gap, which may exceed it by rounding only.
+            double const gap = detail::add_up(times[k + 1], -times[k]);
+            double const periods = std::max(1.0, std::ceil(gap / law.period * (1 - 1e-9)));
+            result.push_back(
+                traits::mul(traits::point(periods),
+                            traits::mul(traits::point(law.variation), traits::point(1 + 1e-8)))
+                    .upper());
+        }
+        return result;
+    }
+
+    [[nodiscard]] std::vector<double> const& times() const { return times_; }
+    /// The bound at sample k.
+    [[nodiscard]] interval const& bound(std::size_t k) const { return bounds_[k]; }
+    [[nodiscard]] bool covers(double from, double to) const {
+        return times_.front() <= from && to <= times_.back();
+    }
+    /// The sample at exactly this time.
+    [[nodiscard]] std::optional<std::size_t> sample_at(double t) const {
+        auto const at = std::lower_bound(times_.begin(), times_.end(), t);
+        if (at == times_.end() || *at != t) return std::nullopt;
+        return static_cast<std::size_t>(at - times_.begin());
+    }
+
+    /// Encloses the quantity at all times in [from, to].
+    /// @given  `covers(from, to)` (checked)
+    [[nodiscard]] interval over(double from, double to) const {
+        if (!(from <= to) || !covers(from, to)) {
+            throw std::invalid_argument("channel_tube: no samples there");
+        }
+        auto k = gap_at(from);
+        if (from == to && times_[k] == from) return bounds_[k];
+        auto result = traits::empty();
+        for (; k + 1 < times_.size() && (times_[k] < to || sivid::is_empty(result)); ++k) {
+            result = traits::hull(
+                result, in_gap(k, std::max(from, times_[k]), std::min(to, times_[k + 1])));
+        }
+        return sivid::is_empty(result) ? bounds_.back() : result;
+    }
+
+    /// What is open, over a time within one gap, beside the straight line from `start` at `from` to
+    /// `end` at `to`: the chord's part, and an upper bound of the mean departure from the chord,
+    /// \f$ J h \, \overline{s (1 - s)} \f$.
+    /// @given  no sample strictly between `from` and `to` (checked)
+    [[nodiscard]] std::pair<interval, double> beside_line(double from, double to, double start,
+                                                          double end) const {
+        auto const k = gap_at(from);
+        if (!(from < to) || !covers(from, to) || times_[k + 1] < to) {
+            throw std::invalid_argument("channel_tube: not within one gap");
+        }
+        bool undefined = false;
+        auto const s0 = place(k, from);
+        auto const s1 = place(k, to);
+        auto const first = traits::mul(traits::point(0.5), traits::add(s0, s1));
+        auto const squares =
+            traits::add(traits::add(traits::sqr(s0), traits::mul(s0, s1)), traits::sqr(s1));
+        auto const mean = traits::sub(first, traits::div(squares, traits::point(3.0), undefined));
+        bool const bounded = std::isfinite(bend_[k]);
+        return {traits::hull(traits::sub(chord(k, s0), traits::point(start)),
+                             traits::sub(chord(k, s1), traits::point(end))),
+                bounded ? traits::mul(traits::point(bend_[k]), mean).upper() : HUGE_VAL};
+    }
+
+private:
+    [[nodiscard]] std::size_t gap_at(double t) const {
+        auto const after = std::upper_bound(times_.begin(), times_.end(), t);
+        return after == times_.begin() ? 0 : static_cast<std::size_t>(after - times_.begin()) - 1;
+    }
+    /// (t - t_k)/h.
+    [[nodiscard]] interval place(std::size_t k, double t) const {
+        bool undefined = false;
+        auto const h = traits::sub(traits::point(times_[k + 1]), traits::point(times_[k]));
+        auto const s = traits::sub(traits::point(t), traits::point(times_[k]));
+        return traits::intersect(traits::div(s, h, undefined), traits::bounds(0.0, 1.0));
+    }
+    [[nodiscard]] interval chord(std::size_t k, interval const& s) const {
+        return traits::add(traits::mul(traits::sub(traits::point(1.0), s), bounds_[k]),
+                           traits::mul(s, bounds_[k + 1]));
+    }
+    /// The greatest departure from the chord between two places, upward.
+    [[nodiscard]] double arch(std::size_t k, interval const& s0, interval const& s1) const {
+        if (!std::isfinite(bend_[k])) return HUGE_VAL;
+        auto const height = [](interval const& s) {
+            return traits::mul(s, traits::sub(traits::point(1.0), s)).upper();
+        };
+        double const highest =
+            s0.lower() <= 0.5 && 0.5 <= s1.upper() ? 0.25 : std::max(height(s0), height(s1));
+        return traits::mul(traits::point(bend_[k]), traits::point(highest)).upper();
+    }
+    [[nodiscard]] interval in_gap(std::size_t k, double from, double to) const {
+        auto const s0 = place(k, from);
+        auto const s1 = place(k, to);
+        auto const off = arch(k, s0, s1);
+        return traits::add(traits::hull(chord(k, s0), chord(k, s1)), traits::bounds(-off, off));
+    }
+
+    std::vector<double> times_;
+    std::vector<interval> bounds_;
+    std::vector<double> bend_; ///< J h of each gap
+};
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_RELATION_DETAIL_MOTION_CELLS_HPP
+#define SIVID_PAVING_RELATION_DETAIL_MOTION_CELLS_HPP
+
+#include <sivid/model/bound_model.hpp>
+#include <sivid/model/graph/graph_range.hpp>
+#include <sivid/model/problem.hpp>
+#include <sivid/paving/relation/input_range.hpp>
+#include <sivid/paving/relation/integrand_set.hpp>
+#include <sivid/paving/relation/state_samples.hpp>
+#include <sivid/paving/relation/time_grid.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace sivid {
+
+/// One experiment cut into short cells of time, in which no input has a knot, and what its model
+/// does there for any parameter of a prior.
+class motion_cells {
+    using traits = interval_traits<interval>;
+
+public:
+    struct cell {
+        double from = 0, to = 0;
+        box inputs;                  ///< over the whole cell, and before a jump at its begin
+        std::vector<interval> moves; ///< of the inputs from any time in it to any later one
+    };
+
+    /// @param model     with its inputs as leaves
+    /// @param channels  that show the states
+    /// @param believed  whether states of which nothing else is known keep their own ranges
+    motion_cells(bound_model const& model, box const& prior, experiment const& e,
+                 std::vector<std::optional<std::size_t>> const& channels, bool believed)
+        : g_(std::make_unique<graph>(model.g)),
+          prior_(prior),
+          inputs_(e.inputs),
+          initial_(e.initial) {
+        auto const n = model.state_count();
+        for (auto const& s : model.about.states) limits_.push_back(believed ? s.limit : HUGE_VAL);
+        std::vector<double> times;
+        double period = HUGE_VAL;
+        samples_.resize(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            if (!channels[i]) continue;
+            samples_[i] = state_samples::of(e, i, *channels[i]);
+            auto const& own = samples_[i]->times;
+            times.insert(times.end(), own.begin(), own.end());
+            if (own.size() > 1) period = std::min(period, samples_[i]->period());
+        }
+        set_ = integrand_set::of(*g_, model.rate, n, e.inputs.size());
+        cut(std::move(times), period, e);
+    }
+
+    [[nodiscard]] std::size_t size() const { return cells_.size(); }
+    [[nodiscard]] cell const& operator[](std::size_t c) const { return cells_[c]; }
+    [[nodiscard]] std::vector<signal> const& inputs() const { return inputs_; }
+    /// The rates with their derivatives.
+    [[nodiscard]] integrand_set const& set() const { return set_; }
+    /// Of each measured state.
+    [[nodiscard]] std::vector<std::optional<state_samples>> const& samples() const {
+        return samples_;
+    }
+    [[nodiscard]] interval length(std::size_t c) const {
+        return traits::sub(traits::point(cells_[c].to), traits::point(cells_[c].from));
+    }
+    [[nodiscard]] interval own_range(std::size_t i) const {
+        return traits::bounds(-limits_[i], limits_[i]);
+    }
+    [[nodiscard]] leaf_ranges leaves(std::size_t c, box const& states) const {
+        return {traits::bounds(cells_[c].from, cells_[c].to), states, prior_, cells_[c].inputs};
+    }
+    [[nodiscard]] box rates_in(graph_range& range, std::size_t c, box const& states) const {
+        range.evaluate(leaves(c, states));
+        box result(set_.functions.size());
+        for (std::size_t i = 0; i < result.size(); ++i) {
+            auto const f = set_.functions[i];
+            result[i] = range.undefined(f) ? traits::entire() : range.value(f);
+        }
+        return result;
+    }
+    [[nodiscard]] graph_range range_of_rates() const { return {*g_, set_.functions}; }
+
+    /// Encloses the model's motions over each cell, from the samples before and from those after.
+    [[nodiscard]] std::vector<box> enclosures() const {
+        auto range = range_of_rates();
+        auto const n = samples_.size();
+        auto const count = cells_.size();
+        std::vector<box> result(count, box(n));
+        for (bool const forward : {true, false}) {
+            box at(n);
+            for (std::size_t i = 0; i < n; ++i) {
+                at[i] = forward && i < initial_.size() ? initial_[i] : own_range(i);
+            }
+            for (std::size_t s = 0; s < count; ++s) {
+                auto const c = forward ? s : count - 1 - s;
+                double const t = forward ? cells_[c].from : cells_[c].to;
+                for (std::size_t i = 0; i < n; ++i) {
+                    if (auto const seen = sample_at(i, t)) {
+                        auto const common = intersect(at[i], *seen);
+                        at[i] = is_empty(common) ? *seen : common;
+                    }
+                }
+                auto const over = step(range, c, at, forward);
+                auto const rates = rates_in(range, c, over);
+                auto const lasting = forward ? length(c) : traits::neg(length(c));
+                for (std::size_t i = 0; i < n; ++i) {
+                    auto const moved = traits::add(at[i], traits::mul(lasting, rates[i]));
+                    auto const common = intersect(moved, over[i]);
+                    auto const end = is_empty(common) ? over[i] : common;
+                    auto const damped =
+                        samples_[i] ? end : intersect(end, damped_end(c, i, at[i], over, lasting));
+                    at[i] = is_empty(damped) ? end : damped;
+                    auto& known = result[c][i];
+                    auto const agreed = forward ? over[i] : intersect(known, over[i]);
+                    known = is_empty(agreed) ? hull(known, over[i]) : agreed;
+                }
+            }
+        }
+        return result;
+    }
+    /// What `enclosures` say of a state over any time within the samples.
+    [[nodiscard]] interval over(std::vector<box> const& reach, std::size_t i, double from,
+                                double to) const {
+        auto c = std::upper_bound(cells_.begin(), cells_.end(), from,
+                                  [](double t, cell const& x) { return t < x.to; });
+        auto result = traits::empty();
+        for (; c != cells_.end() && (c->from < to || is_empty(result)); ++c) {
+            result = hull(result, reach[static_cast<std::size_t>(c - cells_.begin())][i]);
+        }
+        bool const covered = !cells_.empty() && cells_.front().from <= from &&
+                             to <= cells_.back().to && !is_empty(result);
+        return covered ? result : traits::entire();
+    }
+
+private:
+    void cut(std::vector<double> times, double period, experiment const& e) {
+        if (times.empty() || !std::isfinite(period)) return;
+        std::sort(times.begin(), times.end());
+        double const end = times.back();
+        if (!(end > e.begin)) return;
+        auto const gaps = static_cast<double>(times.size());
+        double const pieces = gaps > 20000 ? 1 : gaps > 5000 ? 2 : 4;
+        for (auto const& u : e.inputs) {
+            auto const* sampled = std::get_if<sampled_signal>(&u);
+            if (sampled == nullptr) continue;
+            for (double const t : sampled->times()) {
+                if (t > e.begin && t < end) times.push_back(t);
+            }
+        }
+        auto const grid = refined_times(std::move(times), period / pieces);
+        for (std::size_t k = 0; k + 1 < grid.size(); ++k) {
+            cell c{grid[k], grid[k + 1], box(e.inputs.size()), {}};
+            for (std::size_t u = 0; u < e.inputs.size(); ++u) {
+                auto const& s = e.inputs[u];
+                c.inputs[u] = input_around(s, c.from, c.to, k == 0);
+                c.moves.push_back(input_move(s, c.from, c.to, k == 0));
+            }
+            cells_.push_back(std::move(c));
+        }
+    }
+
+    /// Encloses a state at the end of a cell, from its own equation as one that is linear in it,
+    /// \f$ y' = g(t) + J(t) y \f$ for \f$ y = x_i - c \f$: what damps itself does not spread.
+    /// @param start  at the begin, @param over  all states over the cell
+    [[nodiscard]] interval damped_end(std::size_t c, std::size_t i, interval const& start, box over,
+                                      interval const& lasting) const {
+        auto const f = set_.functions[i];
+        auto const slope = set_.slopes[i][i];
+        if (!set_.continuous[i] || !is_bounded(start)) return traits::entire();
+        graph_range range(*g_, {f, slope});
+        range.evaluate(leaves(c, over));
+        auto const growth = range.value(slope);
+        if (range.undefined(f) || range.undefined(slope)) return traits::entire();
+        auto const centre = traits::point(mid(start));
+        over[i] = centre;
+        range.evaluate(leaves(c, over));
+        auto const drive = range.value(f);
+        if (range.undefined(f) || !is_bounded(growth)) return traits::entire();
+        auto const carried = traits::exp(traits::mul(growth, lasting));
+        auto const since = traits::mul(lasting, traits::hull(traits::point(1.0), carried));
+        auto const own = traits::mul(carried, traits::sub(start, centre));
+        return traits::add(centre, traits::add(own, traits::mul(since, drive)));
+    }
+    /// By Picard's iteration, into a box whose faces no motion reaches: that needs no Lipschitz
+    /// condition. What does not settle is the state's own range.
+    [[nodiscard]] box step(graph_range& range, std::size_t c, box const& at, bool forward) const {
+        auto const n = at.size();
+        auto const h = forward ? length(c) : traits::neg(length(c));
+        auto const time = traits::mul(traits::bounds(0.0, 1.0), h);
+        box guess = at, most(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            most[i] = hull(own_range(i), at[i]);
+            guess[i] = grown(at[i], most[i]);
+        }
+        // In the end each round gives up one state at least.
+        constexpr std::size_t patience = 8;
+        bool settled = false;
+        for (std::size_t k = 0; !settled && k < patience + n + 2; ++k) {
+            auto const rates = rates_in(range, c, guess);
+            settled = true;
+            for (std::size_t i = 0; i < n; ++i) {
+                auto const next = clipped(traits::add(at[i], traits::mul(time, rates[i])), most[i]);
+                auto const& g = guess[i];
+                bool const below = g.lower() < next.lower() || g.lower() <= most[i].lower();
+                bool const above = next.upper() < g.upper() || most[i].upper() <= g.upper();
+                if (below && above) continue;
+                settled = false;
+                guess[i] = k > patience ? most[i] : grown(hull(next, guess[i]), most[i]);
+            }
+        }
+        if (!settled) return most;
+        // One step inward.
+        auto const rates = rates_in(range, c, guess);
+        for (std::size_t i = 0; i < n; ++i) {
+            auto const common =
+                intersect(guess[i], traits::add(at[i], traits::mul(time, rates[i])));
+            if (!is_empty(common)) guess[i] = common;
+        }
+        return guess;
+    }
+    [[nodiscard]] static interval clipped(interval const& x, interval const& most) {
+        auto const common = intersect(x, most);
+        return is_empty(common) ? most : common;
+    }
+    [[nodiscard]] static interval grown(interval const& x, interval const& most) {
+        double const more = 0.1 * width(x) + 1e-12;
+        return clipped(traits::add(x, traits::bounds(-more, more)), most);
+    }
+    [[nodiscard]] std::optional<interval> sample_at(std::size_t i, double t) const {
+        if (!samples_[i]) return std::nullopt;
+        auto const& times = samples_[i]->times;
+        auto const at = std::lower_bound(times.begin(), times.end(), t);
+        if (at == times.end() || *at != t) return std::nullopt;
+        return samples_[i]->bounds[static_cast<std::size_t>(at - times.begin())];
+    }
+
+    std::unique_ptr<graph> g_; ///< to which the set refers
+    box prior_;
+    std::vector<signal> inputs_;
+    box initial_;
+    std::vector<double> limits_;
+    std::vector<std::optional<state_samples>> samples_;
+    integrand_set set_;
+    std::vector<cell> cells_;
+};
+
+} // namespace sivid
+
+#endif

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_RELATION_DETAIL_OBSERVED_MOTION_HPP
+#define SIVID_PAVING_RELATION_DETAIL_OBSERVED_MOTION_HPP
+
+#include <sivid/paving/relation/channel_tube.hpp>
+#include <sivid/paving/relation/detail/model_variation.hpp>
+#include <sivid/paving/relation/input_range.hpp>
+#include <sivid/paving/relation/state_samples.hpp>
+#include <sivid/paving/relation/time_cell.hpp>
+#include <sivid/paving/relation/time_grid.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace sivid {
+
+/// What one experiment says about the states at all times: tubes of the states that were measured,
+/// and cells on a grid that contains all samples and knots of the inputs.
+struct observed_motion {
+    std::string name;
+    std::vector<std::optional<channel_tube>> tubes; ///< one per state; none where unmeasured
+    /// The same by the sensor alone, without the initial state: a constant error of the sensor then
+    /// shifts the tube and does not bend it.
+    std::vector<std::optional<channel_tube>> sensed;
+    std::vector<rate_variation> variation; ///< if declared; of measured states
+    std::vector<double> boundaries;        ///< of the cells
+    std::vector<time_cell> cells;
+
+    [[nodiscard]] std::size_t boundary_at(double t) const {
+        return static_cast<std::size_t>(std::lower_bound(boundaries.begin(), boundaries.end(), t) -
+                                        boundaries.begin());
+    }
+    /// Encloses a state over [from, to]; the whole line where nothing is known.
+    [[nodiscard]] interval state_over(std::size_t i, double from, double to) const {
+        if (!tubes[i] || !tubes[i]->covers(from, to)) return interval_traits<interval>::entire();
+        return tubes[i]->over(from, to);
+    }
+};
+
+namespace diagnosis_detail {
+
+/// An input over a cell within one piece: samples run along a line, formulas count as still.
+inline cell_line input_line(signal const& s, double from, double to) {
+    using traits = interval_traits<interval>;
+    auto const* sampled = std::get_if<sampled_signal>(&s);
+    if (sampled == nullptr) return cell_line::still(input_over(s, from, to));
+    auto const piece = sampled->piece(from);
+    auto const first = sampled->value<interval>(piece, traits::point(from));
+    auto const last = sampled->value<interval>(piece, traits::point(to));
+    double const e = std::max(sampled->error_bound(piece, from), sampled->error_bound(piece, to));
+    return cell_line::of(mid(first), mid(last),
+                         traits::hull(traits::sub(first, traits::point(mid(first))),
+                                      traits::sub(last, traits::point(mid(last)))),
+                         e);
+}
+
+} // namespace diagnosis_detail
+
+/// What is known of a motion between samples.
+struct motion_knowledge {
+    std::vector<rate_variation> declared;     ///< of measured states
+    std::vector<std::vector<double>> in_gaps; ///< what their rates vary by in each gap; or none
+    /// Encloses a state between two times: (state, from, to); may be empty.
+    std::function<interval(std::size_t, double, double)> reach{};
+};
+
+/// The tubes and cells of one experiment.
+/// @param cells_per_gap  cells between two samples
+/// @guarantee  every motion that keeps the bounds of `e` and is like what is known lies in the
+/// cells
+[[nodiscard]] inline observed_motion
+observe_motion(bound_model const& model, box const& prior, experiment const& e,
+               std::vector<std::optional<std::size_t>> const& channels,
+               motion_knowledge const& known, std::size_t cells_per_gap) {
+    using traits = interval_traits<interval>;
+    auto const n = model.state_count();
+    observed_motion result;
+    result.name = e.name;
+    result.variation = known.declared;
+    result.tubes.resize(n);
+    result.sensed.resize(n);
+    double period = HUGE_VAL;
+    double end = e.begin;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!channels[i]) continue;
+        auto const s = state_samples::of(e, i, *channels[i]);
+        auto const variations = known.in_gaps.empty()
+                                    ? channel_tube::in_gaps(known.declared[i], s.times)
+                                    : known.in_gaps[i];
+        result.tubes[i].emplace(s.times, s.bounds, variations);
+        auto const alone = state_samples::sensed(e, *channels[i]);
+        auto const skipped = static_cast<std::ptrdiff_t>(s.times.size() - alone.times.size());
+        if (!alone.times.empty()) {
+            result.sensed[i].emplace(
+                alone.times, alone.bounds,
+                std::vector<double>(variations.begin() + skipped, variations.end()));
+        }
+        result.boundaries.insert(result.boundaries.end(), s.times.begin(), s.times.end());
+        if (s.times.size() > 1) period = std::min(period, s.period());
+        end = std::max(end, s.times.back());
+    }
+    if (!(end > e.begin)) return result;
+    for (auto const& input : e.inputs) {
+        auto const* sampled = std::get_if<sampled_signal>(&input);
+        if (sampled == nullptr) continue;
+        for (double const t : sampled->times()) {
+            if (t > e.begin && t < end) result.boundaries.push_back(t);
+        }
+    }
+    result.boundaries =
+        refined_times(std::move(result.boundaries), period / static_cast<double>(cells_per_gap));
+    for (std::size_t c = 0; c + 1 < result.boundaries.size(); ++c) {
+        double const from = result.boundaries[c];
+        double const to = result.boundaries[c + 1];
+        leaf_ranges at{traits::bounds(from, to), box(n), prior, box(e.inputs.size())};
+        std::vector<cell_line> lines;
+        for (std::size_t i = 0; i < n; ++i) {
+            auto const seen = result.state_over(i, from, to);
+            auto const reach =
+                known.reach ? traits::intersect(seen, known.reach(i, from, to)) : seen;
+            at.states[i] = is_empty(reach) ? seen : reach;
+            if (!is_bounded(seen) || width(at.states[i]) < 0.5 * width(seen)) {
+                lines.push_back(cell_line::still(at.states[i]));
+                continue;
+            }
+            auto const& tube = *result.tubes[i];
+            double const first = mid(tube.over(from, from));
+            double const last = mid(tube.over(to, to));
+            auto const [beside, departure] = tube.beside_line(from, to, first, last);
+            lines.push_back(cell_line::of(first, last, beside, departure));
+            // Slopes are taken between the line's middle and where the state is.
+            at.states[i] = traits::hull(at.states[i], traits::point(lines.back().centre));
+        }
+        for (std::size_t u = 0; u < e.inputs.size(); ++u) {
+            at.inputs[u] = input_over(e.inputs[u], from, to);
+            lines.push_back(diagnosis_detail::input_line(e.inputs[u], from, to));
+        }
+        lines.push_back(cell_line::of(from, to, interval(0.0)));
+        time_cell cell{from, to, std::move(at), std::move(lines)};
+        result.cells.push_back(std::move(cell));
+    }
+    return result;
+}
+
+/// The same by what the model proves of its own motions over the prior.
+[[nodiscard]] inline observed_motion
+proved_motion(bound_model const& model, box const& prior, experiment const& e,
+              std::vector<std::optional<std::size_t>> const& channels, std::size_t cells_per_gap) {
+    model_variation const by_model(model, prior, e, channels, false);
+    auto const reach = by_model.cells().enclosures();
+    auto const over = [&](std::size_t i, double from, double to) {
+        return by_model.cells().over(reach, i, from, to);
+    };
+    return observe_motion(model, prior, e, channels, {{}, by_model.of_gaps(reach), over},
+                          cells_per_gap);
+}
+
+} // namespace sivid
+
+#endif

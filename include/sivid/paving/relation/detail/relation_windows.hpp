@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_RELATION_DETAIL_RELATION_WINDOWS_HPP
+#define SIVID_PAVING_RELATION_DETAIL_RELATION_WINDOWS_HPP
+
+#include <sivid/model/problem.hpp>
+#include <sivid/model/unit.hpp>
+#include <sivid/number/decimal_output.hpp>
+#include <sivid/number/text/nearest_text.hpp>
+#include <sivid/paving/relation/detail/damping.hpp>
+#include <sivid/paving/relation/detail/declared_variation.hpp>
+#include <sivid/paving/relation/detail/observed_motion.hpp>
+#include <sivid/paving/relation/detail/relation_row.hpp>
+#include <sivid/paving/relation/detail/relation_terms.hpp>
+#include <sivid/paving/relation/detail/weak_windows.hpp>
+#include <sivid/paving/relation/detail/window_integrals.hpp>
+#include <sivid/paving/relation/relation_finding.hpp>
+#include <sivid/paving/relation/time_grid.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// The equations of a problem over windows of its experiments without an outlier budget and, where
+/// variations are declared, with exact inputs. (What inputs within error bounds may do from one
+/// moment to the next contradicts them.)
+class relation_windows {
+    using traits = interval_traits<interval>;
+
+public:
+    /// @param problem  outlives this object
+    /// @param suspect  outlives this object; none: all sensors are right
+    /// @throws std::invalid_argument if the problem is not valid, or declares variations of rates
+    ///         that the model contradicts
+    relation_windows(identification_problem const& problem, relation_options const& options,
+                     suspected_sensor const* suspect = nullptr,
+                     motion_source source = motion_source::declared)
+        : problem_(&problem), options_(options), suspect_(suspect), source_(source) {
+        problem.require_valid();
+        bool const proved = source == motion_source::proved;
+        std::vector<experiment const*> trusted;
+        for (auto const& e : problem.experiments) {
+            if (e.outliers == 0 && (proved || !any_uncertain(e.inputs))) trusted.push_back(&e);
+        }
+        if (problem.model.has_memory()) {
+            obstacle_ = "the model has delays or plays";
+        } else if (trusted.empty()) {
+            obstacle_ = "every experiment has an outlier budget or inputs with error bounds: no "
+                        "window can be trusted";
+        }
+        if (!obstacle_.empty()) return;
+        // The inputs stay leaves, so that all experiments share one graph.
+        std::vector<signal> const open(about().inputs.size(),
+                                       sampled_signal({0.0}, {0.0}, interpolation::linear));
+        model_ = bind(problem.model, problem.choice, open);
+        channels_ = measured_states(model_, trusted);
+        auto const laws = proved ? std::vector<std::vector<rate_variation>>{} : laws_of(trusted);
+        for (std::size_t e = 0; e < trusted.size() && !stopped(); ++e) {
+            auto const& known = *trusted[e];
+            motions_.push_back(proved ? proved_motion(model_, problem.prior, known, channels_,
+                                                      options.cells_per_gap)
+                                      : observe_motion(model_, problem.prior, known, channels_,
+                                                       {laws[e], {}, {}}, options.cells_per_gap));
+        }
+        for (std::size_t q = 0; q < model_.state_count(); ++q) {
+            auto const& n = model_.g[model_.rate[q]];
+            if (n.op != operation::state || !channels_[q]) continue;
+            auto const r = static_cast<std::size_t>(n.index);
+            bool const right = suspect == nullptr || (suspect->state != q && suspect->state != r);
+            if (r != q && right) pairs_.push_back({r, q});
+        }
+    }
+
+    relation_windows(relation_windows const&) = delete; // what is prepared points into the graph
+    relation_windows& operator=(relation_windows const&) = delete;
+
+    [[nodiscard]] model_description const& about() const { return problem_->model.about; }
+    [[nodiscard]] observed_motion const& motion(std::size_t m) const { return motions_[m]; }
+    [[nodiscard]] std::vector<observed_motion> const& motions() const { return motions_; }
+    /// The channel that shows each state.
+    [[nodiscard]] std::vector<std::optional<std::size_t>> const& channels() const {
+        return channels_;
+    }
+    /// To which the rows refer.
+    [[nodiscard]] graph const& equations() const { return model_.g; }
+    /// @given  `obstacle(i)` was asked
+    [[nodiscard]] relation_row const& row(std::size_t i,
+                                          window_way way = window_way::direct) const {
+        return rows_.at({i, way == window_way::damped}).row;
+    }
+    [[nodiscard]] std::string rate_unit(std::size_t i) const {
+        return unit(about().states[i].unit).times(unit("s"), -1).text();
+    }
+
+    /// Why equation i cannot be examined; empty if it can.
+    [[nodiscard]] std::string obstacle(std::size_t i) {
+        if (stopped()) return "there was no time";
+        if (!obstacle_.empty()) return obstacle_;
+        auto const& e = prepared(i);
+        if (!e.row.bounded) return "a coefficient is unbounded over the prior";
+        auto const weak = weak_pair(i);
+        if (!channels_[i] && (!weak || !weak_windows::of(e.set, *weak))) {
+            return "no measurement shows " + about().states[i].name;
+        }
+        for (auto const s : e.row.states) {
+            bool const seen = channels_[s] || s == i || source_ == motion_source::proved;
+            if (!seen) return "no measurement shows " + about().states[s].name;
+        }
+        return {};
+    }
+
+    /// The ways in which equation i can be enclosed, the one with the fewest sensors first.
+    [[nodiscard]] std::vector<window_way> ways(std::size_t i) {
+        if (!channels_[i]) return {window_way::weak};
+        std::vector<window_way> result{window_way::direct};
+        if (!pairs_of(i).empty()) result.push_back(window_way::by_parts);
+        if (source_ == motion_source::proved) result.push_back(window_way::damped);
+        return result;
+    }
+
+    /// All windows between the shortest and the longest; every so many of them if there are too
+    /// many.
+    [[nodiscard]] std::vector<window_row> all(std::size_t i, window_way way) {
+        return windows(i, way, options_.shortest, options_.longest);
+    }
+    /// Windows of many lengths, from a gap to the whole record (`spread_windows`).
+    [[nodiscard]] std::vector<window_row> spread(std::size_t i, window_way way) {
+        if (way == window_way::weak) return all(i, way);
+        std::vector<window_row> result;
+        auto const& e = integrated(i, way);
+        for (std::size_t m = 0; m < motions_.size() && !stopped(); ++m) {
+            auto const& tube = own_tube(e.row, motions_[m]);
+            if (!tube) continue;
+            for (auto const& [a, b] : spread_windows(tube->times().size())) {
+                add(e, way, m, tube->times()[a], tube->times()[b], result);
+            }
+        }
+        return result;
+    }
+    /// The windows of about one length.
+    [[nodiscard]] std::vector<window_row> of_length(std::size_t i, window_way way, double length) {
+        std::vector<window_row> result;
+        for (auto& w : windows(i, way, length, 1.2 * length)) {
+            bool const next =
+                result.empty() || result.back().motion != w.motion || result.back().from < w.from;
+            if (next) result.push_back(std::move(w));
+        }
+        return result;
+    }
+
+    /// Equation i over one window; nothing where its ends are no boundaries of the cells, or it is
+    /// not covered.
+    /// @given  `obstacle(i)` was asked
+    [[nodiscard]] std::optional<window_row> over(std::size_t i, window_way way,
+                                                 relation_window const& at) {
+        if (way == window_way::weak) return std::nullopt;
+        auto const& e = integrated(i, way);
+        for (std::size_t m = 0; m < motions_.size(); ++m) {
+            if (motions_[m].name != at.scenario || !own_tube(e.row, motions_[m])) continue;
+            window_row w;
+            w.motion = m;
+            w.from = at.from;
+            w.to = at.to;
+            if (fill(e, way, w)) return w;
+        }
+        return std::nullopt;
+    }
+
+    /// Sensors and assumptions of a proof.
+    void describe(std::size_t i, window_way way, std::set<std::size_t> const& motions,
+                  bool from_begin, relation_finding& result) const {
+        auto tubes = row(i).states;
+        if (way == window_way::by_parts) {
+            for (auto const& p : pairs_of(i)) add_pair(p, tubes, result);
+        } else if (way == window_way::weak) {
+            add_pair(*weak_pair(i), tubes, result);
+            tubes.erase(i);
+        }
+        for (auto const s : tubes) {
+            // The variation is rounded so that the text assumes rather more than the proof does.
+            std::string text;
+            for (auto const m : motions) {
+                text += (text.empty() ? "" : ", ") +
+                        to_decimal_lower(motions_[m].variation[s].variation, 6) + " " +
+                        rate_unit(s) + " in " + motions_[m].name;
+                auto const& law = motions_[m].variation[s];
+                result.variations.push_back({motions_[m].name, s, law.period, law.variation});
+            }
+            result.assumptions.push_back(
+                about().states[s].name + "' varies within " +
+                nearest_text(motions_[*motions.begin()].variation[s].period, 6) + " s by at most " +
+                text);
+        }
+        if (row(i).uses_inputs) result.assumptions.emplace_back("inputs exact");
+        if (from_begin) result.assumptions.emplace_back("initial states in their boxes");
+        if (way != window_way::weak) tubes.insert(i);
+        for (auto const s : tubes) result.channels.push_back(about().channels[*channels_[s]].name);
+    }
+
+    [[nodiscard]] bool stopped() {
+        stopped_ = stopped_ || (options_.go_on && !options_.go_on());
+        return stopped_;
+    }
+
+private:
+    /// Declared variations per experiment and state.
+    [[nodiscard]] std::vector<std::vector<rate_variation>>
+    laws_of(std::vector<experiment const*> const& trusted) const {
+        if (suspect_ == nullptr) {
+            return laws_above_model(model_, problem_->prior, trusted, channels_,
+                                    options_.rate_variation);
+        }
+        std::vector<std::vector<rate_variation>> result;
+        for (auto const* e : trusted) result.push_back(suspect_->laws.at(e->name));
+        return result;
+    }
+
+    struct prepared_equation {
+        relation_row row;
+        integrand_set set;
+        std::vector<window_integrals> integrals; ///< one per experiment with cells
+    };
+
+    [[nodiscard]] prepared_equation& prepared(std::size_t i, window_way way = window_way::direct) {
+        std::pair const key{i, way == window_way::damped};
+        if (auto const found = rows_.find(key); found != rows_.end()) return found->second;
+        auto& e = rows_[key];
+        e.row = make_relation_row(model_.g, model_.rate.at(i), i, problem_->prior);
+        if (suspect_ != nullptr && suspect_->state == i) {
+            add_difference(e.row, i, traits::neg(suspect_->scale));
+            add_difference(e.row, std::nullopt, traits::neg(suspect_->drift));
+            for (auto const& [m, share] : suspect_->mixing) {
+                add_difference(e.row, m, traits::neg(share));
+            }
+        }
+        if (key.second) combine(model_.g, e.row, damping_of(model_, i, motions_));
+        e.set = integrand_set::of(model_.g, e.row.functions, model_.state_count(),
+                                  about().inputs.size());
+        return e;
+    }
+    /// Pairs that help with equation i: r in its row, q not its own state.
+    [[nodiscard]] std::vector<derivative_pair> pairs_of(std::size_t i) const {
+        std::vector<derivative_pair> result;
+        for (auto const& p : pairs_) {
+            if (p.q != i && channels_[p.r] && row(i).states.count(p.r) > 0) result.push_back(p);
+        }
+        return result;
+    }
+    [[nodiscard]] std::optional<derivative_pair> weak_pair(std::size_t i) const {
+        for (auto const& p : pairs_) {
+            if (p.r == i) return p;
+        }
+        return std::nullopt;
+    }
+    void add_pair(derivative_pair const& p, std::set<std::size_t>& states,
+                  relation_finding& result) const {
+        states.insert(p.q);
+        result.further.push_back(p.q);
+        result.assumptions.push_back(about().states[p.q].name + "' = " + about().states[p.r].name);
+    }
+    /// What the differences of the equation's own state are taken from. A kinematic equation is one
+    /// between sensors: the initial state is left out, lest a constant error of the state's sensor
+    /// (which the equation cannot see) be taken for one of the equation.
+    [[nodiscard]] std::optional<channel_tube> const& own_tube(relation_row const& row,
+                                                              observed_motion const& m) const {
+        bool const sensed = row.kinematic && source_ == motion_source::declared;
+        return sensed ? m.sensed[row.equation] : m.tubes[row.equation];
+    }
+    [[nodiscard]] std::vector<window_row> windows(std::size_t i, window_way way, double shortest,
+                                                  double longest) {
+        auto& e = prepared(i);
+        std::vector<window_row> result;
+        if (way == window_way::weak) {
+            auto const weak = weak_windows::of(e.set, *weak_pair(i));
+            for (std::size_t m = 0; weak && m < motions_.size(); ++m) {
+                auto more = weak->over(motions_[m], m, shortest, longest, options_.go_on);
+                std::move(more.begin(), more.end(), std::back_inserter(result));
+            }
+            return result;
+        }
+        (void)integrated(i, way);
+        std::size_t total = 0;
+        for (int const pass : {0, 1}) {
+            std::size_t count = 0;
+            auto const stride = total / options_.most_windows + 1;
+            for (std::size_t m = 0; m < motions_.size(); ++m) {
+                if (!own_tube(e.row, motions_[m])) continue;
+                auto const& times = own_tube(e.row, motions_[m])->times();
+                for (std::size_t b = 1; b < times.size() && !stopped(); ++b) {
+                    for (std::size_t a = b; a-- > 0;) {
+                        double const length = times[b] - times[a];
+                        if (length > longest * (1 + 1e-9)) break;
+                        if (length < shortest * (1 - 1e-9)) continue;
+                        if (++count % stride != 0 || pass == 0) continue;
+                        add(e, way, m, times[a], times[b], result);
+                    }
+                }
+            }
+            total = count;
+        }
+        return result;
+    }
+
+    [[nodiscard]] prepared_equation& integrated(std::size_t i, window_way way) {
+        auto& e = prepared(i, way);
+        if (!e.integrals.empty()) return e;
+        bool const damped = !e.row.centre.empty();
+        for (auto const& m : motions_) {
+            auto const pairs = damped ? std::vector<derivative_pair>{} : pairs_of(e.row.equation);
+            e.integrals.emplace_back(e.set, m.cells, pairs, e.row.growth);
+        }
+        return e;
+    }
+    /// What a tube changes by from one time to another.
+    [[nodiscard]] static interval change(channel_tube const& tube, double from, double to) {
+        return traits::sub(tube.over(to, to), tube.over(from, from));
+    }
+
+    void add(prepared_equation const& e, window_way way, std::size_t motion, double from, double to,
+             std::vector<window_row>& list) const {
+        window_row w;
+        w.motion = motion;
+        w.from = from;
+        w.to = to;
+        if (fill(e, way, w)) list.push_back(std::move(w));
+    }
+    [[nodiscard]] bool fill(prepared_equation const& e, window_way way, window_row& w) const {
+        auto const& motion = motions_[w.motion];
+        auto const& tube = *own_tube(e.row, motion);
+        auto const& integral = e.integrals[w.motion];
+        if (!tube.covers(w.from, w.to)) return false;
+        w.length = traits::sub(traits::point(w.to), traits::point(w.from));
+        auto const first = motion.boundary_at(w.from);
+        auto const last = motion.boundary_at(w.to);
+        auto const& ends = motion.boundaries;
+        if (last >= ends.size() || ends[first] != w.from || ends[last] != w.to) return false;
+        // Rows of earlier windows have smaller weights: all are scaled to about 1 at their ends.
+        double const scale = 1 / mid(integral.weight_at(last));
+        auto const scaled = [&](interval const& x) {
+            return scale == 1 ? x : traits::mul(traits::point(scale), x);
+        };
+        w.difference =
+            scaled(traits::sub(traits::mul(integral.weight_at(last), tube.over(w.to, w.to)),
+                               traits::mul(integral.weight_at(first), tube.over(w.from, w.from))));
+        auto const q_at = [&motion](std::size_t q, std::size_t k) {
+            return motion.state_over(q, motion.boundaries[k], motion.boundaries[k]);
+        };
+        bool parts = way == window_way::by_parts;
+        for (auto const& p : pairs_of(e.row.equation)) {
+            parts = parts && motion.sensed[p.q] && motion.sensed[p.q]->covers(w.from, w.to);
+        }
+        for (std::size_t j = 0; j < e.row.functions.size(); ++j) {
+            auto value = integral.direct(j, first, last);
+            if (parts && integral.has_parts(j)) {
+                auto const both = intersect(value, integral.by_parts(j, first, last, q_at));
+                if (!is_empty(both)) value = both;
+            }
+            if (!is_bounded(value)) return false;
+            w.a.push_back(scaled(value));
+        }
+        auto const rest = w.a.back();
+        w.a.pop_back();
+        for (auto const& state : e.row.differences) {
+            if (!state) {
+                w.a.push_back(w.length);
+                continue;
+            }
+            auto const& shown =
+                *state == e.row.equation ? own_tube(e.row, motion) : motion.tubes[*state];
+            if (!shown || !shown->covers(w.from, w.to)) return false;
+            w.a.push_back(change(*shown, w.from, w.to));
+            if (!is_bounded(w.a.back())) return false;
+        }
+        w.a.push_back(rest);
+        return is_bounded(w.difference);
+    }
+
+    identification_problem const* problem_;
+    relation_options options_;
+    suspected_sensor const* suspect_;
+    motion_source source_;
+    std::string obstacle_;
+    bool stopped_ = false;
+    bound_model model_;
+    std::vector<std::optional<std::size_t>> channels_;
+    std::vector<observed_motion> motions_;
+    std::vector<derivative_pair> pairs_;
+    std::map<std::pair<std::size_t, bool>, prepared_equation> rows_; ///< (equation, damped)
+};
+
+} // namespace sivid
+
+#endif

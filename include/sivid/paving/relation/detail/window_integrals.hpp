@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_RELATION_DETAIL_WINDOW_INTEGRALS_HPP
+#define SIVID_PAVING_RELATION_DETAIL_WINDOW_INTEGRALS_HPP
+
+#include <sivid/model/graph/graph_range.hpp>
+#include <sivid/paving/relation/integrand_set.hpp>
+#include <sivid/paving/relation/time_cell.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// Encloses \f$ \int_{t_a}^{t_b} \phi_j dt \f$ between any two boundaries of a grid of cells.
+///   Directly: each cell contributes its length times the mean of \f$ \phi_j \f$, which lies in the
+///   natural range and in the mean value form; there a drift averages out but for the width of the
+///   slope: the mean of D v lies in \f$ [D] spread + rad [D] drift/4 + mag [D] departure \f$. By
+///   parts, for pairs \f$ q' = r \f$: \f[ \int \phi = \int (\phi - g r) + [g q] - \int g' q \f]
+///   with a known g(t) near \f$ \partial\phi/\partial r \f$, piecewise linear and slow, so that the
+///   first integrand hardly depends on r, and the others need the bounds of q, once at each end,
+///   where those of r would count all along the window.
+/// @guarantee  encloses the integral for every motion in the cells (by parts: with \f$ q' = r \f$)
+///             along which \f$ \phi_j \f$ is defined
+/// @cost  three evaluations of the graph for each cell; O(1) for each window
+class window_integrals {
+    using traits = interval_traits<interval>;
+
+public:
+    /// @param cells   adjacent, in the order of time
+    /// @param pairs   none where the integrals are weighted
+    /// @param growth  a: every integrand is multiplied by \f$ e^{a (t - t_{end})} \f$ [1/s]
+    /// @param slow    the time over which g is straight [s]
+    window_integrals(integrand_set const& set, std::vector<time_cell> const& cells,
+                     std::vector<derivative_pair> const& pairs, double growth = 0,
+                     double slow = 0.5)
+        : pairs_(pairs) {
+        auto const count = set.functions.size();
+        auto const n = cells.size();
+        direct_.assign(count, {});
+        parts_.assign(count, {});
+        weight_.assign(count, std::vector<std::vector<double>>(pairs.size()));
+        auto ranges = evaluate(set, cells);
+        if (growth > 0) weigh(cells, growth);
+        for (std::size_t j = 0; j < count; ++j) {
+            std::vector<interval> whole(n), rest(n);
+            for (std::size_t c = 0; c < n; ++c) {
+                auto const h =
+                    traits::sub(traits::point(cells[c].to), traits::point(cells[c].from));
+                whole[c] = traits::mul(h, weighted(ranges[j][c], c));
+                rest[c] = traits::mul(h, ranges[j][c].frozen);
+            }
+            for (std::size_t p = 0; p < pairs.size(); ++p) {
+                if (!set.uses(j, pairs[p].r)) continue;
+                weight_[j][p] = slow_weight(ranges[j], cells, p, slow);
+                for (std::size_t c = 0; c < n; ++c) {
+                    rest[c] = traits::add(rest[c], in_parts(ranges[j][c], cells[c], p, c, j));
+                }
+            }
+            direct_[j] = prefix(whole);
+            parts_[j] = prefix(rest);
+        }
+    }
+
+    /// The weight at a boundary.
+    [[nodiscard]] interval weight_at(std::size_t k) const {
+        return weights_.empty() ? traits::point(1.0) : weights_[k].at;
+    }
+    /// Whether parts differ from the direct way.
+    [[nodiscard]] bool has_parts(std::size_t j) const {
+        return std::any_of(weight_[j].begin(), weight_[j].end(),
+                           [](auto const& g) { return !g.empty(); });
+    }
+    /// Encloses the integral of function j from boundary a to boundary b.
+    [[nodiscard]] interval direct(std::size_t j, std::size_t a, std::size_t b) const {
+        return between(direct_[j], a, b);
+    }
+    /// The same by parts.
+    /// @param q_at  encloses state q at a boundary: (q, boundary) -> interval
+    template <class StateAt>
+    [[nodiscard]] interval by_parts(std::size_t j, std::size_t a, std::size_t b,
+                                    StateAt const& q_at) const {
+        auto result = between(parts_[j], a, b);
+        for (std::size_t p = 0; p < pairs_.size(); ++p) {
+            auto const& g = weight_[j][p];
+            if (g.empty()) continue;
+            auto const end = traits::mul(traits::point(g[b]), q_at(pairs_[p].q, b));
+            auto const begin = traits::mul(traits::point(g[a]), q_at(pairs_[p].q, a));
+            result = traits::add(result, traits::sub(end, begin));
+        }
+        return result;
+    }
+
+private:
+    /// Means over one cell: of the function; with all r frozen at their centres. Slopes in r.
+    struct cell_ranges {
+        interval whole, frozen;
+        double swing = 0; ///< at most from what it is at the centre
+        std::vector<interval> slopes;
+    };
+    /// The weight at the begin of a cell, its mean over the cell, and by how much it is off that.
+    struct cell_weight {
+        interval at, mean{0.0};
+        double off = 0;
+    };
+    /// Running sums of the lower and of the upper ends, each enclosed.
+    struct prefix_sums {
+        std::vector<interval> lower, upper;
+        std::vector<std::size_t> unbounded;
+    };
+
+    /// Encloses the mean over a cell of D v for a slope D(t) in `slope` and v(t) along the line.
+    [[nodiscard]] static interval mean_product(interval const& slope, cell_line const& v) {
+        auto const drift = traits::mul(traits::point(rad(slope)),
+                                       traits::mul(traits::point(0.25), traits::point(v.drift)));
+        auto const apart = traits::mul(traits::point(mag(slope)), traits::point(v.departure));
+        double const off = traits::add(drift, apart).upper();
+        return traits::add(traits::mul(slope, v.spread), traits::bounds(-off, off));
+    }
+
+    void weigh(std::vector<time_cell> const& cells, double growth) {
+        auto const at = [&](interval const& t) {
+            auto const since = traits::sub(t, traits::point(cells.back().to));
+            return traits::exp(traits::mul(traits::point(growth), since));
+        };
+        for (auto const& c : cells) {
+            auto const from = traits::point(c.from);
+            auto const to = traits::point(c.to);
+            auto const half = traits::point(0.5);
+            auto const chord = traits::mul(half, traits::add(at(from), at(to)));
+            // It is convex: the mean lies between the middle of the arc and that of the chord.
+            auto const mean = traits::hull(at(traits::mul(half, traits::add(from, to))), chord);
+            auto const off = traits::sub(traits::hull(at(from), at(to)), mean);
+            weights_.push_back({at(from), mean, mag(off)});
+        }
+        if (!cells.empty()) weights_.push_back({traits::point(1.0)});
+    }
+    /// The mean of weight times function over a cell: of the mean weight, and what moves it times
+    /// what moves the function, whose means are 0.
+    [[nodiscard]] interval weighted(cell_ranges const& f, std::size_t c) const {
+        if (weights_.empty()) return f.whole;
+        auto const& w = weights_[c];
+        double const off = traits::mul(traits::point(w.off), traits::point(f.swing)).upper();
+        return traits::add(traits::mul(w.mean, f.whole), traits::bounds(-off, off));
+    }
+
+    [[nodiscard]] std::vector<std::vector<cell_ranges>>
+    evaluate(integrand_set const& set, std::vector<time_cell> const& cells) const {
+        auto const count = set.functions.size();
+        std::vector<node_id> all = set.functions;
+        for (auto const& row : set.slopes) all.insert(all.end(), row.begin(), row.end());
+        graph_range natural(*set.g, all);
+        graph_range centred(*set.g, set.functions);
+        graph_range frozen(*set.g, set.functions);
+        std::vector<std::vector<cell_ranges>> result(count);
+        for (auto const& cell : cells) {
+            natural.evaluate(cell.at);
+            auto at_centre = cell.at;
+            auto const states = cell.at.states.size();
+            auto const inputs = cell.at.inputs.size();
+            for (std::size_t k = 0; k < states; ++k) {
+                at_centre.states[k] = traits::point(cell.lines[k].centre);
+            }
+            for (std::size_t k = 0; k < inputs; ++k) {
+                at_centre.inputs[k] = traits::point(cell.lines[states + k].centre);
+            }
+            at_centre.time = traits::point(cell.lines.back().centre);
+            auto at_frozen = cell.at;
+            for (auto const& pair : pairs_) at_frozen.states[pair.r] = at_centre.states[pair.r];
+            centred.evaluate(at_centre);
+            frozen.evaluate(at_frozen);
+            for (std::size_t j = 0; j < count; ++j) {
+                auto const f = set.functions[j];
+                cell_ranges r;
+                r.whole = natural.value(f);
+                r.frozen = frozen.value(f);
+                bool smooth = set.continuous[j] && !natural.undefined(f);
+                r.swing = width(r.whole);
+                auto mean = centred.value(f);
+                auto moved = traits::point(0.0);
+                auto mean_frozen = mean;
+                for (std::size_t k = 0; k < cell.lines.size(); ++k) {
+                    if (!set.uses(j, k)) continue;
+                    auto const slope = set.slopes[j][k];
+                    auto const& range = natural.value(slope);
+                    smooth = smooth && !natural.undefined(slope) && is_bounded(range);
+                    if (!smooth) break;
+                    auto const shift = mean_product(range, cell.lines[k]);
+                    mean = traits::add(mean, shift);
+                    auto const off = traits::sub(leaf(cell.at, k, states, inputs),
+                                                 traits::point(cell.lines[k].centre));
+                    moved = traits::add(
+                        moved, traits::mul(traits::point(mag(range)), traits::point(mag(off))));
+                    bool const held = std::any_of(pairs_.begin(), pairs_.end(),
+                                                  [k](auto const& pair) { return pair.r == k; });
+                    if (!held) mean_frozen = traits::add(mean_frozen, shift);
+                }
+                if (smooth) {
+                    r.swing = std::min(r.swing, moved.upper());
+                    r.whole = traits::intersect(r.whole, mean);
+                    r.frozen = traits::intersect(r.frozen, mean_frozen);
+                } else {
+                    r.frozen = traits::entire();
+                }
+                for (auto const& pair : pairs_) {
+                    r.slopes.push_back(natural.value(set.slopes[j][pair.r]));
+                }
+                result[j].push_back(std::move(r));
+            }
+        }
+        return result;
+    }
+
+    /// The range over a cell of what line k is of.
+    [[nodiscard]] static interval const& leaf(leaf_ranges const& at, std::size_t k,
+                                              std::size_t states, std::size_t inputs) {
+        return k < states ? at.states[k] : k < states + inputs ? at.inputs[k - states] : at.time;
+    }
+    /// g at the boundaries: the mean slope around knots at distance `slow`, straight in between.
+    [[nodiscard]] static std::vector<double> slow_weight(std::vector<cell_ranges> const& ranges,
+                                                         std::vector<time_cell> const& cells,
+                                                         std::size_t p, double slow) {
+        if (cells.empty()) return {0.0};
+        double const from = cells.front().from;
+        double const length = cells.back().to - from;
+        auto const knots = static_cast<std::size_t>(std::max(1.0, std::ceil(length / slow))) + 1;
+        double const step = length / static_cast<double>(knots - 1);
+        std::vector<double> sum(knots, 0.0), share(knots, 1e-300);
+        for (std::size_t c = 0; c < cells.size(); ++c) {
+            if (!is_bounded(ranges[c].slopes[p])) continue;
+            double const h = cells[c].to - cells[c].from;
+            auto const k = static_cast<std::size_t>(
+                std::round(((cells[c].from + cells[c].to) / 2 - from) / step));
+            sum[std::min(k, knots - 1)] += h * mid(ranges[c].slopes[p]);
+            share[std::min(k, knots - 1)] += h;
+        }
+        std::vector<double> result;
+        for (std::size_t c = 0; c <= cells.size(); ++c) {
+            double const t = c < cells.size() ? cells[c].from : cells.back().to;
+            double const place = std::clamp((t - from) / step, 0.0, static_cast<double>(knots - 1));
+            auto const k = std::min(static_cast<std::size_t>(place), knots - 2);
+            double const s = place - static_cast<double>(k);
+            result.push_back((1 - s) * sum[k] / share[k] + s * sum[k + 1] / share[k + 1]);
+        }
+        return result;
+    }
+
+    /// What one pair adds in one cell, up to the boundary terms [g q]: the mean of
+    /// \f$ (\partial\phi/\partial r - g)(r - r_c) - g r_c \f$ times the length, minus the mean of q
+    /// times the change of g.
+    [[nodiscard]] interval in_parts(cell_ranges const& r, time_cell const& cell, std::size_t p,
+                                    std::size_t c, std::size_t j) const {
+        auto const& weight = weight_[j][p];
+        auto const g0 = traits::point(weight[c]);
+        auto const g1 = traits::point(weight[c + 1]);
+        auto const h = traits::sub(traits::point(cell.to), traits::point(cell.from));
+        auto const& line_r = cell.lines[pairs_[p].r];
+        auto const& line_q = cell.lines[pairs_[p].q];
+        auto const remainder = mean_product(traits::sub(r.slopes[p], traits::hull(g0, g1)), line_r);
+        auto const mean = traits::mul(traits::point(0.5), traits::add(g0, g1));
+        auto const inner = traits::sub(remainder, traits::mul(mean, traits::point(line_r.centre)));
+        auto const mean_q = traits::add(traits::add(traits::point(line_q.centre), line_q.spread),
+                                        traits::bounds(-line_q.departure, line_q.departure));
+        auto const change = traits::mul(traits::sub(g1, g0), mean_q);
+        return traits::sub(traits::mul(h, inner), change);
+    }
+
+    [[nodiscard]] static prefix_sums prefix(std::vector<interval> const& cells) {
+        prefix_sums result;
+        result.lower.push_back(traits::point(0.0));
+        result.upper.push_back(traits::point(0.0));
+        result.unbounded.push_back(0);
+        for (auto const& x : cells) {
+            bool const usable = is_bounded(x);
+            auto const lo = traits::point(usable ? x.lower() : 0.0);
+            auto const hi = traits::point(usable ? x.upper() : 0.0);
+            result.lower.push_back(traits::add(result.lower.back(), lo));
+            result.upper.push_back(traits::add(result.upper.back(), hi));
+            result.unbounded.push_back(result.unbounded.back() + (usable ? 0 : 1));
+        }
+        return result;
+    }
+    [[nodiscard]] static interval between(prefix_sums const& s, std::size_t a, std::size_t b) {
+        if (s.unbounded[a] != s.unbounded[b]) return traits::entire();
+        return traits::bounds(traits::sub(s.lower[b], s.lower[a]).lower(),
+                              traits::sub(s.upper[b], s.upper[a]).upper());
+    }
+
+    std::vector<derivative_pair> pairs_;
+    std::vector<prefix_sums> direct_, parts_;
+    std::vector<cell_weight> weights_;                     ///< and that at the end; empty: 1
+    std::vector<std::vector<std::vector<double>>> weight_; ///< g: [function][pair][boundary]
+};
+
+} // namespace sivid
+
+#endif

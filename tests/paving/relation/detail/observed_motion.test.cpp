@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/paving/relation/detail/declared_variation.hpp>
+#include <sivid/paving/relation/detail/observed_motion.hpp>
+
+#include "diagnosis/planted_motion.hpp"
+#include "support/catch.hpp"
+
+#include <set>
+
+using namespace diagnosis_support;
+
+TEST_CASE("the cells contain the motion that was measured, whatever the noise") {
+    draws d(11);
+    for (int n = 0; n < 24; ++n) {
+        auto const m = pendulum(n % 3);
+        auto const model = bind(m, {support::all_constants(3), {}},
+                                {sampled_signal({0.0}, {0.0}, interpolation::linear)});
+        std::vector<sampled_signal> const inputs{sine_input(d.uniform(0, 3), 2, 3)};
+        auto const truth = simulate(m, {d.uniform(1, 10), 0.1, 1}, inputs, {0.5, 0}, 3);
+        auto const kind = static_cast<noise>(d.below(4));
+        auto const e = measured(d, "S", truth, inputs, {0, 1}, 0.03, kind);
+        box const prior{between(0, 20), between(0, 1), between(0, 2)};
+        auto const channels = measured_states(model, {&e});
+        auto const law =
+            declare_variations(model, {find_rate_scales(model, prior, e, channels)}, {}).front();
+        auto const motion = observe_motion(model, prior, e, channels, {law, {}, {}}, 4);
+        REQUIRE(motion.cells.size() + 1 == motion.boundaries.size());
+        for (auto const& cell : motion.cells) {
+            for (auto k = std::lround(std::ceil(cell.from / truth.step - 1e-9));
+                 static_cast<double>(k) * truth.step <= cell.to + 1e-12; ++k) {
+                auto const& x = truth.states.at(static_cast<std::size_t>(k));
+                for (std::size_t i = 0; i < 2; ++i) {
+                    CHECK(cell.at.states[i].lower() - 1e-9 <= x[i]);
+                    CHECK(x[i] <= cell.at.states[i].upper() + 1e-9);
+                }
+                double const u = inputs[0].approximate(static_cast<double>(k) * truth.step);
+                CHECK(cell.at.inputs[0].lower() - 1e-9 <= u);
+                CHECK(u <= cell.at.inputs[0].upper() + 1e-9);
+            }
+        }
+    }
+}
+
+TEST_CASE("the grid has all samples and knots, and ends with the samples") {
+    auto const m = pendulum();
+    auto const model = bind(m, {{"p0"}, {}}, {sampled_signal({0.0}, {0.0}, interpolation::linear)});
+    experiment e;
+    e.name = "S";
+    e.inputs = {sampled_signal({0.0, 0.13, 0.3, 9.0}, {0, 1, 0, 0}, interpolation::linear)};
+    e.initial = box{between(0, 0), between(0, 0)};
+    e.measurements = {{0.2, 0, between(0, 1)}, {0.45, 0, between(0, 1)}, {0.4, 1, between(0, 1)}};
+    auto const motion =
+        observe_motion(model, box{between(0, 1)}, e, {{0}, {1}}, {{{0.2, 1}, {0.4, 1}}, {}, {}}, 2);
+    std::set<double> const grid(motion.boundaries.begin(), motion.boundaries.end());
+    for (double const t : {0.0, 0.13, 0.2, 0.3, 0.4, 0.45}) CHECK(grid.count(t) == 1);
+    CHECK(motion.boundaries.back() == 0.45);
+    CHECK(motion.boundary_at(0.0) == 0);
+    // State 1 ends at 0.4.
+    CHECK(is_bounded(motion.cells.front().at.states[1]));
+    CHECK(is_entire(motion.cells.back().at.states[1]));
+    CHECK(is_entire(motion.state_over(1, 0.41, 0.42)));
+    for (auto const& cell : motion.cells) CHECK(cell.to - cell.from <= 0.126);
+}
+
+TEST_CASE("without measurements there are no cells") {
+    auto const m = pendulum();
+    auto const model = bind(m, {{"p0"}, {}}, {sampled_signal({0.0}, {0.0}, interpolation::linear)});
+    experiment e;
+    e.inputs = {sampled_signal({0.0}, {0.0}, interpolation::hold)};
+    e.initial = box{between(0, 0), between(0, 0)};
+    auto const motion = observe_motion(model, box{between(0, 1)}, e, {{0}, std::nullopt},
+                                       {{{1, 1}, {1, 1}}, {}, {}}, 4);
+    CHECK(motion.cells.empty());
+}
