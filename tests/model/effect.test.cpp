@@ -106,6 +106,24 @@ TEST_CASE("delays are named, and binding refuses them") {
     CHECK(with(m, {}).input_memory.size() == 1);
 }
 
+TEST_CASE("an effect finds an input as it was recorded unless one before it changes that") {
+    using namespace sivid::literals;
+    effect last;
+    last.name = "last";
+    last.order = 2;
+    effect weaker = doubled("weaker"); // a constant alone, at the same stage
+    weaker.on_inputs = [](effect_scope& m) { m.constant("k") *= m.parameter(); };
+    effect late = doubled("late");
+    late.on_inputs = [](effect_scope& m) { m.delay_input("u"); };
+    auto const model = record_model(tank{});
+    CHECK(finds_as_recorded(model, {last}, 0, "u"));
+    CHECK(finds_as_recorded(model, {last, weaker}, 0, "u"));
+    CHECK_FALSE(finds_as_recorded(model, {last, doubled("gain")}, 0, "u"));
+    CHECK_FALSE(finds_as_recorded(model, {late, last}, 1, "u"));
+    CHECK(finds_as_recorded(model, {last, doubled("gain")}, 1, "u")); // which comes first
+    CHECK_THROWS_AS(finds_as_recorded(model, {last}, 0, "v"), std::invalid_argument);
+}
+
 TEST_CASE("effects are picked from a catalogue by their names") {
     std::vector<effect> const catalogue{doubled("a"), doubled("k"), doubled("x")};
     CHECK(effects_named(catalogue, {}).empty());

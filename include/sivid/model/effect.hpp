@@ -135,9 +135,10 @@ private:
     effect const* effect_ = nullptr; ///< whose edit it is
 };
 
-/// Whether the inputs that an effect changes are the recorded ones: no other changes inputs before.
-[[nodiscard]] SIVID_DECL bool acts_on_recorded_inputs(std::vector<effect> const& effects,
-                                                      std::size_t which);
+/// Whether an effect finds an input as it was recorded: no other one changes it before.
+[[nodiscard]] SIVID_DECL bool finds_as_recorded(recorded_model const& base,
+                                                std::vector<effect> const& effects,
+                                                std::size_t which, std::string const& input);
 
 /// The effect with priors four times as wide, under its name and "_wider".
 [[nodiscard]] SIVID_DECL effect widened(effect e);

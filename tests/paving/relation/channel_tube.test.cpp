@@ -127,3 +127,17 @@ TEST_CASE("tubes refuse what makes no sense") {
     CHECK_THROWS_AS(tube.over(0.5, 1.5), std::invalid_argument);
     CHECK_THROWS_AS(tube.over(0.5, 0.4), std::invalid_argument);
 }
+
+TEST_CASE("gaps may differ in what the rate varies by, and be unknown") {
+    std::vector<interval> const bounds{between(0, 0), between(1, 1), between(1, 1), between(0, 0)};
+    auto const tube = channel_tube::of_gaps({0, 1, 2, 3}, bounds, {0, HUGE_VAL, 2});
+    CHECK(width(tube.over(0.5, 0.5)) < 1e-12);
+    CHECK_FALSE(is_bounded(tube.over(1.5, 1.5)));
+    CHECK(tube.beside_line(1, 2, 1, 1).second == HUGE_VAL);
+    CHECK_THAT(tube.over(2.5, 2.5).upper(), WithinAbs(1.0, 1e-12)); // 1/2 + 2 (1/2)(1/2)
+    CHECK(equal(tube.over(2, 2), between(1, 1)));
+    CHECK_THROWS_AS(channel_tube::of_gaps({0, 1}, {between(0, 1), between(0, 1)}, {}),
+                    std::invalid_argument);
+    CHECK_THROWS_AS(channel_tube::of_gaps({0, 1}, {between(0, 1), between(0, 1)}, {-1}),
+                    std::invalid_argument);
+}

@@ -62,12 +62,29 @@ SIVID_DECL interval effect_parameter::prior() const {
     return hull(moved(lower, upper), moved(upper, lower));
 }
 
-SIVID_DECL bool acts_on_recorded_inputs(std::vector<effect> const& effects, std::size_t which) {
+SIVID_DECL bool finds_as_recorded(recorded_model const& base, std::vector<effect> const& effects,
+                                  std::size_t which, std::string const& input) {
+    std::vector<effect> before;
     for (std::size_t i = 0; i < effects.size(); ++i) {
         auto const& other = effects[i];
-        if (i != which && other.on_inputs && other.order <= effects[which].order) return false;
+        if (i != which && other.on_inputs && other.order <= effects[which].order) {
+            before.push_back(other);
+        }
     }
-    return true;
+    effect seen; // a state whose rate is the input as it stands after them
+    seen.name = "seen " + input;
+    seen.order = effects[which].order;
+    seen.on_inputs = [&](effect_scope& m) {
+        (void)m.add_state(seen.name, "1", 1, expression(0));
+        m.rate(seen.name) = m.input(input);
+    };
+    before.push_back(seen);
+    auto const changed = with(base, before);
+    auto const k = index_of(changed.about.inputs, input, "input");
+    auto const& n = changed.g[changed.rate.back()];
+    return n.op == operation::input && static_cast<std::size_t>(n.index) == k &&
+           std::none_of(changed.input_memory.begin(), changed.input_memory.end(),
+                        [k](auto const& m) { return m.index == k; });
 }
 
 SIVID_DECL effect widened(effect e) {

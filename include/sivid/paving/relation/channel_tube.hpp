@@ -34,32 +34,38 @@ public:
     using traits = interval_traits<interval>;
 
     channel_tube() = default;
+    /// @given  as many bounds as times, at least one; times increase strictly (checked)
+    channel_tube(std::vector<double> const& times, std::vector<interval> const& bounds,
+                 rate_variation const& law)
+        : channel_tube(of_gaps(times, bounds, in_gaps(law, times))) {}
     /// @param variations  what the rate varies by in the gap after each sample but the last one;
     /// may
     ///                    be infinite
-    /// @given  as many bounds as times, at least one; times increase strictly (checked)
-    channel_tube(std::vector<double> times, std::vector<interval> bounds,
-                 std::vector<double> const& variations)
-        : times_(std::move(times)), bounds_(std::move(bounds)) {
-        if (times_.empty() || times_.size() != bounds_.size() ||
-            variations.size() + 1 != times_.size()) {
+    [[nodiscard]] static channel_tube of_gaps(std::vector<double> times,
+                                              std::vector<interval> bounds,
+                                              std::vector<double> const& variations) {
+        if (times.empty() || times.size() != bounds.size() ||
+            variations.size() + 1 != times.size()) {
             throw std::invalid_argument(
                 "channel_tube: needs as many bounds as times, a variation for each gap");
         }
-        for (std::size_t k = 0; k + 1 < times_.size(); ++k) {
-            if (!(times_[k] < times_[k + 1])) {
+        channel_tube result;
+        for (std::size_t k = 0; k + 1 < times.size(); ++k) {
+            if (!(times[k] < times[k + 1])) {
                 throw std::invalid_argument("channel_tube: times must increase strictly");
             }
             if (!(variations[k] >= 0)) {
                 throw std::invalid_argument("channel_tube: the rate variation must be stated");
             }
-            auto const gap = detail::add_up(times_[k + 1], -times_[k]);
-            bend_.push_back(traits::mul(traits::point(gap), traits::point(variations[k])).upper());
+            auto const gap = traits::point(detail::add_up(times[k + 1], -times[k]));
+            result.bend_.push_back(std::isfinite(variations[k])
+                                       ? traits::mul(gap, traits::point(variations[k])).upper()
+                                       : HUGE_VAL);
         }
+        result.times_ = std::move(times);
+        result.bounds_ = std::move(bounds);
+        return result;
     }
-    channel_tube(std::vector<double> const& times, std::vector<interval> const& bounds,
-                 rate_variation const& law)
-        : channel_tube(times, bounds, in_gaps(law, times)) {}
 
     /// What a declared law says of each gap.
     [[nodiscard]] static std::vector<double> in_gaps(rate_variation const& law,

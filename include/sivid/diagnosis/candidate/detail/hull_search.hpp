@@ -17,6 +17,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sivid {
@@ -53,11 +54,8 @@ public:
         search.seconds = time.value_or(share) * limit_.seconds();
         search.boxes = static_cast<std::size_t>(share * static_cast<double>(options_->boxes));
         search.keep_going = limit_;
-        auto prior = posed.prior;
-        if (limit_() && test.reached(prior) < 1) {
-            prior = contract_by_relations(posed, {.keep_going = work_limit(search.seconds / 4, limit_)});
-            if (is_empty(prior)) return std::nullopt;
-        }
+        auto const prior = contracted(test, posed, search.seconds / 4);
+        if (is_empty(prior)) return std::nullopt;
         auto const paving = invert(test, prior, search).paving;
         if (!paving.has_outer()) return std::nullopt;
         auto const left = paving.outer_hull();
@@ -65,6 +63,19 @@ public:
     }
 
 private:
+    /// What relations leave of the prior where runs over it end early; by its parts, too, where
+    /// those over the rest still do.
+    [[nodiscard]] box contracted(data_test& test, identification_problem const& posed,
+                                 double seconds) const {
+        work_limit const limit(seconds, limit_);
+        if (!limit() || !(test.reached(posed.prior) < 1)) return posed.prior;
+        auto rest = contract_by_relations(posed, {.keep_going = limit, .boxes = 1});
+        if (is_empty(rest) || !limit() || !(test.reached(rest) < 0.5)) return rest;
+        auto narrowed = posed;
+        narrowed.prior = std::move(rest);
+        return contract_by_relations(narrowed, {.keep_going = limit});
+    }
+
     effect_hull_options const* options_;
     work_limit limit_;
 };

@@ -172,7 +172,8 @@ private:
             if (m.index == input) return std::nullopt; // what it sees is changed before
         auto const j = side_of(e);
         bool const exact = j < whole_.prior.size() && whole_.prior[j].lower() >= 0;
-        if (!acts_on_recorded_inputs(*effects_, k) || !exact || !is_recorded(*base_, input))
+        if (!exact || !is_recorded(*base_, input) ||
+            !finds_as_recorded(base_->model, *effects_, k, e.threshold->input))
             return std::nullopt;
         return input_change{k, input, {j, true}, std::nullopt};
     }

@@ -184,8 +184,8 @@ private:
         std::vector<std::optional<channel_tube>> tubes(n);
         for (std::size_t i = 0; i < n; ++i) {
             if (cells_.samples()[i])
-                tubes[i].emplace(cells_.samples()[i]->times, cells_.samples()[i]->bounds,
-                                 in_gaps[i]);
+                tubes[i] = channel_tube::of_gaps(cells_.samples()[i]->times,
+                                                 cells_.samples()[i]->bounds, in_gaps[i]);
         }
         std::vector<box> result;
         for (std::size_t c = 0; c < cells_.size(); ++c) {

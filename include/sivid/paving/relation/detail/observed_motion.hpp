@@ -94,13 +94,12 @@ observe_motion(bound_model const& model, box const& prior, experiment const& e,
         auto const variations = known.in_gaps.empty()
                                     ? channel_tube::in_gaps(known.declared[i], s.times)
                                     : known.in_gaps[i];
-        result.tubes[i].emplace(s.times, s.bounds, variations);
+        result.tubes[i] = channel_tube::of_gaps(s.times, s.bounds, variations);
         auto const alone = state_samples::sensed(e, *channels[i]);
         auto const skipped = static_cast<std::ptrdiff_t>(s.times.size() - alone.times.size());
         if (!alone.times.empty()) {
-            result.sensed[i].emplace(
-                alone.times, alone.bounds,
-                std::vector<double>(variations.begin() + skipped, variations.end()));
+            result.sensed[i] = channel_tube::of_gaps(
+                alone.times, alone.bounds, {variations.begin() + skipped, variations.end()});
         }
         result.boundaries.insert(result.boundaries.end(), s.times.begin(), s.times.end());
         if (s.times.size() > 1) period = std::min(period, s.period());

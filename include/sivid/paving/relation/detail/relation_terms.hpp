@@ -22,7 +22,7 @@ enum class window_way {
 };
 
 /// By what the states are known between the samples.
-enum class motion_source {
+enum class tube_source {
     declared, ///< declared variations of the rates, above what the model does by itself
     proved    ///< what the model proves of its own motions over the prior: nothing is assumed
 };

@@ -41,10 +41,10 @@ public:
     ///         that the model contradicts
     relation_windows(identification_problem const& problem, relation_options const& options,
                      suspected_sensor const* suspect = nullptr,
-                     motion_source source = motion_source::declared)
+                     tube_source source = tube_source::declared)
         : problem_(&problem), options_(options), suspect_(suspect), source_(source) {
         problem.require_valid();
-        bool const proved = source == motion_source::proved;
+        bool const proved = source == tube_source::proved;
         std::vector<experiment const*> trusted;
         for (auto const& e : problem.experiments) {
             if (e.outliers == 0 && (proved || !any_uncertain(e.inputs))) trusted.push_back(&e);
@@ -110,7 +110,7 @@ public:
             return "no measurement shows " + about().states[i].name;
         }
         for (auto const s : e.row.states) {
-            bool const seen = channels_[s] || s == i || source_ == motion_source::proved;
+            bool const seen = channels_[s] || s == i || source_ == tube_source::proved;
             if (!seen) return "no measurement shows " + about().states[s].name;
         }
         return {};
@@ -121,7 +121,7 @@ public:
         if (!channels_[i]) return {window_way::weak};
         std::vector<window_way> result{window_way::direct};
         if (!pairs_of(i).empty()) result.push_back(window_way::by_parts);
-        if (source_ == motion_source::proved) result.push_back(window_way::damped);
+        if (source_ == tube_source::proved) result.push_back(window_way::damped);
         return result;
     }
 
@@ -270,7 +270,7 @@ private:
     /// (which the equation cannot see) be taken for one of the equation.
     [[nodiscard]] std::optional<channel_tube> const& own_tube(relation_row const& row,
                                                               observed_motion const& m) const {
-        bool const sensed = row.kinematic && source_ == motion_source::declared;
+        bool const sensed = row.kinematic && source_ == tube_source::declared;
         return sensed ? m.sensed[row.equation] : m.tubes[row.equation];
     }
     [[nodiscard]] std::vector<window_row> windows(std::size_t i, window_way way, double shortest,
@@ -385,7 +385,7 @@ private:
     identification_problem const* problem_;
     relation_options options_;
     suspected_sensor const* suspect_;
-    motion_source source_;
+    tube_source source_;
     std::string obstacle_;
     bool stopped_ = false;
     bound_model model_;

@@ -153,7 +153,7 @@ private:
         // Parts of a box that rests are excluded soon or not at all.
         auto const rounds = inseparable_.empty() ? options_.rounds : options_.rounds / 4;
         for (std::size_t round = 0; round < rounds; ++round) {
-            relation_windows windows(narrowed, how, nullptr, motion_source::proved);
+            relation_windows windows(narrowed, how, nullptr, tube_source::proved);
             std::vector<known_product> known;
             for (std::size_t i = 0; i < problem_.model.about.states.size(); ++i) {
                 auto more = known_products(windows, i);
