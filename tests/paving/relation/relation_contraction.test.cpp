@@ -199,6 +199,27 @@ TEST_CASE("a constant inside a root is told by halves of its prior") {
     CHECK(width(halved[2]) < 0.7 * width(what.prior[2]));
 }
 
+TEST_CASE("rates that no channel shows are told by what changes at them") {
+    draws d(715);
+    auto const m = support::model_of(
+        {2, 2, 1}, [](expression const&, std::vector<expression> const& x,
+                      std::vector<expression> const& p, std::vector<expression> const& u) {
+            return std::vector<expression>{p[0] * u[0] - p[1] * x[0], x[0]};
+        });
+    std::vector<double> const truth{1.2, 1.5};
+    identification_problem problem{
+        m, {support::all_constants(2), {}}, box{between(0.8, 2), between(1, 2)}, {}};
+    for (int k = 0; k < 2; ++k) {
+        std::vector<sampled_signal> const inputs{drawn_input(d, 3, interpolation::linear)};
+        auto const motion = simulate(m, truth, inputs, {0.5, 0}, 3, 0.0025);
+        problem.experiments.push_back(measured(d, support::numbered('S', std::size_t(k)), motion,
+                                               inputs, {1}, 0.002, noise::uniform));
+    }
+    auto const rest = contract_by_relations(problem, {.boxes = 1});
+    CHECK(contains(rest, truth));
+    CHECK(width(rest[0]) < 0.9 * width(problem.prior[0]));
+}
+
 TEST_CASE("data that no parameter explains leave nothing") {
     draws d(713);
     auto const what = all_planted()[0];

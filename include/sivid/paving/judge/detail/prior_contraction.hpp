@@ -3,8 +3,9 @@
 #define SIVID_PAVING_JUDGE_DETAIL_PRIOR_CONTRACTION_HPP
 
 /// @file
-/// What `identify` does before it searches where runs over the prior end early: slower inputs where
-/// a logger is faster than the motion, windows where starts are not known.
+/// What `identify` does before it searches where runs over the prior end early: the state equations
+/// between samples, slower inputs where a logger is faster than the motion, windows where starts
+/// are not known.
 
 #include <sivid/measurement/signal.hpp>
 #include <sivid/model/change/detail/slower_inputs.hpp>
@@ -12,6 +13,7 @@
 #include <sivid/paving/identify_options.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/relation/relation_contraction.hpp>
 #include <sivid/paving/work_limit.hpp>
 
 #include <algorithm>
@@ -55,7 +57,7 @@ inline window_contraction joined(window_contraction const& first, window_contrac
     then.longest = std::max(first.longest, then.longest);
     then.seconds += first.seconds;
     then.integrations += first.integrations;
-    then.input_period = first.input_period;
+    then.input_period = std::max(first.input_period, then.input_period);
     return then;
 }
 
@@ -146,15 +148,28 @@ contract_by_slower_inputs(data_test& exact, identification_problem const& posed,
     return result;
 }
 
-/// What can be left of the prior, and of starts, by means that are quicker than the search; nothing
-/// where the search does as well.
-/// @param test    of `posed`
-/// @param fitted  parameters that explain the data best, or the prior
-/// @param starts  of each experiment, with them; or none
+/// What the equations leave of the prior where runs over it reach less than a quarter of the
+/// measurements; nothing where they reach more, or the equations tell nothing.
+inline std::optional<window_contraction> contract_by_equations(data_test& test,
+                                                               identification_problem const& posed,
+                                                               work_limit const& limit) {
+    if (!(test.reached(posed.prior) < 0.25)) return std::nullopt;
+    auto const begin = std::chrono::steady_clock::now();
+    work_limit const own(0.25 * limit.seconds(), limit);
+    window_contraction result;
+    result.rest = contract_by_relations(posed, {.keep_going = own, .boxes = 1});
+    if (!(relative_volume(result.rest, posed.prior).upper() < 1)) return std::nullopt;
+    for (auto const& e : posed.experiments) result.starts.push_back(e.initial);
+    result.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return result;
+}
+
+/// What slower inputs and windows leave of the prior, and of starts.
 inline std::optional<window_contraction>
-contract_prior(data_test& test, identification_problem const& posed, box const& fitted,
-               std::vector<box> const& starts, identify_options const& options,
-               work_limit const& limit) {
+contract_by_runs(data_test& test, identification_problem const& posed, box const& fitted,
+                 std::vector<box> const& starts, identify_options const& options,
+                 work_limit const& limit) {
     std::optional<window_contraction> result;
     if (options.slower_inputs) {
         result = contract_by_slower_inputs(test, posed, fitted, starts, options, limit);
@@ -177,6 +192,28 @@ contract_prior(data_test& test, identification_problem const& posed, box const& 
         result = result ? joined(*result, std::move(found)) : std::move(found);
     }
     if (after) result->integrations += after->integrations();
+    return result;
+}
+
+/// What can be left of the prior, and of starts, by means that are quicker than the search; nothing
+/// where the search does as well.
+/// @param test    of `posed`
+/// @param fitted  parameters that explain the data best, or the prior
+/// @param starts  of each experiment, with them; or none
+inline std::optional<window_contraction>
+contract_prior(data_test& test, identification_problem const& posed, box const& fitted,
+               std::vector<box> const& starts, identify_options const& options,
+               work_limit const& limit) {
+    std::optional<window_contraction> first;
+    if (options.windows && limit()) first = contract_by_equations(test, posed, limit);
+    if (!first) return contract_by_runs(test, posed, fitted, starts, options, limit);
+    if (first->empty() || !limit()) return first;
+    auto narrowed = posed;
+    narrowed.prior = first->rest;
+    data_test after(narrowed, options.test);
+    auto more = contract_by_runs(after, narrowed, fitted, starts, options, limit);
+    auto result = more ? joined(*first, *std::move(more)) : *std::move(first);
+    result.integrations += after.integrations();
     return result;
 }
 

@@ -40,6 +40,12 @@ public:
         : cells_(model, prior, e, channels, believed) {}
 
     [[nodiscard]] motion_cells const& cells() const { return cells_; }
+    /// Encloses the motions, which are known at the samples of all states from now on.
+    [[nodiscard]] motion_reach enclose() {
+        auto result = cells_.enclosures();
+        cells_.add_derived_samples(result);
+        return result;
+    }
 
     /// For each measured state something for each of its gaps, or one thing.
     using amounts = std::vector<std::vector<double>>;
@@ -65,7 +71,8 @@ public:
             return in_gaps_of(most, periods);
         };
         std::vector<double> result;
-        for (auto const& v : settled(cells_.enclosures(), measure, in_gaps)) result.push_back(v[0]);
+        for (auto const& v : settled(cells_.enclosures().over, measure, in_gaps))
+            result.push_back(v[0]);
         return result;
     }
     /// The same in each gap between two samples of a state; infinite where not known.

@@ -5,6 +5,7 @@
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/graph/graph_range.hpp>
 #include <sivid/model/problem.hpp>
+#include <sivid/paving/relation/detail/derivative_bound.hpp>
 #include <sivid/paving/relation/input_range.hpp>
 #include <sivid/paving/relation/integrand_set.hpp>
 #include <sivid/paving/relation/state_samples.hpp>
@@ -20,6 +21,11 @@
 #include <vector>
 
 namespace sivid {
+
+/// Where the states lie over each cell, and at each end of a cell.
+struct motion_reach {
+    std::vector<box> over, at;
+};
 
 /// One experiment cut into short cells of time, in which no input has a knot, and what its model
 /// does there for any parameter of a prior.
@@ -54,6 +60,12 @@ public:
             times.insert(times.end(), own.begin(), own.end());
             if (own.size() > 1) period = std::min(period, samples_[i]->period());
         }
+        for (std::size_t q = 0; q < n; ++q) {
+            auto const& rate = model.g[model.rate[q]];
+            auto const r = static_cast<std::size_t>(rate.index);
+            if (rate.op == operation::state && samples_[q] && !samples_[r])
+                pairs_.push_back({r, q});
+        }
         set_ = integrand_set::of(*g_, model.rate, n, e.inputs.size());
         cut(std::move(times), period, e);
     }
@@ -87,52 +99,90 @@ public:
     }
     [[nodiscard]] graph_range range_of_rates() const { return {*g_, set_.functions}; }
 
-    /// Encloses the model's motions over each cell, from the samples before and from those after.
-    [[nodiscard]] std::vector<box> enclosures() const {
+    /// Encloses the model's motions, from the samples before and from those after. A state that is
+    /// the rate of a sampled one is told by what that changes by, too (`derivative_bound`).
+    [[nodiscard]] motion_reach enclosures() const {
         auto range = range_of_rates();
         auto const n = samples_.size();
         auto const count = cells_.size();
-        std::vector<box> result(count, box(n));
+        motion_reach result{std::vector<box>(count, box(n)), std::vector<box>(count + 1, box(n))};
         for (bool const forward : {true, false}) {
             box at(n);
             for (std::size_t i = 0; i < n; ++i) {
                 at[i] = forward && i < initial_.size() ? initial_[i] : own_range(i);
             }
+            std::vector<derivative_bound> derived(pairs_.size());
+            auto const arrive = [&](std::size_t boundary) {
+                double const t = boundary == count ? cells_.back().to : cells_[boundary].from;
+                for (std::size_t i = 0; i < n; ++i) {
+                    if (auto const seen = sample_at(i, t)) at[i] = agreed(*seen, at[i]);
+                }
+                for (std::size_t p = 0; p < pairs_.size(); ++p) {
+                    if (!sample_at(pairs_[p].q, t)) continue;
+                    derived[p].mark(t, at[pairs_[p].q]);
+                    at[pairs_[p].r] = agreed(at[pairs_[p].r], derived[p].now());
+                }
+                for (std::size_t i = 0; i < n; ++i) {
+                    auto& known = result.at[boundary][i];
+                    known = forward ? at[i] : agreed(known, at[i]);
+                }
+            };
             for (std::size_t s = 0; s < count; ++s) {
                 auto const c = forward ? s : count - 1 - s;
-                double const t = forward ? cells_[c].from : cells_[c].to;
-                for (std::size_t i = 0; i < n; ++i) {
-                    if (auto const seen = sample_at(i, t)) {
-                        auto const common = intersect(at[i], *seen);
-                        at[i] = is_empty(common) ? *seen : common;
-                    }
-                }
+                arrive(forward ? c : c + 1);
                 auto const over = step(range, c, at, forward);
                 auto const rates = rates_in(range, c, over);
                 auto const lasting = forward ? length(c) : traits::neg(length(c));
+                for (std::size_t p = 0; p < pairs_.size(); ++p) derived[p].add(rates[pairs_[p].r]);
                 for (std::size_t i = 0; i < n; ++i) {
                     auto const moved = traits::add(at[i], traits::mul(lasting, rates[i]));
-                    auto const common = intersect(moved, over[i]);
-                    auto const end = is_empty(common) ? over[i] : common;
-                    auto const damped =
-                        samples_[i] ? end : intersect(end, damped_end(c, i, at[i], over, lasting));
-                    at[i] = is_empty(damped) ? end : damped;
-                    auto& known = result[c][i];
-                    auto const agreed = forward ? over[i] : intersect(known, over[i]);
-                    known = is_empty(agreed) ? hull(known, over[i]) : agreed;
+                    auto const end = agreed(over[i], moved);
+                    at[i] = samples_[i] ? end : agreed(end, damped_end(c, i, at[i], over, lasting));
+                    auto& known = result.over[c][i];
+                    auto const both = forward ? over[i] : intersect(known, over[i]);
+                    known = is_empty(both) ? hull(known, over[i]) : both;
                 }
             }
+            if (count > 0) arrive(forward ? count : 0);
         }
         return result;
     }
+    /// Takes what `enclosures` say of states that nobody measured for samples of them.
+    void add_derived_samples(motion_reach const& reach) {
+        std::vector<double> times;
+        for (auto const& s : samples_) {
+            if (s) times.insert(times.end(), s->times.begin(), s->times.end());
+        }
+        std::sort(times.begin(), times.end());
+        times.erase(std::unique(times.begin(), times.end()), times.end());
+        for (std::size_t i = 0; i < samples_.size() && !cells_.empty(); ++i) {
+            if (samples_[i]) continue;
+            state_samples derived;
+            for (double const t : times) {
+                auto const c = static_cast<std::size_t>(
+                    std::lower_bound(cells_.begin(), cells_.end(), t,
+                                     [](cell const& x, double v) { return x.from < v; }) -
+                    cells_.begin());
+                double const at = c < cells_.size() ? cells_[c].from : cells_.back().to;
+                if (at != t) continue;
+                if (!is_bounded(reach.at[c][i])) {
+                    derived = {}; // samples are without holes
+                    break;
+                }
+                derived.times.push_back(t);
+                derived.bounds.push_back(reach.at[c][i]);
+            }
+            if (derived.times.size() > 1) samples_[i] = std::move(derived);
+        }
+    }
     /// What `enclosures` say of a state over any time within the samples.
-    [[nodiscard]] interval over(std::vector<box> const& reach, std::size_t i, double from,
+    [[nodiscard]] interval over(motion_reach const& reach, std::size_t i, double from,
                                 double to) const {
         auto c = std::upper_bound(cells_.begin(), cells_.end(), from,
                                   [](double t, cell const& x) { return t < x.to; });
         auto result = traits::empty();
         for (; c != cells_.end() && (c->from < to || is_empty(result)); ++c) {
-            result = hull(result, reach[static_cast<std::size_t>(c - cells_.begin())][i]);
+            result = hull(result, reach.over[static_cast<std::size_t>(c - cells_.begin())][i]);
         }
         bool const covered = !cells_.empty() && cells_.front().from <= from &&
                              to <= cells_.back().to && !is_empty(result);
@@ -166,6 +216,11 @@ private:
         }
     }
 
+    /// What is in both; the first where nothing is.
+    [[nodiscard]] static interval agreed(interval const& a, interval const& b) {
+        auto const common = intersect(a, b);
+        return is_empty(common) ? a : common;
+    }
     /// Encloses a state at the end of a cell, from its own equation as one that is linear in it,
     /// \f$ y' = g(t) + J(t) y \f$ for \f$ y = x_i - c \f$: what damps itself does not spread.
     /// @param start  at the begin, @param over  all states over the cell
@@ -247,6 +302,7 @@ private:
     box initial_;
     std::vector<double> limits_;
     std::vector<std::optional<state_samples>> samples_;
+    std::vector<derivative_pair> pairs_; ///< q is sampled, r is not
     integrand_set set_;
     std::vector<cell> cells_;
 };

@@ -67,6 +67,7 @@ inline cell_line input_line(signal const& s, double from, double to) {
 struct motion_knowledge {
     std::vector<rate_variation> declared;     ///< of measured states
     std::vector<std::vector<double>> in_gaps; ///< what their rates vary by in each gap; or none
+    std::vector<std::optional<state_samples>> derived{}; ///< of states that no channel shows
     /// Encloses a state between two times: (state, from, to); may be empty.
     std::function<interval(std::size_t, double, double)> reach{};
 };
@@ -89,12 +90,14 @@ observe_motion(bound_model const& model, box const& prior, experiment const& e,
     double period = HUGE_VAL;
     double end = e.begin;
     for (std::size_t i = 0; i < n; ++i) {
-        if (!channels[i]) continue;
-        auto const s = state_samples::of(e, i, *channels[i]);
+        bool const derived = !channels[i] && i < known.derived.size() && known.derived[i];
+        if (!channels[i] && !derived) continue;
+        auto const s = derived ? *known.derived[i] : state_samples::of(e, i, *channels[i]);
         auto const variations = known.in_gaps.empty()
                                     ? channel_tube::in_gaps(known.declared[i], s.times)
                                     : known.in_gaps[i];
         result.tubes[i] = channel_tube::of_gaps(s.times, s.bounds, variations);
+        if (derived) continue;
         auto const alone = state_samples::sensed(e, *channels[i]);
         auto const skipped = static_cast<std::ptrdiff_t>(s.times.size() - alone.times.size());
         if (!alone.times.empty()) {
@@ -152,12 +155,13 @@ observe_motion(bound_model const& model, box const& prior, experiment const& e,
 [[nodiscard]] inline observed_motion
 proved_motion(bound_model const& model, box const& prior, experiment const& e,
               std::vector<std::optional<std::size_t>> const& channels, std::size_t cells_per_gap) {
-    model_variation const by_model(model, prior, e, channels, false);
-    auto const reach = by_model.cells().enclosures();
+    model_variation by_model(model, prior, e, channels, false);
+    auto const reach = by_model.enclose();
     auto const over = [&](std::size_t i, double from, double to) {
         return by_model.cells().over(reach, i, from, to);
     };
-    return observe_motion(model, prior, e, channels, {{}, by_model.of_gaps(reach), over},
+    return observe_motion(model, prior, e, channels,
+                          {{}, by_model.of_gaps(reach.over), by_model.cells().samples(), over},
                           cells_per_gap);
 }
 

@@ -106,7 +106,7 @@ public:
         auto const& e = prepared(i);
         if (!e.row.bounded) return "a coefficient is unbounded over the prior";
         auto const weak = weak_pair(i);
-        if (!channels_[i] && (!weak || !weak_windows::of(e.set, *weak))) {
+        if (!shown(i) && (!weak || !weak_windows::of(e.set, *weak))) {
             return "no measurement shows " + about().states[i].name;
         }
         for (auto const s : e.row.states) {
@@ -118,7 +118,7 @@ public:
 
     /// The ways in which equation i can be enclosed, the one with the fewest sensors first.
     [[nodiscard]] std::vector<window_way> ways(std::size_t i) {
-        if (!channels_[i]) return {window_way::weak};
+        if (!shown(i)) return {window_way::weak};
         std::vector<window_way> result{window_way::direct};
         if (!pairs_of(i).empty()) result.push_back(window_way::by_parts);
         if (source_ == tube_source::proved) result.push_back(window_way::damped);
@@ -164,11 +164,9 @@ public:
         auto const& e = integrated(i, way);
         for (std::size_t m = 0; m < motions_.size(); ++m) {
             if (motions_[m].name != at.scenario || !own_tube(e.row, motions_[m])) continue;
-            window_row w;
-            w.motion = m;
-            w.from = at.from;
-            w.to = at.to;
-            if (fill(e, way, w)) return w;
+            std::vector<window_row> found;
+            add(e, way, m, at.from, at.to, found);
+            if (!found.empty()) return found[0];
         }
         return std::nullopt;
     }
@@ -245,11 +243,16 @@ private:
                                   about().inputs.size());
         return e;
     }
+    /// Whether a state is known at samples: measured ones, or derived ones.
+    [[nodiscard]] bool shown(std::size_t i) const {
+        auto const known = [i](observed_motion const& m) { return m.tubes[i].has_value(); };
+        return channels_[i] || std::any_of(motions_.begin(), motions_.end(), known);
+    }
     /// Pairs that help with equation i: r in its row, q not its own state.
     [[nodiscard]] std::vector<derivative_pair> pairs_of(std::size_t i) const {
         std::vector<derivative_pair> result;
         for (auto const& p : pairs_) {
-            if (p.q != i && channels_[p.r] && row(i).states.count(p.r) > 0) result.push_back(p);
+            if (p.q != i && shown(p.r) && row(i).states.count(p.r) > 0) result.push_back(p);
         }
         return result;
     }
@@ -275,7 +278,7 @@ private:
     }
     [[nodiscard]] std::vector<window_row> windows(std::size_t i, window_way way, double shortest,
                                                   double longest) {
-        auto& e = prepared(i);
+        auto& e = way == window_way::weak ? prepared(i) : integrated(i, way);
         std::vector<window_row> result;
         if (way == window_way::weak) {
             auto const weak = weak_windows::of(e.set, *weak_pair(i));
@@ -285,7 +288,6 @@ private:
             }
             return result;
         }
-        (void)integrated(i, way);
         std::size_t total = 0;
         for (int const pass : {0, 1}) {
             std::size_t count = 0;
@@ -318,11 +320,6 @@ private:
         }
         return e;
     }
-    /// What a tube changes by from one time to another.
-    [[nodiscard]] static interval change(channel_tube const& tube, double from, double to) {
-        return traits::sub(tube.over(to, to), tube.over(from, from));
-    }
-
     void add(prepared_equation const& e, window_way way, std::size_t motion, double from, double to,
              std::vector<window_row>& list) const {
         window_row w;
@@ -375,7 +372,7 @@ private:
             auto const& shown =
                 *state == e.row.equation ? own_tube(e.row, motion) : motion.tubes[*state];
             if (!shown || !shown->covers(w.from, w.to)) return false;
-            w.a.push_back(change(*shown, w.from, w.to));
+            w.a.push_back(traits::sub(shown->over(w.to, w.to), shown->over(w.from, w.from)));
             if (!is_bounded(w.a.back())) return false;
         }
         w.a.push_back(rest);

@@ -132,15 +132,12 @@ public:
             result.rest = x;
             result.verdict = box_verdict::outside;
         }
-        result.smear.assign(x.size(), 0.0);
+        if (!inseparable_.empty()) result.smear.assign(x.size(), 0.0);
         for (auto const i : inseparable_) {
             result.smear[i] = width(result.rest[i]) / std::max(width(problem_.prior[i]), 1e-300);
         }
         return result;
     }
-    /// Parameters that do not separate: by halves of their sides more is excluded.
-    [[nodiscard]] std::set<std::size_t> const& inseparable() const { return inseparable_; }
-
 private:
     /// Empty when nothing is left.
     [[nodiscard]] box contracted(box const& x) {
@@ -191,7 +188,7 @@ SIVID_DECL box contract_by_relations(identification_problem const& problem,
     box const nothing(
         std::vector<interval>(problem.prior.size(), interval_traits<interval>::empty()));
     if (whole.verdict == box_verdict::outside) return nothing;
-    if (test.inseparable().empty() || options.boxes < 2) return whole.rest;
+    if (options.boxes < 2) return whole.rest;
     inversion_options search{.accuracy = 1e-3, .keep_outside = false};
     search.boxes = options.boxes;
     search.keep_going = options.keep_going;

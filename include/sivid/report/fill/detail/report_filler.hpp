@@ -113,11 +113,13 @@ private:
                                                                given_text(w.input_period) +
                                                                " s, and a bound of what these leave"
                                                          : "";
+            bool const runs = !what.empty() || !lines.empty();
             view_.statistics.before =
-                what.empty() && lines.empty()
+                !runs && !(w.left < 1)
                     ? "no window of the records can be carried from starts so wide: state them "
                       "more narrowly, or give samples nearer to them"
-                    : what + (what.empty() || lines.empty() ? "" : ", and ") + lines +
+                    : (runs ? what + (what.empty() || lines.empty() ? "" : ", and ") + lines
+                            : "the state equations between samples") +
                           ", contracted the prior before the search: they leave " +
                           at_most_percent(w.left) + " of its volume (" + duration_text(w.seconds) +
                           ")";
