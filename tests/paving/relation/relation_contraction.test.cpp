@@ -5,6 +5,8 @@
 #include "support/catch.hpp"
 #include "support/sweep.hpp"
 
+#include <sivid/paving/identify.hpp>
+
 #include <functional>
 
 using namespace diagnosis_support;
@@ -252,4 +254,30 @@ TEST_CASE("nothing is known of a state that nobody sees, from a start that nobod
     CHECK(width(contract_by_relations(problem)[0]) < 0.9 * width(what.prior[0]));
     problem.experiments[0].initial[1] = between(-1e6, 1e6);
     CHECK(contains(contract_by_relations(problem), std::vector<double>{1, 1, 0.2}));
+}
+
+TEST_CASE("identify begins with it where runs over the prior end early") {
+    draws d(716);
+    auto const what = all_planted()[0];
+    auto const m = model_of(what.shape, what.rate);
+    std::vector<double> const truth{1.2, 1.5, 0.3};
+    identification_problem problem{m, {support::all_constants(3), {}}, what.prior, {}};
+    for (std::size_t k = 0; k < 2; ++k) {
+        std::vector<sampled_signal> const inputs{drawn_input(d, 3, interpolation::linear)};
+        auto const motion = simulate(m, truth, inputs, {0.5, 0}, 3, what.step);
+        problem.experiments.push_back(measured(d, support::numbered('S', k), motion, inputs,
+                                               what.shown, 0.02, noise::uniform));
+        problem.experiments[k].initial[0] = between(0.45, 0.54);
+    }
+    identify_options options;
+    options.search.boxes = 1;
+    auto const found = identify(problem, options);
+    REQUIRE(found.windows.has_value());
+    CHECK(found.windows->left < 0.1);
+    CHECK(contains(found.hull, truth));
+    CHECK(subset(found.hull, contract_by_relations(problem, {.boxes = 1})));
+    options.windows = false;
+    auto const without = identify(problem, options);
+    CHECK_FALSE(without.windows.has_value());
+    CHECK(contains(without.hull, truth));
 }

@@ -97,7 +97,7 @@ private:
     /// Means over one cell: of the function; with all r frozen at their centres. Slopes in r.
     struct cell_ranges {
         interval whole, frozen;
-        double swing = 0; ///< at most from what it is at the centre
+        double swing = 0; ///< at most from some number
         std::vector<interval> slopes;
     };
     /// The weight at the begin of a cell, its mean over the cell, and by how much it is off that.
@@ -198,6 +198,8 @@ private:
                     if (!held) mean_frozen = traits::add(mean_frozen, shift);
                 }
                 if (smooth) {
+                    // At the centre it is a number, or moves itself: slopes by constants do.
+                    moved = traits::add(moved, traits::point(width(centred.value(f))));
                     r.swing = std::min(r.swing, moved.upper());
                     r.whole = traits::intersect(r.whole, mean);
                     r.frozen = traits::intersect(r.frozen, mean_frozen);

@@ -115,10 +115,6 @@ private:
     graph_range atoms_;
 };
 
-} // namespace paving_detail
-
-namespace paving_detail {
-
 /// Tests boxes of parameters by the equations over windows.
 class relation_test {
 public:
@@ -138,6 +134,7 @@ public:
         }
         return result;
     }
+
 private:
     /// Empty when nothing is left.
     [[nodiscard]] box contracted(box const& x) {
