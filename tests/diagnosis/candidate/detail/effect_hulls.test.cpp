@@ -81,6 +81,22 @@ TEST_CASE("the hull of a lag contains it, and excludes that there is none") {
     CHECK(width(hulls[1]) < 0.1);
 }
 
+TEST_CASE("a lag beside an effect that changes a constant alone has a hull, too") {
+    effect softer;
+    softer.name = "softer";
+    softer.parameters = {{"k", "1", -0.5_dec, 0.5_dec, 0_dec}};
+    softer.on_inputs = [](effect_scope& m) { m.constant("d") *= 1 + m.parameter(); };
+    auto const problem = with_lag(0.4);
+    std::vector<effect> const both{lag()[0], softer};
+    auto const hulls = effect_hulls(problem, both, {.seconds = 60});
+    REQUIRE(hulls.size() == 3);
+    CHECK(contains(hulls[0], 1.0));
+    CHECK(contains(hulls[1], 0.4));
+    CHECK(contains(hulls[2], 0.0));
+    CHECK(hulls[1].lower() > 0);
+    CHECK(width(hulls[1]) < 0.1);
+}
+
 TEST_CASE("hulls hold no effect where there is none, and nothing where nothing explains") {
     auto const real = small_campaign::problem();
     for (auto const& effects : {late, lag()}) {

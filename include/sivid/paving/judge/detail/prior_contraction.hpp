@@ -57,7 +57,7 @@ inline window_contraction joined(window_contraction const& first, window_contrac
     then.longest = std::max(first.longest, then.longest);
     then.seconds += first.seconds;
     then.integrations += first.integrations;
-    then.input_period = std::max(first.input_period, then.input_period);
+    then.input_period = first.input_period;
     return then;
 }
 
@@ -165,15 +165,20 @@ inline std::optional<window_contraction> contract_by_equations(data_test& test,
     return result;
 }
 
-/// What slower inputs and windows leave of the prior, and of starts.
+/// What can be left of the prior, and of starts, by means that are quicker than the search; nothing
+/// where the search does as well.
+/// @param test    of `posed`
+/// @param fitted  parameters that explain the data best, or the prior
+/// @param starts  of each experiment, with them; or none
 inline std::optional<window_contraction>
-contract_by_runs(data_test& test, identification_problem const& posed, box const& fitted,
-                 std::vector<box> const& starts, identify_options const& options,
-                 work_limit const& limit) {
+contract_prior(data_test& test, identification_problem const& posed, box const& fitted,
+               std::vector<box> const& starts, identify_options const& options,
+               work_limit const& limit) {
     std::optional<window_contraction> result;
     if (options.slower_inputs) {
         result = contract_by_slower_inputs(test, posed, fitted, starts, options, limit);
     }
+    if (!result && options.windows && limit()) result = contract_by_equations(test, posed, limit);
     if (!options.windows || !limit() || (result && result->empty())) return result;
     auto hindered = posed;
     std::optional<data_test> after;
@@ -192,28 +197,6 @@ contract_by_runs(data_test& test, identification_problem const& posed, box const
         result = result ? joined(*result, std::move(found)) : std::move(found);
     }
     if (after) result->integrations += after->integrations();
-    return result;
-}
-
-/// What can be left of the prior, and of starts, by means that are quicker than the search; nothing
-/// where the search does as well.
-/// @param test    of `posed`
-/// @param fitted  parameters that explain the data best, or the prior
-/// @param starts  of each experiment, with them; or none
-inline std::optional<window_contraction>
-contract_prior(data_test& test, identification_problem const& posed, box const& fitted,
-               std::vector<box> const& starts, identify_options const& options,
-               work_limit const& limit) {
-    std::optional<window_contraction> first;
-    if (options.windows && limit()) first = contract_by_equations(test, posed, limit);
-    if (!first) return contract_by_runs(test, posed, fitted, starts, options, limit);
-    if (first->empty() || !limit()) return first;
-    auto narrowed = posed;
-    narrowed.prior = first->rest;
-    data_test after(narrowed, options.test);
-    auto more = contract_by_runs(after, narrowed, fitted, starts, options, limit);
-    auto result = more ? joined(*first, *std::move(more)) : *std::move(first);
-    result.integrations += after.integrations();
     return result;
 }
 
