@@ -32,11 +32,11 @@ struct identify_options {
     data_test_options test;
     /// Stop when the hulls no longer shrink; the paving stays coarse.
     bool only_hulls = false;
-    /// Contract the prior first: by the state equations between samples (`contract_by_relations`), in
-    /// at most a quarter of the time, where trajectories over the prior reach less than a quarter of
-    /// the measurements; then by windows of the records (`contract_by_windows`), in at most 0.8
-    /// of the time, where starts are not known exactly and trajectories over the prior reach less
-    /// than a quarter of the measurements. Where starts are known halving the prior does as well.
+    /// Contract the prior first, where trajectories over it reach less than a quarter of the
+    /// measurements: by the state equations between samples (`contract_by_relations`), in at most a
+    /// quarter of the time, unless slower inputs have done so; and, where starts are not known
+    /// exactly, by windows of the records (`contract_by_windows`), in at most 0.8 of the time.
+    /// Where starts are known halving the prior does as well.
     bool windows = true;
     /// Search with slower inputs first (`with_slower_inputs`, ten samples to a line), in at most
     /// half of the time (windows of theirs: 0.6), where an input has a thousand samples or more,

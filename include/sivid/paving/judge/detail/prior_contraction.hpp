@@ -178,7 +178,11 @@ contract_prior(data_test& test, identification_problem const& posed, box const& 
     if (options.slower_inputs) {
         result = contract_by_slower_inputs(test, posed, fitted, starts, options, limit);
     }
-    if (!result && options.windows && limit()) result = contract_by_equations(test, posed, limit);
+    bool hinders = false; // windows tell of the starts, too, which the equations do not
+    if (!result && options.windows && limit()) {
+        hinders = starts_hinder(test, posed);
+        result = contract_by_equations(test, posed, limit);
+    }
     if (!options.windows || !limit() || (result && result->empty())) return result;
     auto hindered = posed;
     std::optional<data_test> after;
@@ -189,7 +193,7 @@ contract_prior(data_test& test, identification_problem const& posed, box const& 
     }
     // Windows that were of use with slower inputs go on with the recorded ones.
     bool const go_on = result && result->windows > 0;
-    if (go_on || starts_hinder(after ? *after : test, hindered)) {
+    if (go_on || hinders || starts_hinder(after ? *after : test, hindered)) {
         auto found = contract_by_windows(hindered, {.run = options.test.run,
                                                     .seconds = 0.8 * limit.seconds(),
                                                     .keep_going = limit,
