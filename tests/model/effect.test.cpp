@@ -113,6 +113,13 @@ TEST_CASE("an effect finds an input as it was recorded unless one before it chan
     last.order = 2;
     effect weaker = doubled("weaker"); // a constant alone, at the same stage
     weaker.on_inputs = [](effect_scope& m) { m.constant("k") *= m.parameter(); };
+    effect reads = doubled("reads"); // what it makes of the input is not what the last one leaves
+    reads.on_inputs = [](effect_scope& m) { m.constant("k") *= 1 + m.parameter() * m.input("u"); };
+    effect follows = doubled("follows");
+    follows.on_inputs = [](effect_scope& m) {
+        auto const d = m.add_state("d", "m", 9, expression(0));
+        m.rate("d") = m.input("u") - d;
+    };
     effect late = doubled("late");
     late.on_inputs = [](effect_scope& m) { m.delay_input("u"); };
     auto const model = record_model(tank{});
@@ -120,6 +127,8 @@ TEST_CASE("an effect finds an input as it was recorded unless one before it chan
     CHECK(finds_as_recorded(model, {last, weaker}, 0, "u"));
     CHECK_FALSE(finds_as_recorded(model, {last, doubled("gain")}, 0, "u"));
     CHECK_FALSE(finds_as_recorded(model, {late, last}, 1, "u"));
+    CHECK_FALSE(finds_as_recorded(model, {last, reads}, 0, "u"));
+    CHECK_FALSE(finds_as_recorded(model, {follows, last}, 1, "u"));
     CHECK(finds_as_recorded(model, {last, doubled("gain")}, 1, "u")); // which comes first
     CHECK_THROWS_AS(finds_as_recorded(model, {last}, 0, "v"), std::invalid_argument);
 }

@@ -135,7 +135,8 @@ private:
     effect const* effect_ = nullptr; ///< whose edit it is
 };
 
-/// Whether an effect finds an input as it was recorded: no other one changes it before.
+/// Whether an effect that changes an input is the first to see it: no other one changes it before,
+/// or lets anything else depend on it. Then the effect may as well act on the recorded input.
 [[nodiscard]] SIVID_DECL bool finds_as_recorded(recorded_model const& base,
                                                 std::vector<effect> const& effects,
                                                 std::size_t which, std::string const& input);

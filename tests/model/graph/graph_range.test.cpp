@@ -98,3 +98,22 @@ TEST_CASE("a direction never leaves -1 to 1, and lies where it is") {
     CHECK(mag(range.value(roots[0])) < 1);
     CHECK(mag(range.value(roots[1])) < 0.011);
 }
+
+TEST_CASE("factors that stand in a node very often are not counted out") {
+    graph g;
+    expression x(g, g.leaf(operation::state, 0));
+    expression const y(g, g.leaf(operation::state, 1));
+    auto product = x;
+    auto sum = sqr(x);
+    for (int k = 0; k < 60; ++k) { // 2^60 factors, 2^60 summands
+        product = product * (product * y);
+        sum = sum + (sum + y);
+    }
+    auto const root = (product * x / sqrt(sum)).in(g);
+    graph_range range(g, {root});
+    range.evaluate({interval(0.0), box{between(1, 1), between(1, 1)}, {}, {}});
+    CHECK(range.value(root).lower() > 0);
+    auto deep = x;
+    for (int k = 0; k < 100000; ++k) deep = deep * y;
+    graph_range const long_one(g, {deep.in(g)}); // no deep recursion
+}

@@ -64,36 +64,50 @@ private:
     /// below: dry friction, the direction of a velocity. \f$ x / \sqrt{x^2 + c} \f$ grows with x
     /// from -1 to 1, where the quotient of the ranges may have no bound.
     struct direction {
-        node_id x = 0;
+        node_id of = 0, x = 0;
         std::vector<node_id> rest, above, below;
     };
 
     void add_direction(graph const& g, node_id i) {
         if (g[i].op != operation::div && g[i].op != operation::mul) return;
-        direction found;
-        split(g, i, true, found);
-        for (auto const root : found.below) {
+        direction factors;
+        if (!split(g, i, factors)) return;
+        for (auto const root : factors.below) {
             if (g[root].op != operation::sqrt) continue;
-            for (auto const x : found.above) {
+            for (auto const x : factors.above) {
+                auto found = factors;
                 if (!split_square(g, g[root].a, x, found.rest)) continue;
                 found.x = x;
+                found.of = i;
                 found.above.erase(std::find(found.above.begin(), found.above.end(), x));
                 found.below.erase(std::find(found.below.begin(), found.below.end(), root));
-                direction_of_[i] = static_cast<std::int32_t>(directions_.size());
+                if (direction_of_[i] < 0) {
+                    direction_of_[i] = static_cast<std::int32_t>(directions_.size());
+                }
                 directions_.push_back(std::move(found));
-                return;
             }
         }
     }
-    /// Factors of a node.
-    static void split(graph const& g, node_id i, bool above, direction& to) {
-        auto const& n = g[i];
-        if (n.op == operation::mul || n.op == operation::div) {
-            split(g, n.a, above, to);
-            split(g, n.b, n.op == operation::mul ? above : !above, to);
-        } else {
-            (above ? to.above : to.below).push_back(i);
+    /// Products and sums of more are left as they are: nodes that are shared may stand in them
+    /// exponentially often.
+    static constexpr std::size_t most_parts = 16;
+
+    /// Factors of a node. @returns false for too many
+    [[nodiscard]] static bool split(graph const& g, node_id i, direction& to) {
+        std::vector<std::pair<node_id, bool>> open{{i, true}};
+        while (!open.empty()) {
+            auto const [k, above] = open.back();
+            auto const& n = g[k];
+            open.pop_back();
+            if (n.op == operation::mul || n.op == operation::div) {
+                open.emplace_back(n.a, above);
+                open.emplace_back(n.b, n.op == operation::mul ? above : !above);
+            } else {
+                (above ? to.above : to.below).push_back(k);
+            }
+            if (open.size() + to.above.size() + to.below.size() > most_parts) return false;
         }
+        return true;
     }
     /// Whether a sum has the summand \f$ x^2 \f$, and its other summands.
     [[nodiscard]] static bool split_square(graph const& g, node_id sum, node_id x,
@@ -111,12 +125,17 @@ private:
             } else {
                 rest.push_back(k);
             }
+            if (open.size() + rest.size() > most_parts) return false;
         }
         return seen;
     }
+    /// By each of the directions that a node is.
     void sharpen(node_id target) {
         if (undefined_[target] != 0) return;
-        auto const& d = directions_[static_cast<std::size_t>(direction_of_[target])];
+        auto k = static_cast<std::size_t>(direction_of_[target]);
+        for (; k < directions_.size() && directions_[k].of == target; ++k) sharpen(directions_[k]);
+    }
+    void sharpen(direction const& d) {
         auto const& x = values_[d.x];
         auto c = traits::point(0.0);
         for (auto const k : d.rest) c = traits::add(c, values_[k]);
@@ -132,15 +151,15 @@ private:
         auto value = traits::bounds(unit(x.lower(), false).lower(), unit(x.upper(), true).upper());
         for (auto const k : d.above) value = traits::mul(value, values_[k]);
         for (auto const k : d.below) value = traits::div(value, values_[k], undefined);
-        auto const both = traits::intersect(values_[target], value);
-        if (!undefined && !is_empty(both)) values_[target] = both;
+        auto const both = traits::intersect(values_[d.of], value);
+        if (!undefined && !is_empty(both)) values_[d.of] = both;
     }
 
     program program_;
     std::vector<interval> values_;
     std::vector<char> undefined_;
     std::vector<direction> directions_;
-    std::vector<std::int32_t> direction_of_; ///< of each node; -1: it is none
+    std::vector<std::int32_t> direction_of_; ///< the first of each node; -1: it is none
 };
 
 } // namespace sivid

@@ -71,19 +71,37 @@ SIVID_DECL bool finds_as_recorded(recorded_model const& base, std::vector<effect
             before.push_back(other);
         }
     }
-    effect seen; // a state whose rate is the input as it stands after them
-    seen.name = "seen " + input;
+    // States whose rates are the input as it stands after them, and all that may depend on it.
+    effect seen;
+    seen.name = "seen";
     seen.order = effects[which].order;
     seen.on_inputs = [&](effect_scope& m) {
-        (void)m.add_state(seen.name, "1", 1, expression(0));
-        m.rate(seen.name) = m.input(input);
+        auto const show = [&m](std::string const& name, expression const& value) {
+            (void)m.add_state("seen " + name, "1", 1, expression(0));
+            m.rate("seen " + name) = value;
+        };
+        for (auto const& u : base.about.inputs) show(u.name, m.input(u.name));
+        for (auto const& c : base.about.constants) show(c.name, m.constant(c.name));
     };
     before.push_back(seen);
     auto const changed = with(base, before);
-    auto const k = index_of(changed.about.inputs, input, "input");
-    auto const& n = changed.g[changed.rate.back()];
-    return n.op == operation::input && static_cast<std::size_t>(n.index) == k &&
-           std::none_of(changed.input_memory.begin(), changed.input_memory.end(),
+    auto const k = index_of(base.about.inputs, input, "input");
+    auto const& g = changed.g;
+    auto const is_it = [&](node_id i) {
+        return g[i].op == operation::input && static_cast<std::size_t>(g[i].index) == k;
+    };
+    auto const first = changed.rate.size() - base.about.inputs.size() - base.about.constants.size();
+    if (!is_it(changed.rate[first + k])) return false;
+    std::vector<node_id> others; // added states of effects, too
+    for (auto i = base.rate.size(); i < changed.rate.size(); ++i) {
+        if (i != first + k) others.push_back(changed.rate[i]);
+    }
+    for (auto const& added : changed.added_states) others.push_back(added.at_begin);
+    auto const read = operands_of(g, others);
+    for (std::size_t i = 0; i < read.size(); ++i) {
+        if (read[i] && is_it(static_cast<node_id>(i))) return false;
+    }
+    return std::none_of(changed.input_memory.begin(), changed.input_memory.end(),
                         [k](auto const& m) { return m.index == k; });
 }
 

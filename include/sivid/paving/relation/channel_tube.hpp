@@ -38,9 +38,7 @@ public:
     channel_tube(std::vector<double> const& times, std::vector<interval> const& bounds,
                  rate_variation const& law)
         : channel_tube(of_gaps(times, bounds, in_gaps(law, times))) {}
-    /// @param variations  what the rate varies by in the gap after each sample but the last one;
-    /// may
-    ///                    be infinite
+    /// @param variations  what the rate varies by in each gap; may be infinite
     [[nodiscard]] static channel_tube of_gaps(std::vector<double> times,
                                               std::vector<interval> bounds,
                                               std::vector<double> const& variations) {

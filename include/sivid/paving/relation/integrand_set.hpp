@@ -17,7 +17,7 @@ struct derivative_pair {
     std::size_t r = 0, q = 0;
 };
 
-namespace diagnosis_detail {
+namespace paving_detail {
 
 /// The same expression in which a product with 0 is 0 even where the other factor is not defined
 /// everywhere; for derivatives, which are only used where their function is defined.
@@ -39,7 +39,7 @@ inline node_id without_zero_products(graph& g, node_id i, std::map<node_id, node
     return done[i] = result;
 }
 
-} // namespace diagnosis_detail
+} // namespace paving_detail
 
 /// Functions of time, states and inputs with what their enclosures need: partial derivatives by
 /// states, inputs and time, and which of them are differentiable in Clarke's sense (no jumps).
@@ -69,7 +69,7 @@ struct integrand_set {
         result.slopes = differentiate(g, functions, x);
         std::map<node_id, node_id> done;
         for (auto& row : result.slopes) {
-            for (auto& d : row) d = diagnosis_detail::without_zero_products(g, d, done);
+            for (auto& d : row) d = paving_detail::without_zero_products(g, d, done);
         }
         result.g = &g;
         return result;

@@ -14,7 +14,8 @@ namespace sivid {
 struct relation_contraction_options {
     std::function<bool()> keep_going{}; ///< false ends it with what is proved until then
     std::size_t rounds = 12;            ///< of one box, at most
-    /// Where constants do not separate the prior is bisected along them, up to so many boxes.
+    /// The prior is bisected into so many boxes at most, along constants that do not separate where
+    /// there are some, and the hull of what they leave is taken. 1: it is not.
     std::size_t boxes = 64;
     /// Ends when a round narrows no side by so much.
     double gain = 0.05;

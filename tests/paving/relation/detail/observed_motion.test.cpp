@@ -72,3 +72,40 @@ TEST_CASE("without measurements there are no cells") {
                                        {{{1, 1}, {1, 1}}, {}, {}}, 4);
     CHECK(motion.cells.empty());
 }
+
+TEST_CASE("the model alone encloses the motion, and the middles of the lines that stand for it") {
+    draws d(603);
+    auto const m = support::model_of(
+        {2, 2, 1}, [](expression const&, std::vector<expression> const& x,
+                      std::vector<expression> const& p, std::vector<expression> const& u) {
+            return std::vector<expression>{
+                u[0] - p[0] * x[0] - p[1] * x[0] / sqrt(sqr(x[0]) + 0.0001), x[0]};
+        });
+    auto const model = bind(m, {support::all_constants(2), {}},
+                            {sampled_signal({0.0}, {0.0}, interpolation::linear)});
+    for (int n = 0; n < 40; ++n) {
+        std::vector<sampled_signal> const inputs{sampled_signal(
+            {0, 1, 2, 3}, {0, n % 2 == 0 ? 0 : d.uniform(-2, 2), d.uniform(-2, 2), 0},
+            interpolation::linear)};
+        box const prior{between(0.5, 1), between(0.1, 0.3)};
+        // From rest, known exactly: the motion is told far more narrowly than by its samples.
+        auto const truth = simulate(m, d.in(prior), inputs, {0, 0}, 3, 0.0005);
+        auto const shown =
+            n % 3 == 0 ? std::vector<std::size_t>{1} : std::vector<std::size_t>{0, 1};
+        auto const e = measured(d, "S", truth, inputs, shown, 0.05, noise::at_the_bounds);
+        auto const motion = proved_motion(model, prior, e, measured_states(model, {&e}), 6);
+        REQUIRE_FALSE(motion.cells.empty());
+        for (auto const& cell : motion.cells) {
+            for (std::size_t i = 0; i < 2; ++i) {
+                CHECK(contains(cell.at.states[i], cell.lines[i].centre));
+                for (double const t : {cell.from, cell.to}) {
+                    double const x = truth.at(t)[i];
+                    auto const k = static_cast<std::size_t>(std::lround(t / truth.step));
+                    if (std::abs(static_cast<double>(k) * truth.step - t) > 1e-9) continue;
+                    CHECK(cell.at.states[i].lower() - 1e-8 <= x);
+                    CHECK(x <= cell.at.states[i].upper() + 1e-8);
+                }
+            }
+        }
+    }
+}

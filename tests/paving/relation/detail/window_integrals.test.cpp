@@ -159,3 +159,38 @@ TEST_CASE("a drift averages out, a departure counts by its mean") {
     thin.lines = {cell_line::of(1, 1.01, interval(0.0)), cell_line::of(0, 1, interval(0.0))};
     CHECK(width(window_integrals(set, {thin}, {}).direct(0, 0, 1)) < 1e-4);
 }
+
+TEST_CASE("weighted integrals are enclosed, of what constants move in time, too") {
+    draws d(13);
+    for (int n = 0; n < 12; ++n) {
+        bench b;
+        // Slopes by constants are taken somewhere in the prior, elsewhere at each time.
+        expression const c(b.g, b.g.leaf(operation::constant, 0));
+        double const pace = d.uniform(1, 40);
+        auto const moving = [pace](double t) { return std::sin(pace * t); };
+        b.functions.push_back((c * b.x[2]).in(b.g));
+        b.values.emplace_back([moving](double t) { return moving(t) * (1 + t / 4); });
+        auto const set = integrand_set::of(b.g, b.functions, 3, 0);
+        double const h = 0.05;
+        auto cells = circle(d, 6, h, d.uniform(0, 0.05), d.uniform(0, 0.1));
+        for (auto& cell : cells) cell.at.constants = box{between(-1, 1)};
+        double const growth = d.uniform(0.1, 20);
+        window_integrals const integrals(set, cells, {}, growth);
+        for (int k = 0; k < 20; ++k) {
+            auto const first = d.below(119);
+            auto const last = first + 1 + d.below(120 - first);
+            double const from = static_cast<double>(first) * h;
+            double const to = static_cast<double>(last) * h;
+            auto const weight = [growth](double t) { return std::exp(growth * (t - 6)); };
+            for (std::size_t j = 0; j < b.functions.size(); ++j) {
+                auto const f = [&](double t) { return weight(t) * b.values[j](t); };
+                double const truth = exact(f, from, to);
+                double const slack = 1e-4 * weight(to) + 1e-14;
+                auto const found = integrals.direct(j, first, last);
+                CHECK(found.lower() <= truth + slack);
+                CHECK(truth - slack <= found.upper());
+            }
+            CHECK_THAT(mid(integrals.weight_at(last)), WithinRel(weight(to), 1e-9));
+        }
+    }
+}

@@ -203,6 +203,7 @@ private:
                 x[i] = reach.empty() ? cells_.own_range(i) : reach[c][i];
                 if (!tubes[i] || !tubes[i]->covers(from, to)) continue;
                 auto const seen = tubes[i]->over(from, to);
+                if (!is_bounded(seen)) continue;
                 auto const common = reach.empty() ? seen : intersect(seen, x[i]);
                 x[i] = is_empty(common) ? seen : common;
             }

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -105,6 +106,12 @@ public:
         auto range = range_of_rates();
         auto const n = samples_.size();
         auto const count = cells_.size();
+        std::map<std::size_t, graph_range> own; // rates of states that are not sampled, with slopes
+        for (std::size_t i = 0; i < n; ++i) {
+            if (!samples_[i]) {
+                own.emplace(i, graph_range(*g_, {set_.functions[i], set_.slopes[i][i]}));
+            }
+        }
         motion_reach result{std::vector<box>(count, box(n)), std::vector<box>(count + 1, box(n))};
         for (bool const forward : {true, false}) {
             box at(n);
@@ -137,7 +144,9 @@ public:
                 for (std::size_t i = 0; i < n; ++i) {
                     auto const moved = traits::add(at[i], traits::mul(lasting, rates[i]));
                     auto const end = agreed(over[i], moved);
-                    at[i] = samples_[i] ? end : agreed(end, damped_end(c, i, at[i], over, lasting));
+                    at[i] = samples_[i]
+                                ? end
+                                : agreed(end, damped_end(own.at(i), c, i, at[i], over, lasting));
                     auto& known = result.over[c][i];
                     auto const both = forward ? over[i] : intersect(known, over[i]);
                     known = is_empty(both) ? hull(known, over[i]) : both;
@@ -224,12 +233,12 @@ private:
     /// Encloses a state at the end of a cell, from its own equation as one that is linear in it,
     /// \f$ y' = g(t) + J(t) y \f$ for \f$ y = x_i - c \f$: what damps itself does not spread.
     /// @param start  at the begin, @param over  all states over the cell
-    [[nodiscard]] interval damped_end(std::size_t c, std::size_t i, interval const& start, box over,
+    [[nodiscard]] interval damped_end(graph_range& range, std::size_t c, std::size_t i,
+                                      interval const& start, box over,
                                       interval const& lasting) const {
         auto const f = set_.functions[i];
         auto const slope = set_.slopes[i][i];
         if (!set_.continuous[i] || !is_bounded(start)) return traits::entire();
-        graph_range range(*g_, {f, slope});
         range.evaluate(leaves(c, over));
         auto const growth = range.value(slope);
         if (range.undefined(f) || range.undefined(slope)) return traits::entire();

@@ -44,7 +44,7 @@ struct observed_motion {
     }
 };
 
-namespace diagnosis_detail {
+namespace paving_detail {
 
 /// An input over a cell within one piece: samples run along a line, formulas count as still.
 inline cell_line input_line(signal const& s, double from, double to) {
@@ -61,7 +61,7 @@ inline cell_line input_line(signal const& s, double from, double to) {
                          e);
 }
 
-} // namespace diagnosis_detail
+} // namespace paving_detail
 
 /// What is known of a motion between samples.
 struct motion_knowledge {
@@ -142,7 +142,7 @@ observe_motion(bound_model const& model, box const& prior, experiment const& e,
         }
         for (std::size_t u = 0; u < e.inputs.size(); ++u) {
             at.inputs[u] = input_over(e.inputs[u], from, to);
-            lines.push_back(diagnosis_detail::input_line(e.inputs[u], from, to));
+            lines.push_back(paving_detail::input_line(e.inputs[u], from, to));
         }
         lines.push_back(cell_line::of(from, to, interval(0.0)));
         time_cell cell{from, to, std::move(at), std::move(lines)};

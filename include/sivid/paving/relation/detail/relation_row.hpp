@@ -55,7 +55,7 @@ struct window_row {
     interval length;         ///< what a constant missing rate would be multiplied with [s]
 };
 
-namespace diagnosis_detail {
+namespace paving_detail {
 
 /// \f$ \theta_j \le \rho \theta_k \f$ and \f$ \theta_j \ge \rho \theta_k \f$ where factors of the
 /// quotient cancel and \f$ \theta_k > 0 \f$. Coefficients downward, the bound upward: z >= 0.
@@ -84,7 +84,7 @@ inline void add_ratios(relation_row& row, graph_range const& atoms) {
     }
 }
 
-} // namespace diagnosis_detail
+} // namespace paving_detail
 
 /// An expression in which some constants do not separate: there they stand at the middle of the
 /// prior, and what they may move it by are further terms, by the mean value theorem:
@@ -169,7 +169,7 @@ inline void add_ratios(relation_row& row, graph_range const& atoms) {
             row.inseparable.insert(static_cast<std::size_t>(g.nodes()[k].index));
         }
     }
-    if (row.bounded) diagnosis_detail::add_ratios(row, atoms);
+    if (row.bounded) paving_detail::add_ratios(row, atoms);
     auto const needed = reachable(g, row.functions);
     for (std::size_t k = 0; k < needed.size(); ++k) {
         auto const& n = g.nodes()[k];

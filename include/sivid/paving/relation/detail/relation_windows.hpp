@@ -37,6 +37,7 @@ class relation_windows {
 public:
     /// @param problem  outlives this object
     /// @param suspect  outlives this object; none: all sensors are right
+    /// @param source   of what is known between samples
     /// @throws std::invalid_argument if the problem is not valid, or declares variations of rates
     ///         that the model contradicts
     relation_windows(identification_problem const& problem, relation_options const& options,

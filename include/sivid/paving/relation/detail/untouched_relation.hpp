@@ -15,7 +15,7 @@
 
 namespace sivid {
 
-namespace diagnosis_detail {
+namespace paving_detail {
 
 /// Compares expressions of two graphs node by node. What is one node in the first must be one node
 /// in the second, so that equal enclosures of a literal stand for one number where they did before.
@@ -49,7 +49,7 @@ private:
     std::map<node_id, node_id> image_;
 };
 
-} // namespace diagnosis_detail
+} // namespace paving_detail
 
 /// Whether a model with effects still contains all that the refutation of a relation is about: the
 /// same equations, as functions of time, states, inputs and constants, and the same functions in
@@ -64,7 +64,7 @@ private:
 [[nodiscard]] inline bool keeps_relation(recorded_model const& base, recorded_model const& changed,
                                          relation_finding const& f) {
     if (base.has_memory() || changed.rate.size() < base.rate.size()) return false;
-    diagnosis_detail::same_expressions same(base.g, changed.g);
+    paving_detail::same_expressions same(base.g, changed.g);
     auto equations = f.further;
     equations.push_back(f.equation);
     std::vector<node_id> rates;

@@ -120,10 +120,12 @@ class relation_test {
 public:
     relation_test(identification_problem const& problem,
                   relation_contraction_options const& options)
-        : problem_(problem), options_(options) {}
+        : problem_(problem), options_(options), rounds_(options.rounds) {}
 
     [[nodiscard]] assessment<> operator()(box const& x) {
         assessment<> result{.rest = contracted(x)};
+        // Parts of a box that rests are excluded soon or not at all.
+        rounds_ = std::max<std::size_t>(options_.rounds / 4, 1);
         if (is_empty(result.rest)) {
             result.rest = x;
             result.verdict = box_verdict::outside;
@@ -144,9 +146,7 @@ private:
         box const nothing(std::vector<interval>(x.size(), interval_traits<interval>::empty()));
         relation_options how;
         how.go_on = options_.keep_going;
-        // Parts of a box that rests are excluded soon or not at all.
-        auto const rounds = inseparable_.empty() ? options_.rounds : options_.rounds / 4;
-        for (std::size_t round = 0; round < rounds; ++round) {
+        for (std::size_t round = 0; round < rounds_; ++round) {
             relation_windows windows(narrowed, how, nullptr, tube_source::proved);
             std::vector<known_product> known;
             for (std::size_t i = 0; i < problem_.model.about.states.size(); ++i) {
@@ -172,6 +172,7 @@ private:
 
     identification_problem problem_;
     relation_contraction_options options_;
+    std::size_t rounds_; ///< of the next box
     std::set<std::size_t> inseparable_;
 };
 

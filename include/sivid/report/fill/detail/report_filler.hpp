@@ -118,9 +118,9 @@ private:
                 !runs && !(w.left < 1)
                     ? "no window of the records can be carried from starts so wide: state them "
                       "more narrowly, or give samples nearer to them"
-                    : (runs ? what + (what.empty() || lines.empty() ? "" : ", and ") + lines
+                    : (runs ? what + (what.empty() || lines.empty() ? "" : ", and ") + lines + ","
                             : "the state equations between samples") +
-                          ", contracted the prior before the search: they leave " +
+                          " contracted the prior before the search: they leave " +
                           at_most_percent(w.left) + " of its volume (" + duration_text(w.seconds) +
                           ")";
         }
