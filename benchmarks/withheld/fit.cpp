@@ -122,10 +122,11 @@ double powered_sum(std::vector<double> const& z, double limit, double power, dou
 
 } // namespace
 
-fit_problem::difference_quotients fit_problem::differences(std::vector<double> const& x) const {
+fit_problem::difference_quotients fit_problem::differences(std::vector<double> const& x,
+                                                           bool holdout) const {
     std::size_t const n = x.size();
     double const difference = 1e-4;
-    difference_quotients d{evaluate(x, false, 0), std::vector<residuals>(n),
+    difference_quotients d{evaluate(x, holdout, 0), std::vector<residuals>(n),
                            std::vector<double>(n)};
     // Starts of different scenarios do not meet in one residual: one run serves all of a state.
     for (std::size_t i = 0; i < n; ++i) {
@@ -140,14 +141,20 @@ fit_problem::difference_quotients fit_problem::differences(std::vector<double> c
             d.step[j] = x[j] > 0.5 ? -difference : difference;
             moved[j] += d.step[j];
         }
-        auto const run = evaluate(moved, false, 0);
+        auto const run = evaluate(moved, holdout, 0);
         for (std::size_t const j : together) d.moved[j] = run;
     }
     return d;
 }
 
-fit_problem::linear_model fit_problem::linear(std::vector<double> const& x) const {
-    auto const d = differences(x);
+std::vector<double> fit_problem::misfits(std::vector<double> const& x, bool holdout) const {
+    std::vector<double> all;
+    for (auto const& z : evaluate(x, holdout, 0)) all.insert(all.end(), z.begin(), z.end());
+    return all;
+}
+
+fit_problem::linear_model fit_problem::linear(std::vector<double> const& x, bool holdout) const {
+    auto const d = differences(x, holdout);
     linear_model l;
     l.slope.resize(x.size());
     for (std::size_t s = 0; s < d.z.size(); ++s)

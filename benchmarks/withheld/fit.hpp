@@ -38,7 +38,10 @@ public:
         std::vector<double> misfit;
         std::vector<std::vector<double>> slope; // by variable
     };
-    linear_model linear(std::vector<double> const& x) const;
+    /// Of the fit scenarios, or of the others with the starts in the middle of their boxes.
+    linear_model linear(std::vector<double> const& x, bool holdout = false) const;
+    /// Those of `linear` alone.
+    std::vector<double> misfits(std::vector<double> const& x, bool holdout = false) const;
     /// Least squares for power 2; larger powers come closer to the smallest largest misfit.
     double minimise(std::vector<double>& x, double power, int iterations) const;
     /// Of the fit scenarios, or of the others with the starts in the middle of their boxes.
@@ -58,7 +61,7 @@ private:
             return (moved[i][s][m] - z[s][m]) / step[i];
         }
     };
-    difference_quotients differences(std::vector<double> const& x) const;
+    difference_quotients differences(std::vector<double> const& x, bool holdout = false) const;
     bool elsewhere(std::size_t i, std::size_t scenario) const {
         return variables_[i].is_start() && variables_[i].scenario != scenario;
     }

@@ -49,8 +49,10 @@ struct judgement {
     std::size_t intervals = 0, intervals_hold = 0; // of the true effects' parameters
     std::vector<double> onset_windows;             // widths, in shares of the scenario's time
     std::vector<hull_width> hull_widths;
-    std::optional<double> holdout_ratio; // upper bounds, over all fits to at the witness
-    std::optional<double> tube_coverage; // share of the held-out samples within the tube
+    std::optional<double> holdout_ratio;    // upper bounds, over all fits to at the witness
+    std::optional<double> holdout_witness;  // the second of these
+    std::optional<double> holdout_attained; // the largest found at parameters that explain
+    std::optional<double> tube_coverage;    // share of the held-out samples within the tube
     std::optional<double> seconds;
 
     /// Counts a proof, and remembers it when it is false.

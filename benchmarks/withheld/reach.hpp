@@ -20,12 +20,18 @@ struct reached {
 };
 reached reach(fit_problem const& problem, std::vector<double> const& x, std::size_t which);
 
-/// The move d with the largest d[which] (`sign` -1: the smallest) such that |misfit + slope d| <= 1
-/// and x + d in the unit box, |d| <= `radius`, by an interior-point method; nothing when there is
-/// none, or it is not found.
+/// The same for the inflation of the held-out data, from their middle starts: points at which the
+/// held-out samples that may be moved farthest miss their bounds as much as was found.
+/// @returns  `x` first
+std::vector<std::vector<double>> worst_held_out(fit_problem const& problem,
+                                                std::vector<double> const& x);
+
+/// The move d with the largest sum of `aim` d such that |misfit + slope d| <= 1 and x + d in the
+/// unit box, |d| <= `radius`, by an interior-point method; nothing when there is none, or it is not
+/// found.
 std::optional<std::vector<double>> farthest(fit_problem::linear_model const& model,
-                                            std::vector<double> const& x, std::size_t which,
-                                            double sign, double radius = 1);
+                                            std::vector<double> const& x,
+                                            std::vector<double> const& aim, double radius = 1);
 
 } // namespace withheld
 

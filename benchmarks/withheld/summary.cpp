@@ -164,8 +164,8 @@ std::string complaints(std::vector<judgement> const& all) {
 std::string measures(std::vector<judgement> const& all) {
     std::vector<double> width, slack, shrink, shrink_error, seconds, onsets;
     counted relations, certified, sound, shrink_held, parts, tenth, allowed_tenth, twice, ratio,
-        covered;
-    std::vector<double> of_prior, of_allowed, ratios;
+        allowed_ratio, covered;
+    std::vector<double> of_prior, of_allowed, ratios, of_attained;
     std::size_t witnesses = 0, rates = 0, hulls = 0, intervals = 0, hold = 0, contradictory = 0,
                 withdrawn = 0;
     for (auto const& j : all) {
@@ -187,6 +187,11 @@ std::string measures(std::vector<judgement> const& all) {
         if (j.holdout_ratio) {
             ratios.push_back(*j.holdout_ratio);
             ratio.add(*j.holdout_ratio <= 1.5);
+        }
+        if (j.holdout_ratio && j.holdout_attained && *j.holdout_attained > 0) {
+            of_attained.push_back(*j.holdout_ratio * *j.holdout_witness / *j.holdout_attained);
+            if (*j.holdout_attained <= 1.5 * *j.holdout_witness)
+                allowed_ratio.add(*j.holdout_ratio <= 1.5);
         }
         if (j.tube_coverage) covered.add(*j.tube_coverage >= 1);
         if (j.part_right) parts.add(*j.part_right);
@@ -232,7 +237,9 @@ std::string measures(std::vector<judgement> const& all) {
          << "hull / what the data allow:      " << spread(of_allowed)
          << ", at most twice: " << twice.text() << '\n'
          << "hold-out, all fits / witness:    " << spread(ratios)
-         << ", at most 1.5: " << ratio.text() << '\n'
+         << ", at most 1.5: " << ratio.text()
+         << ", of those where no more is attained: " << allowed_ratio.text() << '\n'
+         << "hold-out, all fits / attained:   " << spread(of_attained) << '\n'
          << "tubes that hold all held-out samples: " << covered.text() << '\n'
          << "files that contradict themselves: " << contradictory << " of " << all.size() << '\n'
          << "claims that the program withdrew: " << withdrawn << '\n'
@@ -245,7 +252,7 @@ std::string csv(std::vector<judgement> const& all) {
         "case,family,truth,answer,right,place,absorbed,false_proofs,proofs,gap_certified,"
         "relation_proved,truth_explains,inflation_lower,inflation_upper,"
         "inflation_bound,shrink_lower,shrink_upper,shrink_true,seconds,missing,open,"
-        "contradictions,hulls,holdout_ratio\n";
+        "contradictions,hulls,holdout_ratio,holdout_witness,holdout_attained\n";
     auto const flag = [](bool b) { return b ? "1" : "0"; };
     auto const maybe = [&](std::optional<bool> const& b) { return b ? flag(*b) : ""; };
     for (auto const& j : all) {
@@ -263,7 +270,8 @@ std::string csv(std::vector<judgement> const& all) {
                 number_text(j.shrink_upper) + ',' + number_text(j.shrink_true) + ',' +
                 number_text(j.seconds, "%.3f") + ',' + flag(j.missing) + ',' + flag(j.open) + ',' +
                 kinds(j.contradictions) + ',' + hulls_text(j.hull_widths) + ',' +
-                number_text(j.holdout_ratio) + '\n';
+                number_text(j.holdout_ratio) + ',' + number_text(j.holdout_witness) + ',' +
+                number_text(j.holdout_attained) + '\n';
     }
     return text;
 }

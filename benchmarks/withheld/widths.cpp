@@ -31,10 +31,13 @@ std::optional<std::vector<double>> explaining(label const& truth, fit_problem co
 
 /// Points at the ends of what the data allow explain them: hulls hold these, too, and what is said
 /// of held-out data for every parameter.
-void attack(fit_problem const& problem, std::vector<double> const& inside, reached const& r,
-            json const& cause, bool known_starts, judgement& j) {
+/// @returns  the largest inflation of the held-out data there; 0 where their starts are not known
+double attack(fit_problem const& problem, std::vector<double> const& inside,
+              std::vector<std::vector<double>> const& ends, json const& cause, bool known_starts,
+              judgement& j) {
+    double most = 0;
     auto const over = bounds_in(member(member(cause, "holdout"), "over_fits_after"));
-    for (auto const& end : r.ends) {
+    for (auto const& end : ends) {
         for (double const share : {1.0, 0.999, 0.98}) {
             auto x = inside;
             for (std::size_t i = 0; i < x.size(); ++i) x[i] += share * (end[i] - inside[i]);
@@ -46,8 +49,10 @@ void attack(fit_problem const& problem, std::vector<double> const& inside, reach
                 j.proof(hull->contains(value, 1e-7 * (1 + std::abs(value))), "hull",
                         name + " in " + text_of(*hull) + ", explains at " + short_text(value));
             }
-            if (!over || !known_starts) break;
+            if (!known_starts) break;
             double const there = problem.inflation(x, true);
+            most = std::max(most, there);
+            if (!over) break;
             j.proof(there <= over->upper * (1 + 1e-3) && there >= over->lower * (1 - 1e-3),
                     "holdout",
                     joined(names_in(member(cause, "effects"))) + " over all fits " +
@@ -55,6 +60,7 @@ void attack(fit_problem const& problem, std::vector<double> const& inside, reach
             break;
         }
     }
+    return most;
 }
 
 void measure_hulls(label const& truth, recording const& data, json const& cause, judgement& j) {
@@ -71,6 +77,7 @@ void measure_hulls(label const& truth, recording const& data, json const& cause,
         });
     std::optional<std::vector<double>> x;
     if (!any_budget) x = explaining(truth, problem);
+    double held_out = 0;
     auto const parameters = member(cause, "parameters");
     for (std::size_t i = 0; i < problem.variables().size(); ++i) {
         auto const& v = problem.variables()[i];
@@ -81,7 +88,7 @@ void measure_hulls(label const& truth, recording const& data, json const& cause,
         if (x) {
             auto const r = reach(problem, *x, i);
             w.allowed = r.upper - r.lower;
-            attack(problem, *x, r, cause, known_starts, j);
+            held_out = std::max(held_out, attack(problem, *x, r.ends, cause, known_starts, j));
         }
         // Both ends cut to the prior, as the data allow no more there.
         if (auto const hull = hull_in(member(parameters, v.name))) {
@@ -91,6 +98,10 @@ void measure_hulls(label const& truth, recording const& data, json const& cause,
         }
         j.hull_widths.push_back(w);
     }
+    if (x && known_starts) {
+        auto const worst = worst_held_out(problem, *x);
+        j.holdout_attained = std::max(held_out, attack(problem, *x, worst, cause, known_starts, j));
+    }
 }
 
 void measure_holdout(json const& cause, judgement& j) {
@@ -99,6 +110,7 @@ void measure_holdout(json const& cause, judgement& j) {
     if (!at_witness) return;
     auto const all = number(member(holdout, "over_fits_after"), 1);
     j.holdout_ratio = all ? *all / *at_witness : std::numeric_limits<double>::infinity();
+    j.holdout_witness = at_witness;
     auto const covered = member(holdout, "covered_after");
     if (covered.is_number()) j.tube_coverage = covered.get<double>();
 }

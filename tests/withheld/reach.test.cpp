@@ -44,12 +44,12 @@ TEST_CASE("linear programs about a simulation end at the farthest corner") {
                 for (auto const& l : lines) inside = inside && l.a * d0 + l.b * d1 <= l.c + 1e-9;
                 if (inside) best = std::max(best, d0);
             }
-        auto const found = farthest(model, x, 0, 1);
+        auto const found = farthest(model, x, {1, 0});
         REQUIRE(found);
         CHECK(std::abs((*found)[0] - best) < 1e-6);
     }
     // Nothing is within both of these.
-    CHECK_FALSE(farthest({{3, -3}, {{1, 1}}}, {0.5}, 0, 1));
+    CHECK_FALSE(farthest({{3, -3}, {{1, 1}}}, {0.5}, {1}));
 }
 
 TEST_CASE("what the data allow holds the truth, and is attained") {
@@ -82,5 +82,14 @@ TEST_CASE("what the data allow holds the truth, and is attained") {
             alone[k] = r.upper;
             if (r.upper < 1) CHECK(problem.inflation(alone) >= 1 - 1e-3);
         }
+        // Held-out data, too: points that explain what was fitted to miss them by more.
+        auto const worst = worst_held_out(problem, x);
+        REQUIRE(worst.size() > 1);
+        double most = 0;
+        for (auto const& point : worst) {
+            CHECK(problem.inflation(point) <= 1 + 2e-3);
+            most = std::max(most, problem.inflation(point, true));
+        }
+        CHECK(most > problem.inflation(x, true));
     }
 }
