@@ -4,6 +4,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/model/problem.hpp>
+#include <sivid/paving/set_test.hpp>
 #include <sivid/space/box.hpp>
 
 #include <cstddef>
@@ -14,9 +15,7 @@ namespace sivid {
 struct relation_contraction_options {
     std::function<bool()> keep_going{}; ///< false ends it with what is proved until then
     std::size_t rounds = 12;            ///< of one box, at most
-    /// The prior is bisected into so many boxes at most, along constants that do not separate where
-    /// there are some, and the hull of what they leave is taken. 1: it is not.
-    std::size_t boxes = 64;
+    std::size_t cells_per_gap = 6;      ///< cells between two samples
     /// Ends when a round narrows no side by so much.
     double gain = 0.05;
 };
@@ -36,6 +35,22 @@ struct relation_contraction_options {
 /// @cost  some tens of milliseconds a round for five records of a hundred samples
 [[nodiscard]] SIVID_DECL box contract_by_relations(
     identification_problem const& problem, relation_contraction_options const& options = {});
+
+/// Tests boxes of parameters in the same way, for `invert`. Smear: how much of what the windows
+/// leave open is due to each.
+class relation_test {
+public:
+    /// @param problem  outlives this; a model with delays is not for it
+    relation_test(identification_problem const& problem,
+                  relation_contraction_options const& options)
+        : problem_(&problem), options_(options) {}
+
+    [[nodiscard]] SIVID_DECL assessment<> operator()(box const& x) const;
+
+private:
+    identification_problem const* problem_;
+    relation_contraction_options options_;
+};
 
 } // namespace sivid
 

@@ -6,6 +6,7 @@
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/judge/data_test.hpp>
 #include <sivid/paving/judge/data_test_options.hpp>
+#include <sivid/paving/judge/detail/equation_aided_test.hpp>
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/reduction.hpp>
 #include <sivid/paving/relation/relation_contraction.hpp>
@@ -54,28 +55,21 @@ public:
         search.seconds = time.value_or(share) * limit_.seconds();
         search.boxes = static_cast<std::size_t>(share * static_cast<double>(options_->boxes));
         search.keep_going = limit_;
-        auto const prior = contracted(test, posed, search.seconds / 4);
+        auto prior = posed.prior;
+        relation_contraction_options equations{.keep_going = limit_};
+        if (limit_() && test.reached(prior) < 1) prior = contract_by_relations(posed, equations);
         if (is_empty(prior)) return std::nullopt;
-        auto const paving = invert(test, prior, search).paving;
+        // Parts of what rests are excluded soon or not at all.
+        equations.rounds = 1;
+        equations.cells_per_gap = 2;
+        equation_aided_test aided(test, posed, equations);
+        auto const paving = invert(aided, prior, search).paving;
         if (!paving.has_outer()) return std::nullopt;
         auto const left = paving.outer_hull();
         return map ? map->backward(problem.prior, left) : left;
     }
 
 private:
-    /// What relations leave of the prior where runs over it end early; by its parts, too, where
-    /// those over the rest still do.
-    [[nodiscard]] box contracted(data_test& test, identification_problem const& posed,
-                                 double seconds) const {
-        work_limit const limit(seconds, limit_);
-        if (!limit() || !(test.reached(posed.prior) < 1)) return posed.prior;
-        auto rest = contract_by_relations(posed, {.keep_going = limit, .boxes = 1});
-        if (is_empty(rest) || !limit() || !(test.reached(rest) < 0.5)) return rest;
-        auto narrowed = posed;
-        narrowed.prior = std::move(rest);
-        return contract_by_relations(narrowed, {.keep_going = limit});
-    }
-
     effect_hull_options const* options_;
     work_limit limit_;
 };

@@ -157,7 +157,7 @@ inline std::optional<window_contraction> contract_by_equations(data_test& test,
     auto const begin = std::chrono::steady_clock::now();
     work_limit const own(0.25 * limit.seconds(), limit);
     window_contraction result;
-    result.rest = contract_by_relations(posed, {.keep_going = own, .boxes = 1});
+    result.rest = contract_by_relations(posed, {.keep_going = own});
     if (!(relative_volume(result.rest, posed.prior).upper() < 1)) return std::nullopt;
     for (auto const& e : posed.experiments) result.starts.push_back(e.initial);
     result.seconds =

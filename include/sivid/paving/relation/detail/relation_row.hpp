@@ -254,6 +254,24 @@ inline void add_difference(relation_row& row, std::optional<std::size_t> state,
     return system;
 }
 
+/// How much of what the windows' bounds leave open is due to each coefficient of a row about their
+/// middles: summed shares.
+[[nodiscard]] inline std::vector<double> blur_of(relation_row const& row,
+                                                 std::vector<window_row> const& windows) {
+    std::vector<double> result(row.centre.size(), 0.0), own(result);
+    for (auto const& w : windows) {
+        double open = width(w.difference) + width(w.a.back());
+        for (std::size_t j = 0; j < own.size(); ++j) {
+            own[j] = width(w.a[j]) * width(row.range[j]) / 2;
+            open += own[j];
+        }
+        for (std::size_t j = 0; j < own.size(); ++j) {
+            if (open > 0) result[j] += own[j] / open;
+        }
+    }
+    return result;
+}
+
 /// Encloses the mean rate that the equation lacks over a window, over the whole prior.
 [[nodiscard]] inline interval missing_rate_in(relation_row const& row, window_row const& w) {
     using traits = interval_traits<interval>;

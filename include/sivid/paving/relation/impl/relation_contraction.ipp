@@ -5,17 +5,17 @@
 #include <sivid/paving/relation/relation_contraction.hpp>
 
 #include <sivid/model/graph/graph_range.hpp>
-#include <sivid/paving/invert.hpp>
 #include <sivid/paving/relation/detail/relation_row.hpp>
 #include <sivid/paving/relation/detail/relation_windows.hpp>
 #include <sivid/paving/relation/linear_refutation.hpp>
 #include <sivid/paving/set_test.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <numeric>
 #include <optional>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -27,6 +27,7 @@ namespace paving_detail {
 struct known_product {
     parameter_product theta;
     interval range;
+    double blur; ///< how much of what its equation leaves open is due to it (`blur_of`)
 };
 
 /// Where the programs of one equation leave its coefficients; nothing when they leave none.
@@ -38,10 +39,14 @@ known_products(relation_windows& windows, std::size_t equation) {
     auto const& row = windows.row(equation);
     auto const n = row.theta.size();
     linear_system system(n);
+    std::vector<double> blur(n, 0.0);
     for (auto const way : windows.ways(equation)) {
         if (n == 0) break;
         auto const list = windows.spread(equation, way); // before its row is there
-        if (!list.empty()) system.add(system_of(windows.row(equation, way), list));
+        if (list.empty()) continue;
+        system.add(system_of(windows.row(equation, way), list));
+        auto const own = blur_of(windows.row(equation, way), list);
+        for (std::size_t j = 0; j < own.size(); ++j) blur[j] += own[j];
     }
     if (system.size() == 0 || windows.stopped()) return result;
     for (std::size_t j = 0; j < n; ++j) {
@@ -54,7 +59,7 @@ known_products(relation_windows& windows, std::size_t equation) {
         auto const range =
             traits::add(traits::point(row.anchor[j]),
                         traits::mul(traits::point(row.width[j]), traits::bounds(least, most)));
-        result.push_back({row.theta[j], traits::intersect(range, row.range[j])});
+        result.push_back({row.theta[j], traits::intersect(range, row.range[j]), blur[j]});
         if (is_empty(result.back().range)) return std::nullopt;
     }
     return result;
@@ -115,83 +120,92 @@ private:
     graph_range atoms_;
 };
 
-/// Tests boxes of parameters by the equations over windows.
-class relation_test {
-public:
-    relation_test(identification_problem const& problem,
-                  relation_contraction_options const& options)
-        : problem_(problem), options_(options), rounds_(options.rounds) {}
-
-    [[nodiscard]] assessment<> operator()(box const& x) {
-        assessment<> result{.rest = contracted(x)};
-        // Parts of a box that rests are excluded soon or not at all.
-        rounds_ = std::max<std::size_t>(options_.rounds / 4, 1);
-        if (is_empty(result.rest)) {
-            result.rest = x;
-            result.verdict = box_verdict::outside;
-        }
-        if (!inseparable_.empty()) result.smear.assign(x.size(), 0.0);
-        for (auto const i : inseparable_) {
-            result.smear[i] = width(result.rest[i]) / std::max(width(problem_.prior[i]), 1e-300);
-        }
-        return result;
+/// How much each side of a box blurs the equations: that of a product goes to its factors by how
+/// far each moves it alone.
+[[nodiscard]] inline std::vector<double>
+smear_of(graph const& g, std::vector<known_product> const& known, box const& x) {
+    std::vector<double> smear(x.size(), 0.0), alone(known.size() * x.size(), 0.0);
+    std::vector<node_id> factors;
+    for (auto const& k : known) {
+        for (auto const& factor : k.theta) factors.push_back(factor.first);
     }
-
-private:
-    /// Empty when nothing is left.
-    [[nodiscard]] box contracted(box const& x) {
-        auto narrowed = problem_;
-        auto& rest = narrowed.prior;
-        rest = x;
-        box const nothing(std::vector<interval>(x.size(), interval_traits<interval>::empty()));
-        relation_options how;
-        how.go_on = options_.keep_going;
-        for (std::size_t round = 0; round < rounds_; ++round) {
-            relation_windows windows(narrowed, how, nullptr, tube_source::proved);
-            std::vector<known_product> known;
-            for (std::size_t i = 0; i < problem_.model.about.states.size(); ++i) {
-                auto more = known_products(windows, i);
-                if (!more) return nothing;
-                std::move(more->begin(), more->end(), std::back_inserter(known));
-                if (windows.obstacle(i).empty()) {
-                    auto const& own = windows.row(i).inseparable;
-                    inseparable_.insert(own.begin(), own.end());
-                }
-            }
-            if (windows.stopped()) break;
-            auto const before = rest;
-            if (!product_contraction(windows.equations(), known)(rest)) return nothing;
-            bool gained = false;
-            for (std::size_t i = 0; i < rest.size(); ++i) {
-                gained = gained || width(rest[i]) < (1 - options_.gain) * width(before[i]);
-            }
-            if (!gained) break;
+    graph_range atoms(g, factors);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        auto about = point_box(mid(x));
+        about[i] = x[i];
+        atoms.evaluate({interval(0.0), {}, about, {}});
+        for (std::size_t k = 0; k < known.size(); ++k) {
+            double const moved = width(range_of(known[k].theta, atoms));
+            alone[k * x.size() + i] = std::isfinite(moved) ? moved : 1e100;
         }
-        return rest;
     }
+    for (std::size_t k = 0; k < known.size(); ++k) {
+        auto const* const moved = alone.data() + k * x.size();
+        double const sum = std::accumulate(moved, moved + x.size(), 0.0);
+        for (std::size_t i = 0; sum > 0 && i < x.size(); ++i) {
+            smear[i] += known[k].blur * moved[i] / sum;
+        }
+    }
+    return smear;
+}
 
-    identification_problem problem_;
-    relation_contraction_options options_;
-    std::size_t rounds_; ///< of the next box
-    std::set<std::size_t> inseparable_;
+/// What is left of a box (empty when nothing is), and how much its sides blur the equations.
+struct relation_findings {
+    box rest;
+    std::vector<double> smear;
 };
 
+[[nodiscard]] inline relation_findings
+contract_by_windows(identification_problem narrowed, relation_contraction_options const& options) {
+    auto& rest = narrowed.prior;
+    box const nothing(std::vector<interval>(rest.size(), interval_traits<interval>::empty()));
+    std::vector<double> smear;
+    relation_options how;
+    how.go_on = options.keep_going;
+    how.cells_per_gap = options.cells_per_gap;
+    for (std::size_t round = 0; round < options.rounds; ++round) {
+        relation_windows windows(narrowed, how, nullptr, tube_source::proved);
+        std::vector<known_product> known;
+        for (std::size_t i = 0; i < narrowed.model.about.states.size(); ++i) {
+            auto more = known_products(windows, i);
+            if (!more) return {nothing, {}};
+            std::move(more->begin(), more->end(), std::back_inserter(known));
+        }
+        if (windows.stopped()) break;
+        smear = smear_of(windows.equations(), known, rest);
+        auto const before = rest;
+        if (!product_contraction(windows.equations(), known)(rest)) return {nothing, {}};
+        bool gained = false;
+        for (std::size_t i = 0; i < rest.size(); ++i) {
+            gained = gained || width(rest[i]) < (1 - options.gain) * width(before[i]);
+        }
+        if (!gained) break;
+    }
+    return {rest, smear};
+}
+
 } // namespace paving_detail
+
+SIVID_DECL assessment<> relation_test::operator()(box const& x) const {
+    auto narrowed = *problem_;
+    narrowed.prior = x;
+    auto found = paving_detail::contract_by_windows(std::move(narrowed), options_);
+    assessment<> result{.rest = x};
+    if (is_empty(found.rest)) {
+        result.verdict = box_verdict::outside;
+        return result;
+    }
+    result.rest = std::move(found.rest);
+    result.smear = std::move(found.smear);
+    return result;
+}
 
 SIVID_DECL box contract_by_relations(identification_problem const& problem,
                                      relation_contraction_options const& options) {
     if (problem.model.has_memory() || problem.prior.size() == 0) return problem.prior;
-    paving_detail::relation_test test(problem, options);
-    auto const whole = test(problem.prior);
-    box const nothing(
-        std::vector<interval>(problem.prior.size(), interval_traits<interval>::empty()));
-    if (whole.verdict == box_verdict::outside) return nothing;
-    if (options.boxes < 2) return whole.rest;
-    inversion_options search{.accuracy = 1e-3, .keep_outside = false};
-    search.boxes = options.boxes;
-    search.keep_going = options.keep_going;
-    auto const found = invert(test, whole.rest, search);
-    return found.paving.has_outer() ? found.paving.outer_hull() : nothing;
+    auto const found = relation_test(problem, options)(problem.prior);
+    if (found.verdict != box_verdict::outside) return found.rest;
+    return box(std::vector<interval>(problem.prior.size(), interval_traits<interval>::empty()));
 }
 
 } // namespace sivid

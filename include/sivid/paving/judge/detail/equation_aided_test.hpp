@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_JUDGE_DETAIL_EQUATION_AIDED_TEST_HPP
+#define SIVID_PAVING_JUDGE_DETAIL_EQUATION_AIDED_TEST_HPP
+
+#include <sivid/model/problem.hpp>
+#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/relation/relation_contraction.hpp>
+#include <sivid/paving/set_test.hpp>
+
+#include <atomic>
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// `data_test`, and the state equations between samples where its runs end before they could tell:
+/// both together search a prior over which no trajectory is carried far.
+/// @guarantee  as both; what equations exclude has no certificate
+class equation_aided_test {
+public:
+    static constexpr bool concurrent = true;
+    using knowledge = data_test::knowledge;
+
+    /// @param runs, problem  outlive this
+    /// @param below  the share of the measurements that runs over a box reach, below which the
+    ///               equations are asked
+    equation_aided_test(data_test& runs, identification_problem const& problem,
+                        relation_contraction_options const& options, double below = 0.5)
+        : runs_(&runs),
+          equations_(problem, options),
+          asks_(!problem.model.has_memory()),
+          below_(below),
+          early_(asks_) {}
+
+    [[nodiscard]] assessment<knowledge> operator()(box const& x,
+                                                   std::shared_ptr<knowledge const> const& known) {
+        auto result = judge(x, known);
+        return result.blind ? std::move(learn({x})[0]) : result;
+    }
+    [[nodiscard]] assessment<knowledge> judge(box const& x,
+                                              std::shared_ptr<knowledge const> const& known) const {
+        return runs_->judge(x, known);
+    }
+    [[nodiscard]] std::vector<assessment<knowledge>> learn(std::vector<box> const& boxes) {
+        auto results = runs_->learn(boxes);
+        bool early = false;
+        for (std::size_t k = 0; k < boxes.size(); ++k) {
+            auto& found = results[k];
+            if (!asks_ || found.verdict != box_verdict::undecided || !(reached(found) < below_))
+                continue;
+            early = true;
+            auto more = equations_(found.rest);
+            found.proof.clear();
+            if (more.verdict == box_verdict::outside) {
+                found = {.verdict = box_verdict::outside, .rest = boxes[k], .cost = found.cost};
+                continue;
+            }
+            found.rest = std::move(more.rest);
+            if (!more.smear.empty()) found.smear = std::move(more.smear);
+        }
+        early_ = early;
+        return results;
+    }
+    /// One box while runs end early: what its equations say tells which side to split.
+    [[nodiscard]] std::size_t at_once() const { return early_ ? 1 : runs_->at_once(); }
+    [[nodiscard]] static std::size_t bytes(knowledge const& known) {
+        return data_test::bytes(known);
+    }
+    [[nodiscard]] bool cancelled() const { return runs_->cancelled(); }
+
+private:
+    [[nodiscard]] static double reached(assessment<knowledge> const& found) {
+        std::size_t seen = 0, all = 0;
+        if (!found.knowledge) return 0;
+        for (auto const& r : found.knowledge->all_starts) {
+            seen += r->outputs();
+            all += r->measurements;
+        }
+        return all == 0 ? 1 : static_cast<double>(seen) / static_cast<double>(all);
+    }
+
+    data_test* runs_;
+    relation_test equations_;
+    bool asks_;
+    double below_;
+    std::atomic<bool> early_;
+};
+
+} // namespace sivid
+
+#endif
