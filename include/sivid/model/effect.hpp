@@ -90,7 +90,8 @@ struct effect {
 /// an unknown one throws std::invalid_argument that lists what exists.
 class effect_scope {
 public:
-    [[nodiscard]] expression const& time() const { return time_; }
+    /// The time, as the model sees it.
+    [[nodiscard]] expression& time() { return time_; }
     /// The effect's own k-th parameter.
     [[nodiscard]] expression const& parameter(std::size_t k = 0) const;
     [[nodiscard]] expression const& state(std::string const& name) const;

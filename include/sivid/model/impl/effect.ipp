@@ -287,13 +287,14 @@ SIVID_DECL recorded_model with(recorded_model const& base, std::vector<effect> e
     };
     apply_all(&effect::on_inputs);
 
-    // The model itself, on the inputs and constants that the effects left.
+    // The model itself, on the time, the inputs and the constants that the effects left.
     auto& g = result.g;
     auto const own = std::move(result.added_states); // of effects
     copy_equations(result, base, [&](node const& n, graph& to) {
         auto const k = static_cast<std::size_t>(n.index);
         if (n.op == operation::constant) return scope.constants_[k].in(to);
         if (n.op == operation::input) return scope.inputs_[k].in(to);
+        if (n.op == operation::time) return scope.time_.in(to);
         return to.leaf(n.op, k);
     });
     for (std::size_t i = 0; i < base.rate.size(); ++i)

@@ -24,17 +24,26 @@ effect const late = effects::input_delay("late", "u", {0_dec, 0.5_dec});
 effect const slow = effects::sensor_latency("slow", {"p"}, {0_dec, 0.5_dec});
 effect const gap = effects::input_backlash("gap", "u", "N", {0_dec, 0.5_dec});
 effect const dead = effects::input_dead_band("dead", "u", "N", {0_dec, 0.5_dec});
+/// A motor that tires: the time stands in an equation.
+effect tiring() {
+    effect e;
+    e.name = "tired";
+    e.parameters = {{"a", "1/s", 0_dec, 0.2_dec, 0_dec}};
+    e.on_inputs = [](effect_scope& m) { m.input("u") *= 1 - m.parameter() * m.time(); };
+    return e;
+}
 
-/// What is planted of each effect: milliseconds, newtons.
+/// What is planted of each effect: milliseconds, newtons, per second.
 struct planted {
     int late = 0, slow = 0;
-    double gap = 0, dead = 0;
+    double gap = 0, dead = 0, tired = 0;
 
     [[nodiscard]] double of(std::string const& name) const {
         return name == "late.tau"   ? 0.001 * late
                : name == "slow.tau" ? 0.001 * slow
                : name == "gap.b"    ? gap
                : name == "dead.b"   ? dead
+               : name == "tired.a"  ? tired
                                     : 1;
     }
 };
@@ -50,6 +59,8 @@ identification_problem measured(planted const& true_ones, interpolation between,
     double const band = true_ones.dead;
     if (band > 0)
         real.missing = [band](double, double, double u) { return -std::clamp(u, -band, band); };
+    double const tired = true_ones.tired;
+    if (tired > 0) real.missing = [tired](double t, double, double u) { return -tired * t * u; };
     auto problem = diagnosis_support::with_late_position(true_ones.slow, real);
     std::uniform_real_distribution<double> share(-0.385, 0.385); // 60 % are filled already
     for (auto& x : problem.experiments) {
@@ -69,11 +80,11 @@ identification_problem measured(planted const& true_ones, interpolation between,
 } // namespace
 
 TEST_CASE("slices that hold the truth are never excluded, nor is it cut off") {
-    std::vector<std::vector<effect>> const forms{{late, slow}, {slow, dead}, {gap, slow},
-                                                 {slow},       {late},       {dead}};
+    std::vector<std::vector<effect>> const forms{
+        {late, slow}, {slow, dead}, {gap, slow}, {slow}, {late}, {dead}, {slow, tiring()}};
     std::mt19937 chance(20261125);
     std::uniform_real_distribution<double> some(0, 1);
-    for (std::size_t n = 0; n < support::swept(std::size_t{8}, std::size_t{200}); ++n) {
+    for (std::size_t n = 0; n < support::swept(std::size_t{9}, std::size_t{210}); ++n) {
         auto const& form = forms[n % forms.size()];
         auto const has = [&](char const* name) {
             return std::any_of(form.begin(), form.end(),
@@ -84,12 +95,13 @@ TEST_CASE("slices that hold the truth are never excluded, nor is it cut off") {
         if (has("slow")) true_ones.slow = static_cast<int>(450 * some(chance));
         if (has("gap")) true_ones.gap = 0.4 * some(chance);
         if (has("dead")) true_ones.dead = 0.4 * some(chance);
+        if (has("tired")) true_ones.tired = 0.15 * some(chance);
         auto const between = n % 2 == 0 || has("gap") ? interpolation::linear : interpolation::hold;
         auto const base = measured(true_ones, between, n % 3 == 2 ? 1 : 0, chance);
         auto const whole = affected(base, form);
         auto const sliced = sliced_input_of(base, form);
         REQUIRE(sliced);
-        CHECK(sliced->sides.size() == form.size());
+        CHECK(sliced->sides.size() == form.size() - (has("tired") ? 1 : 0));
         // The truth somewhere in a range, or at its end.
         auto all = whole.prior;
         for (auto const& side : sliced->sides) {
@@ -101,7 +113,8 @@ TEST_CASE("slices that hold the truth are never excluded, nor is it cut off") {
         }
         auto const over = sliced->over(all);
         auto const found = hull_search({.seconds = 5, .boxes = 60})(over, 1);
-        CAPTURE(n, true_ones.late, true_ones.slow, true_ones.gap, true_ones.dead, all);
+        CAPTURE(n, true_ones.late, true_ones.slow, true_ones.gap, true_ones.dead, true_ones.tired,
+                all);
         REQUIRE(found);
         auto const left = explained_by(whole, *sliced, all, over, *found);
         REQUIRE(left);

@@ -19,12 +19,13 @@ namespace sivid {
 ///   the range of tau; between, it runs at the rate
 ///     \f$ (b - \tau)/(b - a), \f$
 ///   so that from b on it is tau late: a line in tau, as the late inputs are but for small errors
-///   (`late_by_parameter`). No derivative of the channels is needed.
+///   (`late_by_parameter`), and what the clock shows takes the place of the time in the equations.
+///   No derivative of the channels is needed.
 /// @param base     without effects
 /// @param effects  those of the whole problem
 /// @param which    of them is the late sensor, alone with its parameter
 /// @param delays   range of that parameter, whose place the distance from its middle takes
-/// @given  recorded inputs; no equation and no late channel depends on the time itself
+/// @given  recorded inputs; no late channel depends on the time itself
 /// @guarantee  parameters with such a delay that explain the data explain this problem: samples of
 ///             late channels between a and b are left out, each part may have all the outliers
 [[nodiscard]] SIVID_DECL identification_problem

@@ -45,6 +45,7 @@ inline sampled_signal widened_between(sampled_signal const& u, double from, doub
 struct late_clock {
     double stands, runs; ///< until the first of these times it stands, from the second on it runs
     sampled_signal rate, slope;
+    sampled_signal time, time_slope; ///< what it shows: lines between knots
 
     late_clock(double begin, interval const& delays) {
         double const unit = 4 * std::numeric_limits<double>::epsilon();
@@ -71,6 +72,21 @@ struct late_clock {
         from(runs, 1, 0, 0);
         rate = sampled_signal(times, std::move(rates), interpolation::hold, std::move(errors));
         slope = sampled_signal(std::move(times), std::move(slopes), interpolation::hold);
+
+        // It stands at the begin, and then shows t - tau, after one line from there to there.
+        double const after = runs + std::max(1.0, length);
+        double const off = error * (length + 1) + 8 * unit * (std::abs(after) + std::abs(begin));
+        times = {stands, runs, after};
+        std::vector<double> shown{begin, runs - mid(delays), after - mid(delays)};
+        slopes = {0, -1, -1};
+        if (stands > begin) {
+            times.insert(times.begin(), begin);
+            shown.insert(shown.begin(), begin);
+            slopes.insert(slopes.begin(), 0);
+        }
+        errors.assign(times.size(), off);
+        time = sampled_signal(times, std::move(shown), interpolation::linear, std::move(errors));
+        time_slope = sampled_signal(std::move(times), std::move(slopes), interpolation::linear);
     }
 };
 
@@ -96,13 +112,19 @@ SIVID_DECL identification_problem with_late_channels(identification_problem cons
     for (auto const& x : base.experiments) everywhere.push_back(x.name);
     e.on_channels = nullptr;
     e.order = std::numeric_limits<int>::min(); // what others see is late
-    e.on_inputs = [inputs, slope_of](effect_scope& h) {
+    auto const whole = affected(base, effects).model;
+    bool const timed = std::any_of(whole.rate.begin(), whole.rate.end(),
+                                   [&](node_id n) { return (whole.g.depends(n) & on_time) != 0; });
+    auto const shown = e.name + "_time", shown_slope = e.name + "_time_slope";
+    e.on_inputs = [inputs, slope_of, timed, shown, shown_slope](effect_scope& h) {
         for (auto const& u : inputs) h.input(u) += h.input(slope_of(u)) * h.parameter();
+        if (timed) h.time() = h.input(shown) + h.input(shown_slope) * h.parameter();
     };
     // Effects without a parameter, for the sake of their inputs.
     std::vector<std::string> own{clock, clock_slope};
     for (auto const& u : inputs) own.push_back(slope_of(u));
-    auto const states = affected(base, effects).model.about.states;
+    if (timed) own.insert(own.end(), {shown, shown_slope});
+    auto const states = whole.about.states;
     for (auto const& name : own) {
         auto& helper = with_clock.emplace_back();
         helper.name = name;
@@ -123,6 +145,9 @@ SIVID_DECL identification_problem with_late_channels(identification_problem cons
         auto in_time = x, behind = x;
         std::erase_if(in_time.measurements, [&](auto const& m) { return late[m.channel]; });
         for (auto const& name : own) in_time.inputs[place(name)] = constant(name == clock ? 1 : 0);
+        if (timed) {
+            in_time.inputs[place(shown)] = analytic_signal::from([](auto const& t) { return t; });
+        }
         diagnosis_detail::late_clock const time(x.begin, delays);
         std::erase_if(behind.measurements, [&](auto const& m) {
             return !late[m.channel] || (m.time > time.stands && m.time < time.runs);
@@ -130,6 +155,10 @@ SIVID_DECL identification_problem with_late_channels(identification_problem cons
         behind.name += "_late";
         behind.inputs[place(clock)] = time.rate;
         behind.inputs[place(clock_slope)] = time.slope;
+        if (timed) {
+            behind.inputs[place(shown)] = time.time;
+            behind.inputs[place(shown_slope)] = time.time_slope;
+        }
         for (std::size_t i = 0; i < inputs.size(); ++i) {
             auto const& u = std::get<sampled_signal>(x.inputs[i]);
             auto& slope = behind.inputs[place(slope_of(inputs[i]))];

@@ -191,7 +191,6 @@ private:
             late_channels_[d.index] = true;
         }
         auto const of_time = [&](node_id n) { return (model.g.depends(n) & on_time) != 0; };
-        if (std::any_of(model.rate.begin(), model.rate.end(), of_time)) return false;
         for (std::size_t y = 0; y < late_channels_.size(); ++y)
             if (late_channels_[y] && of_time(model.observe[y])) return false;
         for (std::size_t i = 0; i < base_->model.about.inputs.size(); ++i)
