@@ -98,6 +98,14 @@ TEST_CASE("effects of equations") {
     CHECK(std::abs(rate(stribeck, 0, 1, 0.5) - (2 + 0.5 * (1 + std::exp(-0.25)) / std::sqrt(2.0))) <
           1e-15);
     CHECK(rate(stribeck, 0, 1, 0) == 2);
+    // Bristles at 0.25, x = -0.5, g = 1 + 0.5 exp(-0.25).
+    auto const lugre =
+        effects::lugre_friction("e", "x", "m/s^2", prior, prior, 1_dec, 0.5_dec, 0.25_dec);
+    double const bend = (-0.5 - 0.5 * 0.25 / (1 + 0.5 * std::exp(-0.25))) / 0.5;
+    CHECK(std::abs(rate(lugre, 2, 1, 0.5) - bend) < 1e-15);
+    CHECK(std::abs(rate(lugre, 0, 1, 0.5) - (2 - 0.5 * (0.25 + 0.25 * bend))) < 1e-15);
+    CHECK(rate(lugre, 0, 1, 0) == 2);
+    CHECK(with(cart{}, lugre).about.states[2].limit == 2);
     CHECK(rate(effects::drift("e", "c", prior), 0, 1, 0.5) == 2 * (1 + 0.5 * 3));
     // Here the position is its own velocity: x' = 2 + k max(stop - x, 0) at x = -0.5.
     using side = effects::stop_side;

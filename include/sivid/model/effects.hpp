@@ -66,6 +66,17 @@ SIVID_DECL effect dry_friction(std::string const& name, std::string const& state
 SIVID_DECL effect stribeck_friction(std::string const& name, std::string const& state,
                                     std::string const& unit, range const& k, range const& s,
                                     decimal fades_above, decimal smooth_below);
+/// Friction with a memory (LuGre): bristles bend by z, in units of what they bend at most when it
+/// is slow, and slip,
+///   \f$ x' - k (z + d z'), \quad z' = (x - |x| z / g)/b, \quad g = 1 + r e^{-(x/v)^2} \f$
+/// with k the force at speed, r how much more it takes at rest, b how far the bristles bend (in the
+/// unit of x times s), d their damping [s]. They are straight at the begin. It sticks as a stiff
+/// spring does, with no jump: enclosures need steps shorter than b/|x|.
+/// @ref  Canudas de Wit, Olsson, Astrom and Lischinsky, IEEE Trans. Autom. Control 40 (1995), with
+///       sigma_0 = k/b, sigma_1 = k d/b
+SIVID_DECL effect lugre_friction(std::string const& name, std::string const& state,
+                                 std::string const& unit, range const& k, range const& r,
+                                 decimal fades_above, decimal bends, decimal damping);
 /// Where an end stop stands: below or above all that is free.
 enum class stop_side { lower, upper };
 /// v' + k max(stop - x, 0) for a lower stop, v' - k max(x - stop, 0) for an upper one: an elastic

@@ -156,6 +156,24 @@ SIVID_DECL effect stribeck_friction(std::string const& name, std::string const& 
     return e;
 }
 
+SIVID_DECL effect lugre_friction(std::string const& name, std::string const& state,
+                                 std::string const& unit, range const& k, range const& r,
+                                 decimal fades_above, decimal bends, decimal damping) {
+    auto e = detail::one(name, "k", unit, k, "LuGre friction in the equation of " + state);
+    e.parameters.push_back({"r", "1", r.lower, r.upper, {}});
+    auto const bristles = name + ".z";
+    e.on_inputs = [bristles, most = 1 + nearest(r.upper)](effect_scope& m) {
+        m.add_state(bristles, "1", most, expression(0));
+    };
+    e.on_rates = [state, bristles, fades_above, bends, damping](effect_scope& m) {
+        auto const x = m.state(state), z = m.state(bristles);
+        auto const g = 1 + m.parameter(1) * exp(-sqr(x / expression(fades_above)));
+        m.rate(bristles) = (x - abs(x) * z / g) / expression(bends);
+        m.rate(state) -= m.parameter(0) * (z + expression(damping) * m.rate(bristles));
+    };
+    return e;
+}
+
 SIVID_DECL effect drift(std::string const& name, std::string const& constant, range const& k) {
     auto e = detail::one(name, "k", "1/s", k, "slow drift of the constant " + constant);
     e.on_inputs = [constant](effect_scope& m) {
