@@ -703,7 +703,7 @@ TEST_CASE("the program: tables, a csv, and the exit code of a false proof") {
     CHECK_THAT(text_of("out.txt"), ContainsSubstring("missing      c"));
     CHECK_THAT(text_of("out.txt"), ContainsSubstring("false proofs by kind: none"));
     CHECK_THAT(text_of("score.csv"), ContainsSubstring("a,single,rudder_lag,rudder_lag,1,1,0,,"));
-    CHECK_THAT(text_of("score.csv"), ContainsSubstring(",1.500,0,0,,,\n"));
+    CHECK_THAT(text_of("score.csv"), ContainsSubstring(",1.500,0,0,,,,,\n"));
     folder.write("results/b/diagnosis.json", good().dump());
     CHECK(score() != 0);
     CHECK_THAT(text_of("out.txt"), ContainsSubstring("FALSE PROOF  b  gap"));
