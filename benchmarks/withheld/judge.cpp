@@ -9,6 +9,7 @@
 #include <cmath>
 #include <exception>
 #include <fstream>
+#include <map>
 
 namespace withheld {
 
@@ -32,6 +33,19 @@ bool is_near(names const& truth, names const& said) {
 /// prior, not everywhere, or three effects at once, which are tried last?
 bool may_be_unexplained(label const& l) { return !l.attainable() || l.effects.size() > 2; }
 
+/// Terms that no catalogue has, all in equations that the truth touches.
+bool right_terms(label const& l, names const& said) {
+    static std::map<std::string, std::string> const equation{
+        {"u", "surge"}, {"v", "sway"}, {"r", "yaw"}};
+    auto const broken = places_of(l.names());
+    return !said.empty() && std::all_of(said.begin(), said.end(), [&](std::string const& n) {
+        auto const mark = n.find("'~");
+        auto const found = equation.find(n.substr(0, std::min(mark, n.size())));
+        return mark != n.npos && found != equation.end() &&
+               holds(broken, "equation", found->second);
+    });
+}
+
 bool right_answer(label const& l, json const& answer, bool absorbed) {
     auto const kind = answer.at("kind").get<std::string>();
     // Beyond its prior the name is right, and with scenarios where the effect acts in some only.
@@ -49,6 +63,7 @@ bool right_answer(label const& l, json const& answer, bool absorbed) {
     if (kind == "unexplained") return may_be_unexplained(l);
     if (kind != "effects") return false;
     if (said == truth || is_near(truth, said)) return true;
+    if (may_be_unexplained(l) && right_terms(l, said)) return true;
     auto const other = member(answer, "indistinguishable");
     if (!catalogue_holds(truth) || !other.is_array() || other.size() > 3) return false;
     return std::any_of(other.begin(), other.end(),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/model/effects.hpp>
 
+#include "model/cart.hpp"
 #include "support/catch.hpp"
 
 #include <cmath>
@@ -9,51 +10,17 @@
 
 using namespace sivid;
 using namespace sivid::literals;
+using namespace model_support;
 
 namespace {
 
-/// x' = c u, w' = x; y = x, z = w
-struct cart {
-    static constexpr auto name = "cart";
-    static constexpr auto states = sivid::states({{"x", "m/s", 5}, {"w", "m", 5}});
-    static constexpr auto inputs = sivid::inputs({{"u", "N"}});
-    static constexpr auto channels = sivid::channels({{"y", "m/s"}, {"z", "m"}});
-    static constexpr auto constants = [] {
-        using namespace sivid::literals;
-        return sivid::constants({{"c", "1/kg", 2_dec}});
-    }();
-    template <class T>
-    states_of<cart, T> rate(T const&, states_of<cart, T> const& x, constants_of<cart, T> const& c,
-                            inputs_of<cart, T> const& u) const {
-        return {c[0] * u[0], x[0]};
-    }
-    template <class T>
-    channels_of<cart, T> observe(T const&, states_of<cart, T> const& x,
-                                 constants_of<cart, T> const&, inputs_of<cart, T> const&) const {
-        return {x[0], x[1]};
-    }
-};
-
-/// Value of a node at t = 3, x = (-0.5, 2, 0.25), u, c = 2 and the effect's parameter.
-double at(recorded_model const& m, node_id n, double u, double parameter) {
-    graph g;
-    auto const image = copy_into(g, m.g, {n}, [&](node const& leaf, graph& to) {
-        double const states[] = {-0.5, 2, 0.25}, constants[] = {2, parameter, parameter};
-        auto const k = static_cast<std::size_t>(leaf.index);
-        return to.constant(leaf.op == operation::state      ? states[k]
-                           : leaf.op == operation::constant ? constants[k]
-                           : leaf.op == operation::input    ? u
-                                                            : 3.0);
-    });
-    return g.value(g[image.front()]).nearest;
-}
 double rate(effect const& e, std::size_t i, double u, double parameter) {
     auto const m = with(cart{}, e);
-    return at(m, m.rate[i], u, parameter);
+    return at(m, m.rate[i], u, {parameter});
 }
 double channel(effect const& e, std::size_t i, double parameter) {
     auto const m = with(cart{}, e);
-    return at(m, m.observe[i], 0, parameter);
+    return at(m, m.observe[i], 0, {parameter});
 }
 
 constexpr effects::range prior{0_dec, 1_dec};
@@ -75,9 +42,9 @@ TEST_CASE("effects of inputs") {
     CHECK(rate(lag, 0, 7, 0.5) == 0.5);
     CHECK(rate(lag, 2, 7, 0.5) == (7 - 0.25) / 0.5);
     auto const model = with(cart{}, lag);
-    CHECK(at(model, model.added_states[0].at_begin, 7, 0.5) == 7);
+    CHECK(at(model, model.added_states[0].at_begin, 7, {0.5}) == 7);
     auto const resting = with(cart{}, effects::input_lag("e", "u", "N", prior, 10, true));
-    CHECK(at(resting, resting.added_states[0].at_begin, 7, 0.5) == 0);
+    CHECK(at(resting, resting.added_states[0].at_begin, 7, {0.5}) == 0);
     CHECK(with(cart{}, effects::input_delay("e", "u", prior)).input_memory.size() == 1);
     auto const gap = with(cart{}, effects::input_backlash("e", "u", "N", prior));
     REQUIRE(gap.input_memory.size() == 1);
@@ -148,7 +115,7 @@ TEST_CASE("effects of sensors") {
     CHECK_THROWS_AS(effects::sensor_swap("e", {"y", "z", "y"}, prior), std::invalid_argument);
     // What an instrument cannot show it cannot show however it is mounted and scaled.
     auto const both = with(cart{}, clipped, effects::sensor_scale("f", {"z"}, {1_dec, 1_dec}));
-    CHECK(at(both, both.observe[1], 0, 0.5) == 0.5);
+    CHECK(at(both, both.observe[1], 0, {0.5}) == 0.5);
     auto const late = with(cart{}, effects::sensor_latency("e", {"y", "z"}, prior));
     CHECK(late.channel_delays.size() == 2);
 }

@@ -43,6 +43,7 @@ struct diagnosis_options {
     double verdict_share = 0.15;       ///< kept from the candidates for the proofs about them
     double discharge_share = 0.15;     ///< whether a sensor, not its equation, may be wrong
     double places_share = 0.25; ///< where the model, and then where the closest candidate departs
+    double terms_share = 0.2;   ///< what no effect of the catalogue is
     std::size_t remaining_sets = 30; ///< of places that the closest candidate may have wrong
     screening_options screening{};   ///< but for its time: it gets all that the others leave
     choice_options choice{};

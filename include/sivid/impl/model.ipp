@@ -11,6 +11,7 @@
 #include <sivid/model/impl/effect.ipp>
 #include <sivid/model/impl/effects.ipp>
 #include <sivid/model/impl/expression.ipp>
+#include <sivid/model/impl/missing_term.ipp>
 #include <sivid/model/impl/model.ipp>
 #include <sivid/model/impl/to_dot.ipp>
 #include <sivid/model/impl/unit.ipp>

@@ -15,6 +15,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -99,6 +100,8 @@ public:
     [[nodiscard]] expression& constant(std::string const& name);
     /// The input, as the model sees it.
     [[nodiscard]] expression& input(std::string const& name);
+    /// A state, an input, a constant, or the time, t, as the model sees it.
+    [[nodiscard]] expression const& named(std::string const& name) const;
     /// Time derivative of a state; of the model's own ones from `on_rates` on.
     [[nodiscard]] expression& rate(std::string const& state);
     /// Output of a channel, in `on_channels`.
@@ -153,8 +156,27 @@ private:
                                             std::vector<double> since = {},
                                             std::vector<double> until = {});
 
+/// A term that an equation lacks, by its formula, as an effect: `v'~0.5*abs(v)*v` is
+/// x' + k 0.5 |v| v in the equation of v, with k in [-1, 1]. The number in front says how large the
+/// term may be, in the unit of the rate.
+///   Factors are joined by * and /: numbers, names of states, inputs and constants and t, with ^2
+///   and so on behind them, and abs(x), sqrt(x), exp(x), sgn(x:s) = x/sqrt(x^2 + s^2),
+///   beyond(x:c) = x - c above c, x + c below -c and else 0. In the brackets stand sums of
+///   products. Two factors bring unknowns of their own: turn(x) = a cos x + b sin x, and wave(x) =
+///   a cos(w x)
+///   + b sin(w x) with w in [0.85, 1.18], a and b in [-1, 1] in place of k. What the formula names
+///   is what the model sees.
+/// @throws std::invalid_argument  for a text that is no such name; when it meets a model, for names
+///         that this lacks
+[[nodiscard]] SIVID_DECL effect missing_term(std::string const& name);
+
+/// Whether a name is one of a missing term.
+[[nodiscard]] inline bool names_missing_term(std::string_view name) {
+    return name.find("'~") != std::string_view::npos;
+}
+
 /// Those of a catalogue that have these names, in the order of the names; `widened` ones, and those
-/// `only_within` some experiments, too.
+/// `only_within` some experiments, too, and terms that no catalogue has (`missing_term`).
 /// @throws std::invalid_argument  for a name that the catalogue lacks, an onset or an end that is
 /// no number, and an end that comes before its onset
 [[nodiscard]] SIVID_DECL std::vector<effect> effects_named(std::vector<effect> const& catalogue,
@@ -179,6 +201,7 @@ template <dynamic_model M, std::same_as<effect>... Effects>
 
 #ifndef SIVID_COMPILED
 #include <sivid/model/impl/effect.ipp>
+#include <sivid/model/impl/missing_term.ipp>
 #endif
 
 #endif

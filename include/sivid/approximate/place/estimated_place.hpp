@@ -35,6 +35,8 @@ struct estimated_place {
     std::string law;    ///< "" when none stands out
     std::string regime; ///< "" when everywhere
     std::vector<estimated_rate> rates;
+    /// What an equation may lack, best first, as names of `missing_term`s.
+    std::vector<std::string> terms{};
     std::vector<std::string> sensors{}; ///< of a definition: channels, its own state's first
 };
 

@@ -7,6 +7,7 @@
 #include <sivid/diagnosis/candidate/beyond_prior.hpp>
 #include <sivid/diagnosis/candidate/candidate.hpp>
 #include <sivid/diagnosis/candidate/detail/candidate_fit.hpp>
+#include <sivid/diagnosis/candidate/detail/effect_sets.hpp>
 #include <sivid/diagnosis/candidate/detail/episode_search.hpp>
 #include <sivid/diagnosis/candidate/detail/screened.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
@@ -17,6 +18,7 @@
 #include <cstddef>
 #include <functional>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -28,8 +30,6 @@ namespace sivid {
 /// is proved.
 class screening {
 public:
-    using effect_sets = std::vector<std::vector<std::size_t>>;
-
     screening(identification_problem base, std::vector<effect> catalogue,
               screening_options options = {})
         : base_(std::move(base)), catalogue_(std::move(catalogue)), options_(std::move(options)) {
@@ -126,6 +126,27 @@ public:
         join_one_more(3);
         polish();
         return explained(3);
+    }
+
+    /// Tries terms that no catalogue has, alone and, where none explains, each of the closest with
+    /// every other one.
+    /// @returns  whether one or two of them explain the data
+    [[nodiscard]] bool try_terms(std::vector<effect> terms) {
+        effect_set numbers;
+        for (auto& e : terms) numbers.push_back(index_of_effect(catalogue_, std::move(e)));
+        effect_sets singles;
+        for (auto const k : numbers) singles.push_back({k});
+        try_all(singles);
+        polish();
+        if (explained(1)) return true;
+        std::erase_if(singles, [this](auto const& one) { return find(one) == nullptr; });
+        std::stable_sort(singles.begin(), singles.end(), [this](auto const& a, auto const& b) {
+            return find(a)->figures.inflation < find(b)->figures.inflation;
+        });
+        singles.resize(std::min(most_joined, singles.size()));
+        try_all(sivid::joined(singles, numbers));
+        polish();
+        return explained(2);
     }
 
     /// Tries single effects of the plan as such that begin in each experiment at a time of its own
@@ -229,16 +250,9 @@ private:
     }
     /// Each of the sets with every other effect of the plan.
     [[nodiscard]] effect_sets joined(effect_sets const& sets) const {
-        effect_sets result;
-        for (auto const& set : sets) {
-            for (std::size_t e = 0; e < planned_; ++e) {
-                if (std::find(set.begin(), set.end(), e) != set.end()) continue;
-                auto more = united(set, e);
-                if (std::find(result.begin(), result.end(), more) == result.end())
-                    result.push_back(std::move(more));
-            }
-        }
-        return result;
+        effect_set planned(planned_);
+        std::iota(planned.begin(), planned.end(), std::size_t{0});
+        return sivid::joined(sets, planned);
     }
     [[nodiscard]] tried_candidates::count count(effect_sets const& planned) const {
         auto const known = [this](auto const& set) { return find(set) != nullptr; };
@@ -280,11 +294,6 @@ private:
         try_all(singles);
         if (!explained(1)) try_all(others);
         polish();
-    }
-    [[nodiscard]] static std::vector<std::size_t> united(std::vector<std::size_t> effects,
-                                                         std::size_t one) {
-        effects.insert(std::upper_bound(effects.begin(), effects.end(), one), one);
-        return effects;
     }
     /// By at most so many effects.
     [[nodiscard]] bool explained(std::size_t effects) const {

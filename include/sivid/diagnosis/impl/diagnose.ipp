@@ -8,6 +8,8 @@
 #include <sivid/compiled.hpp>
 #include <sivid/diagnosis/candidate/detail/candidate_order.hpp>
 #include <sivid/diagnosis/candidate/detail/describe_candidate.hpp>
+#include <sivid/diagnosis/candidate/detail/proposed_terms.hpp>
+#include <sivid/diagnosis/candidate/detail/scenario_names.hpp>
 #include <sivid/diagnosis/candidate/screening.hpp>
 #include <sivid/diagnosis/claim/detail/candidate_verdicts.hpp>
 #include <sivid/diagnosis/claim/detail/claim_review.hpp>
@@ -155,7 +157,7 @@ private:
         }
         bool const alone = going && unanswered(d.answer);
         for (auto const further : {&diagnostician::try_confined, &diagnostician::try_episodes,
-                                   &diagnostician::try_threes}) {
+                                   &diagnostician::try_threes, &diagnostician::try_terms}) {
             if (!going || !unanswered(d.answer) || !(this->*further)(tried)) continue;
             order = try_candidates(tried, 0.2 * options_.verdict_share);
             going = candidate_verdicts(run_, order, effort_, options_).verify();
@@ -183,7 +185,7 @@ private:
         confinement_options options;
         options.channels = false;
         options.go_on = options_.screening.go_on;
-        for (auto const k : closest_singles(most)) {
+        for (auto const k : closest_singles(run_.candidates, run_.catalogue, most)) {
             auto const& s = run_.candidates[k];
             for (auto const& part : find_unexplained_parts(s.problem, s.fit, options)) {
                 std::vector<std::string> others;
@@ -208,35 +210,25 @@ private:
         tried.try_episodes(!one_sensor_explains(run_.places));
         return tried.candidates().size() > before;
     }
-    /// Three effects, where neither bounds that are too small nor one instrument may be the cause.
+    /// Whether all of the plan was tried in vain, and neither bounds that are too small nor one
+    /// instrument may be the cause.
+    [[nodiscard]] bool lacks_more() const {
+        auto const& d = run_.result;
+        return d.tried.complete() && d.confined.empty() && !one_sensor_explains(run_.places);
+    }
     [[nodiscard]] bool try_threes(screening& tried) {
-        auto& d = run_.result;
-        if (!d.tried.complete() || !d.confined.empty() || one_sensor_explains(run_.places))
-            return false;
+        if (!lacks_more()) return false;
         kept_ = 0.2 * options_.verdict_share * options_.seconds;
         bool const explains = tried.try_threes();
-        d.tried = tried.counts();
+        run_.result.tried = tried.counts();
         return explains;
     }
-    [[nodiscard]] static bool can_stand_in_a_name(std::vector<std::string> const& scenarios) {
-        constexpr std::size_t most = 8;
-        return scenarios.size() <= most &&
-               std::all_of(scenarios.begin(), scenarios.end(), [](std::string const& s) {
-                   return s.find_first_of("@+,<>") == std::string::npos;
-               });
-    }
-    [[nodiscard]] std::vector<std::size_t> closest_singles(std::size_t most) const {
-        std::vector<std::size_t> result;
-        for (std::size_t k = 0; k < run_.candidates.size(); ++k) {
-            auto const& effects = run_.candidates[k].figures.effects;
-            bool const everywhere =
-                effects.size() == 1 && run_.catalogue[effects.front()].only_in.empty();
-            if (everywhere) result.push_back(k);
-        }
-        std::ranges::stable_sort(
-            result, {}, [this](std::size_t k) { return run_.candidates[k].fit.inflation; });
-        result.resize(std::min(most, result.size()));
-        return result;
+    /// What no effect of the catalogue is, in a fifth of the time at most.
+    [[nodiscard]] bool try_terms(screening& tried) {
+        if (!lacks_more()) return false;
+        kept_ = std::max(0.2 * options_.verdict_share * options_.seconds,
+                         effort_.left() - effort_.seconds_of({0, options_.terms_share}));
+        return tried.try_terms(proposed_terms(run_.places));
     }
 
     /// Which measurements alone stand against the model.

@@ -157,8 +157,9 @@ SIVID_DECL std::vector<effect> effects_named(std::vector<effect> const& catalogu
                             [&](effect const& e) { return e.name == name; });
         bool const wider = !known && name.ends_with(detail::wider);
         if (wider) name.resize(name.size() - detail::wider.size());
-        auto const& found = catalogue[index_of(catalogue, name, "effect")];
-        result.push_back(wider ? widened(found) : found);
+        auto const in_catalogue = [&] { return catalogue[index_of(catalogue, name, "effect")]; };
+        auto found = !known && names_missing_term(name) ? missing_term(name) : in_catalogue();
+        result.push_back(wider ? widened(std::move(found)) : std::move(found));
         if (!within.empty()) result.back() = only_within(result.back(), within, since, until);
     }
     return result;
@@ -178,6 +179,19 @@ SIVID_DECL expression& effect_scope::constant(std::string const& name) {
 
 SIVID_DECL expression& effect_scope::input(std::string const& name) {
     return inputs_[index_of(model_->about.inputs, name, "input")];
+}
+
+SIVID_DECL expression const& effect_scope::named(std::string const& name) const {
+    if (name == "t") return time_;
+    auto const find = [&name](auto const& list, std::vector<expression> const& values) {
+        for (std::size_t i = 0; i < list.size(); ++i)
+            if (list[i].name == name) return &values[i];
+        return static_cast<expression const*>(nullptr);
+    };
+    auto const& about = model_->about;
+    if (auto const* x = find(about.states, states_)) return *x;
+    if (auto const* u = find(about.inputs, inputs_)) return *u;
+    return constants_[index_of(about.constants, name, "state, input or constant")];
 }
 
 SIVID_DECL expression& effect_scope::rate(std::string const& state) {

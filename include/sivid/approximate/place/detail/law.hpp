@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +24,16 @@ struct law {
     std::string regime; ///< where it acts, e.g. "abs(delta) > 0.21"; empty when everywhere
     /// [function][experiment][knot]
     std::vector<std::vector<std::vector<double>>> functions;
+    std::string formula{}; ///< as `missing_term` reads it; empty when it does not
+
+    /// The largest size of a function along the motions.
+    [[nodiscard]] double reach() const {
+        double most = 0;
+        for (auto const& f : functions)
+            for (auto const& own : f)
+                for (double const v : own) most = std::max(most, std::abs(v));
+        return most;
+    }
 };
 
 /// The roles that the states of a model play in laws.
@@ -102,6 +113,28 @@ public:
         hinges({"", [](knot_trace const&, std::size_t) { return 1.0; }}, i, laws);
         return laws;
     }
+    /// Swings of a missing rate, at frequencies close enough for `missing_term` to find its own.
+    [[nodiscard]] std::vector<law> waves() const {
+        std::vector<law> laws;
+        double longest = 0;
+        for (auto const& t : *traces_)
+            if (!t.times.empty()) longest = std::max(longest, t.times.back() - t.times.front());
+        if (!(longest > 0)) return laws;
+        for (double w = 3 / longest; w < 60 / longest; w *= 1.2) {
+            auto const arg = nearest_text(w, 2) + "*t";
+            double const own = std::stod(nearest_text(w, 2));
+            laws.push_back({"cos(" + arg + "), sin(" + arg + ")",
+                            {},
+                            {values([own](auto const& t, std::size_t k) {
+                                 return std::cos(own * t.times[k]);
+                             }),
+                             values([own](auto const& t, std::size_t k) {
+                                 return std::sin(own * t.times[k]);
+                             })},
+                            "wave(" + arg + ")"});
+        }
+        return laws;
+    }
     /// What begins where a state that never changes its sign, such as a level, passes a threshold:
     /// at once, or in proportion to how far it is beyond.
     [[nodiscard]] std::vector<law> beyond_levels() const {
@@ -154,9 +187,9 @@ private:
         }
         return result;
     }
-    void add(std::vector<law>& laws, std::string text, function const& f,
-             std::string regime = {}) const {
-        laws.push_back({std::move(text), std::move(regime), {values(f)}});
+    void add(std::vector<law>& laws, std::string text, function const& f, std::string regime = {},
+             std::string formula = {}) const {
+        laws.push_back({std::move(text), std::move(regime), {values(f)}, std::move(formula)});
     }
     static std::string product(std::string const& a, std::string const& b) {
         return a.empty() ? b : b == "1" ? a : a + "*" + b;
@@ -170,10 +203,14 @@ private:
         return most;
     }
     void with_gain(factor const& gain, std::vector<law>& laws, bool alone) const {
-        auto const put = [&](std::string const& text, function const& f) {
+        auto const put = [&](std::string const& text, function const& f,
+                             std::optional<std::string> const& formula = {}) {
             auto const g = gain.value;
-            add(laws, product(gain.name, text),
-                [g, f](knot_trace const& t, std::size_t k) { return g(t, k) * f(t, k); });
+            auto const own = formula.value_or(text);
+            add(
+                laws, product(gain.name, text),
+                [g, f](knot_trace const& t, std::size_t k) { return g(t, k) * f(t, k); }, {},
+                own.empty() ? own : product(gain.name, own));
         };
         put("1", [](knot_trace const&, std::size_t) { return 1.0; });
         put("t", [](knot_trace const& t, std::size_t k) { return t.times[k]; });
@@ -185,9 +222,12 @@ private:
             double const small = 0.02 * reach(x) + 1e-300;
             put("abs(" + name + ")*" + name,
                 [=](knot_trace const& t, std::size_t k) { return std::abs(x(t, k)) * x(t, k); });
-            put("sgn(" + name + ")", [=](knot_trace const& t, std::size_t k) {
-                return x(t, k) / std::hypot(x(t, k), small);
-            });
+            put(
+                "sgn(" + name + ")",
+                [=](knot_trace const& t, std::size_t k) {
+                    return x(t, k) / std::hypot(x(t, k), small);
+                },
+                "sgn(" + name + ":" + nearest_text(small, 2) + ")");
             put(name + "^3",
                 [=](knot_trace const& t, std::size_t k) { return std::pow(x(t, k), 3); });
             for (auto const j : roles_.moving) {
@@ -204,12 +244,14 @@ private:
             }
             auto const u = [j](knot_trace const& t, std::size_t k) { return t.inputs[k][j]; };
             if (!alone) put(name, u);
-            put("d(" + name + ")/dt",
-                [j](knot_trace const& t, std::size_t k) { return t.input_slopes[k][j]; });
+            put(
+                "d(" + name + ")/dt",
+                [j](knot_trace const& t, std::size_t k) { return t.input_slopes[k][j]; }, "");
             put(name + "^3",
                 [=](knot_trace const& t, std::size_t k) { return std::pow(u(t, k), 3); });
-            put("sgn(" + name + ")",
-                [=](knot_trace const& t, std::size_t k) { return sign(u(t, k)); });
+            put(
+                "sgn(" + name + ")",
+                [=](knot_trace const& t, std::size_t k) { return sign(u(t, k)); }, "");
             hinges(gain, j, laws);
         }
         if (alone) transients("", gain.value, laws);
@@ -237,7 +279,8 @@ private:
                 [=](knot_trace const& t, std::size_t k) {
                     return g(t, k) * sign(u(t, k)) * std::max(std::abs(u(t, k)) - threshold, 0.0);
                 },
-                "abs(" + name + ") > " + text);
+                "abs(" + name + ") > " + text,
+                product(gain.name, "beyond(" + name + ":" + text + ")"));
         }
     }
     /// cos, sin of angles, alone and times a speed; products with the speed.
@@ -255,9 +298,14 @@ private:
             for (auto const i : same) sum += t.states[k][i] * t.states[k][i];
             return std::sqrt(sum);
         };
+        std::string norm;
+        for (auto const i : same) norm += (norm.empty() ? "" : "+") + about_->states[i].name + "^2";
+        norm = "sqrt(" + norm + ")";
         for (auto const i : same) {
-            add(laws, "speed*" + about_->states[i].name,
-                [=](knot_trace const& t, std::size_t k) { return speed(t, k) * t.states[k][i]; });
+            add(
+                laws, "speed*" + about_->states[i].name,
+                [=](knot_trace const& t, std::size_t k) { return speed(t, k) * t.states[k][i]; },
+                {}, norm + "*" + about_->states[i].name);
             add(laws, about_->states[i].name + "/speed", [=](knot_trace const& t, std::size_t k) {
                 return t.states[k][i] / (speed(t, k) + 0.02);
             });
@@ -278,7 +326,8 @@ private:
                 std::string const head = fast ? "speed*" : "";
                 laws.push_back({head + "cos(" + name + "), " + head + "sin(" + name + ")",
                                 {},
-                                {values(c), values(s)}});
+                                {values(c), values(s)},
+                                (fast ? norm + "*" : "") + "turn(" + name + ")"});
             }
         }
     }

@@ -62,9 +62,11 @@ public:
     [[nodiscard]] std::vector<knot_trace> const& traces() const { return traces_; }
 
     /// Laws for number `c` of the targets of the set; best first.
-    [[nodiscard]] std::vector<ranked_law> for_target(std::size_t c, std::vector<law> const& laws) {
+    /// @param beside  a law that acts besides each of them; none: alone
+    [[nodiscard]] std::vector<ranked_law> for_target(std::size_t c, std::vector<law> const& laws,
+                                                     law const* beside = nullptr) {
         prepare([c](std::size_t i) { return i == c; });
-        return rank(laws, [&](std::size_t e, std::vector<double> const& f) {
+        return rank(laws, beside, [&](std::size_t e, std::vector<double> const& f) {
             return column(e, c, [&](std::size_t k) { return f[k]; });
         });
     }
@@ -182,7 +184,7 @@ private:
         return without - pull.dot(left.ldlt().solve(pull));
     }
     template <class Column>
-    [[nodiscard]] std::vector<ranked_law> rank(std::vector<law> const& laws,
+    [[nodiscard]] std::vector<ranked_law> rank(std::vector<law> const& laws, law const* beside,
                                                Column const& column_of) {
         std::vector<ranked_law> result;
         if (factor_.info() != Eigen::Success) return result;
@@ -193,10 +195,15 @@ private:
         }
         for (std::size_t k = 0; k < laws.size(); ++k) {
             std::vector<std::vector<Eigen::VectorXd>> columns;
-            for (auto const& f : laws[k].functions) {
-                auto& v = columns.emplace_back();
-                for (std::size_t e = 0; e < residuals_.size(); ++e) v.push_back(column_of(e, f[e]));
-            }
+            auto const add = [&](law const& one) {
+                for (auto const& f : one.functions) {
+                    auto& v = columns.emplace_back();
+                    for (std::size_t e = 0; e < residuals_.size(); ++e)
+                        v.push_back(column_of(e, f[e]));
+                }
+            };
+            add(laws[k]);
+            if (beside != nullptr) add(*beside);
             ranked_law own;
             own.index = k;
             own.squares = squares_with(columns);

@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <utility>
@@ -259,6 +260,7 @@ private:
             bool const input = targets[c] >= states;
             auto list = input ? library.for_input(targets[c] - states) : library.for_rates();
             auto ranked = laws.for_target(c, list);
+            if (!input) propose_terms(result, targets[c], library, laws, c);
             auto const stands_out = [&ranked] {
                 return !ranked.empty() && ranked.front().share >= plain_share;
             };
@@ -278,9 +280,47 @@ private:
         }
     }
 
+    /// Terms whose shape gains a good part of what the free missing rate does, alone or beside one
+    /// of the best.
+    void propose_terms(place_estimate& result, std::size_t equation, law_library const& library,
+                       law_search& laws, std::size_t target) const {
+        auto list = library.for_rates();
+        auto more = library.waves();
+        std::move(more.begin(), more.end(), std::back_inserter(list));
+        std::erase_if(list, [](law const& l) { return l.formula.empty() || !(l.reach() > 0); });
+        auto const& state = problem_->model.about.states[equation].name;
+        for (auto& p : result.places) {
+            if (p.kind != place_kind::equation || p.members.front() != equation) continue;
+            double most = 0;
+            for (auto const& r : p.rates)
+                for (double const v : r.values) most = std::max(most, std::abs(v));
+            if (!(most > 0)) continue;
+            auto const add = [&](std::vector<ranked_law> const& ranked, std::size_t up_to) {
+                for (auto const& found : ranked) {
+                    if (p.terms.size() >= up_to || found.share < least_share) return;
+                    auto const& own = list[found.index];
+                    auto const size = nearest_text(4 * most / own.reach(), 1);
+                    auto term = state + "'~" + size + (own.formula == "1" ? "" : "*" + own.formula);
+                    bool const plain = size.find('e') == std::string::npos;
+                    bool const known =
+                        std::find(p.terms.begin(), p.terms.end(), term) != p.terms.end();
+                    if (plain && !known) p.terms.push_back(std::move(term));
+                }
+            };
+            auto const alone = laws.for_target(target, list);
+            add(alone, most_alone);
+            for (std::size_t k = 0; k < std::min(most_beside, alone.size()); ++k) {
+                add(laws.for_target(target, list, &list[alone[k].index]),
+                    p.terms.size() + most_partners);
+            }
+        }
+    }
+
     identification_problem const* problem_;
     place_options options_;
     approximate_fit const* base_;
+    static constexpr std::size_t most_alone = 8, most_beside = 2, most_partners = 4;
+    static constexpr double least_share = 0.3; ///< of the gain: what a term must reach to be tried
 };
 
 } // namespace approximate_detail

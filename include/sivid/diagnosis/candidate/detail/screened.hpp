@@ -5,8 +5,10 @@
 #include <sivid/approximate/approximate_fit.hpp>
 #include <sivid/diagnosis/candidate/candidate.hpp>
 #include <sivid/executor.hpp>
+#include <sivid/model/effect.hpp>
 #include <sivid/model/problem.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -69,6 +71,23 @@ struct screening_options {
                                                        std::function<bool()> const& go_on)>
         fit_elsewhere{};
 };
+
+/// Which candidates are single effects that act everywhere, the closest first.
+[[nodiscard]] inline std::vector<std::size_t>
+closest_singles(std::vector<screened> const& candidates, std::vector<effect> const& catalogue,
+                std::size_t most) {
+    std::vector<std::size_t> result;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        auto const& effects = candidates[k].figures.effects;
+        bool const everywhere = effects.size() == 1 && catalogue[effects.front()].only_in.empty();
+        if (everywhere) result.push_back(k);
+    }
+    std::stable_sort(result.begin(), result.end(), [&](std::size_t a, std::size_t b) {
+        return candidates[a].fit.inflation < candidates[b].fit.inflation;
+    });
+    result.resize(std::min(most, result.size()));
+    return result;
+}
 
 } // namespace sivid
 

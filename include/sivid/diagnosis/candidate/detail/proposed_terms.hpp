@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_CANDIDATE_DETAIL_PROPOSED_TERMS_HPP
+#define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_PROPOSED_TERMS_HPP
+
+#include <sivid/approximate/place/estimated_place.hpp>
+#include <sivid/model/effect.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace sivid {
+
+/// Terms that the most important of the equations that seem wrong may lack.
+[[nodiscard]] inline std::vector<effect> proposed_terms(place_estimate const& estimate) {
+    constexpr std::size_t most_equations = 2;
+    std::vector<effect> terms;
+    std::size_t equations = 0;
+    for (auto const& p : estimate.places) {
+        if (p.kind != place_kind::equation || ++equations > most_equations) continue;
+        for (auto const& name : p.terms) terms.push_back(missing_term(name));
+    }
+    return terms;
+}
+
+} // namespace sivid
+
+#endif
