@@ -9,7 +9,6 @@
 #include <cmath>
 #include <exception>
 #include <fstream>
-#include <map>
 
 namespace withheld {
 
@@ -35,14 +34,12 @@ bool may_be_unexplained(label const& l) { return !l.attainable() || l.effects.si
 
 /// Terms that no catalogue has, all in equations that the truth touches.
 bool right_terms(label const& l, names const& said) {
-    static std::map<std::string, std::string> const equation{
-        {"u", "surge"}, {"v", "sway"}, {"r", "yaw"}};
     auto const broken = places_of(l.names());
     return !said.empty() && std::all_of(said.begin(), said.end(), [&](std::string const& n) {
-        auto const mark = n.find("'~");
-        auto const found = equation.find(n.substr(0, std::min(mark, n.size())));
-        return mark != n.npos && found != equation.end() &&
-               holds(broken, "equation", found->second);
+        auto const own = places_of(n).equations;
+        return n.find("'~") != n.npos && !own.empty() &&
+               std::includes(broken.equations.begin(), broken.equations.end(), own.begin(),
+                             own.end());
     });
 }
 

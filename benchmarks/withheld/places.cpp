@@ -44,6 +44,13 @@ places places_of(std::string const& effect) {
         {"swell", {{"sway"}, {}, {}}},
         {"servo", rudder}};
     auto const name = plain_name(effect);
+    // A term that an equation lacks, by its state.
+    if (auto const mark = name.find("'~"); mark != name.npos) {
+        static std::map<std::string, std::string> const equation{
+            {"u", "surge"}, {"v", "sway"}, {"r", "yaw"}};
+        auto const of = equation.find(name.substr(0, mark));
+        return of == equation.end() ? places{} : places{{of->second}, {}, {}};
+    }
     if (auto const group = instrument_of(name); !group.empty()) {
         places at;
         for (std::size_t const k : channels_of(group))

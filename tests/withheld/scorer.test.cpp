@@ -113,6 +113,10 @@ TEST_CASE("which answers count") {
     unexplained["answer"]["kind"] = "unexplained";
     CHECK(judge(labelled("outside", {"gust"}), unexplained).right);
     CHECK_FALSE(judge(lag, unexplained).right);
+    // A term of an equation that the truth touches is as good; one of another is a wrong name.
+    CHECK(judge(labelled("outside", {"gust"}), answering({"v'~2*wave(3*t)"})).right);
+    CHECK_FALSE(judge(labelled("outside", {"gust"}), answering({"r'~2*wave(3*t)"})).right);
+    CHECK_FALSE(judge(lag, answering({"v'~2*u"})).right); // the catalogue has a name for it
     CHECK_FALSE(judge(labelled("outside", {"gust"}), answering({"wind"})).right);
     CHECK(judge(labelled("outside", {"servo"}), answering({"rudder_lag"})).right);
     CHECK_FALSE(judge(labelled("outside", {"tether"}), answering({"rudder_lag"})).right);
