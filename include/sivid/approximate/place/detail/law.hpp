@@ -25,6 +25,7 @@ struct law {
     /// [function][experiment][knot]
     std::vector<std::vector<std::vector<double>>> functions;
     std::string formula{}; ///< as `missing_term` reads it; empty when it does not
+    double frequency = 0;  ///< of a swing [rad/s]
 
     /// The largest size of a function along the motions.
     [[nodiscard]] double reach() const {
@@ -131,7 +132,8 @@ public:
                              values([own](auto const& t, std::size_t k) {
                                  return std::sin(own * t.times[k]);
                              })},
-                            "wave(" + arg + ")"});
+                            "wave(" + arg + ")",
+                            own});
         }
         return laws;
     }

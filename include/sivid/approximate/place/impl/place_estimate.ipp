@@ -295,6 +295,14 @@ private:
             for (auto const& r : p.rates)
                 for (double const v : r.values) most = std::max(most, std::abs(v));
             if (!(most > 0)) continue;
+            // A swing finds its own frequency: those nearby would be the same.
+            std::vector<double> swings;
+            auto const swings_already = [&swings](double w) {
+                constexpr double apart = 1.18 / 0.85;
+                return std::any_of(swings.begin(), swings.end(), [w](double known) {
+                    return w < apart * known && known < apart * w;
+                });
+            };
             auto const add = [&](std::vector<ranked_law> const& ranked, std::size_t up_to) {
                 for (auto const& found : ranked) {
                     if (p.terms.size() >= up_to || found.share < least_share) return;
@@ -304,7 +312,9 @@ private:
                     bool const plain = size.find('e') == std::string::npos;
                     bool const known =
                         std::find(p.terms.begin(), p.terms.end(), term) != p.terms.end();
-                    if (plain && !known) p.terms.push_back(std::move(term));
+                    if (!plain || known || swings_already(own.frequency)) continue;
+                    if (own.frequency > 0) swings.push_back(own.frequency);
+                    p.terms.push_back(std::move(term));
                 }
             };
             auto const alone = laws.for_target(target, list);
