@@ -89,7 +89,7 @@ TEST_CASE("what is no term says where and why") {
     says("x'~1.2.3*x", "is no number");
     says("x'~2*turn(x)*turn(w)", "stand once");
     says("x'~2*abs(turn(x))", "stand once");
-    says("x'~2*speed", "speed");
+    says("x'~2*speed", "the model has no 'speed'; known: t, x, w, u, c");
     says("z'~2*x", "z");
     says("x'~2*" + std::string(20, '(') + "x", "too many brackets");
     std::string deep = "x";

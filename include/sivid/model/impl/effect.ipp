@@ -191,7 +191,15 @@ SIVID_DECL expression const& effect_scope::named(std::string const& name) const 
     auto const& about = model_->about;
     if (auto const* x = find(about.states, states_)) return *x;
     if (auto const* u = find(about.inputs, inputs_)) return *u;
-    return constants_[index_of(about.constants, name, "state, input or constant")];
+    if (auto const* c = find(about.constants, constants_)) return *c;
+    std::string known = "t";
+    auto const tell = [&known](auto const& list) {
+        for (auto const& x : list) known += ", " + std::string(x.name);
+    };
+    tell(about.states);
+    tell(about.inputs);
+    tell(about.constants);
+    throw std::invalid_argument("effect: the model has no '" + name + "'; known: " + known);
 }
 
 SIVID_DECL expression& effect_scope::rate(std::string const& state) {
