@@ -424,6 +424,10 @@ TEST_CASE("identify joins effects of the catalogue to the model, and check joins
     CHECK_THAT(with("wind,wind").err, ContainsSubstring("twice"));
     CHECK_THAT(with("input_delay").err, ContainsSubstring("delays"));
     CHECK(with("input_delay").code == 2);
+    // A term of an equation needs no catalogue.
+    CHECK_THAT(with("v'~2*speed").err, ContainsSubstring("no 'speed'; known: t, u, v, r, "));
+    CHECK_THAT(with("v'~2*(u").err, ContainsSubstring("character 8: ')' is needed here"));
+    CHECK(with("v'~2*(u").code == 2);
 }
 
 TEST_CASE("Algorithm 2 by its threshold, as the report prints it") {
