@@ -518,6 +518,8 @@ TEST_CASE("a constant at the end of its prior is named, of the model and of the 
     auto problem = small_campaign::problem(small_campaign::with_slope(0.3));
     problem.prior[0] = interval(1.2, 1.5); // the truth is 1
     auto const d = diagnose(std::move(problem), small_campaign::catalogue(), {}).result;
+    // Beside the term that says so: it lacks some of the input.
+    CHECK(std::any_of(d.effects.begin(), d.effects.end(), names_missing_term));
     REQUIRE_FALSE(d.at_ends.empty());
     auto const& a = d.at_ends.front();
     CHECK(a.constant.name == "k");

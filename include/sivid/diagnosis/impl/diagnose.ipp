@@ -296,7 +296,9 @@ private:
             d.constants[j].hull = run_.answer_hull[j];
         }
         add_constants_at_ends(names_of(s.figures, run_.catalogue), d.constants, d.at_ends);
-        if (d.constants_verified) return;
+        // A term may stand for a constant that may not go where it should.
+        bool const terms = std::any_of(d.effects.begin(), d.effects.end(), names_missing_term);
+        if (d.constants_verified && !terms) return;
         auto const& base = run_.candidates.front();
         add_constants_at_ends({}, named_parameters(base.problem, base.fit.parameters), d.at_ends);
     }
