@@ -68,6 +68,7 @@ function(sivid_leave_unoptimised target)
     if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
         # Of an inline function that both have, linkers take what comes first: the library's, which is optimised.
         target_link_options(${target} PRIVATE -Wl,--whole-archive $<TARGET_FILE:sivid_compiled> -Wl,--no-whole-archive)
+        add_dependencies(${target} sivid_compiled) # an option is none
     endif()
 endfunction()
 
