@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What no catalogue has: laws of a missing rate.
+#include <sivid/diagnosis/candidate/detail/proposed_terms.hpp>
 #include <sivid/diagnosis/claim/detail/diagnosis_consistency.hpp>
 #include <sivid/diagnosis/diagnose.hpp>
 
@@ -8,6 +9,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -83,6 +85,17 @@ TEST_CASE("two laws together are found") {
     INFO(joined(d.effects));
     explained(d);
     CHECK(d.effects.size() == 2);
+}
+
+TEST_CASE("a term that cannot be read is no candidate") {
+    place_estimate estimate;
+    estimated_place v;
+    v.kind = place_kind::equation;
+    v.terms = {"v'~2*speed of sound", "v'~4e+02*v", "v'~2*v dot"}; // names of a model may be any
+    estimate.places = {v};
+    auto const terms = proposed_terms(estimate);
+    REQUIRE(terms.size() == 1);
+    CHECK(terms[0].name == "v'~4e+02*v");
 }
 
 TEST_CASE("no law is named where nothing is missing, or nothing that has one") {

@@ -34,6 +34,8 @@ TEST_CASE("a term is read from its name") {
     };
     is("x'~4", 4);
     is("x'~0.25*abs(x)*x", -0.0625);
+    is("x'~4e+02*x", -200);
+    is("x'~5e-1*beyond(u:1e+00)", 0.25);
     is("x'~2*x^3*w", -0.5);
     is("x'~2*u*w/c", 3);
     is("x'~1*sgn(x:0.5)", -std::sqrt(0.5));
@@ -87,6 +89,9 @@ TEST_CASE("what is no term says where and why") {
     says("x'~2*lift(x)", "is no function");
     says("x'~2*x^1", "a power from 2 to 9");
     says("x'~1.2.3*x", "is no number");
+    says("x'~2exp(x)", "'*' or '/' is needed");
+    says("x'~2e", "'*' or '/' is needed");
+    says("x'~2e+", "'*' or '/' is needed");
     says("x'~2*turn(x)*turn(w)", "stand once");
     says("x'~2*abs(turn(x))", "stand once");
     says("x'~2*speed", "the model has no 'speed'; known: t, x, w, u, c");

@@ -159,13 +159,12 @@ private:
 /// A term that an equation lacks, by its formula, as an effect: `v'~0.5*abs(v)*v` is
 /// x' + k 0.5 |v| v in the equation of v, with k in [-1, 1]. The number in front says how large the
 /// term may be, in the unit of the rate.
-///   Factors are joined by * and /: numbers, names of states, inputs and constants and t, with ^2
-///   and so on behind them, and abs(x), sqrt(x), exp(x), sgn(x:s) = x/sqrt(x^2 + s^2),
-///   beyond(x:c) = x - c above c, x + c below -c and else 0. In the brackets stand sums of
-///   products. Two factors bring unknowns of their own: turn(x) = a cos x + b sin x, and wave(x) =
-///   a cos(w x)
-///   + b sin(w x) with w in [0.85, 1.18], a and b in [-1, 1] in place of k. What the formula names
-///   is what the model sees.
+///   Factors are joined by * and /: numbers; names of states, inputs and constants, and t; powers
+///   such as x^2; abs(x), sqrt(x), exp(x), sgn(x:s) = x/sqrt(x^2 + s^2), and beyond(x:c), which is
+///   x - c above c, x + c below -c and else 0. In brackets stand sums of products.
+///   Two factors bring unknowns of their own in place of k, a and b in [-1, 1]:
+///   turn(x) = a cos(x) + b sin(x), and wave(x) = a cos(w x) + b sin(w x) with w in [0.85, 1.18].
+///   What the formula names is what the model sees.
 /// @throws std::invalid_argument  for a text that is no such name; when it meets a model, for names
 ///         that this lacks
 [[nodiscard]] SIVID_DECL effect missing_term(std::string const& name);

@@ -12,6 +12,9 @@ TEST_CASE("numbers in names are short and rounded to nearest") {
     CHECK(nearest_text(0.25, 6) == "0.25");
     CHECK(nearest_text(0.2149999, 2) == "0.21");
     CHECK(nearest_text(-3, 6) == "-3");
+    CHECK(sivid::rounded_to(0.2149999, 2) == 0.21);
+    CHECK(sivid::rounded_to(-4321, 1) == -4000);
+    CHECK(sivid::rounded_to(3.2e-7, 1) == 3e-7);
     CHECK(nearest_text(1.0 / 3, 3) == "0.333");
     CHECK(nearest_text(1e-5, 3) == "1e-05");
     CHECK(nearest_text(0, 3) == "0");

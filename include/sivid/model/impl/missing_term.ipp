@@ -91,17 +91,26 @@ private:
         int const n = (*name_)[at_++] - '0';
         return n == 2 ? sqr(result) : pown(result, n);
     }
+    [[nodiscard]] bool is_digit(std::size_t k) const {
+        return k < name_->size() && std::isdigit(static_cast<unsigned char>((*name_)[k])) != 0;
+    }
     [[nodiscard]] expression number() {
         auto const begin = at_;
-        while (std::isdigit(static_cast<unsigned char>(next())) != 0 || next() == '.') ++at_;
+        while (is_digit(at_) || next() == '.') ++at_;
+        if (next() == 'e') { // 4e+02; else it is the begin of a word
+            bool const sign =
+                at_ + 1 < name_->size() && ((*name_)[at_ + 1] == '+' || (*name_)[at_ + 1] == '-');
+            auto const first = at_ + (sign ? 2 : 1);
+            if (is_digit(first)) at_ = first;
+            while (is_digit(at_)) ++at_;
+        }
         auto const text = std::string_view(*name_).substr(begin, at_ - begin);
         auto const value = parse_decimal(text);
         if (!value) fail("'" + std::string(text) + "' is no number");
         return expression(*value);
     }
     [[nodiscard]] expression factor(bool outside) {
-        auto const c = static_cast<unsigned char>(next());
-        if (std::isdigit(c) != 0) return number();
+        if (is_digit(at_)) return number();
         auto const begin = at_;
         while (std::isalnum(static_cast<unsigned char>(next())) != 0 || next() == '_') ++at_;
         auto const word = name_->substr(begin, at_ - begin);

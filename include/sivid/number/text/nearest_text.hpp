@@ -25,6 +25,14 @@ namespace sivid {
     return {text.data(), end.ptr};
 }
 
+/// x rounded to so many significant digits.
+[[nodiscard]] inline double rounded_to(double x, int digits) {
+    auto const text = nearest_text(x, digits);
+    double result = x;
+    std::from_chars(text.data(), text.data() + text.size(), result);
+    return result;
+}
+
 } // namespace sivid
 
 #endif

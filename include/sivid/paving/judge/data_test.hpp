@@ -95,14 +95,19 @@ public:
     /// @given  nobody else works with this object meanwhile
     [[nodiscard]] double reached(box const& parameters) {
         auto found = learn({parameters});
+        double const share = reached(found[0]);
+        first_.emplace(parameters, std::move(found));
+        return share;
+    }
+    /// The same of what was found about a box.
+    [[nodiscard]] static double reached(assessment<knowledge> const& found) {
         std::size_t seen = 0, all = 0;
-        if (found[0].knowledge) {
-            for (auto const& r : found[0].knowledge->all_starts) {
+        if (found.knowledge) {
+            for (auto const& r : found.knowledge->all_starts) {
                 seen += r->outputs();
                 all += r->measurements;
             }
         }
-        first_.emplace(parameters, std::move(found));
         return all == 0 ? 1 : static_cast<double>(seen) / static_cast<double>(all);
     }
 

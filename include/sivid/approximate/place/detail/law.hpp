@@ -122,8 +122,8 @@ public:
             if (!t.times.empty()) longest = std::max(longest, t.times.back() - t.times.front());
         if (!(longest > 0)) return laws;
         for (double w = 3 / longest; w < 60 / longest; w *= 1.2) {
-            auto const arg = nearest_text(w, 2) + "*t";
-            double const own = std::stod(nearest_text(w, 2));
+            double const own = rounded_to(w, 2);
+            auto const arg = nearest_text(own) + "*t";
             laws.push_back({"cos(" + arg + "), sin(" + arg + ")",
                             {},
                             {values([own](auto const& t, std::size_t k) {
@@ -221,7 +221,7 @@ private:
             auto const x = [i](knot_trace const& t, std::size_t k) { return t.states[k][i]; };
             put(name, x);
             if (!alone) continue;
-            double const small = 0.02 * reach(x) + 1e-300;
+            double const small = rounded_to(0.02 * reach(x) + 1e-300, 2);
             put("abs(" + name + ")*" + name,
                 [=](knot_trace const& t, std::size_t k) { return std::abs(x(t, k)) * x(t, k); });
             put(
@@ -229,7 +229,7 @@ private:
                 [=](knot_trace const& t, std::size_t k) {
                     return x(t, k) / std::hypot(x(t, k), small);
                 },
-                "sgn(" + name + ":" + nearest_text(small, 2) + ")");
+                "sgn(" + name + ":" + nearest_text(small) + ")");
             put(name + "^3",
                 [=](knot_trace const& t, std::size_t k) { return std::pow(x(t, k), 3); });
             for (auto const j : roles_.moving) {
@@ -273,8 +273,8 @@ private:
         double const most = reach(u);
         if (!(most > 0)) return;
         for (int share = 1; share < 10; ++share) {
-            double const threshold = most * share / 10;
-            auto const text = nearest_text(threshold, 2);
+            double const threshold = rounded_to(most * share / 10, 2);
+            auto const text = nearest_text(threshold);
             auto const g = gain.value;
             add(
                 laws, product(gain.name, "sgn(" + name + ")*max(abs(" + name + ")-" + text + ",0)"),

@@ -307,12 +307,12 @@ private:
                 for (auto const& found : ranked) {
                     if (p.terms.size() >= up_to || found.share < least_share) return;
                     auto const& own = list[found.index];
-                    auto const size = nearest_text(4 * most / own.reach(), 1);
-                    auto term = state + "'~" + size + (own.formula == "1" ? "" : "*" + own.formula);
-                    bool const plain = size.find('e') == std::string::npos;
+                    double const size = rounded_to(4 * most / own.reach(), 1);
+                    auto term = state + "'~" + nearest_text(size) +
+                                (own.formula == "1" ? "" : "*" + own.formula);
                     bool const known =
                         std::find(p.terms.begin(), p.terms.end(), term) != p.terms.end();
-                    if (!plain || known || swings_already(own.frequency)) continue;
+                    if (known || swings_already(own.frequency)) continue;
                     if (own.frequency > 0) swings.push_back(own.frequency);
                     p.terms.push_back(std::move(term));
                 }

@@ -56,9 +56,11 @@ public:
         search.boxes = static_cast<std::size_t>(share * static_cast<double>(options_->boxes));
         search.keep_going = limit_;
         auto prior = posed.prior;
-        relation_contraction_options equations{.keep_going = limit_};
+        relation_contraction_options equations{.keep_going =
+                                                   work_limit(search.seconds / 4, limit_)};
         if (limit_() && test.reached(prior) < 1) prior = contract_by_relations(posed, equations);
         if (is_empty(prior)) return std::nullopt;
+        equations.keep_going = work_limit(search.seconds, limit_);
         // Parts of what rests are excluded soon or not at all.
         equations.rounds = 1;
         equations.cells_per_gap = 2;

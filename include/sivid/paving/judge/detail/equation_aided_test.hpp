@@ -48,7 +48,8 @@ public:
         bool early = false;
         for (std::size_t k = 0; k < boxes.size(); ++k) {
             auto& found = results[k];
-            if (!asks_ || found.verdict != box_verdict::undecided || !(reached(found) < below_))
+            if (!asks_ || found.verdict != box_verdict::undecided ||
+                !(data_test::reached(found) < below_))
                 continue;
             early = true;
             auto more = equations_(found.rest);
@@ -71,16 +72,6 @@ public:
     [[nodiscard]] bool cancelled() const { return runs_->cancelled(); }
 
 private:
-    [[nodiscard]] static double reached(assessment<knowledge> const& found) {
-        std::size_t seen = 0, all = 0;
-        if (!found.knowledge) return 0;
-        for (auto const& r : found.knowledge->all_starts) {
-            seen += r->outputs();
-            all += r->measurements;
-        }
-        return all == 0 ? 1 : static_cast<double>(seen) / static_cast<double>(all);
-    }
-
     data_test* runs_;
     relation_test equations_;
     bool asks_;
