@@ -141,6 +141,7 @@ private:
             member(answer, "kind") == "effects" && names_in(member(answer, "effects")) == c.effects;
         if (answered) {
             hulls(member(answer, "constants"), values);
+            products(member(answer, "combinations"), values);
             verified_constants(answer, values);
         }
         auto const holdout = member(c.about, "holdout");
@@ -176,6 +177,17 @@ private:
             auto const value = value_in(member(values, name));
             if (hull && value && !hull->contains(*value, digits * (1 + std::abs(*value))))
                 add("hull", name + " in " + text_of(*hull) + ", witness " + short_text(*value));
+        }
+    }
+
+    void products(json const& all, json const& values) {
+        for (auto const& p : all) {
+            auto const hull = hull_in(p);
+            auto const value = product_in(
+                p, [&values](std::string const& name) { return value_in(member(values, name)); });
+            if (hull && value && !hull->contains(*value, digits * (1 + std::abs(*value))))
+                add("hull", text_of(member(p, "formula")) + " in " + text_of(*hull) + ", witness " +
+                                short_text(*value));
         }
     }
 

@@ -217,6 +217,27 @@ void judge_hulls(std::vector<known_fit> const& known, json const& hulls, names c
     }
 }
 
+/// The same of products of powers.
+void judge_products(std::vector<known_fit> const& known, json const& products, names const& effects,
+                    judgement& j) {
+    for (auto const& p : products) {
+        auto const hull = hull_in(p);
+        if (!hull) continue;
+        for (auto const& f : known) {
+            if (f.effects != effects || !(f.inflation <= 1 - 1e-6)) continue;
+            auto const value = product_in(p, [&f](std::string const& name) {
+                auto const at = f.values.find(name);
+                return at == f.values.end() ? std::nullopt : std::optional{at->second};
+            });
+            if (!value) continue;
+            ++j.hulls_checked;
+            j.proof(hull->contains(*value, 1e-7 * (1 + std::abs(*value))), "hull",
+                    text_of(member(p, "formula")) + " in " + text_of(*hull) + ", explains at " +
+                        short_text(*value));
+        }
+    }
+}
+
 void judge_causes(label const& l, known_fits const& known, json const& d, judgement& j) {
     bool const attainable = l.attainable();
     for (auto const& c : member(d, "causes")) {
@@ -237,8 +258,10 @@ void judge_causes(label const& l, known_fits const& known, json const& d, judgem
             judge_times(l, fits, c, "ends", &episode::to, j);
             auto const answer = member(d, "answer");
             if (member(answer, "kind") == "effects" &&
-                names_in(member(answer, "effects")) == effects)
+                names_in(member(answer, "effects")) == effects) {
                 judge_hulls(fits, member(answer, "constants"), effects, j);
+                judge_products(fits, member(answer, "combinations"), effects, j);
+            }
         }
         if (verdict == "excluded")
             j.proof(!explains && !(least && *least <= 1 - 1e-6), "excluded", joined(effects));

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <optional>
@@ -74,6 +75,20 @@ inline std::optional<double> value_in(json const& j) {
     if (j.is_number()) return j.get<double>();
     if (number(j, 0) && number(j, 1)) return (*number(j, 0) + *number(j, 1)) / 2;
     return std::nullopt;
+}
+
+/// A product of powers, {"factors": {"k": 1, "Iz": -1}}, at some values; nothing where a factor has
+/// none.
+/// @param value_of  of a name: std::optional<double>
+template <class Values>
+std::optional<double> product_in(json const& combination, Values const& value_of) {
+    double product = 1;
+    for (auto const& [name, exponent] : member(combination, "factors").items()) {
+        std::optional<double> const value = value_of(name);
+        if (!value) return std::nullopt;
+        product *= std::pow(*value, exponent.template get<int>());
+    }
+    return product;
 }
 
 inline std::string short_text(double x) {

@@ -29,12 +29,19 @@ std::optional<std::vector<double>> explaining(label const& truth, fit_problem co
     return problem.inflation(x) <= 1 || problem.tighten(x) <= 1 ? std::optional{x} : std::nullopt;
 }
 
+std::optional<double> known_as(std::vector<std::pair<std::string, double>> const& values,
+                               std::string const& name) {
+    for (auto const& [known, value] : values)
+        if (known == name) return value;
+    return std::nullopt;
+}
+
 /// Points at the ends of what the data allow explain them: hulls hold these, too, and what is said
 /// of held-out data for every parameter.
 /// @returns  the largest inflation of the held-out data there; 0 where their starts are not known
 double attack(fit_problem const& problem, std::vector<double> const& inside,
-              std::vector<std::vector<double>> const& ends, json const& cause, bool known_starts,
-              judgement& j) {
+              std::vector<std::vector<double>> const& ends, json const& cause, json const& products,
+              bool known_starts, judgement& j) {
     double most = 0;
     auto const over = bounds_in(member(member(cause, "holdout"), "over_fits_after"));
     for (auto const& end : ends) {
@@ -48,6 +55,16 @@ double attack(fit_problem const& problem, std::vector<double> const& inside,
                 ++j.hulls_checked;
                 j.proof(hull->contains(value, 1e-7 * (1 + std::abs(value))), "hull",
                         name + " in " + text_of(*hull) + ", explains at " + short_text(value));
+            }
+            for (auto const& p : products) {
+                auto const hull = hull_in(p);
+                auto const value = product_in(
+                    p, [&](std::string const& name) { return known_as(problem.values(x), name); });
+                if (!hull || !value) continue;
+                ++j.hulls_checked;
+                j.proof(hull->contains(*value, 1e-7 * (1 + std::abs(*value))), "hull",
+                        text_of(member(p, "formula")) + " in " + text_of(*hull) + ", explains at " +
+                            short_text(*value));
             }
             if (!known_starts) break;
             double const there = problem.inflation(x, true);
@@ -63,7 +80,8 @@ double attack(fit_problem const& problem, std::vector<double> const& inside,
     return most;
 }
 
-void measure_hulls(label const& truth, recording const& data, json const& cause, judgement& j) {
+void measure_hulls(label const& truth, recording const& data, json const& cause,
+                   json const& products, judgement& j) {
     std::vector<effect const*> effects;
     for (auto const& [name, values] : truth.effects) effects.push_back(effect_named(name));
     fit_problem const problem(data, effects);
@@ -88,7 +106,8 @@ void measure_hulls(label const& truth, recording const& data, json const& cause,
         if (x) {
             auto const r = reach(problem, *x, i);
             w.allowed = r.upper - r.lower;
-            held_out = std::max(held_out, attack(problem, *x, r.ends, cause, known_starts, j));
+            held_out =
+                std::max(held_out, attack(problem, *x, r.ends, cause, products, known_starts, j));
         }
         // Both ends cut to the prior, as the data allow no more there.
         if (auto const hull = hull_in(member(parameters, v.name))) {
@@ -100,7 +119,8 @@ void measure_hulls(label const& truth, recording const& data, json const& cause,
     }
     if (x && known_starts) {
         auto const worst = worst_held_out(problem, *x);
-        j.holdout_attained = std::max(held_out, attack(problem, *x, worst, cause, known_starts, j));
+        j.holdout_attained =
+            std::max(held_out, attack(problem, *x, worst, cause, products, known_starts, j));
     }
 }
 
@@ -125,7 +145,10 @@ void measure_widths(label const& truth, recording const& data, json const& diagn
         if (member(cause, "verdict") != "explains" ||
             names_in(member(cause, "effects")) != truth.names())
             continue;
-        measure_hulls(truth, data, cause, j);
+        auto const answer = member(diagnosis, "answer");
+        bool const answered = names_in(member(answer, "effects")) == truth.names();
+        measure_hulls(truth, data, cause, answered ? member(answer, "combinations") : json::array(),
+                      j);
         measure_holdout(cause, j);
         return;
     }

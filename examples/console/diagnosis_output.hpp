@@ -86,6 +86,15 @@ inline void print_constants(sivid::diagnosis const& d) {
     std::cout << "\n";
 }
 
+/// Products that the data tell better than their factors.
+inline void print_combinations(sivid::diagnosis const& d) {
+    for (auto const& c : d.combinations) {
+        auto const& p = c.product;
+        std::cout << "  told together: " << value_words(p) << ", within "
+                  << sivid::report::outward_text(range_of(*p.hull)) << " (proved)\n";
+    }
+}
+
 /// When the effect of the answer begins and ends in each scenario in which it does so midway.
 inline void print_times(sivid::diagnosis const& d) {
     if (d.answer != sivid::answer_kind::effects || d.causes.empty()) return;
@@ -234,6 +243,7 @@ inline void print_summary(sivid::diagnosis const& d, std::string const& id,
     std::cout << "\n";
     detail::print_times(d);
     detail::print_constants(d);
+    detail::print_combinations(d);
     for (auto const& e : view.at_ends) {
         std::cout << "  " << report::end_words(e) << "\n";
     }

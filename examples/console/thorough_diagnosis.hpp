@@ -21,7 +21,7 @@ inline sivid::diagnosis_options thorough_diagnosis(double seconds) {
     options.gap.bound = {300, 0.12};
     options.gap.further_boxes = 900;
     options.answer = {60, 0.05};
-    options.hulls = {20000, 0.25};
+    options.hulls = {20000, 1};
     options.exclusion = {60, 0.04};
     options.exclusions = {600, 0.37};
     options.part = {20, 0.02};

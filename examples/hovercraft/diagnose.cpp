@@ -55,7 +55,7 @@ int run(diagnose_command const& c) {
     if (!helps) console::prepare_folder(c.out);
 
     sivid::diagnosis_options options;
-    options.seconds = 0.85 * left();
+    options.seconds = 0.8 * left();
     options.test.workers = console::threads_for(c.threads);
     options.menu = recorded_manoeuvres(problem);
     for (auto& m : new_manoeuvres()) options.menu.push_back(std::move(m));
@@ -74,8 +74,8 @@ int run(diagnose_command const& c) {
     write(); // whatever happens to what follows
     if (!kept.empty() && left() > 0 && !console::interrupted()) {
         progress.note("judging by the held-out data");
-        sivid::judge_by_holdout(run, kept, std::min(left(), std::max(6.0, 0.25 * c.budget)),
-                                options.test);
+        auto const boxes = static_cast<std::size_t>(4 * c.budget);
+        sivid::judge_by_holdout(run, kept, left(), options.test, boxes);
         write();
     }
     console::print_summary(run.result, data.id, c.out);

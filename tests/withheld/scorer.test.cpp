@@ -293,6 +293,16 @@ TEST_CASE("hulls and parts against values that explain the data") {
     known.constants_true["Sv"] = 0.22;
     d["answer"]["constants"]["Sv"] = {{"value", 0.205}, {"hull", {0.2, 0.21}}};
     CHECK(false_proofs(known, d) == strings{"hull"});
+    d["answer"]["constants"].erase("Sv");
+    auto& products = d["answer"]["combinations"];
+    products = {{{"formula", "Sv^2/rudder_lag.tau"},
+                 {"factors", {{"Sv", 2}, {"rudder_lag.tau", -1}}},
+                 {"hull", {0.4, 0.5}}}};
+    CHECK(false_proofs(known, d).empty()); // 0.22^2/0.1
+    products[0]["hull"] = {0.49, 0.5};
+    CHECK(false_proofs(known, d) == strings{"hull"});
+    products[0]["factors"]["Sg"] = 1; // nobody knows it
+    CHECK(false_proofs(known, d).empty());
     d = good();
     json const baseline{{"causes",
                          {{{"effects", {"rudder_lag"}},
@@ -379,6 +389,12 @@ TEST_CASE("contradictions within a file") {
     CHECK(contradictions(d).empty());
     d["answer"]["constants"]["Sv"] = {{"value", 0.225}, {"hull", {0.224, 0.23}}};
     CHECK(contradictions(d) == strings{"hull", "witness"});
+    d["answer"]["constants"].erase("Sv");
+    d["answer"]["combinations"] = {
+        {{"formula", "1/Sv"}, {"factors", {{"Sv", -1}}}, {"hull", {4, 4.5}}}};
+    CHECK(contradictions(d) == strings{"hull"});
+    d["answer"]["combinations"][0]["hull"] = {4.5, 4.6};
+    CHECK(contradictions(d).empty());
 
     d = good();
     d["answer"] = {{"kind", "unexplained"}, {"effects", json::array()}};

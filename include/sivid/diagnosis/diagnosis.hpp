@@ -122,6 +122,17 @@ struct named_estimate {
     std::optional<interval> prior{}; ///< what was allowed
 };
 
+/// A product of powers of constants, of which the data tell more than of its factors.
+struct named_combination {
+    struct factor {
+        std::string name;
+        int exponent = 1;
+    };
+    named_estimate product; ///< its name is a formula, for instance "k/Iz"; its prior that of all
+    std::vector<factor> factors;
+    bool of_effects = false; ///< a parameter of an effect is among the factors
+};
+
 /// The end of its prior that a value sits on.
 enum class prior_end { none, lower, upper };
 [[nodiscard]] constexpr std::string_view to_string(prior_end e) {
@@ -265,6 +276,7 @@ struct diagnosis {
     /// Every constant of the model with the answer's effects (of the closest candidate where none
     /// explains the data): the values of the verified witness where there is one, else of the fit.
     std::vector<named_estimate> constants;
+    std::vector<named_combination> combinations{}; ///< of constants; with hulls
     bool constants_verified = false;      ///< they are a witness that explains the data (proved)
     std::vector<constant_at_end> at_ends; ///< of the answer, and of the model as it is
     std::vector<std::vector<std::string>> indistinguishable;

@@ -5,6 +5,7 @@
 #include <sivid/approximate/place/estimated_place.hpp>
 #include <sivid/compiled.hpp>
 #include <sivid/diagnosis/candidate/candidate.hpp>
+#include <sivid/diagnosis/candidate/detail/explained_hull.hpp>
 #include <sivid/diagnosis/candidate/detail/screened.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/diagnosis_effort.hpp>
@@ -30,8 +31,6 @@ struct diagnosis_options {
     double seconds = 60;              ///< for everything; what is not finished then stays undecided
     gap_options gap{};                ///< the certified inflation of the model
     step_effort answer{10, 0.04};     ///< the certified inflation of the answer
-    step_effort hulls{4000, 0.35};    ///< the hulls of the answer's parameters
-    step_effort onsets{4000, 0.35};   ///< the same where it begins later, and when it does
     step_effort exclusion{12, 0.03};  ///< one candidate that seems excluded ...
     step_effort exclusions{36, 0.08}; ///< ... and all of them
     step_effort part{2, 0.01};        ///< the inflation of one scenario or channel ...
@@ -44,6 +43,7 @@ struct diagnosis_options {
     double discharge_share = 0.15;     ///< whether a sensor, not its equation, may be wrong
     double places_share = 0.25; ///< where the model, and then where the closest candidate departs
     double terms_share = 0.2;   ///< what no effect of the catalogue is
+    step_effort hulls{4000, 0.45};   ///< the hulls of the answer's parameters, last
     std::size_t remaining_sets = 30; ///< of places that the closest candidate may have wrong
     screening_options screening{};   ///< but for its time: it gets all that the others leave
     choice_options choice{};
@@ -67,7 +67,8 @@ struct diagnosis_run {
     std::vector<screened> candidates; ///< the model itself first
     std::size_t answer = 0;           ///< index of the candidate that is the answer
     verified_inflation base_bound, answer_bound;
-    box answer_hull; ///< of every parameter of the answer that explains the data; empty: not known
+    /// Of every parameter of the answer that explains the data; no sides: not known.
+    explained_hull answer_hull;
     std::vector<relation_finding> findings; ///< the broken relations
     place_estimate places;
     place_estimate remaining_places; ///< of the closest candidate, when none explains the data

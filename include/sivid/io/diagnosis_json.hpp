@@ -229,6 +229,22 @@ private:
         }
         json_.end_object();
     }
+    /// [{"formula": "k/Iz", "factors": {"e.k": 1, "Iz": -1}, "value": v, "unit": u,
+    ///   "hull": [lower, upper], "prior": [lower, upper]}, ...]
+    void combinations() {
+        json_.key("combinations").begin_array();
+        for (auto const& c : d_->combinations) {
+            json_.begin_object(one_line).key("formula").string(c.product.name);
+            json_.key("factors").begin_object(one_line);
+            for (auto const& f : c.factors) json_.key(f.name).integer(f.exponent);
+            json_.end_object();
+            json_.key("value").nearest(c.product.value).key("unit").string(c.product.unit);
+            maybe("hull", c.product.hull);
+            maybe("prior", c.product.prior);
+            json_.end_object();
+        }
+        json_.end_array();
+    }
     void answer() {
         json_.key("answer").begin_object();
         json_.key("kind").string(to_string(d_->answer));
@@ -239,6 +255,7 @@ private:
         tried("larger", d_->tried.larger);
         json_.end_object();
         constants();
+        combinations();
         json_.key("verified").boolean(d_->constants_verified);
         json_.key("at_ends").begin_array();
         for (auto const& a : d_->at_ends) {

@@ -34,12 +34,6 @@ struct verified_witness {
     std::vector<std::vector<bool>> violated;
 };
 
-/// A combination of parameters with what the data allow it.
-struct combination_hull {
-    combination what;
-    interval hull;
-};
-
 /// A measurement that every feasible parameter violates.
 struct forced_outlier {
     std::size_t experiment = 0;

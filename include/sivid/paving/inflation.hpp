@@ -5,6 +5,7 @@
 #include <sivid/approximate/approximate_fit.hpp>
 #include <sivid/compiled.hpp>
 #include <sivid/model/problem.hpp>
+#include <sivid/model/structure/combination.hpp>
 #include <sivid/number/interval.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/judge/data_test_options.hpp>
@@ -43,6 +44,9 @@ struct inflation_bound {
     std::size_t boxes = 0;
     std::size_t integrations = 0;
     double seconds = 0;
+    /// Products of parameters that those have within these ranges, where they tell more than
+    /// `hull`.
+    std::vector<combination_hull> products{};
 };
 
 /// The problem with those measurements only for which keep(experiment index, measurement) holds;

@@ -44,6 +44,12 @@ struct estimate_view {
     bool verified = false; ///< the value is that of a witness that explains the data; else a fit's
 };
 
+/// A product of constants, under its formula.
+struct combination_estimate {
+    estimate_view product{};
+    bool of_effects = false; ///< a parameter of an effect is a factor
+};
+
 /// A constant at the end of its prior.
 struct end_view {
     std::vector<std::string> effects{}; ///< of the model whose constant it is
@@ -172,8 +178,9 @@ struct diagnosis_view {
     tried_view singles{}, pairs{}, larger{};
     std::vector<std::string> effects{}; ///< the answer
     std::vector<std::vector<std::string>> indistinguishable{};
-    std::vector<candidate_view> candidates{}; ///< best first
-    std::vector<estimate_view> constants{};   ///< of the model of the answer, all of them
+    std::vector<candidate_view> candidates{};         ///< best first
+    std::vector<estimate_view> constants{};           ///< of the model of the answer, all of them
+    std::vector<combination_estimate> combinations{}; ///< of them, told better than its factors
     std::vector<end_view> at_ends{};
     std::vector<std::string> unobservable{};
     std::vector<std::string> absorbed{};  ///< effects that the priors are wide enough to take up

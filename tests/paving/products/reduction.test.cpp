@@ -86,6 +86,22 @@ TEST_CASE("a reduced problem has the trajectories of the original one") {
     }
 }
 
+TEST_CASE("ranges of products go to and fro with the box of the reduced problem") {
+    draws d(373);
+    auto const s = products();
+    auto const map = reduction::find(s.problem, s.structure);
+    REQUIRE(map);
+    auto part = map->forward(s.problem.prior);
+    for (std::size_t k = 0; k < part.size(); ++k) part[k] = between(mid(part[k]), part[k].upper());
+    auto const known = map->products_over(part);
+    REQUIRE_FALSE(known.empty());
+    auto const back = map->forward(map->backward(s.problem.prior, part), known);
+    CHECK(subset(back, part));
+    CHECK(subset(part, back));
+    auto const without = map->forward(map->backward(s.problem.prior, part));
+    CHECK_FALSE(subset(without, part));
+}
+
 TEST_CASE("forward keeps the image of each point, backward each point that maps into the box") {
     draws d(372);
     auto const s = products();

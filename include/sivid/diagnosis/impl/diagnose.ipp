@@ -11,6 +11,7 @@
 #include <sivid/diagnosis/candidate/detail/proposed_terms.hpp>
 #include <sivid/diagnosis/candidate/detail/scenario_names.hpp>
 #include <sivid/diagnosis/candidate/screening.hpp>
+#include <sivid/diagnosis/claim/detail/answer_hulls.hpp>
 #include <sivid/diagnosis/claim/detail/candidate_verdicts.hpp>
 #include <sivid/diagnosis/claim/detail/claim_review.hpp>
 #include <sivid/diagnosis/claim/detail/diagnosis_consistency.hpp>
@@ -66,6 +67,7 @@ public:
             if (!run_.candidates.empty() && !effort_.stopped()) find_causes(tried);
         }
         discharge_sensors();
+        answer_hulls(run_, effort_, options_)(); // last: they take what time there is
         settle_claims(run_);
         state_constants();
         d.interrupted = effort_.stopped() || !d.tried.complete();
@@ -206,7 +208,7 @@ private:
         for (auto const& e : run_.base.experiments) names.push_back(e.name);
         if (!run_.result.tried.complete() || !can_stand_in_a_name(names)) return false;
         auto const before = tried.candidates().size();
-        kept_ = (0.1 * options_.onsets.share + 0.2 * options_.verdict_share) * options_.seconds;
+        kept_ = 0.4 * options_.verdict_share * options_.seconds; // when they begin, too
         tried.try_episodes(!one_sensor_explains(run_.places));
         return tried.candidates().size() > before;
     }
@@ -259,6 +261,7 @@ private:
         run_.answer_bound = {};
         run_.answer_hull = {};
         d.shrink_fit.reset();
+        d.combinations.clear();
         d.effects.clear();
         if (order.explained()) {
             d.effects = names_of(figures[order.answer()], run_.catalogue);
@@ -292,9 +295,12 @@ private:
         d.constants = named_parameters(s.problem, bound.witness ? bound.witness->parameters
                                                                 : s.fit.parameters);
         d.constants_verified = bound.witness && bound.range.upper() <= 1;
-        for (std::size_t j = 0; j < std::min(d.constants.size(), run_.answer_hull.size()); ++j) {
-            d.constants[j].hull = run_.answer_hull[j];
+        auto const& hulls = run_.answer_hull;
+        for (std::size_t j = 0; j < std::min(d.constants.size(), hulls.parameters.size()); ++j) {
+            d.constants[j].hull = hulls.parameters[j];
         }
+        if (hulls.parameters.size() == d.constants.size())
+            d.combinations = told_combinations(s.problem, d.constants, hulls);
         add_constants_at_ends(names_of(s.figures, run_.catalogue), d.constants, d.at_ends);
         // A term may stand for a constant that may not go where it should.
         bool const terms = std::any_of(d.effects.begin(), d.effects.end(), names_missing_term);

@@ -26,18 +26,26 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
         run.candidates[run.answer].problem.model.about.inputs.size() == inputs.size();
     bool const one_by_one = test.workers.threads <= 1;
     auto const judge = [&](screened const& candidate, verified_inflation const& bound,
-                           box const& explaining, double share) {
+                           explained_hull const& explaining, double share) {
         auto const judged = data.judged_by(candidate, run.base, run.catalogue);
         std::optional<fitted_set> over;
-        if (explaining.size() == judged.prior.size()) {
+        if (explaining.parameters.size() == judged.prior.size()) {
             auto const effects = holdout::effects_of(candidate, run.catalogue);
             auto const fit = sliced_input_of(run.base, effects);
-            auto own = data.judged_over(candidate, run.base, run.catalogue, explaining);
-            if (fit && own) over = {fit->over(explaining), std::move(*own)};
+            auto own = data.judged_over(candidate, run.base, run.catalogue, explaining.parameters);
+            if (fit && own) {
+                auto posed = fit->over(explaining.parameters);
+                auto told = products_in(posed, judged, *fit, explaining.products);
+                over = {std::move(posed), std::move(*own), std::move(told)};
+            }
         }
         inflation_options search;
-        search.seconds = (candidate.figures.effects.empty() ? 0.3 : 0.7) * seconds;
-        search.work = boxes / 2 * (run.base.experiments.size() + judged.experiments.size() + 1);
+        // What the answer leaves open is worth more than what the model without it does.
+        bool const before = answered && candidate.figures.effects.empty();
+        search.seconds = (before ? 0.15 : 0.8) * seconds;
+        search.work = (before ? boxes / 8 : boxes / 2) *
+                      (run.base.experiments.size() + judged.experiments.size() + 1);
+        search.relative_width = before ? 0.05 : 0.01;
         search.test = limited(test, [&test, begin, end = share * seconds] {
             auto const now = std::chrono::steady_clock::now();
             return std::chrono::duration<double>(now - begin).count() < end &&
@@ -47,7 +55,7 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
     };
     test.workers(answered ? 2 : 1, [&](std::size_t k) {
         if (k == 0) {
-            double const share = answered && one_by_one ? 0.3 : 1;
+            double const share = answered && one_by_one ? 0.2 : 1;
             run.holdout_before = judge(run.candidates.front(), run.base_bound, {}, share);
         } else {
             run.holdout_after =

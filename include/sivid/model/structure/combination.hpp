@@ -35,6 +35,24 @@ struct combination {
     }
 };
 
+/// A combination of parameters with what the data allow it.
+struct combination_hull {
+    combination what;
+    interval hull;
+};
+
+/// The range of a combination over a box of parameters, of which products are known besides.
+[[nodiscard]] inline interval range_of(combination const& c, box const& p,
+                                       std::vector<combination_hull> const& known) {
+    auto range = c.over(p);
+    for (auto const& k : known) {
+        if (k.what.exponents == c.exponents) {
+            range = interval_traits<interval>::intersect(range, k.hull);
+        }
+    }
+    return range;
+}
+
 /// Through which products of parameters a model's outputs depend on them.
 struct dependence_structure {
     /// All products that the equations contain.

@@ -92,12 +92,21 @@ public:
     }
 
     /// A box of the reduced problem that contains the image of a box of the original one.
-    [[nodiscard]] box forward(box const& p) const {
+    /// @param known  ranges of products in it, as of `products_over`
+    [[nodiscard]] box forward(box const& p, std::vector<combination_hull> const& known = {}) const {
         box r(sides_.size());
         for (std::size_t k = 0; k < r.size(); ++k) {
-            r[k] = sides_[k].product ? sides_[k].product->over(p) : p[sides_[k].parameter];
+            r[k] =
+                sides_[k].product ? range_of(*sides_[k].product, p, known) : p[sides_[k].parameter];
         }
         return intersect(r, problem_.prior);
+    }
+    /// The ranges of products that a box of the reduced problem stands for.
+    [[nodiscard]] std::vector<combination_hull> products_over(box const& r) const {
+        std::vector<combination_hull> result;
+        for (std::size_t k = 0; k < sides_.size(); ++k)
+            if (sides_[k].product) result.push_back({*sides_[k].product, r[k]});
+        return result;
     }
 
     /// Removes from p what maps outside r: \f$ p_j \leftarrow p_j \cap [c] / \prod_{l \ne j}

@@ -159,6 +159,8 @@ SIVID_DECL std::string answer_clause(diagnosis_view const& v) {
     std::vector<std::string> numbers;
     if (c != nullptr) {
         for (estimate_view const& e : c->parameters) numbers.push_back(estimate_words(e));
+        for (combination_estimate const& k : v.combinations)
+            if (k.of_effects) numbers.push_back(estimate_words(k.product));
     }
     return words_of(v, v.effects) + (numbers.empty() ? " " : ", " + enumeration(numbers) + ", ") +
            answer_verdict(v);

@@ -30,3 +30,22 @@ TEST_CASE("a candidate is described with names and units") {
     CHECK(w.starts[1].states[1].name == "v");
     CHECK(w.starts[1].states[1].value == 2);
 }
+
+TEST_CASE("products that are told better than their factors are named by short names") {
+    auto const catalogue = small_campaign::catalogue();
+    auto const p = affected(small_campaign::problem(), {catalogue[0]});
+    explained_hull hulls{box{interval(0.5, 2.0), interval(0.25, 1.0)}};
+    combination const ratio{{-1, 2}, "quadratic.k^2/k", "1/m^2"};
+    hulls.add({ratio, interval(0.2, 0.3)});
+    hulls.add({{{1, 1}, "k*quadratic.k", "1/m"}, interval(0.125, 1.9)}); // as good as its factors
+    auto const told = told_combinations(p, named_parameters(p, {1.0, 0.5}), hulls);
+    REQUIRE(told.size() == 1);
+    CHECK(told[0].product.name == "k^2/k");
+    CHECK(told[0].product.unit == "1/m^2");
+    CHECK(told[0].product.value == 0.25);
+    CHECK(told[0].product.hull == interval(0.2, 0.3));
+    REQUIRE(told[0].factors.size() == 2);
+    CHECK(told[0].factors[1].name == "quadratic.k");
+    CHECK(told[0].factors[1].exponent == 2);
+    CHECK(told[0].of_effects);
+}

@@ -43,7 +43,8 @@ identification_problem with_lag(double tau) {
 TEST_CASE("the hull of a delay contains it, and excludes that there is none") {
     for (double const tau : {0.13, 0.31}) {
         auto const hulls = effect_hulls(small_campaign::problem(small_campaign::with_delay(tau)),
-                                        late, {.seconds = 60});
+                                        late, {.seconds = 60})
+                               .parameters;
         REQUIRE(hulls.size() == 2);
         CHECK(contains(hulls[0], 1.0));
         CHECK(contains(hulls[1], tau));
@@ -57,7 +58,8 @@ TEST_CASE("the hull of a play contains it, and excludes that there is none") {
     std::vector<effect> const gap{effects::input_backlash("gap", "u", "N", {0_dec, 0.5_dec})};
     for (double const b : {0.1, 0.3}) {
         auto const hulls = effect_hulls(small_campaign::problem(small_campaign::with_play(b)), gap,
-                                        {.seconds = 60});
+                                        {.seconds = 60})
+                               .parameters;
         CAPTURE(b, hulls[0], hulls[1]);
         REQUIRE(hulls.size() == 2);
         CHECK(contains(hulls[0], 1.0));
@@ -66,14 +68,14 @@ TEST_CASE("the hull of a play contains it, and excludes that there is none") {
         CHECK(width(hulls[1]) < 0.2 * 0.5);
         CHECK(width(hulls[0]) < 0.3);
     }
-    auto const none = effect_hulls(small_campaign::problem(), gap, {.seconds = 20});
+    auto const none = effect_hulls(small_campaign::problem(), gap, {.seconds = 20}).parameters;
     CHECK(none[1].lower() == 0);
     auto const wrong = small_campaign::problem(small_campaign::with_drag(0.8));
-    CHECK(is_empty(effect_hulls(wrong, gap, {.seconds = 60})[1]));
+    CHECK(is_empty(effect_hulls(wrong, gap, {.seconds = 60}).parameters[1]));
 }
 
 TEST_CASE("the hull of a lag contains it, and excludes that there is none") {
-    auto const hulls = effect_hulls(with_lag(0.4), lag(), {.seconds = 60});
+    auto const hulls = effect_hulls(with_lag(0.4), lag(), {.seconds = 60}).parameters;
     REQUIRE(hulls.size() == 2);
     CHECK(contains(hulls[0], 1.0));
     CHECK(contains(hulls[1], 0.4));
@@ -88,7 +90,7 @@ TEST_CASE("a lag beside an effect that changes a constant alone has a hull, too"
     softer.on_inputs = [](effect_scope& m) { m.constant("d") *= 1 + m.parameter(); };
     auto const problem = with_lag(0.4);
     std::vector<effect> const both{lag()[0], softer};
-    auto const hulls = effect_hulls(problem, both, {.seconds = 60});
+    auto const hulls = effect_hulls(problem, both, {.seconds = 60}).parameters;
     REQUIRE(hulls.size() == 3);
     CHECK(contains(hulls[0], 1.0));
     CHECK(contains(hulls[1], 0.4));
@@ -97,17 +99,47 @@ TEST_CASE("a lag beside an effect that changes a constant alone has a hull, too"
     CHECK(width(hulls[1]) < 0.1);
 }
 
+TEST_CASE("a product is bounded where its factors are not, and slices share it") {
+    effect push;
+    push.name = "push";
+    push.parameters = {{"a", "m/s", 0.25_dec, 2_dec, 1_dec}, {"b", "1/s", 0.125_dec, 1_dec, 1_dec}};
+    push.on_rates = [](effect_scope& m) { m.rate("v") += m.parameter(0) * m.parameter(1); };
+    auto real = small_campaign::with_slope(0.3);
+    for (bool const delayed : {false, true}) {
+        auto effects = std::vector{push};
+        if (delayed) {
+            effects.push_back(late[0]);
+            real.delay = 0.2;
+        }
+        auto const found = effect_hulls(small_campaign::problem(real), effects, {.seconds = 60});
+        CAPTURE(delayed, found.parameters);
+        REQUIRE(found.parameters.size() == effects.size() + 2);
+        CHECK(contains(found.parameters[0], 1.0));
+        CHECK(contains(found.parameters[1], 1.0));
+        CHECK(contains(found.parameters[1], 0.4));
+        CHECK(contains(found.parameters[2], 0.3));
+        REQUIRE(found.products.size() == 1);
+        auto const& p = found.products[0];
+        auto exponents = std::vector<int>(found.parameters.size(), 0);
+        exponents[1] = exponents[2] = 1;
+        CHECK(p.what.exponents == exponents);
+        CAPTURE(p.hull);
+        CHECK(contains(p.hull, 0.3));
+        CHECK(width(p.hull) < 0.1 * width(p.what.over(found.parameters)));
+    }
+}
+
 TEST_CASE("hulls hold no effect where there is none, and nothing where nothing explains") {
     auto const real = small_campaign::problem();
     for (auto const& effects : {late, lag()}) {
-        auto const hulls = effect_hulls(real, effects, {.seconds = 20});
+        auto const hulls = effect_hulls(real, effects, {.seconds = 20}).parameters;
         REQUIRE(hulls.size() == 2);
         CHECK(contains(hulls[0], 1.0));
         CHECK(hulls[1].lower() == 0);
         CHECK(hulls[1].upper() < 0.1);
     }
     auto const wrong = small_campaign::problem(small_campaign::with_drag(0.8));
-    auto const none = effect_hulls(wrong, late, {.seconds = 60});
+    auto const none = effect_hulls(wrong, late, {.seconds = 60}).parameters;
     REQUIRE(none.size() == 2);
     CHECK((is_empty(none[0]) && is_empty(none[1])));
 }
@@ -116,7 +148,7 @@ TEST_CASE("hulls end in time, with what is proved until then") {
     auto const problem = small_campaign::problem(small_campaign::with_delay(0.2));
     for (double const seconds : {0.0, 0.05}) {
         for (auto const& effects : {late, lag()}) {
-            auto const hulls = effect_hulls(problem, effects, {.seconds = seconds});
+            auto const hulls = effect_hulls(problem, effects, {.seconds = seconds}).parameters;
             REQUIRE(hulls.size() == 2);
             if (effects[0].name != "late") continue; // a lag does not explain a delay
             CHECK(contains(hulls[0], 1.0));
@@ -124,14 +156,15 @@ TEST_CASE("hulls end in time, with what is proved until then") {
         }
     }
     int asked = 0;
-    auto const hulls = effect_hulls(
-        problem, late, {.seconds = 60, .keep_going = [&asked] { return ++asked < 3; }});
+    auto const hulls =
+        effect_hulls(problem, late, {.seconds = 60, .keep_going = [&asked] { return ++asked < 3; }})
+            .parameters;
     CHECK(contains(hulls[1], 0.2));
     CHECK(width(hulls[1]) == 0.5);
     // Two changes of one input stay as they are.
     auto const both =
         std::vector<effect>{late[0], effects::input_backlash("gap", "u", "N", {0_dec, 0.5_dec})};
-    CHECK(width(effect_hulls(problem, both, {.seconds = 1})[1]) == 0.5);
+    CHECK(width(effect_hulls(problem, both, {.seconds = 1}).parameters[1]) == 0.5);
 }
 
 namespace {
@@ -156,7 +189,7 @@ TEST_CASE("hulls of thresholds of an input contain them, and are narrow") {
         std::vector<double> const sizes{0.21, 0.4, 0.333, 0.07, 0.151};
         for (std::size_t n = 0; n < support::swept(std::size_t{1}, sizes.size()); ++n) {
             auto const problem = with_threshold(stands, sizes[n]);
-            auto const hulls = effect_hulls(problem, one, {.seconds = 20, .boxes = 800});
+            auto const hulls = effect_hulls(problem, one, {.seconds = 20, .boxes = 800}).parameters;
             CAPTURE(stands, sizes[n], hulls[0], hulls[1]);
             CHECK(contains(hulls[0], 1.0));
             CHECK(contains(hulls[1], sizes[n]));
@@ -165,7 +198,7 @@ TEST_CASE("hulls of thresholds of an input contain them, and are narrow") {
             // With another effect beside it.
             std::vector<effect> two = one;
             two.push_back(effects::constant_rate("slope", "v", "m/s^2", {-1_dec, 1_dec}));
-            auto const more = effect_hulls(problem, two, {.seconds = 60});
+            auto const more = effect_hulls(problem, two, {.seconds = 60}).parameters;
             CAPTURE(more[0], more[1], more[2]);
             CHECK(contains(more[0], 1.0));
             CHECK(contains(more[1], sizes[n]));
@@ -173,7 +206,7 @@ TEST_CASE("hulls of thresholds of an input contain them, and are narrow") {
             CHECK(width(more[1]) < 0.35);
         }
         if (!support::long_sweeps) continue;
-        auto const none = effect_hulls(small_campaign::problem(), one, {.seconds = 10});
+        auto const none = effect_hulls(small_campaign::problem(), one, {.seconds = 10}).parameters;
         CHECK(contains(none[1], stands ? 1.9 : 0.0)); // beyond all that was commanded
     }
 }
@@ -184,7 +217,7 @@ TEST_CASE("the hull of a late sensor contains its latency, and is narrow") {
     for (std::size_t n = 0; n < support::swept(std::size_t{1}, latencies.size()); ++n) {
         auto const problem = diagnosis_support::with_late_position(latencies[n]);
         double const tau = 0.001 * latencies[n];
-        auto const hulls = effect_hulls(problem, slow, {.seconds = 60});
+        auto const hulls = effect_hulls(problem, slow, {.seconds = 60}).parameters;
         CAPTURE(tau, hulls[0], hulls[1]);
         CHECK(contains(hulls[0], 1.0));
         CHECK(contains(hulls[1], tau));
@@ -192,14 +225,14 @@ TEST_CASE("the hull of a late sensor contains its latency, and is narrow") {
         if (!support::long_sweeps) continue;
         std::vector<effect> two = slow;
         two.push_back(effects::constant_rate("slope", "v", "m/s^2", {-1_dec, 1_dec}));
-        auto const more = effect_hulls(problem, two, {.seconds = 60});
+        auto const more = effect_hulls(problem, two, {.seconds = 60}).parameters;
         CAPTURE(more[0], more[1], more[2]);
         CHECK(contains(more[1], tau));
         CHECK(contains(more[2], 0.0));
     }
     if (!support::long_sweeps) return;
     auto const wrong = small_campaign::problem(small_campaign::with_drag(0.8));
-    CHECK(is_empty(effect_hulls(wrong, slow, {.seconds = 60})[1]));
+    CHECK(is_empty(effect_hulls(wrong, slow, {.seconds = 60}).parameters[1]));
 }
 
 TEST_CASE("a delay beside an effect of one experiment: each input has its own place") {
@@ -210,7 +243,7 @@ TEST_CASE("a delay beside an effect of one experiment: each input has its own pl
     std::vector<effect> const effects{
         only_within(effects::constant_rate("slope", "v", "m/s^2", {-1_dec, 1_dec}), {"E2"}),
         late[0]};
-    auto const hulls = effect_hulls(problem, effects, {.seconds = 20, .boxes = 800});
+    auto const hulls = effect_hulls(problem, effects, {.seconds = 20, .boxes = 800}).parameters;
     CAPTURE(hulls[0], hulls[1], hulls[2]);
     CHECK(contains(hulls[0], 1.0));
     CHECK(contains(hulls[1], 0.4));
@@ -229,7 +262,7 @@ TEST_CASE("a late sensor of an experiment that does not begin at 0") {
         for (auto& m : x.measurements) m.time += 2.7;
     }
     std::vector<effect> const slow{effects::sensor_latency("slow", {"p"}, {0_dec, 0.5_dec})};
-    auto const hulls = effect_hulls(problem, slow, {.seconds = 20, .boxes = 800});
+    auto const hulls = effect_hulls(problem, slow, {.seconds = 20, .boxes = 800}).parameters;
     CAPTURE(hulls[0], hulls[1]);
     CHECK(contains(hulls[0], 1.0));
     CHECK(contains(hulls[1], 0.15));
@@ -242,7 +275,8 @@ TEST_CASE("hulls of two memories at once contain both, and are narrow") {
     std::vector<effect> const two{effects::sensor_latency("slow", {"p"}, {0_dec, 0.5_dec}),
                                   late[0]};
     auto const hulls = effect_hulls(diagnosis_support::with_late_position(60, real), two,
-                                    {.seconds = 60, .boxes = 400});
+                                    {.seconds = 60, .boxes = 400})
+                           .parameters;
     CAPTURE(hulls[0], hulls[1], hulls[2]);
     CHECK(contains(hulls[0], 1.0));
     CHECK(contains(hulls[1], 0.06));

@@ -116,11 +116,11 @@ TEST_CASE("slices that hold the truth are never excluded, nor is it cut off") {
         CAPTURE(n, true_ones.late, true_ones.slow, true_ones.gap, true_ones.dead, true_ones.tired,
                 all);
         REQUIRE(found);
-        auto const left = explained_by(whole, *sliced, all, over, *found);
+        auto const left = explained_by(whole, *sliced, {all}, over, *found);
         REQUIRE(left);
         for (std::size_t j = 0; j < whole.prior.size(); ++j) {
-            CAPTURE(whole.choice.unknown[j], (*left)[j]);
-            CHECK(contains((*left)[j], true_ones.of(whole.choice.unknown[j])));
+            CAPTURE(whole.choice.unknown[j], left->parameters[j]);
+            CHECK(contains(left->parameters[j], true_ones.of(whole.choice.unknown[j])));
         }
     }
 }

@@ -95,6 +95,60 @@ TEST_CASE("the range over all fits contains, and about equals, what samples show
     }
 }
 
+TEST_CASE("starts about a likely one, or about a wrong one, bound the inflation as well") {
+    auto const prior = between(0.25, 3);
+    auto const fit = support::decay(prior, 0.5, 0.16, half_width);
+    auto fitted = bound_inflation(fit, nullptr, brief());
+    fitted.value = interval_traits<interval>::bounds(0, 1.5 * fitted.value.upper());
+    double const spread = 0.05;
+    auto const holdout = other_start(prior, spread, 0);
+    double most = 0;
+    for (double p = 0.25; p < 3; p += 1e-4) {
+        double const here =
+            std::max(std::abs(std::exp(-p) - 0.5), std::abs(std::exp(-2 * p) - 0.16)) / half_width;
+        if (here <= fitted.value.upper()) most = std::max(most, holdout_at(p, spread, 0));
+    }
+    REQUIRE(most > 0);
+    for (double const likely : {2.0, 2.02, 1.96, 7.0}) {
+        auto const found = holdout_inflation(fit, fitted, holdout, brief(), {{likely}});
+        CAPTURE(likely, found.over_fits, most);
+        CHECK(found.over_fits.upper() >= most * (1 - 1e-3));
+        CHECK(found.over_fits.lower() <= most);
+        CHECK(found.over_fits.upper() <= 1.3 * most);
+    }
+}
+
+TEST_CASE("products that are known narrow what is said of held-out data") {
+    auto const model = support::model_of(
+        {1, 2, 0, 10}, [](auto const&, auto const& x, auto const& p, auto const&) {
+            return std::vector{-(p[0] * p[1]) * x[0]};
+        });
+    auto fit = support::decay(between(0.25, 3), 0.5, 0.16, half_width);
+    fit.model = model;
+    fit.choice.unknown = {"p0", "p1"};
+    fit.choice.fixed.clear();
+    fit.prior = box{between(0.5, 2), between(0.5, 2)};
+    auto holdout = other_start(between(0.25, 3), 0, 0);
+    holdout.model = model;
+    holdout.choice = fit.choice;
+    holdout.prior = fit.prior;
+    inflation_bound known;
+    known.value = interval(0.0, 1e6); // the data of the fit tell nothing
+    known.hull = fit.prior;
+    known.products = {{{{1, 1}, "p0*p1", ""}, between(0.65, 0.75)}};
+    auto const found = holdout_inflation(fit, known, holdout, brief());
+    double least = HUGE_VAL, most = 0;
+    for (double p = 0.65; p <= 0.75; p += 1e-3) {
+        least = std::min(least, holdout_at(p, 0, 0));
+        most = std::max(most, holdout_at(p, 0, 0));
+    }
+    CHECK(found.over_fits.lower() <= least * (1 + 1e-6));
+    CHECK(found.over_fits.upper() >= most * (1 - 1e-6));
+    CHECK(found.over_fits.upper() <= 1.1 * most);
+    known.products.clear();
+    CHECK(holdout_inflation(fit, known, holdout, brief()).over_fits.upper() > 2 * most);
+}
+
 TEST_CASE("planted problems: every fit lies in the hold-out's range") {
     draws d(431);
     std::size_t values = 0;

@@ -2,6 +2,7 @@
 #include "report/diagnosis_example.hpp"
 #include "support/catch.hpp"
 
+#include <sivid/report/diagnosis_words.hpp>
 #include <sivid/report/page/detail/diagnosis_tables.hpp>
 
 #include <string>
@@ -46,6 +47,21 @@ TEST_CASE("diagnosis tables: parameters with hull and prior") {
     CHECK(t.rows[1][4] == "");
     CHECK(t.rows[3][0] == ""); // the second parameter of a pair
     CHECK(t.rows[3][6] == "N\xC2\xA0m\xC2\xA0s\xC2\xB2");
+}
+
+TEST_CASE("diagnosis tables: products that are told better than their factors") {
+    diagnosis_view v = hovercraft_diagnosis().view();
+    v.combinations = {{{"tau/Iz", "s/(kg m^2)", 2.5, {2.4, 2.6}, {0, 20}, true}, true},
+                      {{"D33/Iz", "1/s", 1.5, {1.4, 1.6}, {1, 2}, false}, false}};
+    auto const t = constants_table(v);
+    REQUIRE(t.rows.size() >= 2);
+    auto const& row = t.rows[t.rows.size() - 2];
+    CHECK(row[0] == "tau/Iz");
+    CHECK(row[2] == "2.40 to 2.60");
+    CHECK_THAT(row[5], ContainsSubstring("product"));
+    CHECK_THAT(diagnosis_cards(v)[2].note, ContainsSubstring("tau/Iz = 2.50"));
+    CHECK(diagnosis_cards(v)[2].note.find("D33") == std::string::npos);
+    CHECK_THAT(answer_clause(v), ContainsSubstring("tau/Iz = 2.50"));
 }
 
 TEST_CASE("diagnosis tables: places and shares of the gap") {

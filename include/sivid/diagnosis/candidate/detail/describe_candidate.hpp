@@ -2,10 +2,13 @@
 #ifndef SIVID_DIAGNOSIS_CANDIDATE_DETAIL_DESCRIBE_CANDIDATE_HPP
 #define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_DESCRIBE_CANDIDATE_HPP
 
+#include <sivid/diagnosis/candidate/detail/explained_hull.hpp>
 #include <sivid/diagnosis/candidate/screening.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/model/structure/find_combinations.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -36,6 +39,36 @@ named_parameters(identification_problem const& p, std::vector<double> const& val
     std::vector<named_estimate> result;
     for (std::size_t j = 0; j < std::min(values.size(), p.prior.size()); ++j) {
         result.push_back(named_parameter(p, j, values[j]));
+    }
+    return result;
+}
+
+/// A parameter's name without that of its effect.
+[[nodiscard]] inline std::string short_name(std::string const& name) {
+    auto const dot = name.rfind('.');
+    return dot == std::string::npos ? name : name.substr(dot + 1);
+}
+
+/// The products of a hull that say at least twice as much as its sides do, at these values of the
+/// parameters.
+[[nodiscard]] inline std::vector<named_combination>
+told_combinations(identification_problem const& p, std::vector<named_estimate> const& values,
+                  explained_hull const& hulls) {
+    std::vector<std::string> names;
+    for (auto const& name : p.choice.unknown) names.push_back(short_name(name));
+    std::vector<named_combination> result;
+    for (auto const& [what, hull] : hulls.products) {
+        if (is_empty(hull) || width(hull) > 0.5 * width(what.over(hulls.parameters))) continue;
+        named_combination told;
+        told.product = {model_detail::product_text(names, what.exponents), what.unit, 1, hull,
+                        what.over(p.prior)};
+        for (std::size_t j = 0; j < what.exponents.size(); ++j) {
+            if (what.exponents[j] == 0) continue;
+            told.factors.push_back({p.choice.unknown[j], what.exponents[j]});
+            told.product.value *= std::pow(values[j].value, what.exponents[j]);
+            told.of_effects = told.of_effects || names[j] != p.choice.unknown[j];
+        }
+        result.push_back(std::move(told));
     }
     return result;
 }

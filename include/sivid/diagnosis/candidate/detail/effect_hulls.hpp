@@ -26,9 +26,9 @@ namespace sivid {
 ///             result; empty when none does
 /// @throws std::invalid_argument  as `affected`
 /// @cost  a search for each slice, until its hull rests, within the limits
-[[nodiscard]] SIVID_DECL box effect_hulls(identification_problem const& base,
-                                          std::vector<effect> const& effects,
-                                          effect_hull_options const& options = {});
+[[nodiscard]] SIVID_DECL explained_hull effect_hulls(identification_problem const& base,
+                                                     std::vector<effect> const& effects,
+                                                     effect_hull_options const& options = {});
 
 } // namespace sivid
 

@@ -2,7 +2,9 @@
 #ifndef SIVID_DIAGNOSIS_CANDIDATE_DETAIL_HULL_SEARCH_HPP
 #define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_HULL_SEARCH_HPP
 
+#include <sivid/diagnosis/candidate/detail/explained_hull.hpp>
 #include <sivid/model/problem.hpp>
+#include <sivid/model/structure/combination.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/judge/data_test.hpp>
 #include <sivid/paving/judge/data_test_options.hpp>
@@ -44,11 +46,16 @@ public:
 
     /// Nothing when it explains nothing. Without a fit, which excludes nothing.
     /// @param share  of the boxes, and of the time that is left where that has no share of its own
-    [[nodiscard]] std::optional<box> operator()(identification_problem const& problem, double share,
-                                                std::optional<double> time = std::nullopt) const {
-        if (problem.prior.size() == 0) return problem.prior;
+    /// @param known  products of parameters that are within these ranges already
+    [[nodiscard]] std::optional<explained_hull>
+    operator()(identification_problem const& problem, double share,
+               std::optional<double> time = std::nullopt,
+               std::vector<combination_hull> const& known = {}) const {
+        if (problem.prior.size() == 0) return explained_hull{problem.prior};
         auto const map = reduction::find(problem, dependence_of(problem));
-        auto const& posed = map ? map->problem() : problem;
+        auto posed = map ? map->problem() : problem;
+        if (map) posed.prior = map->forward(problem.prior, known);
+        if (is_empty(posed.prior)) return std::nullopt;
         data_test test(posed, limited(options_->test, limit_));
         inversion_options search{
             .accuracy_of_hull = true, .hull_gain = 0.02, .small_hull = 1e-3, .keep_outside = false};
@@ -68,7 +75,8 @@ public:
         auto const paving = invert(aided, prior, search).paving;
         if (!paving.has_outer()) return std::nullopt;
         auto const left = paving.outer_hull();
-        return map ? map->backward(problem.prior, left) : left;
+        if (!map) return explained_hull{left};
+        return explained_hull{map->backward(problem.prior, left), map->products_over(left)};
     }
 
 private:

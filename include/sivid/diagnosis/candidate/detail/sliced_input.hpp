@@ -3,6 +3,7 @@
 #define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_SLICED_INPUT_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/diagnosis/candidate/detail/explained_hull.hpp>
 #include <sivid/model/effect.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/space/box.hpp>
@@ -42,13 +43,18 @@ struct sliced_input {
 [[nodiscard]] SIVID_DECL std::optional<sliced_input>
 sliced_input_of(identification_problem const& base, std::vector<effect> const& effects);
 
-/// What is left of a box of all parameters once a problem over it leaves `found` of its unknowns;
+/// What is left of all parameters once a problem over their box leaves `found` of its unknowns;
 /// nothing where that is empty.
 /// @param whole  the problem of all parameters, whose names count
-[[nodiscard]] SIVID_DECL std::optional<box> explained_by(identification_problem const& whole,
-                                                         sliced_input const& sliced, box all,
-                                                         identification_problem const& over,
-                                                         box const& found);
+[[nodiscard]] SIVID_DECL std::optional<explained_hull>
+explained_by(identification_problem const& whole, sliced_input const& sliced, explained_hull all,
+             identification_problem const& over, explained_hull const& found);
+
+/// Products of all parameters that are products of the problem's unknowns over a box, too: those
+/// of no parameter that is told from its middle there. By the order of its unknowns.
+[[nodiscard]] SIVID_DECL std::vector<combination_hull>
+products_in(identification_problem const& over, identification_problem const& whole,
+            sliced_input const& sliced, std::vector<combination_hull> const& products);
 
 } // namespace sivid
 

@@ -25,12 +25,13 @@ public:
                     effect_hull_options const& options)
         : base_(&base), effects_(&effects), search_(options) {}
 
-    [[nodiscard]] box operator()() {
+    [[nodiscard]] explained_hull operator()() {
         auto whole = affected(*base_, *effects_);
         if (auto const sliced = sliced_input_of(*base_, *effects_)) {
             return over_slices(whole, *sliced);
         }
-        return whole.model.has_memory() ? whole.prior : over_lags(std::move(whole));
+        if (whole.model.has_memory()) return {whole.prior};
+        return over_lags(std::move(whole));
     }
 
 private:
@@ -40,37 +41,38 @@ private:
     static constexpr double of_octave = 1.0 / 8;
     static constexpr double of_time = 1.0 / 4, of_untouched = 1.0 / 3;
 
-    /// A box of all parameters from one without parameter `j`, and the range of that.
-    [[nodiscard]] static box joined(box const& others, std::size_t j, interval const& range) {
-        std::vector<interval> sides(others.begin(), others.end());
-        sides.insert(sides.begin() + static_cast<std::ptrdiff_t>(j), range);
-        return box(std::move(sides));
-    }
-    static void add(box& hulls, box const& more) {
-        hulls = hulls.size() == 0 ? more : hull(hulls, more);
+    /// A hull of all parameters from one without parameter `j`, and the range of that.
+    [[nodiscard]] static explained_hull joined(explained_hull others, std::size_t j,
+                                               interval const& range) {
+        auto const at = static_cast<std::ptrdiff_t>(j);
+        std::vector<interval> sides(others.parameters.begin(), others.parameters.end());
+        sides.insert(sides.begin() + at, range);
+        others.parameters = box(std::move(sides));
+        for (auto& p : others.products) p.what.exponents.insert(p.what.exponents.begin() + at, 0);
+        return others;
     }
 
     /// What the untouched data leave of the prior, in slices, each cut to what it leaves or halved,
     /// until they are excluded or narrow. What is excluded at all mostly is so by few boxes: all
     /// are tried with few, then with more.
-    [[nodiscard]] box over_slices(identification_problem const& whole,
-                                  sliced_input const& sliced) const {
+    [[nodiscard]] explained_hull over_slices(identification_problem const& whole,
+                                             sliced_input const& sliced) const {
         struct slice {
-            box all; ///< parameters
+            explained_hull all; ///< parameters
             double share;
         };
-        auto prior = whole.prior;
+        explained_hull prior{whole.prior};
         if (sliced.untouched && search_.in_time()) {
             auto const found = search_(*sliced.untouched, 1, of_untouched);
             auto const left = found ? explained_by(whole, sliced, prior, *sliced.untouched, *found)
                                     : std::nullopt;
-            if (!left) return nothing_of(prior);
+            if (!left) return {nothing_of(whole.prior)};
             prior = *left;
         }
         std::vector<slice> waiting{{prior, least_of_slice}};     // in the order of coming
         int const begin_with = sliced.sides.size() == 1 ? 8 : 4; // wider ones are rarely excluded
         for (auto const& side : sliced.sides) {
-            auto const& all = prior[side.index];
+            auto const& all = prior.parameters[side.index];
             std::vector<slice> finer;
             double from = all.lower();
             for (int k = 1; k <= begin_with; ++k) {
@@ -79,7 +81,7 @@ private:
                     k == begin_with ? all.upper() : all.lower() + way * (all.upper() - all.lower());
                 for (auto const& s : waiting) {
                     finer.push_back(s);
-                    finer.back().all[side.index] = interval(from, to);
+                    finer.back().all.parameters[side.index] = interval(from, to);
                 }
                 from = to;
             }
@@ -87,16 +89,17 @@ private:
         }
         // Of several sides there are many slices, and most narrow ones are unknowns besides.
         double const narrow = (sliced.sides.size() == 1 ? 1 : 4) * search_.accuracy();
-        box hulls;
+        explained_hull hulls;
         for (std::size_t next = 0; next < waiting.size(); ++next) {
             auto const now = waiting[next];
-            if (hulls.size() != 0 && subset(now.all, hulls)) continue; // it changes nothing
+            if (hulls.contains(now.all)) continue; // it changes nothing
             if (!search_.in_time()) {
-                add(hulls, now.all);
+                hulls.join(now.all);
                 continue;
             }
-            auto const over = sliced.over(now.all);
-            auto const found = search_(over, now.share, of_time);
+            auto const over = sliced.over(now.all.parameters);
+            auto const found = search_(over, now.share, of_time,
+                                       products_in(over, whole, sliced, now.all.products));
             if (!found) continue;
             auto const left = explained_by(whole, sliced, now.all, over, *found);
             if (!left) continue;
@@ -104,7 +107,7 @@ private:
             bool const closer =
                 std::any_of(sliced.sides.begin(), sliced.sides.end(), [&](auto const& side) {
                     auto const j = side.index;
-                    return width((*left)[j]) < 0.7 * width(now.all[j]);
+                    return width(left->parameters[j]) < 0.7 * width(now.all.parameters[j]);
                 });
             if (closer) {
                 waiting.push_back({*left, now.share});
@@ -114,20 +117,21 @@ private:
                 waiting.push_back({*left, std::min(most_of_slice, 4 * now.share)});
                 continue;
             }
-            auto const j = widest(sliced, *left, whole.prior);
-            double const half = mid((*left)[j]);
-            bool const splits = (*left)[j].lower() < half && half < (*left)[j].upper();
-            if (!(width((*left)[j]) > narrow * width(whole.prior[j])) || !splits) {
-                add(hulls, *left);
+            auto const j = widest(sliced, left->parameters, whole.prior);
+            auto const& widest_side = left->parameters[j];
+            double const half = mid(widest_side);
+            bool const splits = widest_side.lower() < half && half < widest_side.upper();
+            if (!(width(widest_side) > narrow * width(whole.prior[j])) || !splits) {
+                hulls.join(*left);
                 continue;
             }
             for (bool const lower : {true, false}) {
                 waiting.push_back({*left, least_of_slice});
-                auto& side = waiting.back().all[j];
+                auto& side = waiting.back().all.parameters[j];
                 side = lower ? interval(side.lower(), half) : interval(half, side.upper());
             }
         }
-        return hulls.size() == 0 ? nothing_of(whole.prior) : hulls;
+        return or_nothing(std::move(hulls), whole);
     }
     /// The sliced side that is the largest share of its prior.
     [[nodiscard]] static std::size_t widest(sliced_input const& sliced, box const& all,
@@ -142,8 +146,8 @@ private:
 
     /// Where the time constant of a lag may be 0, short ones are excluded as inputs with errors, if
     /// possible: the lag's equation is for the others.
-    [[nodiscard]] box over_lags(identification_problem whole) {
-        box hulls;
+    [[nodiscard]] explained_hull over_lags(identification_problem whole) {
+        explained_hull hulls;
         for (std::size_t k = 0; k < effects_->size(); ++k) {
             auto const& e = (*effects_)[k];
             if (!e.lags || !finds_as_recorded(base_->model, *effects_, k, e.lags->input)) continue;
@@ -156,7 +160,7 @@ private:
                 if (!quick || !search_.in_time()) break;
                 auto const left = search_(*quick, of_quick_slice);
                 if (left && share > 1.0 / 256) continue; // shorter ones may be excluded
-                if (left) add(hulls, joined(*left, j, interval(prior.lower(), longest)));
+                if (left) hulls.join(joined(*left, j, interval(prior.lower(), longest)));
                 whole.prior[j] = interval(longest, prior.upper());
                 break;
             }
@@ -168,11 +172,16 @@ private:
         for (; from > 0 && 2 * from < end && search_.in_time(); from *= 2) {
             auto octave = whole;
             octave.prior[j] = interval(from, 2 * from);
-            if (auto const left = search_(octave, of_octave, of_time)) add(hulls, *left);
+            if (auto const left = search_(octave, of_octave, of_time)) hulls.join(*left);
             whole.prior[j] = interval(2 * from, end);
         }
-        if (auto const left = search_(whole, 1)) add(hulls, *left);
-        return hulls.size() == 0 ? nothing_of(whole.prior) : hulls;
+        if (auto const left = search_(whole, 1)) hulls.join(*left);
+        return or_nothing(std::move(hulls), whole);
+    }
+    [[nodiscard]] static explained_hull or_nothing(explained_hull hulls,
+                                                   identification_problem const& whole) {
+        if (hulls.parameters.size() == 0) return {nothing_of(whole.prior)};
+        return hulls;
     }
     /// The side of the first effect that is a lag.
     [[nodiscard]] std::size_t first_lag(identification_problem const& whole) const {
@@ -203,8 +212,9 @@ private:
 
 } // namespace diagnosis_detail
 
-SIVID_DECL box effect_hulls(identification_problem const& base, std::vector<effect> const& effects,
-                            effect_hull_options const& options) {
+SIVID_DECL explained_hull effect_hulls(identification_problem const& base,
+                                       std::vector<effect> const& effects,
+                                       effect_hull_options const& options) {
     return diagnosis_detail::hulls_by_slices(base, effects, options)();
 }
 

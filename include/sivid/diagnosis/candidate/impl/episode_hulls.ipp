@@ -105,7 +105,7 @@ private:
             auto const all = switched(whole, known);
             if (!moved || !search_.in_time() || all.experiments.empty()) continue;
             auto const left = search_(all, of_onset_hull, of_time);
-            known.parameters = left ? *left : nothing_of(whole.prior);
+            known.parameters = left ? left->parameters : nothing_of(whole.prior);
             if (!left) return false;
         }
         return true;

@@ -280,6 +280,12 @@ private:
     std::vector<bool> late_channels_;
 };
 
+/// Whether a factor is an unknown that stands for its distance from the middle of a slice.
+inline bool has_shifted(combination const& c, sliced_input const& sliced) {
+    return std::any_of(sliced.sides.begin(), sliced.sides.end(),
+                       [&](auto const& s) { return s.is_parameter && c.exponents[s.index] != 0; });
+}
+
 } // namespace diagnosis_detail
 
 SIVID_DECL std::optional<sliced_input> sliced_input_of(identification_problem const& base,
@@ -287,20 +293,40 @@ SIVID_DECL std::optional<sliced_input> sliced_input_of(identification_problem co
     return diagnosis_detail::sliced_input_finder(base, effects)();
 }
 
-SIVID_DECL std::optional<box> explained_by(identification_problem const& whole,
-                                           sliced_input const& sliced, box all,
-                                           identification_problem const& over, box const& found) {
+SIVID_DECL std::optional<explained_hull>
+explained_by(identification_problem const& whole, sliced_input const& sliced, explained_hull all,
+             identification_problem const& over, explained_hull const& found) {
     using traits = interval_traits<interval>;
-    for (std::size_t j = 0; j < all.size(); ++j) {
+    for (std::size_t j = 0; j < all.parameters.size(); ++j) {
         auto const k = index_of_parameter(over, whole.choice.unknown[j]);
-        if (k == found.size()) continue;
-        auto left = found[k];
+        if (k == found.parameters.size()) continue;
+        auto left = found.parameters[k];
+        auto& side = all.parameters[j];
         for (auto const& s : sliced.sides)
-            if (s.index == j && s.is_parameter) left = traits::add(interval(mid(all[j])), left);
-        all[j] = intersect(left, all[j]);
-        if (is_empty(all[j])) return std::nullopt;
+            if (s.index == j && s.is_parameter) left = traits::add(interval(mid(side)), left);
+        side = intersect(left, side);
+        if (is_empty(side)) return std::nullopt;
+    }
+    for (auto const& p : found.products) {
+        auto told = reordered(p, over.choice.unknown, whole.choice.unknown);
+        if (told && !diagnosis_detail::has_shifted(told->what, sliced)) {
+            all.add(std::move(*told));
+        }
     }
     return all;
+}
+
+SIVID_DECL std::vector<combination_hull>
+products_in(identification_problem const& over, identification_problem const& whole,
+            sliced_input const& sliced, std::vector<combination_hull> const& products) {
+    std::vector<combination_hull> result;
+    for (auto const& p : products) {
+        if (diagnosis_detail::has_shifted(p.what, sliced)) continue;
+        if (auto told = reordered(p, whole.choice.unknown, over.choice.unknown)) {
+            result.push_back(std::move(*told));
+        }
+    }
+    return result;
 }
 
 } // namespace sivid

@@ -4,8 +4,6 @@
 
 #include <sivid/diagnosis/candidate/detail/candidate_order.hpp>
 #include <sivid/diagnosis/candidate/detail/describe_candidate.hpp>
-#include <sivid/diagnosis/candidate/detail/effect_hulls.hpp>
-#include <sivid/diagnosis/candidate/detail/episode_hulls.hpp>
 #include <sivid/diagnosis/claim/detail/claim_review.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/diagnosis/gap/detail/gap_proof.hpp>
@@ -80,47 +78,6 @@ private:
             c.witness = named(s.problem, bound.witness->parameters, bound.witness->starts);
         }
         run_->result.shrink_fit = shrink(run_->result.inflation, bound.range);
-        bound_parameters(s, c);
-    }
-
-    /// Hulls of the effect's parameters: every value that explains the data lies in them.
-    void bound_parameters(screened const& s, cause& c) {
-        if (!(c.inflation.upper() <= 1)) return;
-        if (!effort_->go_on("bounding the effect's parameters")) return;
-        effect_hull_options options;
-        std::vector<effect> effects;
-        for (auto const e : s.figures.effects) effects.push_back(run_->catalogue[e]);
-        bool const later =
-            effects.size() == 1 && (effects.front().begins_later() || effects.front().ends());
-        auto const& most = later ? options_->onsets : options_->hulls;
-        options.test = effort_->test();
-        options.seconds = effort_->seconds_of(most);
-        options.boxes = most.boxes;
-        options.keep_going = [this] { return effort_->go_on(); };
-        auto const hulls = later ? bound_times(effects.front(), c, options)
-                                 : effect_hulls(run_->base, effects, options);
-        auto const own = run_->base.prior.size();
-        for (std::size_t k = 0; k < c.parameters.size(); ++k) {
-            c.parameters[k].hull = hulls[own + k];
-        }
-        run_->answer_hull = hulls;
-    }
-
-    /// When the effect begins and ends; and hulls that hold whenever that is.
-    [[nodiscard]] box bound_times(effect const& e, cause& c, effect_hull_options const& options) {
-        auto const found = hulls_of_episodes(run_->base, e, options);
-        for (std::size_t k = 0; k < e.only_in.size(); ++k) {
-            auto const& all = run_->base.experiments;
-            auto const s = index_of(all, e.only_in[k], "experiment");
-            auto const add = [&](auto& to, double at, interval const& range) {
-                to.push_back({all[s].name, "s", at, range, measured_time(all[s])});
-            };
-            if (k < e.since.size() && e.since[k] > effect::from_start)
-                add(c.onsets, e.since[k], found.times[s].on);
-            if (k < e.until.size() && e.until[k] < effect::for_ever)
-                add(c.ends, e.until[k], found.times[s].off);
-        }
-        return found.parameters;
     }
 
     /// Candidates that leave a refuted relation as it is, by those that no candidate contradicts.

@@ -3,6 +3,7 @@
 #define SIVID_DIAGNOSIS_HOLD_OUT_DETAIL_HOLDOUT_JUDGEMENT_HPP
 
 #include <sivid/approximate/fit/fit.hpp>
+#include <sivid/diagnosis/candidate/detail/explained_hull.hpp>
 #include <sivid/diagnosis/candidate/resolve_memory.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/hold_out/detail/holdout_results.hpp>
@@ -51,6 +52,7 @@ inline void measure_tube(identification_problem const& judged,
 /// held-out ones (`sliced_input_of`).
 struct fitted_set {
     identification_problem fit, judged;
+    std::vector<combination_hull> products; ///< of its unknowns
 };
 
 /// Judges a fitted candidate by hold-out experiments. Their own starts, nuisances, are fitted;
@@ -62,9 +64,9 @@ struct fitted_set {
 /// @param search  what the bounds may spend
 /// @guarantee  `at_witness` and `over_fits` enclose what they say
 [[nodiscard]] inline holdout_judgement
-judge_by_holdout(screened const& fitted, verified_inflation const& bound, box const& explaining,
-                 identification_problem const& judged, std::optional<fitted_set> const& over,
-                 inflation_options const& search) {
+judge_by_holdout(screened const& fitted, verified_inflation const& bound,
+                 explained_hull const& explaining, identification_problem const& judged,
+                 std::optional<fitted_set> const& over, inflation_options const& search) {
     holdout_judgement result;
     auto const& p = bound.witness ? bound.witness->parameters : fitted.fit.parameters;
     if (p.size() != judged.prior.size()) return result;
@@ -72,13 +74,8 @@ judge_by_holdout(screened const& fitted, verified_inflation const& bound, box co
     for (std::size_t j = 0; j < p.size(); ++j) there.prior[j] = interval(p[j]);
     start_added_states(there);
     result.run = fitter(there, search.test.run.enclosure.keep_going)({p});
-    bool const known_starts =
-        std::all_of(there.experiments.begin(), there.experiments.end(), [](experiment const& e) {
-            return std::all_of(e.initial.begin(), e.initial.end(),
-                               [](interval const& x) { return width(x) < 1e-9; });
-        });
     result.at_witness = verify_at(there, result.run, search.test).range;
-    if (!known_starts) { // another start may do better
+    if (has_uncertain_starts(there)) { // another start may do better
         result.at_witness = interval_traits<interval>::bounds(0, result.at_witness.upper());
     }
     bool const delayed = judged.model.has_memory();
@@ -87,14 +84,19 @@ judge_by_holdout(screened const& fitted, verified_inflation const& bound, box co
     if (bound.witness && (!delayed || sliced)) {
         // All parameters that explain the data; where none does, those as good as the witness.
         inflation_bound fit{
-            bound.range, bound.witness, explains ? explaining : bound.hull, 0, 0, 0};
-        if (explains) fit.value = interval_traits<interval>::bounds(bound.range.lower(), 1);
+            bound.range, bound.witness, explains ? explaining.parameters : bound.hull, 0, 0, 0};
+        if (explains) {
+            fit.value = interval_traits<interval>::bounds(bound.range.lower(), 1);
+            fit.products = explaining.products;
+        }
         if (sliced) { // the witness is no point of it
             fit.witness.reset();
             fit.hull = over->fit.prior;
+            fit.products = over->products;
         }
-        auto proved = sliced ? holdout_inflation(over->fit, fit, over->judged, search)
-                             : holdout_inflation(fitted.problem, fit, judged, search);
+        auto const& starts = result.run.starts;
+        auto proved = sliced ? holdout_inflation(over->fit, fit, over->judged, search, starts)
+                             : holdout_inflation(fitted.problem, fit, judged, search, starts);
         if (starts_follow_parameters(judged)) {
             // The search lets added states start anywhere in their ranges: only what it says from
             // below holds.

@@ -8,6 +8,7 @@
 #include <sivid/paving/contract/detail/start_follower.hpp>
 #include <sivid/paving/contract/detail/start_rule.hpp>
 #include <sivid/paving/response/local_response.hpp>
+#include <sivid/paving/response/misfit.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>
@@ -63,18 +64,11 @@ public:
         for (std::size_t s = 0; s < others_->size() && !result.none; ++s) {
             auto const& r = *(*others_)[s];
             start_follower follower(r, *part_);
-            auto const [goals, ranges] =
-                follower.has_starts() ? from_rule(r, follower) : from_known_start(s);
-            auto& own = result.ranges.emplace_back(ranges);
-            auto& about = result.about.emplace_back(r.outputs(), 0.0);
-            for (std::size_t y = 0; y < r.outputs() && !result.none; ++y) {
-                for (double const sign : {1.0, -1.0}) {
-                    double const likely =
-                        tighten(program, r, y, goals[y], sign, own[y], result.none);
-                    about[y] =
-                        std::max(about[y], sign * (likely - mid(r.bounds[y])) / rad(r.bounds[y]));
-                }
-            }
+            auto found = follower.has_starts()
+                             ? from_good_rule(program, r, follower, result.none)
+                             : tightened(program, r, from_known_start(s), result.none);
+            result.ranges.push_back(std::move(found.ranges));
+            result.about.push_back(std::move(found.about));
         }
         return result;
     }
@@ -93,6 +87,14 @@ private:
     struct outputs {
         std::vector<goal> goals;
         std::vector<interval> ranges;
+    };
+    /// Outputs of one experiment over all parameters that meet the measurements.
+    struct prediction {
+        std::vector<interval> ranges;
+        std::vector<double> about;
+        double most = 0; ///< misfit
+        /// Parameters where an output goes farthest, and about how far.
+        std::vector<std::pair<double, std::vector<double>>> ends{};
     };
     [[nodiscard]] goal empty_goal(double value) const {
         return {value, std::vector<double>(known_.count, 0.0)};
@@ -113,10 +115,59 @@ private:
         }
         return result;
     }
+    /// Each output tightened at both ends.
+    [[nodiscard]] prediction tightened(cut_program& program, response const& r, outputs of,
+                                       bool& none) const {
+        prediction result{std::move(of.ranges), std::vector(r.outputs(), 0.0)};
+        for (std::size_t y = 0; y < r.outputs() && !none; ++y) {
+            auto const misfit_of = [&r, y](double output) {
+                return (output - mid(r.bounds[y])) / rad(r.bounds[y]);
+            };
+            for (double const sign : {1.0, -1.0}) {
+                auto end = tighten(program, r, y, of.goals[y], sign, result.ranges[y], none);
+                double const about = sign * misfit_of(end.about);
+                result.about[y] = std::max(result.about[y], about);
+                if (!end.at.empty()) result.ends.emplace_back(about, std::move(end.at));
+            }
+            result.most = std::max(result.most, upper(misfit(result.ranges[y], r.bounds[y])));
+        }
+        return result;
+    }
+    /// From starts that follow the parameters by the best of a few rules, each of which is about
+    /// best where the ones before it did worst.
+    [[nodiscard]] prediction from_good_rule(cut_program& program, response const& r,
+                                            start_follower& follower, bool& none) const {
+        prediction found;
+        std::vector<std::vector<double>> worst;
+        auto rule = start_rule_search().propose(follower.forms());
+        for (int round = 0;; ++round) {
+            auto next = tightened(program, r, from_rule(r, follower, rule), none);
+            add_worst(next, follower.parameters(), worst);
+            bool const further = round == 0 || next.most < 0.98 * found.most;
+            if (round == 0 || next.most < found.most) found = std::move(next);
+            if (none || !further || worst.empty() || round == better_rules) return found;
+            rule = start_rule_search().best_at(follower.forms(), worst);
+        }
+    }
+    /// Adds the parameters at which outputs go farthest, as far as they differ.
+    static void add_worst(prediction& of, std::vector<std::size_t> const& parameters,
+                          std::vector<std::vector<double>>& to) {
+        std::sort(of.ends.begin(), of.ends.end(),
+                  [](auto const& a, auto const& b) { return a.first > b.first; });
+        std::size_t added = 0;
+        for (auto const& [about, all] : of.ends) {
+            std::vector<double> own;
+            for (auto const j : parameters) own.push_back(all[j]);
+            if (std::find(to.begin(), to.end(), own) != to.end()) continue;
+            to.push_back(std::move(own));
+            if (++added == points_each) return;
+        }
+    }
+
     /// As affine functions of the parameters, from a start that follows these.
-    [[nodiscard]] outputs from_rule(response const& r, start_follower& follower) const {
+    [[nodiscard]] outputs from_rule(response const& r, start_follower& follower,
+                                    start_rule const& rule) const {
         outputs result;
-        auto const rule = start_rule_search().propose(follower.forms());
         auto const affine = follower(rule);
         for (std::size_t y = 0; y < r.outputs(); ++y) {
             auto g = empty_goal(affine ? affine->value[y] : mid(r.bounds[y]));
@@ -136,10 +187,15 @@ private:
         return result;
     }
 
+    /// About what an output can reach, and where; no parameters: not looked for.
+    struct output_end {
+        double about;
+        std::vector<double> at{};
+    };
     /// Cuts an output's range off at one end.
-    /// @returns  about what it can reach
-    [[nodiscard]] double tighten(cut_program& program, response const& r, std::size_t y,
-                                 goal const& of, double sign, interval& range, bool& none) const {
+    [[nodiscard]] output_end tighten(cut_program& program, response const& r, std::size_t y,
+                                     goal const& of, double sign, interval& range,
+                                     bool& none) const {
         std::vector<double> along(of.slope);
         double spread = 0;
         for (auto& slope : along) {
@@ -147,15 +203,15 @@ private:
             slope *= sign;
         }
         double const end = sign > 0 ? range.upper() : range.lower();
-        if (!std::isfinite(end) || !(spread > worth_a_program * rad(r.bounds[y]))) return end;
+        if (!std::isfinite(end) || !(spread > worth_a_program * rad(r.bounds[y]))) return {end};
         auto const cut = program(along);
-        if (cut.weights.empty()) return end;
+        if (cut.weights.empty()) return {end};
         std::vector<measurement_weight> weights;
         for (auto const& w : cut.weights)
             weights.push_back({w.block, w.function, w.value * scales_[w.block][w.function]});
         if (cut.empty) {
             none = certified_empty(*measured_, known_, weights);
-            return end;
+            return {end};
         }
         combined_polynomial start(known_.count);
         if (of.places != nullptr) start.add(r, {{y, -sign}}, *of.places);
@@ -172,11 +228,13 @@ private:
         }
         double about = of.value;
         for (std::size_t v = 0; v < cut.point.size(); ++v) about += of.slope[v] * cut.point[v];
-        return about;
+        return {about, cut.point};
     }
 
     /// In error bounds: outputs that move by less are left at their ranges.
     static constexpr double worth_a_program = 0.01;
+    static constexpr int better_rules = 3; ///< for starts, after the first one
+    static constexpr std::size_t points_each = 8;
 
     response_list const* measured_;
     response_list const* others_;

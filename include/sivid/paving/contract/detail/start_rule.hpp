@@ -68,22 +68,41 @@ public:
     /// squares, shortened so that starts stay in their boxes.
     /// @guarantee  none but that
     [[nodiscard]] start_rule propose(misfit_forms const& forms) {
-        constexpr double inside = 1 - 4e-6; // whoever follows it linearises about it
         take(forms);
         std::vector<minimax_block> blocks(1);
         auto const solved = best_in_the_middle(blocks);
-        matrix slope = guess();
-        start_rule rule;
-        for (Eigen::Index i = 0; i < s_; ++i) {
-            double const at = solved.point.empty() ? 0 : solved.point[static_cast<std::size_t>(i)];
-            double const middle = std::isfinite(at) ? std::clamp(at, -inside, inside) : 0;
-            double const sum = slope.row(i).cwiseAbs().sum(), room = inside - std::abs(middle);
-            double const share = sum <= room ? 1 : sum > room ? room / sum : 0; // NaN: none
-            rule.middle.push_back(middle);
-            for (Eigen::Index j = 0; j < p_; ++j)
-                rule.slope.push_back(share > 0 ? share * slope(i, j) : 0);
+        if (solved.point.empty()) return rule_within(vector::Zero(s_), guess());
+        return rule_within(Eigen::Map<vector const>(solved.point.data(), s_), guess());
+    }
+
+    /// A rule whose largest misfit at some points of the box is about least: those at which another
+    /// rule does worst, of all that data leave of the box. Slopes are shortened as above.
+    /// @param points  normalised, as many sides as parameters; one at least
+    /// @guarantee  none
+    /// @cost  a linear program in starts * (parameters + 1) unknowns, with a function for each
+    /// point
+    ///        and measurement
+    [[nodiscard]] start_rule best_at(misfit_forms const& forms,
+                                     std::vector<std::vector<double>> const& points) {
+        take(forms);
+        constexpr double firm = 1e3; // how much more a start outside its box counts
+        offset_.tail(s_) *= firm;
+        b_.bottomRows(s_) *= firm;
+        margin_.setZero();
+        margin_.tail(s_).setConstant(firm * furthest);
+        std::vector<minimax_block> blocks(points.size());
+        rows_.assign(points.size(), {});
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            vector const at = Eigen::Map<vector const>(points[k].data(), p_);
+            std::swap(rows_.back(), rows_[k]);
+            for (Eigen::Index y = 0; y < offset_.size(); ++y) add_row(blocks[k], y, &at);
+            std::swap(rows_.back(), rows_[k]);
+            finish(blocks[k], s_ * (1 + p_));
         }
-        return rule;
+        auto const solved = minimax_solver(static_cast<std::size_t>(s_ * (1 + p_)), blocks)();
+        if (solved.point.empty()) return rule_within(vector::Zero(s_), matrix::Zero(s_, p_));
+        return rule_within(Eigen::Map<vector const>(solved.point.data(), s_),
+                           Eigen::Map<matrix const>(solved.point.data() + s_, s_, p_));
     }
 
 private:
@@ -109,6 +128,21 @@ private:
         b_.bottomRows(s_).setIdentity();
         margin_ = vector::Constant(n + s_, furthest);
         margin_.head(n) = Eigen::Map<vector const>(forms.margin.data(), n);
+    }
+
+    /// Shortened so that starts stay in their boxes.
+    [[nodiscard]] start_rule rule_within(vector const& at, matrix const& slope) const {
+        constexpr double inside = 1 - 4e-6; // whoever follows it linearises about it
+        start_rule rule;
+        for (Eigen::Index i = 0; i < s_; ++i) {
+            double const middle = std::isfinite(at[i]) ? std::clamp(at[i], -inside, inside) : 0;
+            double const sum = slope.row(i).cwiseAbs().sum(), room = inside - std::abs(middle);
+            double const share = sum <= room ? 1 : sum > room ? room / sum : 0; // NaN: none
+            rule.middle.push_back(middle);
+            for (Eigen::Index j = 0; j < p_; ++j)
+                rule.slope.push_back(share > 0 ? share * slope(i, j) : 0);
+        }
+        return rule;
     }
 
     /// The best starts of the middle of the box alone.

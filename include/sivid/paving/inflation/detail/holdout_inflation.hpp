@@ -7,6 +7,7 @@
 #include <sivid/number/interval.hpp>
 #include <sivid/paving/inflation.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -32,11 +33,21 @@ struct holdout_bound {
 /// starts, nuisances, are minimised.
 /// @param fitted  what was proved about `fit`
 /// @param holdout a problem with the same model and parameters
+/// @param likely_starts  of the hold-out experiments, about what fits the witness: where starts are
+///                uncertain and the bound is far above that of the fit, fewer about these are tried
 /// @guarantee  both ranges contain what they say whenever the search ends
-[[nodiscard]] SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
-                                                         inflation_bound const& fitted,
-                                                         identification_problem const& holdout,
-                                                         inflation_options const& options = {});
+[[nodiscard]] SIVID_DECL holdout_bound
+holdout_inflation(identification_problem const& fit, inflation_bound const& fitted,
+                  identification_problem const& holdout, inflation_options const& options = {},
+                  std::vector<std::vector<double>> const& likely_starts = {});
+
+/// Whether an experiment's start is known only within more than what decimals round.
+[[nodiscard]] inline bool has_uncertain_starts(identification_problem const& problem) {
+    return std::any_of(problem.experiments.begin(), problem.experiments.end(), [](auto const& e) {
+        return std::any_of(e.initial.begin(), e.initial.end(),
+                           [](interval const& x) { return !(width(x) < 1e-9); });
+    });
+}
 
 } // namespace sivid
 

@@ -63,6 +63,7 @@ public:
     double fit_upper;      ///< of the inflation of all parameters that fit
     double share;          ///< of the range that is worth a closer look
     std::vector<std::size_t> outliers;
+    bool all_starts;         ///< of the held-out experiments; else only bounds from above hold
     bool from_above = false; ///< which end of the range comes first
 
     [[nodiscard]] bool before(node const& a, node const& b) const {
@@ -85,7 +86,7 @@ public:
         for (std::size_t j = 0; j < whole.size(); ++j)
             if (width(b.set[j]) < 0.7 * width(whole[j])) b.fresh = false;
         auto const own = inflation_bounder(own_known, own_outliers, b.set)(0);
-        b.least = std::max(b.least, own.lower);
+        if (all_starts) b.least = std::max(b.least, own.lower);
         double const about = predict(b, met, own_known, own_outliers);
         if (!b.fits) return;
         double const tolerance = share * (std::isfinite(b.most) ? b.most : std::max(b.least, 1.0));
@@ -94,9 +95,14 @@ public:
         for (double const blur : found.blur) unclear += blur;
         for (double const blur : own.blur) own_unclear += blur;
         bool const fit_is_clear = unclear <= fit_tolerance;
-        b.settled_above = fit_is_clear && b.most - about <= tolerance;
+        // What a run of the fit does not reach may tell more of the parameters.
+        bool const all_told = std::all_of(fit_known.begin(), fit_known.end(), [](auto const& r) {
+            return r->outputs() == r->measurements;
+        });
+        b.settled_above = fit_is_clear && b.most - about <= tolerance && all_told;
         b.settled_below =
-            fit_is_clear && (own_unclear <= tolerance || b.most - b.least <= tolerance);
+            !all_starts ||
+            (fit_is_clear && (own_unclear <= tolerance || b.most - b.least <= tolerance));
         for (std::size_t s = 0; s < b.known.size(); ++s) {
             auto const& r = *b.known[s];
             bool const cut = r.outputs() < r.measurements;
@@ -182,11 +188,12 @@ private:
 /// split or integrated anew until they are settled.
 class holdout_range {
 public:
+    /// @param all_starts  `both` has all of the held-out experiments; else 0 bounds from below
     holdout_range(identification_problem const& both, std::size_t fitted, double fit_upper,
-                  box const& start, inflation_options const& options)
+                  box const& start, bool all_starts, inflation_options const& options)
         : search_(both, options.test,
                   {static_cast<std::ptrdiff_t>(fitted), fit_upper, options.relative_width,
-                   outlier_budgets(both)},
+                   outlier_budgets(both), all_starts},
                   start) {}
 
     /// @param work     boxes looked at and integrations; a step that was begun is ended
@@ -249,6 +256,22 @@ private:
     response_search<holdout_policy> search_;
 };
 
+/// The held-out experiments with less of their starts: this share, about likely ones.
+[[nodiscard]] inline identification_problem
+started_near(identification_problem posed, std::size_t fitted,
+             std::vector<std::vector<double>> const& likely, double share) {
+    for (std::size_t s = fitted; share < 1 && s < posed.experiments.size(); ++s) {
+        auto& initial = posed.experiments[s].initial;
+        for (std::size_t i = 0; i < initial.size(); ++i) {
+            double const far = 0.5 * share * width(initial[i]), at = likely[s - fitted][i];
+            auto const near =
+                intersect(initial[i], interval_traits<interval>::bounds(at - far, at + far));
+            if (!is_empty(near)) initial[i] = near;
+        }
+    }
+    return posed;
+}
+
 /// What a search leaves of a box by the measurements of the fit alone, in the coordinates of the
 /// problem: products of parameters are told apart from their factors here.
 /// @guarantee  every parameter of the start whose fit inflation is at most `level` stays
@@ -274,7 +297,8 @@ private:
 SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
                                            inflation_bound const& fitted,
                                            identification_problem const& holdout,
-                                           inflation_options const& options) {
+                                           inflation_options const& options,
+                                           std::vector<std::vector<double>> const& likely_starts) {
     require_sound_environment();
     fit.require_valid();
     holdout.require_valid();
@@ -311,17 +335,37 @@ SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
         fitted.hull.size() == fit.prior.size() ? intersect(fitted.hull, fit.prior) : fit.prior;
     auto const& posed = map ? map->problem() : both;
     auto const start = paving_detail::contracted_by_fit(
-        posed, fit.experiments.size(), fitted.value.upper(), map ? map->forward(whole) : whole,
-        timely, 0.3 * options.seconds);
-    paving_detail::holdout_range search(posed, fit.experiments.size(), fitted.value.upper(), start,
-                                        timely);
-    search.narrow(options.work,
-                  [&] { return in_time() && (!options.keep_going || options.keep_going()); });
-    result.over_fits = search.range();
-    result.outputs = search.outputs();
-    if (is_empty(result.over_fits)) result.over_fits = result.at_witness;
-    result.boxes += search.tested();
-    result.integrations += search.integrations();
+        posed, fit.experiments.size(), fitted.value.upper(),
+        map ? map->forward(whole, fitted.products) : whole, timely, 0.25 * options.seconds);
+    auto const go_on = [&] { return in_time() && (!options.keep_going || options.keep_going()); };
+    // Of fewer starts enclosures are narrower; what holds from some start holds.
+    bool const some_starts =
+        has_uncertain_starts(holdout) &&
+        std::equal(holdout.experiments.begin(), holdout.experiments.end(), likely_starts.begin(),
+                   likely_starts.end(), [](experiment const& e, auto const& start) {
+                       return e.initial.size() == start.size();
+                   });
+    for (double const share : {0.3, 1.0}) {
+        bool const last = share == 1;
+        if (!last && !some_starts) continue;
+        double const end = last ? options.seconds : elapsed() + 0.6 * (options.seconds - elapsed());
+        paving_detail::holdout_range search(
+            paving_detail::started_near(posed, fit.experiments.size(), likely_starts, share),
+            fit.experiments.size(), fitted.value.upper(), start, last, timely);
+        search.narrow(options.work, [&] { return elapsed() < end && go_on(); });
+        auto const found = search.range();
+        result.boxes += search.tested();
+        result.integrations += search.integrations();
+        if (is_empty(found)) {
+            result.over_fits = result.at_witness;
+            break;
+        }
+        if (result.outputs.empty() || found.upper() < result.over_fits.upper())
+            result.outputs = search.outputs();
+        result.over_fits = intersect(result.over_fits, found);
+        double const good = 1.2 * std::max(result.at_witness.lower(), fitted.value.upper());
+        if (result.over_fits.upper() <= good || !go_on()) break;
+    }
     result.seconds = elapsed();
     return result;
 }

@@ -37,6 +37,8 @@ SIVID_DECL std::vector<card> diagnosis_cards(diagnosis_view const& v) {
              ++i) {
             numbers += (numbers.empty() ? "" : ", ") + estimate_words(c->parameters[i]);
         }
+        for (combination_estimate const& k : v.combinations)
+            if (k.of_effects) numbers += ", " + estimate_words(k.product);
         bool const proved = c != nullptr && c->state == candidate_state::explains;
         out.push_back(
             {proved ? "effect (\xE2\x9C\x93 proved to explain)" : "effect (\xE2\x89\x88 likeliest)",
@@ -205,6 +207,12 @@ SIVID_DECL table constants_table(diagnosis_view const& v) {
              end == v.at_ends.end() ? ""
                                     : std::string{"at the "} + (end->upper ? "upper" : "lower") +
                                           " end of its prior: widen it"});
+    }
+    for (combination_estimate const& k : v.combinations) {
+        estimate_view const& e = k.product;
+        t.rows.push_back({e.name, value_text(e), hull_text(e), given_text(e.prior),
+                          kept_together(unit_text(e.unit)),
+                          "the data tell this product, not its factors"});
     }
     t.caption = t.rows.empty() ? "" : std::string{value_note};
     return t;
