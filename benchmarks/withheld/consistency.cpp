@@ -183,7 +183,7 @@ private:
     void products(json const& all, json const& values) {
         for (auto const& p : all) {
             auto const hull = hull_in(p);
-            auto const value = product_in(
+            auto const value = combination_in(
                 p, [&values](std::string const& name) { return value_in(member(values, name)); });
             if (hull && value && !hull->contains(*value, digits * (1 + std::abs(*value))))
                 add("hull", text_of(member(p, "formula")) + " in " + text_of(*hull) + ", witness " +

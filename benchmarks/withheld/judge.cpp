@@ -225,7 +225,7 @@ void judge_products(std::vector<known_fit> const& known, json const& products, n
         if (!hull) continue;
         for (auto const& f : known) {
             if (f.effects != effects || !(f.inflation <= 1 - 1e-6)) continue;
-            auto const value = product_in(p, [&f](std::string const& name) {
+            auto const value = combination_in(p, [&f](std::string const& name) {
                 auto const at = f.values.find(name);
                 return at == f.values.end() ? std::nullopt : std::optional{at->second};
             });

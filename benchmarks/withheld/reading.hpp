@@ -77,18 +77,24 @@ inline std::optional<double> value_in(json const& j) {
     return std::nullopt;
 }
 
-/// A product of powers, {"factors": {"k": 1, "Iz": -1}}, at some values; nothing where a factor has
-/// none.
+/// A product of powers, {"factors": {"k": 1, "Iz": -1}}, or a sum, {"terms": {"m": 1, "dm": 1}}, at
+/// some values; nothing where one of them is not known.
 /// @param value_of  of a name: std::optional<double>
 template <class Values>
-std::optional<double> product_in(json const& combination, Values const& value_of) {
-    double product = 1;
-    for (auto const& [name, exponent] : member(combination, "factors").items()) {
+std::optional<double> combination_in(json const& combination, Values const& value_of) {
+    double product = 1, sum = 0;
+    auto const factors = member(combination, "factors"), terms = member(combination, "terms");
+    for (auto const& [name, exponent] : factors.items()) {
         std::optional<double> const value = value_of(name);
         if (!value) return std::nullopt;
         product *= std::pow(*value, exponent.template get<int>());
     }
-    return product;
+    for (auto const& [name, sign] : terms.items()) {
+        std::optional<double> const value = value_of(name);
+        if (!value) return std::nullopt;
+        sum += sign.template get<int>() * *value;
+    }
+    return terms.empty() ? product : sum;
 }
 
 inline std::string short_text(double x) {

@@ -58,7 +58,7 @@ double attack(fit_problem const& problem, std::vector<double> const& inside,
             }
             for (auto const& p : products) {
                 auto const hull = hull_in(p);
-                auto const value = product_in(
+                auto const value = combination_in(
                     p, [&](std::string const& name) { return known_as(problem.values(x), name); });
                 if (!hull || !value) continue;
                 ++j.hulls_checked;

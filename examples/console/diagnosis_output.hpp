@@ -89,7 +89,7 @@ inline void print_constants(sivid::diagnosis const& d) {
 /// Products that the data tell better than their factors.
 inline void print_combinations(sivid::diagnosis const& d) {
     for (auto const& c : d.combinations) {
-        auto const& p = c.product;
+        auto const& p = c.about;
         std::cout << "  told together: " << value_words(p) << ", within "
                   << sivid::report::outward_text(range_of(*p.hull)) << " (proved)\n";
     }

@@ -94,13 +94,18 @@ TEST_CASE("what was tried, and every constant with its prior, is written") {
     d.constants = {{"k", "1/s", 3, std::nullopt, interval(3, 4)},
                    {"b", "1", 2, interval(1.5, 2.5), interval(1, 3)}};
     d.at_ends = {{{"wind"}, d.constants[0], prior_end::lower}};
-    d.combinations = {{{"k*b^2", "1/s", 12, interval(11, 13), interval(3, 36)},
-                       {{"k", 1}, {"e.b", 2}},
-                       true}};
+    d.combinations = {
+        {{"k*b^2", "1/s", 12, interval(11, 13), interval(3, 36)},
+         {{"k", 1}, {"e.b", 2}},
+         false,
+         true},
+        {{"k + b", "1", 5, interval(4, 6), interval(4, 7)}, {{"k", 1}, {"e.b", 1}}, true, true}};
     auto const answer = nlohmann::json::parse(diagnosis_json(d, "x"))["answer"];
     auto const& product = answer["combinations"][0];
     CHECK(product["formula"] == "k*b^2");
     CHECK(product["factors"]["e.b"] == 2);
+    CHECK(answer["combinations"][1]["terms"]["e.b"] == 1);
+    CHECK_FALSE(answer["combinations"][1].contains("factors"));
     CHECK(product["value"] == 12);
     CHECK(product["hull"][0] == 11);
     CHECK(product["prior"][1] == 36);

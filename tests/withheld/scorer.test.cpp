@@ -301,7 +301,13 @@ TEST_CASE("hulls and parts against values that explain the data") {
     CHECK(false_proofs(known, d).empty()); // 0.22^2/0.1
     products[0]["hull"] = {0.49, 0.5};
     CHECK(false_proofs(known, d) == strings{"hull"});
-    products[0]["factors"]["Sg"] = 1; // nobody knows it
+    products[0] = {{"formula", "Sv - tau"},
+                   {"terms", {{"Sv", 1}, {"rudder_lag.tau", -1}}},
+                   {"hull", {0.11, 0.13}}};
+    CHECK(false_proofs(known, d).empty());
+    products[0]["hull"] = {0.11, 0.115};
+    CHECK(false_proofs(known, d) == strings{"hull"});
+    products[0]["terms"]["Sg"] = 1; // nobody knows it
     CHECK(false_proofs(known, d).empty());
     d = good();
     json const baseline{{"causes",

@@ -122,15 +122,17 @@ struct named_estimate {
     std::optional<interval> prior{}; ///< what was allowed
 };
 
-/// A product of powers of constants, of which the data tell more than of its factors.
+/// A product of powers of constants, or a sum of them, of which the data tell more than of its
+/// parts.
 struct named_combination {
-    struct factor {
+    struct part {
         std::string name;
-        int exponent = 1;
+        int number = 1; ///< exponent; 1 or -1 in a sum
     };
-    named_estimate product; ///< its name is a formula, for instance "k/Iz"; its prior that of all
-    std::vector<factor> factors;
-    bool of_effects = false; ///< a parameter of an effect is among the factors
+    named_estimate about; ///< its name is a formula, for instance "k/Iz"; its prior that of all
+    std::vector<part> parts;
+    bool is_sum = false;
+    bool of_effects = false; ///< a parameter of an effect is among the parts
 };
 
 /// The end of its prior that a value sits on.

@@ -230,17 +230,17 @@ private:
         json_.end_object();
     }
     /// [{"formula": "k/Iz", "factors": {"e.k": 1, "Iz": -1}, "value": v, "unit": u,
-    ///   "hull": [lower, upper], "prior": [lower, upper]}, ...]
+    ///   "hull": [lower, upper], "prior": [lower, upper]}, ...]; a sum has "terms"
     void combinations() {
         json_.key("combinations").begin_array();
         for (auto const& c : d_->combinations) {
-            json_.begin_object(one_line).key("formula").string(c.product.name);
-            json_.key("factors").begin_object(one_line);
-            for (auto const& f : c.factors) json_.key(f.name).integer(f.exponent);
+            json_.begin_object(one_line).key("formula").string(c.about.name);
+            json_.key(c.is_sum ? "terms" : "factors").begin_object(one_line);
+            for (auto const& f : c.parts) json_.key(f.name).integer(f.number);
             json_.end_object();
-            json_.key("value").nearest(c.product.value).key("unit").string(c.product.unit);
-            maybe("hull", c.product.hull);
-            maybe("prior", c.product.prior);
+            json_.key("value").nearest(c.about.value).key("unit").string(c.about.unit);
+            maybe("hull", c.about.hull);
+            maybe("prior", c.about.prior);
             json_.end_object();
         }
         json_.end_array();

@@ -3,12 +3,14 @@
 
 #include "support/catch.hpp"
 #include "support/models.hpp"
-#include "support/real_functions.hpp"
 #include "support/random.hpp"
+#include "support/real_functions.hpp"
 
 #include "../../../examples/hovercraft/model.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <string>
 
 using namespace sivid;
@@ -23,6 +25,12 @@ dependence_structure structure(std::size_t constants, Rate const& rate,
     auto const m = support::model_of({1, constants, inputs.size()}, rate);
     auto const bound = bind(m, {support::all_constants(constants), {}}, inputs);
     return find_combinations({&bound});
+}
+template <class Rate>
+std::vector<combination> sums(std::size_t constants, Rate const& rate) {
+    auto const m = support::model_of({1, constants, 0}, rate);
+    auto const bound = bind(m, {support::all_constants(constants), {}}, {});
+    return find_sums({&bound});
 }
 std::vector<std::string> formulas(std::vector<combination> const& list) {
     std::vector<std::string> names;
@@ -219,4 +227,89 @@ TEST_CASE("the inertia of the hovercraft divides what turns it") {
     REQUIRE(found.combinations.size() == 2);
     CHECK(found.combinations[0].formula == "D33/Iz");
     CHECK(found.combinations[1].formula == "Sg*L/Iz");
+}
+
+TEST_CASE("sums through which alone the equations see their terms") {
+    auto const mass = sums(3, [](auto const&, auto const& x, auto const& p, auto const&) {
+        return std::vector{(p[2] - p[2] * x[0] + sin(p[0] + p[1])) / (p[0] + p[1])};
+    });
+    REQUIRE(formulas(mass) == names{"p0 + p1"});
+    CHECK(mass[0].signs == std::vector<int>{1, 1, 0});
+    CHECK(mass[0].exponents == std::vector<int>{0, 0, 0});
+    CHECK(mass[0].over(box{between(1, 2), between(0, 0.5), between(7, 9)}) == between(1, 2.5));
+    auto const three = sums(3, [](auto const&, auto const& x, auto const& p, auto const&) {
+        return std::vector{exp(-((p[0] - p[1]) + x[0]) + p[2]) * x[0]};
+    });
+    REQUIRE(three.size() == 1);
+    CHECK((three[0].signs == std::vector<int>{1, -1, -1} ||
+           three[0].signs == std::vector<int>{-1, 1, 1}));
+    // A term that stands anywhere else is no term.
+    CHECK(sums(2, [](auto const&, auto const& x, auto const& p, auto const&) {
+              return std::vector{(p[0] + p[1]) * x[0] - p[1] * sqr(x[0])};
+          }).empty());
+    CHECK(sums(2, [](auto const&, auto const& x, auto const& p, auto const&) {
+              return std::vector{(p[0] + p[1]) * x[0] + (p[0] - p[1])};
+          }).empty());
+    CHECK(sums(2, [](auto const&, auto const& x, auto const& p, auto const&) {
+              return std::vector{(2.0 * p[0] + p[1]) * x[0]};
+          }).empty());
+    CHECK(find_sums({}).empty());
+    // One that is a sum in one experiment only is none.
+    auto const m =
+        support::model_of({1, 2, 1}, [](auto const&, auto const& x, auto const& p, auto const& u) {
+            return std::vector{(p[0] + u[0] * p[1]) * x[0]};
+        });
+    auto const held_at = [&m](double v) {
+        return bind(m, {support::all_constants(2), {}},
+                    {analytic_signal::from([v](auto const&) { return expression(v); })});
+    };
+    auto const on = held_at(1), off = held_at(0);
+    CHECK(find_sums({&on}).size() == 1);
+    CHECK(find_sums({&on, &off}).empty());
+}
+
+TEST_CASE("no output changes with the terms of a sum as long as it stays") {
+    draws d(641);
+    std::size_t found = 0;
+    for (int round = 0; round < 300; ++round) {
+        // A random expression of three constants and the state.
+        std::vector<int> plan;
+        for (int k = 0; k < 12; ++k) plan.push_back(static_cast<int>(d.below(1000)));
+        auto const rate = [&plan](auto const&, auto const& x, auto const& p, auto const&) {
+            auto parts = std::vector{p[0] + 0.0, p[1] + 0.0, p[2] + 0.0, x[0] + 0.0};
+            for (std::size_t k = 0; k + 1 < plan.size(); k += 2) {
+                auto const a = static_cast<std::size_t>(plan[k]) % parts.size();
+                auto const b = static_cast<std::size_t>(plan[k + 1]) % parts.size();
+                int const kind = plan[k] / 4 % 5;
+                auto const value = kind < 2    ? parts[a] + parts[b]
+                                   : kind == 2 ? parts[a] - parts[b]
+                                   : kind == 3 ? parts[a] * parts[b]
+                                               : sin(parts[a]);
+                parts[a] = value; // what it was is gone: terms are used once, often
+            }
+            return std::vector{parts[0] + parts[3]};
+        };
+        auto const m = support::model_of({1, 3, 0}, rate);
+        auto const bound = bind(m, {support::all_constants(3), {}}, {});
+        for (auto const& c : find_sums({&bound})) {
+            ++found;
+            std::vector<double> p{d.uniform(-1, 1), d.uniform(-1, 1), d.uniform(-1, 1)}, q = p;
+            std::size_t first = 3;
+            for (std::size_t j = 0; j < 3; ++j) {
+                if (c.signs[j] == 0) continue;
+                if (first == 3) {
+                    first = j;
+                } else {
+                    double const step = d.uniform(-1, 1);
+                    q[j] += c.signs[j] * step;
+                    q[first] -= c.signs[first] * step;
+                }
+            }
+            std::vector<double> const x{d.uniform(-1, 1)}, none;
+            double const before = rate(0.0, x, p, none)[0], after = rate(0.0, x, q, none)[0];
+            CAPTURE(round, c.formula);
+            CHECK(std::abs(before - after) <= 1e-12 * (1 + std::abs(before)));
+        }
+    }
+    CHECK(found > 50);
 }

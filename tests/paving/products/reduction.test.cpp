@@ -86,6 +86,53 @@ TEST_CASE("a reduced problem has the trajectories of the original one") {
     }
 }
 
+TEST_CASE("a sum is one parameter, forward and backward, with the same trajectories") {
+    draws d(374);
+    auto const rate = [](auto const&, auto const& x, auto const& p, auto const&) {
+        return std::vector{(p[0] - p[3] * p[1] * x[0]) / (p[2] + p[4])};
+    };
+    box const prior{between(0.5, 2), between(0.5, 1.5), between(1, 2), between(0.4, 1.2),
+                    between(0.25, 0.5)};
+    auto const s = make(5, rate, prior);
+    CHECK_FALSE(reduction::find(s.problem, s.structure)->problem().prior.size() == 3);
+    auto const sums = sums_in(s.problem);
+    REQUIRE(sums.size() == 1);
+    auto const map = reduction::find(s.problem, s.structure, sums);
+    REQUIRE(map);
+    auto const& small = map->problem();
+    CHECK(small.prior.size() == 3); // p0, p1*p3, p2 + p4
+    CHECK_NOTHROW(small.require_valid());
+    auto const original =
+        std::make_shared<flow const>(s.problem.model, s.problem.choice, std::vector<signal>{});
+    auto const reduced =
+        std::make_shared<flow const>(small.model, small.choice, std::vector<signal>{});
+    for (int round = 0; round < 60; ++round) {
+        auto const p = point_box(d.in(prior));
+        auto const r = map->forward(p);
+        REQUIRE_FALSE(is_empty(r));
+        auto const a = integrate<interval>(original, box{interval(1.0)}, p, 0, 2);
+        auto const b = integrate<interval>(reduced, box{interval(1.0)}, r, 0, 2);
+        REQUIRE((a.complete() && b.complete()));
+        CHECK_FALSE(disjoint(a.at(2)[0], b.at(2)[0]));
+        // What maps into a part stays.
+        auto part = small.prior;
+        for (std::size_t k = 0; k < part.size(); ++k)
+            part[k] = hull(r[k], between(part[k].lower(), d.in(part[k])));
+        auto const back = map->backward(prior, part);
+        REQUIRE_FALSE(is_empty(back));
+        CHECK(subset(p, back));
+    }
+    auto const known = map->products_over(small.prior);
+    auto const sum =
+        std::find_if(known.begin(), known.end(), [](auto const& k) { return k.what.is_sum(); });
+    REQUIRE(sum != known.end());
+    CHECK(subset(between(1.25, 2.5), sum->hull));
+    // Two sums with a term in common cannot both be one parameter.
+    auto twice = sums;
+    twice.push_back(sums[0]);
+    CHECK(reduction::find(s.problem, s.structure, twice)->problem().prior.size() == 3);
+}
+
 TEST_CASE("ranges of products go to and fro with the box of the reduced problem") {
     draws d(373);
     auto const s = products();

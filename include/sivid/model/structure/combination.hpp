@@ -12,15 +12,37 @@
 
 namespace sivid {
 
-/// A product of powers of parameters, \f$ \prod_j p_j^{e_j} \f$.
+/// A product of powers of parameters, \f$ \prod_j p_j^{e_j} \f$, or a sum, \f$ \sum_j \pm p_j \f$.
 struct combination {
-    std::vector<int> exponents; ///< one per unknown parameter
+    std::vector<int> exponents; ///< one per unknown parameter; of a sum all are 0
     std::string formula;        ///< for instance "L*Sg"
     std::string unit;
+    std::vector<int> signs{}; ///< of a sum one per parameter: 1, -1, or 0: not in it
+
+    [[nodiscard]] bool is_sum() const { return !signs.empty(); }
+    /// Whether a parameter is a factor or a term.
+    [[nodiscard]] bool has(std::size_t j) const {
+        return exponents[j] != 0 || (is_sum() && signs[j] != 0);
+    }
+    /// Whether both are the same function of the parameters.
+    [[nodiscard]] bool same_as(combination const& other) const {
+        return exponents == other.exponents && signs == other.signs;
+    }
+    /// Its terms but one, as they stand in a sum.
+    [[nodiscard]] interval others_than(std::size_t j, box const& p) const {
+        using traits = interval_traits<interval>;
+        auto sum = traits::point(0.0);
+        for (std::size_t l = 0; l < signs.size(); ++l) {
+            if (l == j || signs[l] == 0) continue;
+            sum = signs[l] > 0 ? traits::add(sum, p[l]) : traits::sub(sum, p[l]);
+        }
+        return sum;
+    }
 
     /// Encloses its range over a box of parameters.
     [[nodiscard]] interval over(box const& p) const {
         using traits = interval_traits<interval>;
+        if (is_sum()) return others_than(signs.size(), p);
         bool undefined = false;
         auto above = traits::point(1.0);
         auto below = traits::point(1.0);
@@ -46,7 +68,7 @@ struct combination_hull {
                                        std::vector<combination_hull> const& known) {
     auto range = c.over(p);
     for (auto const& k : known) {
-        if (k.what.exponents == c.exponents) {
+        if (k.what.same_as(c)) {
             range = interval_traits<interval>::intersect(range, k.hull);
         }
     }

@@ -25,6 +25,10 @@ SIVID_DECL void collect_monomials(bound_model const& model, monomial_set& found)
 SIVID_DECL std::string product_text(std::vector<std::string> const& names,
                                     std::vector<int> const& exponents);
 
+/// A sum, for instance "m + dm".
+SIVID_DECL std::string sum_text(std::vector<std::string> const& names,
+                                std::vector<int> const& signs);
+
 } // namespace model_detail
 
 /// Finds the products of parameters through which all rates and outputs depend on them.
@@ -35,9 +39,18 @@ SIVID_DECL std::string product_text(std::vector<std::string> const& names,
 ///                takes terms with it
 /// @guarantee  `entangled` is a theorem about the equations: ranks are counted exactly
 ///   (`integer_span`). Parameters that are not listed may still be left open by the data, or be
-///   tied by sums, which this does not look for.
+///   tied by sums (`find_sums`).
 [[nodiscard]] SIVID_DECL dependence_structure
 find_combinations(std::vector<bound_model const*> const& models);
+
+/// Finds sums of parameters through which alone all rates and outputs depend on their terms, for
+/// instance a mass and a payload, m + dm.
+/// @param models  as above; a sum has to be one in all of them
+/// @guarantee  changing the terms with the sum fixed changes no trajectory and no output: each term
+///   is an operand of one node, within one tree of sums and differences
+/// @cost  linear in the nodes
+[[nodiscard]] SIVID_DECL std::vector<combination>
+find_sums(std::vector<bound_model const*> const& models);
 
 } // namespace sivid
 

@@ -22,16 +22,20 @@ namespace sivid {
 ///   S_g). Parameters that stand nowhere are set to 1, too.
 class reduction {
 public:
-    /// A side of the reduced prior: a parameter of the original problem, or a product of several.
+    /// A side of the reduced prior: a parameter of the original problem, or a combination of
+    /// several.
     struct side {
         std::size_t parameter = 0;
         std::optional<combination> product;
     };
 
+    /// @param sums  through which alone the equations see their terms (`sums_in`); terms that are
+    ///              entangled otherwise are left as they are
     /// @returns nothing when no parameter can be spared in this way
     [[nodiscard]] static std::optional<reduction> find(identification_problem const& problem,
-                                                       dependence_structure const& structure) {
-        if (structure.entangled.empty()) return std::nullopt;
+                                                       dependence_structure const& structure,
+                                                       std::vector<combination> const& sums = {}) {
+        if (structure.entangled.empty() && sums.empty()) return std::nullopt;
         auto const is_entangled = [&](std::size_t j) {
             return std::find(structure.entangled.begin(), structure.entangled.end(), j) !=
                    structure.entangled.end();
@@ -69,7 +73,28 @@ public:
             reduced.choice.unknown.push_back(problem.choice.unknown[*pivot]);
             prior.push_back(range);
         }
+        // The first term of a sum takes its value, the others are 0.
+        std::vector<bool> in_sum(problem.prior.size(), false);
+        for (auto const& c : sums) {
+            std::optional<std::size_t> pivot;
+            bool free = true;
+            for (std::size_t j = 0; j < c.signs.size(); ++j) {
+                if (c.signs[j] != 0) free = free && !is_entangled(j) && !in_sum[j];
+                if (c.signs[j] == 1 && !pivot) pivot = j;
+            }
+            if (!pivot || !free) continue;
+            for (std::size_t j = 0; j < c.signs.size(); ++j) {
+                if (c.signs[j] == 0) continue;
+                in_sum[j] = true;
+                if (j != *pivot) reduced.choice.fixed[problem.choice.unknown[j]] = interval(0.0);
+            }
+            result.sides_.push_back({*pivot, c});
+            reduced.choice.unknown.push_back(problem.choice.unknown[*pivot]);
+            prior.push_back(c.over(problem.prior));
+        }
+        if (structure.entangled.empty() && result.sides_.empty()) return std::nullopt;
         for (std::size_t j = 0; j < problem.prior.size(); ++j) {
+            if (in_sum[j]) continue;
             if (spared[j]) {
                 reduced.choice.fixed[problem.choice.unknown[j]] = interval(1.0);
             } else if (!is_entangled(j)) {
@@ -87,7 +112,7 @@ public:
     /// Whether a parameter of the original problem is a side or stands in one.
     [[nodiscard]] bool acts(std::size_t j) const {
         return std::any_of(sides_.begin(), sides_.end(), [j](side const& s) {
-            return s.product ? s.product->exponents[j] != 0 : s.parameter == j;
+            return s.product ? s.product->has(j) : s.parameter == j;
         });
     }
 
@@ -120,6 +145,12 @@ public:
                 continue;
             }
             auto others = *sides_[k].product;
+            for (std::size_t j = 0; others.is_sum() && j < p.size(); ++j) {
+                if (others.signs[j] == 0) continue;
+                auto const rest = traits::sub(r[k], others.others_than(j, p));
+                p[j] = traits::intersect(p[j], others.signs[j] > 0 ? rest : traits::neg(rest));
+                if (is_empty(p[j])) return p;
+            }
             for (std::size_t j = 0; j < others.exponents.size(); ++j) {
                 if (others.exponents[j] != 1) continue;
                 others.exponents[j] = 0;

@@ -199,7 +199,7 @@ SIVID_DECL diagnosis_view view_of(diagnosis const& d, diagnosis_plot_data const&
         v.constants.back().verified = d.constants_verified;
     }
     for (named_combination const& c : d.combinations) {
-        v.combinations.push_back({detail::drawn(c.product, {}), c.of_effects});
+        v.combinations.push_back({detail::drawn(c.about, {}), c.of_effects});
         v.combinations.back().product.verified = d.constants_verified;
     }
     for (constant_at_end const& a : d.at_ends) {

@@ -40,12 +40,21 @@ TEST_CASE("products that are told better than their factors are named by short n
     hulls.add({{{1, 1}, "k*quadratic.k", "1/m"}, interval(0.125, 1.9)}); // as good as its factors
     auto const told = told_combinations(p, named_parameters(p, {1.0, 0.5}), hulls);
     REQUIRE(told.size() == 1);
-    CHECK(told[0].product.name == "k^2/k");
-    CHECK(told[0].product.unit == "1/m^2");
-    CHECK(told[0].product.value == 0.25);
-    CHECK(told[0].product.hull == interval(0.2, 0.3));
-    REQUIRE(told[0].factors.size() == 2);
-    CHECK(told[0].factors[1].name == "quadratic.k");
-    CHECK(told[0].factors[1].exponent == 2);
+    CHECK(told[0].about.name == "k^2/k");
+    CHECK(told[0].about.unit == "1/m^2");
+    CHECK(told[0].about.value == 0.25);
+    CHECK(told[0].about.hull == interval(0.2, 0.3));
+    REQUIRE(told[0].parts.size() == 2);
+    CHECK(told[0].parts[1].name == "quadratic.k");
+    CHECK(told[0].parts[1].number == 2);
     CHECK(told[0].of_effects);
+    CHECK_FALSE(told[0].is_sum);
+
+    hulls.products = {{{{0, 0}, "", "1", {1, -1}}, interval(0.4, 0.6)}};
+    auto const sums = told_combinations(p, named_parameters(p, {1.0, 0.5}), hulls);
+    REQUIRE(sums.size() == 1);
+    CHECK(sums[0].about.name == "k - k");
+    CHECK(sums[0].about.value == 0.5);
+    CHECK(sums[0].is_sum);
+    CHECK(sums[0].parts[1].number == -1);
 }

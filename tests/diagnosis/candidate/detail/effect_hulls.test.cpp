@@ -129,6 +129,23 @@ TEST_CASE("a product is bounded where its factors are not, and slices share it")
     }
 }
 
+TEST_CASE("a sum is bounded where its terms are not") {
+    effect more;
+    more.name = "more";
+    more.parameters = {{"dk", "1/kg", 0_dec, 0.5_dec, 0.1_dec}};
+    more.on_inputs = [](effect_scope& m) { m.constant("k") += m.parameter(); };
+    auto const found = effect_hulls(small_campaign::problem(), {more}, {.seconds = 60});
+    REQUIRE(found.products.size() == 1);
+    auto const& [sum, range] = found.products[0];
+    CHECK(sum.signs == std::vector<int>{1, 1});
+    CHECK(contains(range, 1.0));
+    CHECK(width(range) < 0.25 * width(sum.over(found.parameters)));
+    for (double const dk : {0.0, 0.1}) {
+        CHECK(contains(found.parameters[0], 1 - dk));
+        CHECK(contains(found.parameters[1], dk));
+    }
+}
+
 TEST_CASE("hulls hold no effect where there is none, and nothing where nothing explains") {
     auto const real = small_campaign::problem();
     for (auto const& effects : {late, lag()}) {

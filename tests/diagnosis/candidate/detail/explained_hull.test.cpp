@@ -103,4 +103,9 @@ TEST_CASE("products in another order of the parameters") {
     CHECK(told->what.exponents == std::vector<int>{-1, 0, 2});
     CHECK(told->hull == between(1, 2));
     CHECK_FALSE(reordered({product_of({2, 1, -1}), between(1, 2)}, from, to));
+    combination const sum{{0, 0, 0}, "a - c", "", {1, 0, -1}};
+    auto const moved = reordered({sum, between(1, 2)}, from, to);
+    REQUIRE(moved);
+    CHECK(moved->what.signs == std::vector<int>{-1, 0, 1});
+    CHECK(moved->what.exponents == std::vector<int>{0, 0, 0});
 }

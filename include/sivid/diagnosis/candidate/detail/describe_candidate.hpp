@@ -49,8 +49,8 @@ named_parameters(identification_problem const& p, std::vector<double> const& val
     return dot == std::string::npos ? name : name.substr(dot + 1);
 }
 
-/// The products of a hull that say at least twice as much as its sides do, at these values of the
-/// parameters.
+/// The products and sums of a hull that say at least twice as much as its sides do, at these values
+/// of the parameters.
 [[nodiscard]] inline std::vector<named_combination>
 told_combinations(identification_problem const& p, std::vector<named_estimate> const& values,
                   explained_hull const& hulls) {
@@ -60,12 +60,16 @@ told_combinations(identification_problem const& p, std::vector<named_estimate> c
     for (auto const& [what, hull] : hulls.products) {
         if (is_empty(hull) || width(hull) > 0.5 * width(what.over(hulls.parameters))) continue;
         named_combination told;
-        told.product = {model_detail::product_text(names, what.exponents), what.unit, 1, hull,
-                        what.over(p.prior)};
-        for (std::size_t j = 0; j < what.exponents.size(); ++j) {
-            if (what.exponents[j] == 0) continue;
-            told.factors.push_back({p.choice.unknown[j], what.exponents[j]});
-            told.product.value *= std::pow(values[j].value, what.exponents[j]);
+        told.is_sum = what.is_sum();
+        auto const& numbers = told.is_sum ? what.signs : what.exponents;
+        auto& about = told.about = {told.is_sum ? model_detail::sum_text(names, numbers)
+                                                : model_detail::product_text(names, numbers),
+                                    what.unit, told.is_sum ? 0.0 : 1.0, hull, what.over(p.prior)};
+        for (std::size_t j = 0; j < numbers.size(); ++j) {
+            if (numbers[j] == 0) continue;
+            told.parts.push_back({p.choice.unknown[j], numbers[j]});
+            about.value = told.is_sum ? about.value + numbers[j] * values[j].value
+                                      : about.value * std::pow(values[j].value, numbers[j]);
             told.of_effects = told.of_effects || names[j] != p.choice.unknown[j];
         }
         result.push_back(std::move(told));

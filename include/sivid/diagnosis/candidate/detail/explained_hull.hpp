@@ -17,7 +17,7 @@
 
 namespace sivid {
 
-/// What contains every parameter that explains some data: a box, and ranges of products of
+/// What contains every parameter that explains some data: a box, and ranges of products and sums of
 /// parameters, of which the data may tell far more than of each factor.
 struct explained_hull {
     box parameters;
@@ -32,7 +32,7 @@ struct explained_hull {
     /// Another product that is known, or the same one better.
     void add(combination_hull more) {
         for (auto& p : products) {
-            if (p.what.exponents != more.what.exponents) continue;
+            if (!p.what.same_as(more.what)) continue;
             p.hull = interval_traits<interval>::intersect(p.hull, more.hull);
             return;
         }
@@ -53,9 +53,8 @@ struct explained_hull {
         };
         for (auto const& p : products) add(p.what);
         for (auto const& p : more.products) {
-            bool const known = std::any_of(products.begin(), products.end(), [&](auto const& q) {
-                return q.what.exponents == p.what.exponents;
-            });
+            bool const known = std::any_of(products.begin(), products.end(),
+                                           [&](auto const& q) { return q.what.same_as(p.what); });
             if (!known) add(p.what);
         }
         parameters = both;
@@ -63,19 +62,23 @@ struct explained_hull {
     }
 };
 
-/// A product among parameters of one order, told by another order of them.
-/// @returns  nothing where one of its factors is not among those
+/// A combination of parameters of one order, told by another order of them.
+/// @returns  nothing where one that it has is not among those
 [[nodiscard]] inline std::optional<combination_hull> reordered(combination_hull product,
                                                                std::vector<std::string> const& from,
                                                                std::vector<std::string> const& to) {
-    std::vector<int> exponents(to.size(), 0);
+    auto const& own = product.what;
+    std::vector<int> exponents(to.size(), 0), signs(own.is_sum() ? to.size() : 0, 0);
     for (std::size_t j = 0; j < from.size(); ++j) {
-        if (product.what.exponents[j] == 0) continue;
+        if (!own.has(j)) continue;
         auto const at = std::find(to.begin(), to.end(), from[j]);
         if (at == to.end()) return std::nullopt;
-        exponents[static_cast<std::size_t>(at - to.begin())] = product.what.exponents[j];
+        auto const k = static_cast<std::size_t>(at - to.begin());
+        exponents[k] = own.exponents[j];
+        if (own.is_sum()) signs[k] = own.signs[j];
     }
     product.what.exponents = std::move(exponents);
+    product.what.signs = std::move(signs);
     return product;
 }
 

@@ -52,7 +52,7 @@ public:
                std::optional<double> time = std::nullopt,
                std::vector<combination_hull> const& known = {}) const {
         if (problem.prior.size() == 0) return explained_hull{problem.prior};
-        auto const map = reduction::find(problem, dependence_of(problem));
+        auto const map = reduction::find(problem, dependence_of(problem), sums_in(problem));
         auto posed = map ? map->problem() : problem;
         if (map) posed.prior = map->forward(problem.prior, known);
         if (is_empty(posed.prior)) return std::nullopt;

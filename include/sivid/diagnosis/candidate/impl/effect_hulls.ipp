@@ -48,7 +48,10 @@ private:
         std::vector<interval> sides(others.parameters.begin(), others.parameters.end());
         sides.insert(sides.begin() + at, range);
         others.parameters = box(std::move(sides));
-        for (auto& p : others.products) p.what.exponents.insert(p.what.exponents.begin() + at, 0);
+        for (auto& p : others.products) {
+            p.what.exponents.insert(p.what.exponents.begin() + at, 0);
+            if (p.what.is_sum()) p.what.signs.insert(p.what.signs.begin() + at, 0);
+        }
         return others;
     }
 

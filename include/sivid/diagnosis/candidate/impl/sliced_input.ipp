@@ -283,7 +283,7 @@ private:
 /// Whether a factor is an unknown that stands for its distance from the middle of a slice.
 inline bool has_shifted(combination const& c, sliced_input const& sliced) {
     return std::any_of(sliced.sides.begin(), sliced.sides.end(),
-                       [&](auto const& s) { return s.is_parameter && c.exponents[s.index] != 0; });
+                       [&](auto const& s) { return s.is_parameter && c.has(s.index); });
 }
 
 } // namespace diagnosis_detail

@@ -330,7 +330,7 @@ SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
     auto both = fit;
     both.experiments.insert(both.experiments.end(), holdout.experiments.begin(),
                             holdout.experiments.end());
-    auto const map = reduction::find(both, dependence_of(both));
+    auto const map = reduction::find(both, dependence_of(both), sums_in(both));
     auto const whole =
         fitted.hull.size() == fit.prior.size() ? intersect(fitted.hull, fit.prior) : fit.prior;
     auto const& posed = map ? map->problem() : both;
@@ -342,8 +342,8 @@ SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
     bool const some_starts =
         has_uncertain_starts(holdout) &&
         std::equal(holdout.experiments.begin(), holdout.experiments.end(), likely_starts.begin(),
-                   likely_starts.end(), [](experiment const& e, auto const& start) {
-                       return e.initial.size() == start.size();
+                   likely_starts.end(), [](experiment const& e, auto const& likely) {
+                       return e.initial.size() == likely.size();
                    });
     for (double const share : {0.3, 1.0}) {
         bool const last = share == 1;

@@ -212,7 +212,7 @@ SIVID_DECL table constants_table(diagnosis_view const& v) {
         estimate_view const& e = k.product;
         t.rows.push_back({e.name, value_text(e), hull_text(e), given_text(e.prior),
                           kept_together(unit_text(e.unit)),
-                          "the data tell this product, not its factors"});
+                          "the data tell this better than its parts"});
     }
     t.caption = t.rows.empty() ? "" : std::string{value_note};
     return t;
