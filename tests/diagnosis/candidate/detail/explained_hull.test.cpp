@@ -45,6 +45,7 @@ cloud drawn(draws& d, std::vector<combination> const& products) {
     for (std::size_t i = 0; i < products.size(); ++i) c.known.add({products[i], ranges[i]});
     return c;
 }
+bool same(interval const& a, interval const& b) { return subset(a, b) && subset(b, a); }
 bool holds(explained_hull const& known, std::vector<double> const& p) {
     for (std::size_t j = 0; j < p.size(); ++j)
         if (!contains(known.parameters[j], p[j])) return false;
@@ -91,9 +92,9 @@ TEST_CASE("a product that is not bounded is not kept, one that is known twice is
     twice.add({product_of({1, 1}), between(1, 3)});
     twice.add({product_of({1, 1}), between(2, 4)});
     REQUIRE(twice.products.size() == 1);
-    CHECK(twice.products[0].hull == between(2, 3));
-    CHECK(range_of(product_of({1, 1}), twice.parameters, twice.products) == between(2, 3));
-    CHECK(range_of(product_of({1, 0}), twice.parameters, twice.products) == between(1, 2));
+    CHECK(same(twice.products[0].hull, between(2, 3)));
+    CHECK(same(range_of(product_of({1, 1}), twice.parameters, twice.products), between(2, 3)));
+    CHECK(same(range_of(product_of({1, 0}), twice.parameters, twice.products), between(1, 2)));
 }
 
 TEST_CASE("products in another order of the parameters") {
@@ -101,7 +102,7 @@ TEST_CASE("products in another order of the parameters") {
     auto const told = reordered({product_of({2, 0, -1}), between(1, 2)}, from, to);
     REQUIRE(told);
     CHECK(told->what.exponents == std::vector<int>{-1, 0, 2});
-    CHECK(told->hull == between(1, 2));
+    CHECK(same(told->hull, between(1, 2)));
     CHECK_FALSE(reordered({product_of({2, 1, -1}), between(1, 2)}, from, to));
     combination const sum{{0, 0, 0}, "a - c", "", {1, 0, -1}};
     auto const moved = reordered({sum, between(1, 2)}, from, to);

@@ -51,13 +51,13 @@ TEST_CASE("diagnosis tables: parameters with hull and prior") {
 
 TEST_CASE("diagnosis tables: products that are told better than their factors") {
     diagnosis_view v = hovercraft_diagnosis().view();
-    v.combinations = {{{"tau/Iz", "s/(kg m^2)", 2.5, {2.4, 2.6}, {0, 20}, true}, true},
+    v.combinations = {{{"tau/Iz", "s/(kg m^2)", 2.5, {2.5, 2.75}, {0, 20}, true}, true},
                       {{"D33/Iz", "1/s", 1.5, {1.4, 1.6}, {1, 2}, false}, false}};
     auto const t = constants_table(v);
     REQUIRE(t.rows.size() >= 2);
     auto const& row = t.rows[t.rows.size() - 2];
     CHECK(row[0] == "tau/Iz");
-    CHECK(row[2] == "2.40 to 2.60");
+    CHECK(row[2] == "2.50 to 2.75");
     CHECK_THAT(row[5], ContainsSubstring("better than its parts"));
     CHECK_THAT(diagnosis_cards(v)[2].note, ContainsSubstring("tau/Iz = 2.50"));
     CHECK(diagnosis_cards(v)[2].note.find("D33") == std::string::npos);
