@@ -299,9 +299,9 @@ private:
         for (std::size_t j = 0; j < std::min(d.constants.size(), hulls.parameters.size()); ++j) {
             d.constants[j].hull = hulls.parameters[j];
         }
-        if (hulls.parameters.size() == d.constants.size())
-            d.combinations = told_combinations(s.problem, d.constants, hulls);
-        add_constants_at_ends(names_of(s.figures, run_.catalogue), d.constants, d.at_ends);
+        d.combinations = told_combinations(s.problem, d.constants, hulls);
+        add_constants_at_ends(names_of(s.figures, run_.catalogue), d.constants, d.at_ends,
+                              d.combinations);
         // A term may stand for a constant that may not go where it should.
         bool const terms = std::any_of(d.effects.begin(), d.effects.end(), names_missing_term);
         if (d.constants_verified && !terms) return;

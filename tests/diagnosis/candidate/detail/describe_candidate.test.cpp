@@ -59,4 +59,12 @@ TEST_CASE("products that are told better than their factors are named by short n
     CHECK(sums[0].about.value == 0.5);
     CHECK(sums[0].is_sum);
     CHECK(sums[0].parts[1].number == -1);
+
+    auto at_end = named_parameters(p, {1.0, 0.5});
+    at_end[0].value = at_end[0].prior->upper();
+    std::vector<constant_at_end> ends;
+    add_constants_at_ends({}, at_end, ends, sums); // its value could be another
+    CHECK(ends.empty());
+    add_constants_at_ends({}, at_end, ends, told);
+    CHECK(ends.size() == 1);
 }

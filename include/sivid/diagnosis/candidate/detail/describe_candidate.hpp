@@ -77,16 +77,22 @@ told_combinations(identification_problem const& p, std::vector<named_estimate> c
     return result;
 }
 
-/// Adds the constants among these that sit at the end of their prior, each name once.
+/// Adds the constants among these that sit at the end of their prior, each name once: not those of
+/// which the data tell a sum alone, whose values could be others.
 inline void add_constants_at_ends(std::vector<std::string> const& effects,
                                   std::vector<named_estimate> const& constants,
-                                  std::vector<constant_at_end>& to) {
+                                  std::vector<constant_at_end>& to,
+                                  std::vector<named_combination> const& told = {}) {
     for (auto const& c : constants) {
         auto const end = c.prior ? end_of_prior(c.value, *c.prior) : prior_end::none;
         bool const known = std::any_of(to.begin(), to.end(), [&c](constant_at_end const& other) {
             return other.constant.name == c.name;
         });
-        if (end != prior_end::none && !known) to.push_back({effects, c, end});
+        bool const in_sum = std::any_of(told.begin(), told.end(), [&c](auto const& k) {
+            return k.is_sum && std::any_of(k.parts.begin(), k.parts.end(),
+                                           [&c](auto const& p) { return p.name == c.name; });
+        });
+        if (end != prior_end::none && !known && !in_sum) to.push_back({effects, c, end});
     }
 }
 
