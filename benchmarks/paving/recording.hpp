@@ -151,14 +151,13 @@ inline experiment recorded(driven const& machine, recording const& how, std::str
 inline identification_problem record_of(driven const& machine, recording const& how) {
     identification_problem p{machine.model, {how.unknown, {}}, {}, {}};
     auto& unknown = p.choice.unknown;
-    std::vector<interval> prior;
-    for (auto const& c : p.model.about.constants) {
-        if (how.unknown.empty()) {
-            unknown.push_back(c.name);
-        } else if (std::find(unknown.begin(), unknown.end(), c.name) == unknown.end()) {
-            continue;
-        }
-        double const truth = c.nominal.nearest;
+    auto const& constants = p.model.about.constants;
+    if (unknown.empty()) {
+        for (auto const& c : constants) unknown.push_back(c.name);
+    }
+    std::vector<interval> prior; // in the order of the unknowns
+    for (auto const& name : unknown) {
+        double const truth = constants[index_of(constants, name, "constant")].nominal.nearest;
         prior.push_back(interval(truth * (1 - how.spread), truth * (1 + how.spread)));
     }
     p.prior = box(std::move(prior));
