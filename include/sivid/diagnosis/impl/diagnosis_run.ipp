@@ -45,7 +45,6 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
         search.seconds = (before ? 0.15 : 0.8) * seconds;
         search.work = (before ? boxes / 8 : boxes / 2) *
                       (run.base.experiments.size() + judged.experiments.size() + 1);
-        search.relative_width = before ? 0.05 : 0.01;
         search.test = limited(test, [&test, begin, end = share * seconds] {
             auto const now = std::chrono::steady_clock::now();
             return std::chrono::duration<double>(now - begin).count() < end &&

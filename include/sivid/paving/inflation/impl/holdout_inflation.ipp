@@ -62,6 +62,7 @@ public:
     std::ptrdiff_t fitted; ///< experiments; the others are held out
     double fit_upper;      ///< of the inflation of all parameters that fit
     double share;          ///< of the range that is worth a closer look
+    double good;           ///< a larger inflation is looked at five times as closely
     std::vector<std::size_t> outliers;
     bool all_starts;         ///< of the held-out experiments; else only bounds from above hold
     bool from_above = false; ///< which end of the range comes first
@@ -89,8 +90,11 @@ public:
         if (all_starts) b.least = std::max(b.least, own.lower);
         double const about = predict(b, met, own_known, own_outliers);
         if (!b.fits) return;
-        double const tolerance = share * (std::isfinite(b.most) ? b.most : std::max(b.least, 1.0));
-        double const fit_tolerance = share * fit_upper;
+        bool const far = !(b.most <= good);
+        double const closely = far ? share / 5 : share;
+        double const tolerance =
+            closely * (std::isfinite(b.most) ? b.most : std::max(b.least, 1.0));
+        double const fit_tolerance = closely * fit_upper;
         double unclear = found.slack, own_unclear = own.slack;
         for (double const blur : found.blur) unclear += blur;
         for (double const blur : own.blur) own_unclear += blur;
@@ -99,7 +103,7 @@ public:
         bool const all_told = std::all_of(fit_known.begin(), fit_known.end(), [](auto const& r) {
             return r->outputs() == r->measurements;
         });
-        b.settled_above = fit_is_clear && b.most - about <= tolerance && all_told;
+        b.settled_above = fit_is_clear && b.most - about <= tolerance && (all_told || !far);
         b.settled_below =
             !all_starts ||
             (fit_is_clear && (own_unclear <= tolerance || b.most - b.least <= tolerance));
@@ -188,11 +192,12 @@ private:
 /// split or integrated anew until they are settled.
 class holdout_range {
 public:
+    /// @param good        a larger inflation is worth a closer look
     /// @param all_starts  `both` has all of the held-out experiments; else 0 bounds from below
     holdout_range(identification_problem const& both, std::size_t fitted, double fit_upper,
-                  box const& start, bool all_starts, inflation_options const& options)
+                  box const& start, double good, bool all_starts, inflation_options const& options)
         : search_(both, options.test,
-                  {static_cast<std::ptrdiff_t>(fitted), fit_upper, options.relative_width,
+                  {static_cast<std::ptrdiff_t>(fitted), fit_upper, options.relative_width, good,
                    outlier_budgets(both), all_starts},
                   start) {}
 
@@ -345,13 +350,14 @@ SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
                    likely_starts.end(), [](experiment const& e, auto const& likely) {
                        return e.initial.size() == likely.size();
                    });
+    double const good = 1.2 * std::max(result.at_witness.lower(), fitted.value.upper());
     for (double const share : {0.3, 1.0}) {
         bool const last = share == 1;
         if (!last && !some_starts) continue;
         double const end = last ? options.seconds : elapsed() + 0.6 * (options.seconds - elapsed());
         paving_detail::holdout_range search(
             paving_detail::started_near(posed, fit.experiments.size(), likely_starts, share),
-            fit.experiments.size(), fitted.value.upper(), start, last, timely);
+            fit.experiments.size(), fitted.value.upper(), start, good, last, timely);
         search.narrow(options.work, [&] { return elapsed() < end && go_on(); });
         auto const found = search.range();
         result.boxes += search.tested();
@@ -363,7 +369,6 @@ SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
         if (result.outputs.empty() || found.upper() < result.over_fits.upper())
             result.outputs = search.outputs();
         result.over_fits = intersect(result.over_fits, found);
-        double const good = 1.2 * std::max(result.at_witness.lower(), fitted.value.upper());
         if (result.over_fits.upper() <= good || !go_on()) break;
     }
     result.seconds = elapsed();
