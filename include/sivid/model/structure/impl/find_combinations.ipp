@@ -195,7 +195,7 @@ private:
     }
     [[nodiscard]] std::vector<node_id> operands(node_id i) const {
         auto const n = model_->g[i];
-        if (n.op <= operation::input) return {}; // a leaf
+        if (is_leaf(n.op)) return {};
         if (is_binary(n.op)) return {n.a, n.b};
         return {n.a};
     }

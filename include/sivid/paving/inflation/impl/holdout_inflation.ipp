@@ -369,6 +369,10 @@ SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
         if (result.outputs.empty() || found.upper() < result.over_fits.upper())
             result.outputs = search.outputs();
         result.over_fits = intersect(result.over_fits, found);
+        if (is_empty(result.over_fits)) { // no parameter fits after all
+            result.over_fits = result.at_witness;
+            break;
+        }
         if (result.over_fits.upper() <= good || !go_on()) break;
     }
     result.seconds = elapsed();

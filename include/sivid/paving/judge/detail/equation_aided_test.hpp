@@ -49,7 +49,7 @@ public:
         for (std::size_t k = 0; k < boxes.size(); ++k) {
             auto& found = results[k];
             if (!asks_ || found.verdict != box_verdict::undecided ||
-                !(data_test::reached(found) < below_))
+                (found.knowledge && !(data_test::reached(found) < below_)))
                 continue;
             early = true;
             auto more = equations_(found.rest);
