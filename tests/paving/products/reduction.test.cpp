@@ -57,6 +57,21 @@ constexpr auto idle_rate = [](auto const&, auto const& x, auto const& p, auto co
 box const idle_prior{between(0.5, 2), between(-1, 3), between(0.4, 1.2), between(5, 6)};
 sample idle() { return make(4, idle_rate, idle_prior); }
 
+/// The reduced problem has the original's trajectory at a point.
+void check_trajectory(sample const& s, reduction const& map, box const& p) {
+    auto const flow_of = [](identification_problem const& of) {
+        return std::make_shared<flow const>(of.model, of.choice, std::vector<signal>{});
+    };
+    auto const r = map.forward(p);
+    REQUIRE_FALSE(is_empty(r));
+    CHECK(subset(r, map.problem().prior));
+    auto const a = integrate<interval>(flow_of(s.problem), box{interval(1.0)}, p, 0, 2);
+    auto const b = integrate<interval>(flow_of(map.problem()), box{interval(1.0)}, r, 0, 2);
+    REQUIRE((a.complete() && b.complete()));
+    CHECK_FALSE(disjoint(a.at(2)[0], b.at(2)[0]));
+    CHECK(width(b.at(2)[0]) < 1e-10);
+}
+
 } // namespace
 
 TEST_CASE("a reduced problem has the trajectories of the original one") {
@@ -68,21 +83,8 @@ TEST_CASE("a reduced problem has the trajectories of the original one") {
         CHECK(small.prior.size() < s.problem.prior.size());
         CHECK(small.choice.unknown.size() == small.prior.size());
         CHECK_NOTHROW(small.require_valid());
-        auto const original =
-            std::make_shared<flow const>(s.problem.model, s.problem.choice, std::vector<signal>{});
-        auto const reduced =
-            std::make_shared<flow const>(small.model, small.choice, std::vector<signal>{});
-        for (int round = 0; round < 60; ++round) {
-            auto const p = point_box(d.in(s.problem.prior));
-            auto const r = map->forward(p);
-            REQUIRE_FALSE(is_empty(r));
-            CHECK(subset(r, small.prior));
-            auto const a = integrate<interval>(original, box{interval(1.0)}, p, 0, 2);
-            auto const b = integrate<interval>(reduced, box{interval(1.0)}, r, 0, 2);
-            REQUIRE((a.complete() && b.complete()));
-            CHECK_FALSE(disjoint(a.at(2)[0], b.at(2)[0]));
-            CHECK(width(b.at(2)[0]) < 1e-10);
-        }
+        for (int round = 0; round < 60; ++round)
+            check_trajectory(s, *map, point_box(d.in(s.problem.prior)));
     }
 }
 
@@ -102,18 +104,10 @@ TEST_CASE("a sum is one parameter, forward and backward, with the same trajector
     auto const& small = map->problem();
     CHECK(small.prior.size() == 3); // p0, p1*p3, p2 + p4
     CHECK_NOTHROW(small.require_valid());
-    auto const original =
-        std::make_shared<flow const>(s.problem.model, s.problem.choice, std::vector<signal>{});
-    auto const reduced =
-        std::make_shared<flow const>(small.model, small.choice, std::vector<signal>{});
     for (int round = 0; round < 60; ++round) {
         auto const p = point_box(d.in(prior));
+        check_trajectory(s, *map, p);
         auto const r = map->forward(p);
-        REQUIRE_FALSE(is_empty(r));
-        auto const a = integrate<interval>(original, box{interval(1.0)}, p, 0, 2);
-        auto const b = integrate<interval>(reduced, box{interval(1.0)}, r, 0, 2);
-        REQUIRE((a.complete() && b.complete()));
-        CHECK_FALSE(disjoint(a.at(2)[0], b.at(2)[0]));
         // What maps into a part stays.
         auto part = small.prior;
         for (std::size_t k = 0; k < part.size(); ++k)
