@@ -305,3 +305,33 @@ TEST_CASE("hulls alone take few boxes and are no wider than those of a paving by
     }
     check_claims(planted, hulls, d, 0);
 }
+
+TEST_CASE("a fit that stops just short of the bounds is sharpened before nothing is said") {
+    // Bounds are scaled so that the first fit misses them and its neighbour keeps them.
+    draws d(365);
+    int tried = 0;
+    for (int round = 0; round < 60 && tried < 4; ++round) {
+        auto planted = support::plant(d, d.below(support::planted_models),
+                                      {.experiments = 2, .samples = 40, .spread = 0.01});
+        auto& problem = planted.problem;
+        auto const first = fit(problem);
+        auto const sharp = fit(problem, fit_norm::largest, {first.parameters, first.starts});
+        if (!(sharp.inflation < 0.9999 * first.inflation) || first.inflation > 1.04) continue;
+        double const between_both = 0.5 * (first.inflation + sharp.inflation);
+        for (auto& e : problem.experiments) {
+            for (auto& m : e.measurements) {
+                double const c = mid(m.bound), r = rad(m.bound) * between_both;
+                m.bound = between(c - r, c + r);
+            }
+        }
+        if (fit(problem).inflation <= 1) continue;
+        ++tried;
+        auto const found = identify(problem, quick(algorithm::contracting, 1.0 / 8, 30));
+        CAPTURE(round, first.inflation, sharp.inflation);
+        CHECK(found.verdict == verdict::consistent);
+        CHECK(found.witness);
+        REQUIRE(found.guess);
+        CHECK(found.guess->inflation <= 1);
+    }
+    CHECK(tried > 0);
+}

@@ -48,6 +48,24 @@ find_forced(data_test& test, identification_problem const& problem, box const& h
     return forced;
 }
 
+/// Fits and verifies. A fit that ends by a few percent outside of the bounds may have stopped short
+/// of its minimum: it goes on from there.
+inline void find_witness(data_test& test, identification_problem const& working,
+                         work_limit const& limit, identification& result) {
+    constexpr double nearly = 1.05;
+    fitter fit(working, limit);
+    auto guess = fit();
+    for (bool const sharpened : {false, true}) {
+        if (guess.parameters.empty()) return;
+        bool const better = !result.guess || guess.inflation < result.guess->inflation;
+        if (sharpened && !better) return;
+        result.witness = verify_witness(test, working, guess.parameters, guess.starts);
+        result.guess = guess;
+        if (result.witness || !(guess.inflation < nearly) || !limit()) return;
+        guess = fit({guess.parameters, guess.starts});
+    }
+}
+
 } // namespace paving_detail
 
 SIVID_DECL identification identify(identification_problem const& problem,
@@ -78,13 +96,14 @@ SIVID_DECL identification identify(identification_problem const& problem,
     result.assumptions.push_back(input_assumption(problem.experiments));
     std::vector<box> starts;
     if (options.algorithm == algorithm::contracting) {
-        auto guess = options.resume ? options.resume->guess.value_or(approximate_fit{})
-                                    : fitter(working, limit)();
-        if (!guess.parameters.empty()) {
+        if (!options.resume) {
+            paving_detail::find_witness(test, working, limit, result);
+        } else if (options.resume->guess && !options.resume->guess->parameters.empty()) {
+            auto const& guess = *options.resume->guess;
             result.witness = verify_witness(test, working, guess.parameters, guess.starts);
-            starts = paving_detail::starts_of(guess, working);
-            result.guess = std::move(guess);
+            result.guess = guess;
         }
+        if (result.guess) starts = paving_detail::starts_of(*result.guess, working);
     }
     auto const since_begin = [begin] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
