@@ -38,19 +38,24 @@ struct arm {
         return own;
     }();
     template <class T>
-    vec<T, 4> rate(T const&, vec<T, 4> const& x, constants_of<arm, T> const& c,
-                   vec<T, 2> const& u) const {
-        auto const &a1 = c[0], &a2 = c[1], &a3 = c[2], &f1 = c[3], &f2 = c[4], &g = c[5];
-        T const c2 = cos(x[1]), h = a2 * sin(x[1]);
-        T const m11 = a1 + 2 * a2 * c2, m12 = a3 + a2 * c2;
+    matrix_of<arm, T> mass(T const&, vec<T, 4> const& x, constants_of<arm, T> const& c,
+                           vec<T, 2> const&) const {
+        auto const &a1 = c[0], &a2 = c[1], &a3 = c[2];
+        T const m11 = a1 + 2 * a2 * cos(x[1]), m12 = a3 + a2 * cos(x[1]);
+        return {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, m11, m12}, {0, 0, m12, a3}}};
+    }
+    template <class T>
+    vec<T, 4> force(T const&, vec<T, 4> const& x, constants_of<arm, T> const& c,
+                    vec<T, 2> const& u) const {
+        auto const &a2 = c[1], &f1 = c[3], &f2 = c[4], &g = c[5];
+        T const h = a2 * sin(x[1]);
         T r1 = u[0] - f1 * x[2] + h * x[3] * (2 * x[2] + x[3]) - g * cos(x[0]);
         T r2 = u[1] - f2 * x[3] - h * x[2] * x[2];
         if constexpr (DryFriction) {
             r1 = r1 - c[6] * tanh(10 * x[2]);
             r2 = r2 - c[7] * tanh(10 * x[3]);
         }
-        T const det = m11 * a3 - m12 * m12;
-        return {x[2], x[3], (a3 * r1 - m12 * r2) / det, (m11 * r2 - m12 * r1) / det};
+        return {x[2], x[3], r1, r2};
     }
     template <class T>
     vec<T, 2> observe(T const&, vec<T, 4> const& x, constants_of<arm, T> const&,

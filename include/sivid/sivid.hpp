@@ -62,6 +62,7 @@
 #include <sivid/model/graph/graph.hpp>
 #include <sivid/model/graph/graph_listing.hpp>
 #include <sivid/model/graph/graph_range.hpp>
+#include <sivid/model/graph/linear_solution.hpp>
 #include <sivid/model/graph/normal_form.hpp>
 #include <sivid/model/graph/operation.hpp>
 #include <sivid/model/graph/plain_program.hpp>
@@ -123,6 +124,7 @@
 #include <sivid/enclosure/uncertain_input.hpp>
 #include <sivid/paving/bisection_test.hpp>
 #include <sivid/paving/contract/window_contraction.hpp>
+#include <sivid/paving/divisors.hpp>
 #include <sivid/paving/identifiability.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/identification_state.hpp>

@@ -5,6 +5,7 @@
 #include <sivid/model/change/impl/slower_inputs.ipp>
 #include <sivid/model/graph/impl/graph.ipp>
 #include <sivid/model/graph/impl/graph_listing.ipp>
+#include <sivid/model/graph/impl/linear_solution.ipp>
 #include <sivid/model/impl/bound_model.ipp>
 #include <sivid/model/impl/closed_loop.ipp>
 #include <sivid/model/impl/describe.ipp>

@@ -5,9 +5,11 @@
 #include <sivid/compiled.hpp>
 #include <sivid/model/expression.hpp>
 #include <sivid/model/graph/detail/formula_text.hpp>
+#include <sivid/model/graph/linear_solution.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/number/decimal.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
@@ -78,6 +80,13 @@ constexpr auto constants(constant_quantity const (&list)[N]) {
     return model_detail::to_array(list, std::make_index_sequence<N>{});
 }
 
+/// Unknowns of an implicit model beside the rates, forces of constraints for instance:
+/// `static constexpr auto algebraic = sivid::algebraic({{"pull", "N"}});`
+template <std::size_t N>
+constexpr auto algebraic(quantity const (&list)[N]) {
+    return model_detail::to_array(list, std::make_index_sequence<N>{});
+}
+
 template <class Model>
 inline constexpr std::size_t state_count =
     std::tuple_size_v<std::remove_cvref_t<decltype(Model::states)>>;
@@ -101,6 +110,22 @@ using inputs_of = vec<T, input_count<Model>>;
 template <class Model, class T>
 using channels_of = vec<T, channel_count<Model>>;
 
+template <class Model>
+inline constexpr std::size_t algebraic_count = [] {
+    if constexpr (requires { Model::algebraic; }) {
+        return std::tuple_size_v<std::remove_cvref_t<decltype(Model::algebraic)>>;
+    } else {
+        return std::size_t{0};
+    }
+}();
+template <class Model, class T>
+using algebraic_of = vec<T, algebraic_count<Model>>;
+/// The right-hand side of an implicit model, and its matrix by rows.
+template <class Model, class T>
+using equations_of = vec<T, state_count<Model> + algebraic_count<Model>>;
+template <class Model, class T>
+using matrix_of = vec<equations_of<Model, T>, state_count<Model> + algebraic_count<Model>>;
+
 /// One constant as a function of others: what `derived` of a model lists. @code
 ///     template <class T>
 ///     std::array<sivid::relation_of_constants<T>, 1> derived(constants_of<disc, T> const& c) const
@@ -116,23 +141,55 @@ struct relation_of_constants {
     T value;
 };
 
-/// A dynamic model: `rate` is the right-hand side \f$ x' = f(t, x, c, u) \f$, `observe` the output
-/// \f$ y = g(t, x, c, u) \f$; both are member templates on the scalar, free of side effects, and
-/// `name`, `states`, `inputs`, `channels`, `constants` say what the numbers mean. A third member
-/// template, `derived`, is optional: constants that are functions of others.
+/// \f$ x' = f(t, x, c, u) \f$, by the member template `rate`.
+template <class M>
+concept explicit_model = requires(M const m, expression t, states_of<M, expression> x,
+                                  constants_of<M, expression> c, inputs_of<M, expression> u) {
+    { m.rate(t, x, c, u) } -> std::same_as<states_of<M, expression>>;
+};
+
+/// \f$ M(t, x, c, u) \, (x', z) = f(t, x, c, u) \f$, by the member templates `mass` and `force`:
+/// equations of motion as textbooks have them, with constraints too. z are the unknowns that
+/// `algebraic` lists, if any; they stand linearly, as Lagrange's multipliers do where constraints
+/// are differentiated until accelerations stand in them (index 1). The equations are solved once,
+/// when the model is recorded (`solve_linear`). @code
+///     template <class T>
+///     sivid::matrix_of<arm, T> mass(T const& t, states_of<arm, T> const& x, ...) const {
+///         return {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, m11, m12}, {0, 0, m12, m22}}};
+///     } @endcode
+/// Where M may be singular nothing is enclosed and nothing is proved; `vanishing_divisors` tells
+/// whether it is within a prior.
+template <class M>
+concept implicit_model = requires(M const m, expression t, states_of<M, expression> x,
+                                  constants_of<M, expression> c, inputs_of<M, expression> u) {
+    { m.mass(t, x, c, u) } -> std::same_as<matrix_of<M, expression>>;
+    { m.force(t, x, c, u) } -> std::same_as<equations_of<M, expression>>;
+};
+
+/// `observe`, the output \f$ y = g(t, x, c, u) \f$, or \f$ g(t, x, c, u, z) \f$.
+template <class M>
+concept observed_model = requires(M const m, expression t, states_of<M, expression> x,
+                                  constants_of<M, expression> c, inputs_of<M, expression> u) {
+    { m.observe(t, x, c, u) } -> std::same_as<channels_of<M, expression>>;
+}
+|| requires(M const m, expression t, states_of<M, expression> x, constants_of<M, expression> c,
+            inputs_of<M, expression> u, algebraic_of<M, expression> z) {
+    { m.observe(t, x, c, u, z) } -> std::same_as<channels_of<M, expression>>;
+};
+
+/// A dynamic model: its equations, explicit or implicit, and its outputs are member templates on
+/// the scalar, free of side effects; `name`, `states`, `inputs`, `channels`, `constants` say what
+/// the numbers mean. A further member template, `derived`, is optional: constants that are
+/// functions of others.
 template <class M>
 concept dynamic_model = requires {
     M::states;
     M::inputs;
     M::channels;
     M::constants;
-}
-&&requires(M const m, expression t, states_of<M, expression> x, constants_of<M, expression> c,
-           inputs_of<M, expression> u) {
     { M::name } -> std::convertible_to<std::string_view>;
-    { m.rate(t, x, c, u) } -> std::same_as<states_of<M, expression>>;
-    { m.observe(t, x, c, u) } -> std::same_as<channels_of<M, expression>>;
-};
+}
+&&(explicit_model<M> || implicit_model<M>)&&observed_model<M>;
 
 /// Names and units of everything a model speaks of.
 struct model_description {
@@ -224,6 +281,13 @@ namespace model_detail {
 /// of
 ///         constants before it, and when its nominal value is not what the formula gives to 0.1 %
 SIVID_DECL void add_derived(recorded_model& model, std::string_view name, expression const& value);
+/// Solves the equations of an implicit model.
+/// @returns  the rates, then the algebraic unknowns
+/// @throws std::invalid_argument  naming the model, where the matrix is singular by its structure
+[[nodiscard]] SIVID_DECL std::vector<expression> solved_rates(recorded_model& model,
+                                                              std::vector<expression> const& mass,
+                                                              std::vector<expression> const& force,
+                                                              std::span<quantity const> algebraic);
 } // namespace model_detail
 
 /// Runs the functor once on the recording scalar.
@@ -244,8 +308,29 @@ template <dynamic_model M>
     leaves(operation::constant, c);
     leaves(operation::input, u);
     expression const t(g, g.leaf(operation::time, 0));
-    for (auto const& e : model.rate(t, x, c, u)) result.rate.push_back(e.in(g));
-    for (auto const& e : model.observe(t, x, c, u)) result.observe.push_back(e.in(g));
+    algebraic_of<M, expression> z;
+    if constexpr (explicit_model<M>) {
+        for (auto const& e : model.rate(t, x, c, u)) result.rate.push_back(e.in(g));
+    } else {
+        std::vector<expression> mass, force;
+        for (auto const& row : model.mass(t, x, c, u))
+            mass.insert(mass.end(), row.begin(), row.end());
+        for (auto const& e : model.force(t, x, c, u)) force.push_back(e);
+        std::span<quantity const> further;
+        if constexpr (algebraic_count < M >> 0) further = M::algebraic;
+        auto const solved = model_detail::solved_rates(result, mass, force, further);
+        auto const rates = solved.begin() + state_count<M>;
+        for (auto e = solved.begin(); e != rates; ++e) result.rate.push_back(e->in(g));
+        std::copy(rates, solved.end(), z.begin());
+    }
+    auto const outputs = [&] {
+        if constexpr (requires { model.observe(t, x, c, u); }) {
+            return model.observe(t, x, c, u);
+        } else {
+            return model.observe(t, x, c, u, z);
+        }
+    }();
+    for (auto const& e : outputs) result.observe.push_back(e.in(g));
     if constexpr (requires { model.derived(c); }) {
         for (auto const& d : model.derived(c))
             model_detail::add_derived(result, d.constant, d.value);

@@ -6,6 +6,7 @@
 #include <sivid/model/structure/combination.hpp>
 #include <sivid/paving/outliers/detail/fewest_outliers.hpp>
 #include <sivid/paving/products/reduction.hpp>
+#include <sivid/paving/divisors.hpp>
 #include <sivid/paving/run/run_reach.hpp>
 #include <sivid/paving/run_options.hpp>
 #include <sivid/paving/search/exclusion_proof.hpp>
@@ -73,6 +74,8 @@ struct identification {
     std::optional<window_effort> windows; ///< nothing where none were needed
     /// Over what is left, where little was excluded and the search has not decided all of it.
     std::vector<run_reach> reach;
+    /// With them: what the equations divide by that is, or may be, zero somewhere.
+    std::vector<divisor> divisors;
     std::optional<search_effort> effort; ///< nothing where measurements came one by one
     /// Of the prior: inside boxes are proved, what no other box covers is excluded by proof.
     subpaving paving;

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include <limits>
+#include <string>
+#include <vector>
 
 using namespace sivid;
 
@@ -39,6 +41,26 @@ TEST_CASE("what holds runs back is written by name, and nothing where nobody loo
     json_writer silent;
     silent.begin_object();
     write_reach(silent, {});
+    silent.end_object();
+    CHECK(nlohmann::json::parse(silent.text()).empty());
+}
+
+TEST_CASE("divisors are written with where they vanish") {
+    json_writer writer;
+    writer.begin_object();
+    write_divisors(writer, {{"a - x", {"x", "output y"}, zeros::some, {{"a", 1.5}, {"x", 1.5}}},
+                            {"", {"x"}, zeros::unknown, {}}});
+    writer.end_object();
+    auto const json = nlohmann::json::parse(writer.text())["divisors"];
+    REQUIRE(json.size() == 2);
+    CHECK(json[0]["formula"] == "a - x");
+    CHECK(json[0]["equations"] == std::vector<std::string>{"x", "output y"});
+    CHECK(json[0]["zeros"] == "some");
+    CHECK(json[0]["near"] == nlohmann::json{{"a", 1.5}, {"x", 1.5}});
+    CHECK(json[1]["zeros"] == "unknown");
+    json_writer silent;
+    silent.begin_object();
+    write_divisors(silent, {});
     silent.end_object();
     CHECK(nlohmann::json::parse(silent.text()).empty());
 }

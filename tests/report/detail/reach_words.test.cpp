@@ -107,3 +107,17 @@ TEST_CASE("words on runs are few and say first what no method could exclude") {
     much.reach = found.reach;
     CHECK(report::reach_words(p, much).empty());
 }
+
+TEST_CASE("words on divisors say what may vanish, in which equations, and where") {
+    auto const p = plain_problem::make();
+    identification found(p.prior);
+    found.reason = stop_reason::accuracy_reached;
+    found.divisors = {{"a - x", {"u", "v", "output y"}, zeros::some, {{"a", 0.5}, {"x", 0.5}}},
+                      {"", {"v"}, zeros::unknown, {}}};
+    auto const words = report::reach_words(p, found);
+    REQUIRE(words.size() == 2);
+    CHECK(words[0] == "The equations of u, v and output y divide by a - x, which is zero somewhere "
+                      "within the prior and the limits of the states (near a = 0.50, x = 0.50): no "
+                      "trajectory is enclosed there. A prior, or limits, without it may tell more");
+    CHECK(has(words[1], "The equation of v divides by a long expression, which may be zero"));
+}

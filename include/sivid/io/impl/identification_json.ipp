@@ -44,6 +44,7 @@ SIVID_DECL std::string identification_json(identification_problem const& problem
         json.end_object();
     }
     write_reach(json, found.reach);
+    write_divisors(json, found.divisors);
     if (found.effort) { // what the reason follows from
         auto const& e = *found.effort;
         json.key("search").begin_object(layout::one_line);

@@ -3,6 +3,7 @@
 #define SIVID_IO_RESULT_REACH_JSON_HPP
 
 #include <sivid/io/text/json_writer.hpp>
+#include <sivid/paving/divisors.hpp>
 #include <sivid/paving/run/run_reach.hpp>
 
 #include <vector>
@@ -25,6 +26,22 @@ inline void write_reach(json_writer& json, std::vector<run_reach> const& reach) 
         json.end_object();
         json.key("moved").nearest(r.moved).key("spread").nearest(r.spread);
         json.key("lost").nearest(r.lost).key("interrupted").boolean(r.interrupted).end_object();
+    }
+    json.end_array();
+}
+
+/// "divisors": what the equations divide by that is, or may be, zero; nothing where there is none.
+inline void write_divisors(json_writer& json, std::vector<divisor> const& divisors) {
+    if (divisors.empty()) return;
+    json.key("divisors").begin_array();
+    for (auto const& d : divisors) {
+        json.begin_object(json_writer::layout::one_line);
+        json.key("formula").string(d.formula).key("equations").begin_array();
+        for (auto const& e : d.equations) json.string(e);
+        json.end_array().key("zeros").string(d.zeros == zeros::some ? "some" : "unknown");
+        json.key("near").begin_object();
+        for (auto const& [name, value] : d.near) json.key(name).nearest(value);
+        json.end_object().end_object();
     }
     json.end_array();
 }

@@ -205,6 +205,8 @@ SIVID_DECL identification identify(identification_problem const& problem,
         auto run = options.test.run;
         run.enclosure.keep_going = limit;
         result.reach = reach_of_runs(asked, left, run);
+        result.divisors = divisors_of(problem, {.keep_going = limit});
+        std::erase_if(result.divisors, [](divisor const& d) { return d.zeros == zeros::none; });
         for (auto& r : result.reach) {
             for (auto& c : r.causes) {
                 if (!map || c.start) continue;

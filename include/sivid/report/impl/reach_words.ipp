@@ -90,6 +90,23 @@ inline std::string why_of(run_reach const& r, bool ended_by_itself) {
            brief(r.moved) + " error bounds: a larger budget may tell more";
 }
 
+/// What the equations divide by, and that it is, or may be, zero.
+inline std::string divisor_text(divisor const& d) {
+    std::string words = d.equations.size() == 1 ? "The equation of " : "The equations of ";
+    for (std::size_t k = 0; k < d.equations.size(); ++k) {
+        words += (k == 0 ? "" : k + 1 == d.equations.size() ? " and " : ", ") + d.equations[k];
+    }
+    words += d.equations.size() == 1 ? " divides by " : " divide by ";
+    words += d.formula.empty() ? "a long expression" : d.formula;
+    words += d.zeros == zeros::some ? ", which is zero somewhere" : ", which may be zero";
+    words += " within the prior and the limits of the states";
+    for (std::size_t k = 0; k < d.near.size(); ++k) {
+        words += (k == 0 ? " (near " : ", ") + d.near[k].first + " = " + brief(d.near[k].second);
+    }
+    if (!d.near.empty()) words += ")";
+    return words + ": no trajectory is enclosed there. A prior, or limits, without it may tell more";
+}
+
 /// What no method could exclude; empty where that is not much.
 inline std::string proved_inside_text(identification const& found) {
     double const inside = found.paving.inner_volume().lower();
@@ -128,6 +145,7 @@ SIVID_DECL std::vector<std::string> reach_words(identification_problem const& pr
     if (found.reach.empty() && found.reason == stop_reason::time_budget &&
         !problem.model.has_memory())
         result.push_back("No time was left to see why: a larger budget may tell");
+    for (auto const& d : found.divisors) result.push_back(detail::divisor_text(d));
     for (auto& words : reach_words(found.reach, is_complete(found.reason)))
         result.push_back(std::move(words));
     return result;

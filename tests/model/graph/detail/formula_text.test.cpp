@@ -11,7 +11,7 @@ TEST_CASE("formulas of constants as text, with the brackets that they need") {
     graph g;
     expression const a(g, g.leaf(operation::constant, 0));
     expression const b(g, g.leaf(operation::constant, 1));
-    auto const text = [&](expression const& e) { return formula_text(g, e.in(g), {"a", "b"}); };
+    auto const text = [&](expression const& e) { return formula_text(g, e.in(g), {{"a", "b"}}); };
     CHECK(text(a) == "a");
     CHECK(text(expression(2.5)) == "2.5");
     CHECK(text(a + b * b) == "a + b^2");

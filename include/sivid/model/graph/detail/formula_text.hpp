@@ -12,13 +12,20 @@
 
 namespace sivid {
 
-/// A function of constants as a formula: "3.141592653589793 * D^2 / 4". Literals are the decimals
-/// of their nearest doubles.
-/// @param names  of the constants
-/// @given  the node depends on constants alone (leaves of other kinds are shown as "?")
-[[nodiscard]] inline std::string formula_text(graph const& g, node_id i,
-                                              std::vector<std::string> const& names) {
+/// What the leaves of a graph are called.
+struct leaf_names {
+    std::vector<std::string> constants, states{}, inputs{};
+};
+
+/// A node as a formula: "3.141592653589793 * D^2 / 4". Literals are the decimals of their nearest
+/// doubles; leaves without a name are "?".
+/// @cost  that of the text, which may be long where subexpressions are shared
+[[nodiscard]] inline std::string formula_text(graph const& g, node_id i, leaf_names const& names) {
     auto const& n = g[i];
+    auto const named = [&n](std::vector<std::string> const& known) {
+        auto const k = static_cast<std::size_t>(n.index);
+        return k < known.size() ? known[k] : std::string{"?"};
+    };
     // How tightly the outermost operation binds: 1 sums, 2 products, 3 signs, 4 powers, 5 atoms.
     auto const rank_of = [&g](node_id k) {
         switch (g[k].op) {
@@ -47,11 +54,13 @@ namespace sivid {
     case operation::literal:
         return nearest_text(g.value(n).nearest);
     case operation::constant:
-        return names.at(static_cast<std::size_t>(n.index));
+        return named(names.constants);
     case operation::time:
+        return "t";
     case operation::state:
+        return named(names.states);
     case operation::input:
-        return "?";
+        return named(names.inputs);
     case operation::neg:
         return "-" + within(n.a, 3);
     case operation::add:

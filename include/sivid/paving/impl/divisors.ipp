@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_IMPL_DIVISORS_IPP
+#define SIVID_PAVING_IMPL_DIVISORS_IPP
+
+#include <sivid/paving/divisors.hpp>
+
+#include <sivid/model/bound_model.hpp>
+#include <sivid/model/graph/detail/formula_text.hpp>
+#include <sivid/model/graph/graph_range.hpp>
+#include <sivid/model/graph/rewrite.hpp>
+#include <sivid/paving/invert.hpp>
+#include <sivid/paving/relation/input_range.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+namespace paving_detail {
+
+/// Where one node of a graph may be zero, as a set test over the leaves that it depends on.
+class zero_test {
+    using traits = interval_traits<interval>;
+
+public:
+    struct leaf {
+        operation kind;
+        std::size_t index;
+    };
+
+    zero_test(graph const& g, node_id of, leaf_ranges all)
+        : range_(g, {of}), of_(of), at_(std::move(all)) {
+        auto const needed = operands_of(g, {of});
+        for (std::size_t k = 0; k < needed.size(); ++k) {
+            auto const& n = g.nodes()[k];
+            if (!needed[k]) continue;
+            jumps_ = jumps_ || n.op == operation::sign;
+            bool const varies = n.op == operation::time || n.op == operation::state ||
+                                n.op == operation::constant || n.op == operation::input;
+            if (varies) leaves_.push_back({n.op, static_cast<std::size_t>(n.index)});
+        }
+        range_.evaluate(at_);
+        continuous_ = !jumps_ && !range_.undefined(of_);
+    }
+
+    [[nodiscard]] std::vector<leaf> const& leaves() const { return leaves_; }
+    [[nodiscard]] box domain() {
+        std::vector<interval> sides;
+        for (auto const& l : leaves_) sides.push_back(side(l));
+        return box(std::move(sides));
+    }
+    [[nodiscard]] assessment<> operator()(box const& x) {
+        assessment<> result{.rest = x};
+        auto const over = value(x);
+        if (!contains(over, 0.0)) {
+            result.verdict = box_verdict::outside;
+            return result;
+        }
+        auto const middle = mid(x);
+        auto const there = value(point_box(middle));
+        positive_ = positive_ || there.lower() > 0;
+        negative_ = negative_ || there.upper() < 0;
+        if (mag(there) < least_) {
+            least_ = mag(there);
+            nearest_ = middle;
+        }
+        // How far each side moves it about the middle.
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            auto about = point_box(middle);
+            about[i] = x[i];
+            double const moved = width(value(about));
+            result.smear.push_back(std::isfinite(moved) ? moved : 1e100);
+        }
+        return result;
+    }
+    /// Both signs occur over a box in which it is continuous.
+    [[nodiscard]] bool vanishes() const { return continuous_ && positive_ && negative_; }
+    [[nodiscard]] std::vector<double> const& nearest() const { return nearest_; }
+
+private:
+    [[nodiscard]] interval& side(leaf const& l) {
+        return l.kind == operation::time       ? at_.time
+               : l.kind == operation::state    ? at_.states[l.index]
+               : l.kind == operation::constant ? at_.constants[l.index]
+                                               : at_.inputs[l.index];
+    }
+    /// The whole line where it may be undefined.
+    [[nodiscard]] interval value(box const& x) {
+        for (std::size_t i = 0; i < leaves_.size(); ++i) side(leaves_[i]) = x[i];
+        range_.evaluate(at_);
+        return range_.undefined(of_) ? traits::entire() : range_.value(of_);
+    }
+
+    graph_range range_;
+    node_id of_;
+    leaf_ranges at_;
+    std::vector<leaf> leaves_;
+    bool jumps_ = false, continuous_ = false, positive_ = false, negative_ = false;
+    double least_ = detail::infinity;
+    std::vector<double> nearest_;
+};
+
+/// Everything within which a problem's equations may be asked.
+[[nodiscard]] inline leaf_ranges domain_of(identification_problem const& problem) {
+    using traits = interval_traits<interval>;
+    auto const& about = problem.model.about;
+    leaf_ranges result{traits::empty(), box(about.states.size()), problem.prior,
+                       box(std::vector<interval>(about.inputs.size(), traits::empty()))};
+    for (std::size_t i = 0; i < about.states.size(); ++i) {
+        result.states[i] = traits::bounds(-about.states[i].limit, about.states[i].limit);
+    }
+    for (auto const& e : problem.experiments) {
+        result.time = hull(result.time, traits::bounds(e.begin, e.end()));
+        for (std::size_t u = 0; u < e.inputs.size(); ++u) {
+            result.inputs[u] = hull(result.inputs[u], input_across(e.inputs[u], e.begin, e.end()));
+        }
+    }
+    return result;
+}
+
+/// Whether the formula of a node is short enough to be read.
+[[nodiscard]] inline bool is_short(graph const& g, node_id i) {
+    constexpr double most = 40;
+    std::vector<double> sizes; // of formulas, in which shared nodes are repeated
+    for (std::size_t k = 0; k <= i; ++k) {
+        auto const& n = g.nodes()[k];
+        double size = 1;
+        if (!is_leaf(n.op)) size += sizes[n.a] + (is_binary(n.op) ? sizes[n.b] : 0);
+        sizes.push_back(std::min(size, 2 * most));
+    }
+    return sizes[i] <= most;
+}
+
+} // namespace paving_detail
+
+SIVID_DECL std::vector<divisor> divisors_of(identification_problem const& problem,
+                                            divisor_options const& options) {
+    problem.require_valid();
+    std::vector<divisor> result;
+    if (problem.model.has_memory()) return result;
+    auto const& about = problem.model.about;
+    std::vector<signal> const open(about.inputs.size(),
+                                   sampled_signal({0.0}, {0.0}, interpolation::linear));
+    auto const model = bind(problem.model, problem.choice, open);
+    auto const& g = model.g;
+    auto const domain = paving_detail::domain_of(problem);
+    leaf_names names{problem.choice.unknown};
+    for (auto const& s : about.states) names.states.push_back(s.name);
+    for (auto const& u : about.inputs) names.inputs.push_back(u.name);
+    auto const name_of = [&names](paving_detail::zero_test::leaf const& l) {
+        return l.kind == operation::time       ? std::string{"t"}
+               : l.kind == operation::state    ? names.states[l.index]
+               : l.kind == operation::constant ? names.constants[l.index]
+                                               : names.inputs[l.index];
+    };
+    std::vector<std::pair<std::string, std::vector<bool>>> equations; // and the nodes in them
+    for (std::size_t i = 0; i < model.rate.size(); ++i) {
+        equations.emplace_back(about.states[i].equation_name(), operands_of(g, {model.rate[i]}));
+    }
+    for (std::size_t y = 0; y < model.observe.size(); ++y) {
+        equations.emplace_back("output " + about.channels[y].name,
+                               operands_of(g, {model.observe[y]}));
+    }
+    std::vector<node_id> done;
+    for (std::size_t k = 0; k < g.size(); ++k) {
+        auto const& n = g.nodes()[k];
+        bool const divides = n.op == operation::div || (n.op == operation::pown && n.index < 0);
+        auto const below = n.op == operation::div ? n.b : n.a;
+        bool const seen = std::find(done.begin(), done.end(), below) != done.end();
+        if (!divides || seen || g.depends(below) == on_nothing) continue;
+        divisor d;
+        for (auto const& [name, needs] : equations) {
+            bool any = false; // of the divisions by it
+            for (std::size_t j = k; j < g.size(); ++j) {
+                auto const& m = g.nodes()[j];
+                any =
+                    any || (needs[j] && ((m.op == operation::div && m.b == below) ||
+                                         (m.op == operation::pown && m.index < 0 && m.a == below)));
+            }
+            if (any) d.equations.push_back(name);
+        }
+        if (d.equations.empty()) continue; // of derivatives alone
+        done.push_back(below);
+        if (paving_detail::is_short(g, below)) d.formula = formula_text(g, below, names);
+        paving_detail::zero_test test(g, below, domain);
+        inversion_options search;
+        search.boxes = options.boxes;
+        search.keep_outside = false;
+        search.keep_going = [&] {
+            return !test.vanishes() && (!options.keep_going || options.keep_going());
+        };
+        auto const found = invert(test, test.domain(), search);
+        if (!found.paving.has_outer()) {
+            d.zeros = zeros::none;
+        } else {
+            if (test.vanishes()) d.zeros = zeros::some;
+            for (std::size_t i = 0; i < test.nearest().size(); ++i) {
+                d.near.emplace_back(name_of(test.leaves()[i]), test.nearest()[i]);
+            }
+        }
+        result.push_back(std::move(d));
+    }
+    return result;
+}
+
+} // namespace sivid
+
+#endif
