@@ -10,6 +10,7 @@
 #include "support/random.hpp"
 #include "support/sweep.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -42,6 +43,7 @@ TEST_CASE("windows keep what is feasible in random problems") {
         window_options options;
         options.seconds = 1.5;
         options.windows = 2 + d.below(6);
+        if (d.below(3) == 0) options.chained = 1;
         options.longest =
             d.uniform(0.2, 1.2) * (last_time(p.experiments[0]) - p.experiments[0].begin);
         options.share = d.coin() ? 0.02 : 0.2;
@@ -73,6 +75,105 @@ TEST_CASE("windows contract a prior that no trajectory carries") {
         CHECK(width(left.rest[j]) < 0.3 * width(p.prior[j]));
     }
     CHECK(contains(left.starts[0], std::vector<double>{0.5, 0}));
+}
+
+namespace {
+
+/// Masses in a row on springs with dampers, pushed at the first; their places are measured.
+struct row_of_masses : plain_problem::decay {
+    static constexpr std::size_t masses = 3;
+    static constexpr auto name = "row";
+    static constexpr auto states = sivid::states({{"x1", "m", 5},
+                                                  {"x2", "m", 5},
+                                                  {"x3", "m", 5},
+                                                  {"v1", "m/s", 9},
+                                                  {"v2", "m/s", 9},
+                                                  {"v3", "m/s", 9}});
+    static constexpr auto channels = sivid::channels({{"x1", "m"}, {"x2", "m"}, {"x3", "m"}});
+    static constexpr auto constants = sivid::constants({{"k1", "N/m", 3_dec},
+                                                        {"k2", "N/m", 4_dec},
+                                                        {"k3", "N/m", 5_dec},
+                                                        {"d1", "N s/m", 0.2_dec},
+                                                        {"d2", "N s/m", 0.3_dec},
+                                                        {"d3", "N s/m", 0.2_dec}});
+    template <class T>
+    vec<T, 6> rate(T const& t, vec<T, 6> const& x, vec<T, 6> const& c, vec<T, 0> const&) const {
+        vec<T, 6> f;
+        auto const pull = [&](std::size_t k) {
+            T const dx = k == 0 ? x[0] : T(x[k] - x[k - 1]);
+            T const dv = k == 0 ? x[masses] : T(x[masses + k] - x[masses + k - 1]);
+            return T(c[k] * dx + c[masses + k] * dv);
+        };
+        using std::sin;
+        for (std::size_t i = 0; i < masses; ++i) {
+            f[i] = x[masses + i];
+            f[masses + i] = -pull(i);
+            if (i + 1 < masses) f[masses + i] = f[masses + i] + pull(i + 1);
+        }
+        f[masses] = f[masses] + 2 * sin(2.3 * t + 1);
+        return f;
+    }
+    template <class T>
+    vec<T, 3> observe(T const&, vec<T, 6> const& x, vec<T, 6> const&, vec<T, 0> const&) const {
+        return {x[0], x[1], x[2]};
+    }
+};
+
+} // namespace
+
+TEST_CASE("a window that grows from a known start tells many constants") {
+    std::vector<double> const truth{3.2, 3.7, 5.3, 0.23, 0.28, 0.17};
+    experiment run{"run", {}, 0, box(std::vector<interval>(6, interval(0.0))), {}, 0};
+    row_of_masses const model;
+    constants_of<row_of_masses, double> c{};
+    std::copy(truth.begin(), truth.end(), c.begin());
+    vec<double, 6> x{};
+    draws d(5);
+    double const h = 1e-3;
+    for (int k = 0; k < 12000; ++k) {
+        double const t = k * h;
+        auto const moved = [&x](vec<double, 6> const& f, double by) {
+            auto at = x;
+            for (std::size_t i = 0; i < 6; ++i) at[i] += by * f[i];
+            return at;
+        };
+        auto const k1 = model.rate(t, x, c, {}),
+                   k2 = model.rate(t + h / 2, moved(k1, h / 2), c, {}),
+                   k3 = model.rate(t + h / 2, moved(k2, h / 2), c, {}),
+                   k4 = model.rate(t + h, moved(k3, h), c, {});
+        for (std::size_t i = 0; i < 6; ++i) x[i] += h / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
+        if ((k + 1) % 200 != 0) continue;
+        for (std::size_t i = 0; i < 3; ++i) {
+            double const seen = x[i] + d.uniform(-0.0099, 0.0099);
+            run.measurements.push_back({(k + 1) * h, i, interval(seen - 0.01, seen + 0.01)});
+        }
+    }
+    std::vector<interval> prior;
+    for (auto const& one : row_of_masses::constants) {
+        double const v = nearest(one.nominal);
+        prior.push_back(interval(0.75 * v, 1.25 * v));
+    }
+    identification_problem const p{
+        record_model(model), {{"k1", "k2", "k3", "d1", "d2", "d3"}, {}}, box(prior), {run}};
+    auto growing = within(120);
+    growing.chained = 1;
+    auto const left = contract_by_windows(p, growing);
+    REQUIRE_FALSE(left.empty());
+    CHECK(contains(left.rest, truth));
+    CHECK(left.longest > 11.9); // the whole record
+    for (std::size_t j = 0; j < 6; ++j) {
+        CAPTURE(j);
+        CHECK(width(left.rest[j]) < (j < 3 ? 0.05 : 0.4) * width(p.prior[j]));
+    }
+    // The search begins with it.
+    identify_options options;
+    options.search.seconds = 60;
+    options.only_hulls = true;
+    auto const found = identify(p, options);
+    REQUIRE(found.windows);
+    CHECK(found.windows->longest > 11.9);
+    CHECK(contains(found.hull, truth));
+    CHECK(found.verdict == verdict::consistent);
 }
 
 TEST_CASE("a prior without the truth is emptied or kept but nothing is invented") {

@@ -141,3 +141,48 @@ TEST_CASE("gaps may differ in what the rate varies by, and be unknown") {
     CHECK_THROWS_AS(channel_tube::of_gaps({0, 1}, {between(0, 1), between(0, 1)}, {-1}),
                     std::invalid_argument);
 }
+
+TEST_CASE("a rate of the rate bends the tube to one side") {
+    draws d(51);
+    double narrowest = HUGE_VAL;
+    for (int n = 0; n < 200; ++n) {
+        // f = a t^2/2 + b t + e sin(w t)
+        double const a = d.uniform(-8, 8), b = d.uniform(-3, 3), e = d.uniform(0, 0.3),
+                     w = d.uniform(0.5, 4), noise = d.uniform(0, 0.05), gap = d.uniform(0.1, 1);
+        auto const f = [&](double t) { return a * t * t / 2 + b * t + e * std::sin(w * t); };
+        double const most = e * w * w + d.uniform(0, 0.5);
+        std::vector<double> times;
+        std::vector<interval> bounds;
+        for (int k = 0; k < 4; ++k) {
+            times.push_back(k * gap);
+            bounds.push_back(around(f(times.back()) + d.uniform(-noise, noise), noise + 1e-12));
+        }
+        double const variation = d.coin() ? HUGE_VAL : (std::abs(a) + e * w * w) * gap * 1.01;
+        auto const tube = channel_tube::of_gaps(times, bounds, {variation, variation, variation},
+                                                std::vector(3, between(a - most, a + most)));
+        auto const plain = channel_tube::of_gaps(times, bounds, {variation, variation, variation});
+        for (int k = 0; k < 30; ++k) {
+            double const t = d.uniform(0, 3 * gap);
+            auto const range = tube.over(t, t);
+            CHECK(range.lower() - 1e-9 <= f(t));
+            CHECK(f(t) <= range.upper() + 1e-9);
+            CHECK(width(range) <= width(plain.over(t, t)) * (1 + 1e-9) + 1e-12);
+            narrowest = std::min(narrowest, width(range) / (width(plain.over(t, t)) + 1e-9));
+        }
+        double const from = d.uniform(0, 0.8) * gap, to = d.uniform(from / gap + 0.01, 1) * gap;
+        double const start = d.uniform(-1, 1), end = d.uniform(-1, 1);
+        auto const [beside, departure] = tube.beside_line(from, to, start, end);
+        double apart = 0; // on the average, of what is not in `beside`
+        for (int k = 0; k < 200; ++k) {
+            double const share = (k + 0.5) / 200, t = from + share * (to - from);
+            double const off = f(t) - start - share * (end - start);
+            apart += std::max({beside.lower() - off, off - beside.upper(), 0.0}) / 200;
+        }
+        CHECK(apart <= departure + 1e-9);
+    }
+    CHECK(narrowest < 0.2);
+    // What contradicts the variation says nothing.
+    auto const odd =
+        channel_tube::of_gaps({0, 1}, {between(0, 0), between(0, 0)}, {1}, {between(100, 101)});
+    CHECK_THAT(odd.over(0.5, 0.5).upper(), WithinAbs(0.25, 1e-9));
+}

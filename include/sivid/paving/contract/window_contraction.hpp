@@ -24,7 +24,8 @@ struct window_options {
     double longest = std::numeric_limits<double>::infinity(); ///< no window is longer [s]
     /// In one program: they are run side by side, and a program's cost grows with their cube.
     std::size_t windows = 8;
-    std::size_t chained = 24; ///< windows of a record that follow each other
+    /// Windows of a record that follow each other; 1: one from its begin, which grows.
+    std::size_t chained = 24;
     /// Products of two unknowns that move no measurement by more than this share of its bound are
     /// errors, no unknowns.
     double share = 0.02;

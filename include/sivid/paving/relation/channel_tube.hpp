@@ -27,7 +27,8 @@ struct rate_variation {
 ///   Between samples \f$ t_k, t_{k+1} \f$ at distance h, with
 ///   \f$ s = (t - t_k)/h \f$: the quantity departs from the chord of its values at the samples by
 ///   at most \f$ J h s (1 - s) \f$, J being what its rate can vary by within h (worst case: two
-///   slopes, as far apart as they may be, that meet at t). The chord lies between the chords of the
+///   slopes, as far apart as they may be, that meet at t). Where the rate has a rate of its own in
+///   R, it departs by \f$ -R h^2 s (1 - s) / 2 \f$. The chord lies between the chords of the
 ///   bounds.
 class channel_tube {
 public:
@@ -39,9 +40,11 @@ public:
                  rate_variation const& law)
         : channel_tube(of_gaps(times, bounds, in_gaps(law, times))) {}
     /// @param variations  what the rate varies by in each gap; may be infinite
+    /// @param curvatures  where the rate of the rate lies in each gap; or none
     [[nodiscard]] static channel_tube of_gaps(std::vector<double> times,
                                               std::vector<interval> bounds,
-                                              std::vector<double> const& variations) {
+                                              std::vector<double> const& variations,
+                                              std::vector<interval> const& curvatures = {}) {
         if (times.empty() || times.size() != bounds.size() ||
             variations.size() + 1 != times.size()) {
             throw std::invalid_argument(
@@ -56,9 +59,16 @@ public:
                 throw std::invalid_argument("channel_tube: the rate variation must be stated");
             }
             auto const gap = traits::point(detail::add_up(times[k + 1], -times[k]));
-            result.bend_.push_back(std::isfinite(variations[k])
-                                       ? traits::mul(gap, traits::point(variations[k])).upper()
-                                       : HUGE_VAL);
+            double const most = std::isfinite(variations[k])
+                                    ? traits::mul(gap, traits::point(variations[k])).upper()
+                                    : HUGE_VAL;
+            auto bend = traits::bounds(-most, most);
+            if (k < curvatures.size() && is_bounded(curvatures[k])) {
+                auto const half = traits::mul(traits::point(-0.5), traits::sqr(gap));
+                auto const both = traits::intersect(bend, traits::mul(half, curvatures[k]));
+                if (!sivid::is_empty(both)) bend = both;
+            }
+            result.bend_.push_back(bend);
         }
         result.times_ = std::move(times);
         result.bounds_ = std::move(bounds);
@@ -130,10 +140,14 @@ public:
         auto const squares =
             traits::add(traits::add(traits::sqr(s0), traits::mul(s0, s1)), traits::sqr(s1));
         auto const mean = traits::sub(first, traits::div(squares, traits::point(3.0), undefined));
-        bool const bounded = std::isfinite(bend_[k]);
-        return {traits::hull(traits::sub(chord(k, s0), traits::point(start)),
-                             traits::sub(chord(k, s1), traits::point(end))),
-                bounded ? traits::mul(traits::point(bend_[k]), mean).upper() : HUGE_VAL};
+        auto const beside = traits::hull(traits::sub(chord(k, s0), traits::point(start)),
+                                         traits::sub(chord(k, s1), traits::point(end)));
+        if (!is_bounded(bend_[k])) return {beside, HUGE_VAL};
+        // The middle of what it departs by has the shape s (1 - s).
+        auto const middle = traits::point(mid(bend_[k]));
+        auto const open = traits::point(mag(traits::sub(bend_[k], middle)));
+        return {traits::add(beside, traits::mul(middle, heights(s0, s1))),
+                traits::mul(open, mean).upper()};
     }
 
 private:
@@ -152,26 +166,27 @@ private:
         return traits::add(traits::mul(traits::sub(traits::point(1.0), s), bounds_[k]),
                            traits::mul(s, bounds_[k + 1]));
     }
-    /// The greatest departure from the chord between two places, upward.
-    [[nodiscard]] double arch(std::size_t k, interval const& s0, interval const& s1) const {
-        if (!std::isfinite(bend_[k])) return HUGE_VAL;
+    /// s (1 - s) between two places.
+    [[nodiscard]] static interval heights(interval const& s0, interval const& s1) {
         auto const height = [](interval const& s) {
-            return traits::mul(s, traits::sub(traits::point(1.0), s)).upper();
+            return traits::mul(s, traits::sub(traits::point(1.0), s));
         };
-        double const highest =
-            s0.lower() <= 0.5 && 0.5 <= s1.upper() ? 0.25 : std::max(height(s0), height(s1));
-        return traits::mul(traits::point(bend_[k]), traits::point(highest)).upper();
+        auto const ends = traits::hull(height(s0), height(s1));
+        bool const top = s0.lower() <= 0.5 && 0.5 <= s1.upper();
+        return traits::bounds(std::max(ends.lower(), 0.0),
+                              top ? 0.25 : std::max(ends.upper(), 0.0));
     }
     [[nodiscard]] interval in_gap(std::size_t k, double from, double to) const {
         auto const s0 = place(k, from);
         auto const s1 = place(k, to);
-        auto const off = arch(k, s0, s1);
-        return traits::add(traits::hull(chord(k, s0), chord(k, s1)), traits::bounds(-off, off));
+        auto const off = is_bounded(bend_[k]) ? traits::mul(bend_[k], heights(s0, s1)) : bend_[k];
+        return traits::add(traits::hull(chord(k, s0), chord(k, s1)), off);
     }
 
     std::vector<double> times_;
     std::vector<interval> bounds_;
-    std::vector<double> bend_; ///< J h of each gap
+    std::vector<interval>
+        bend_; ///< of each gap, times s (1 - s): what it departs from the chord by
 };
 
 } // namespace sivid

@@ -48,12 +48,15 @@ struct integrand_set {
     std::vector<node_id> functions;
     std::vector<std::vector<node_id>> slopes; ///< [function][states, then inputs, then time]
     std::vector<bool> continuous;
+    std::size_t states = 0, inputs = 0; ///< of the model
 
     /// Adds the derivatives to `g`, which must outlive the set.
     [[nodiscard]] static integrand_set of(graph& g, std::vector<node_id> const& functions,
                                           std::size_t states, std::size_t inputs) {
         integrand_set result;
         result.functions = functions;
+        result.states = states;
+        result.inputs = inputs;
         std::vector<node_id> x;
         for (std::size_t i = 0; i < states; ++i) x.push_back(g.leaf(operation::state, i));
         for (std::size_t i = 0; i < inputs; ++i) x.push_back(g.leaf(operation::input, i));

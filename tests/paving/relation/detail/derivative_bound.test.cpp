@@ -32,7 +32,8 @@ TEST_CASE("the rate of a sampled quantity is told in both directions of time") {
                     auto const from = t - way * period * (3 - piece) / 3.0;
                     auto const at = hull(interval(from), interval(from + way * period / 3));
                     auto const bend = interval(-a * w * w) * sin(interval(w) * at);
-                    bound.add(bend + between(-slack, slack) + between(-1e-12, 1e-12));
+                    bound.add(around(period / 3.0, 1e-12),
+                              bend + between(-slack, slack) + between(-1e-12, 1e-12));
                 }
             }
             bound.mark(
@@ -51,10 +52,10 @@ TEST_CASE("the rate of a sampled quantity is told in both directions of time") {
 TEST_CASE("a rate that may change by anything tells nothing") {
     derivative_bound bound;
     bound.mark(0, between(0, 0));
-    bound.add(interval_traits<interval>::entire());
+    bound.add(interval(1.0), interval_traits<interval>::entire());
     bound.mark(1, between(1, 1));
     CHECK_FALSE(is_bounded(bound.now()));
-    bound.add(between(0, 0)); // from here on it is known
+    bound.add(interval(1.0), between(0, 0)); // from here on it is known
     bound.mark(2, between(3, 3));
     CHECK(equal(bound.now(), between(2, 2)));
 }

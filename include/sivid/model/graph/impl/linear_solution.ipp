@@ -232,9 +232,15 @@ private:
         auto const other = g_->mul(product_of(common), sum);
         return width_of(other) < width_of(whole) ? other : whole;
     }
+    /// Factors of the same power are one power: (a b)^2 loses less than a^2 b^2.
     [[nodiscard]] node_id product_of(node_product const& factors) {
+        std::map<int, node_id> by_power;
+        for (auto const& [node, e] : factors) {
+            auto const [at, fresh] = by_power.try_emplace(e, node);
+            if (!fresh) at->second = g_->mul(at->second, node);
+        }
         auto result = g_->constant(1.0);
-        for (auto const& [node, e] : factors) result = g_->mul(result, g_->pown(node, e));
+        for (auto const& [e, base] : by_power) result = g_->mul(result, g_->pown(base, e));
         return result;
     }
     /// Over a fifth about the nominal constants, and moderate values of everything else.

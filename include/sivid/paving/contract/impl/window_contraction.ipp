@@ -242,7 +242,8 @@ private:
     }
 
     void contract_together(std::vector<window> windows) {
-        std::size_t idle = 0; // rounds in a row
+        constexpr std::size_t most_stretches = 3;
+        std::size_t idle = 0, stretched = 0; // rounds in a row, in all
         std::vector<double> lengths;
         for (auto const& w : windows) lengths.push_back(w.to - w.from);
         auto longest = lengths; // that each has had
@@ -306,13 +307,33 @@ private:
             double const volume = relative_volume(result_.rest, before).upper();
             double const side = std::pow(volume, 1 / static_cast<double>(before.size()));
             idle = side > 1 - options_.gain && !grown ? idle + 1 : 0;
-            if (idle == 3) break;
+            if (idle < 3) continue;
+            // Longer windows see more, and may be worth their blur.
+            if (stretched == most_stretches) break;
+            bool any = false;
+            for (std::size_t k = 0; k < count; ++k) {
+                auto const& w = windows[k];
+                if (!(w.blur < 4) || !(w.to < last_sample(w.experiment))) continue;
+                lengths[k] = std::min(1.35 * (w.to - w.from), options_.longest);
+                any = true;
+            }
+            if (!any) break;
+            ++stretched;
+            idle = 0;
         }
     }
 
-    /// Terms of degree 3 grow with the cube of the unknowns.
+    /// Terms of degree 3 grow with the cube of the unknowns. Windows that follow others begin in
+    /// boxes of states; a growing one is carried alone and can afford more.
     [[nodiscard]] std::size_t highest_degree() const {
-        return problem_->prior.size() + states() <= 14 ? 3 : 2;
+        bool const growing = options_.chained == 1;
+        std::size_t starts = growing ? 0 : states();
+        for (auto const& e : problem_->experiments) {
+            std::size_t open = 0;
+            for (auto const& side : e.initial) open += rad(side) > 0 ? 1 : 0;
+            starts = std::max(starts, open);
+        }
+        return problem_->prior.size() + starts <= (growing ? 18U : 14U) ? 3 : 2;
     }
     static constexpr double too_blurred = 8;
 

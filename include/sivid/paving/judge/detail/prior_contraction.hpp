@@ -155,7 +155,7 @@ inline std::optional<window_contraction> contract_by_equations(data_test& test,
                                                                work_limit const& limit) {
     if (!(test.reached(posed.prior) < 0.25)) return std::nullopt;
     auto const begin = std::chrono::steady_clock::now();
-    work_limit const own(0.25 * limit.seconds(), limit);
+    work_limit const own(0.15 * limit.seconds(), limit);
     window_contraction result;
     result.rest = contract_by_relations(posed, {.keep_going = own});
     if (!(relative_volume(result.rest, posed.prior).upper() < 1)) return std::nullopt;
@@ -163,6 +163,21 @@ inline std::optional<window_contraction> contract_by_equations(data_test& test,
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return result;
+}
+
+/// What one window of each experiment, from its begin, leaves where runs over the prior reach less
+/// than half of the measurements; nothing where they reach more, or nothing is gained.
+inline std::optional<window_contraction>
+contract_by_growing_windows(data_test& test, identification_problem const& posed,
+                            identify_options const& options, work_limit const& limit) {
+    if (!(test.reached(posed.prior) < 0.5)) return std::nullopt;
+    auto found = contract_by_windows(posed, {.run = options.test.run,
+                                             .seconds = 0.7 * limit.seconds(),
+                                             .keep_going = limit,
+                                             .workers = options.search.workers,
+                                             .chained = 1});
+    if (!(relative_volume(found.rest, posed.prior).upper() < 1)) return std::nullopt;
+    return found;
 }
 
 /// What can be left of the prior, and of starts, by means that are quicker than the search; nothing
@@ -178,22 +193,32 @@ contract_prior(data_test& test, identification_problem const& posed, box const& 
     if (options.slower_inputs) {
         result = contract_by_slower_inputs(test, posed, fitted, starts, options, limit);
     }
-    bool hinders = false; // windows tell of the starts, too, which the equations do not
-    if (!result && options.windows && limit()) {
-        hinders = starts_hinder(test, posed);
-        result = contract_by_equations(test, posed, limit);
-    }
-    if (!options.windows || !limit() || (result && result->empty())) return result;
+    // Windows that were of use with slower inputs go on with the recorded ones.
+    bool again = result && result->windows > 0;
     auto hindered = posed;
     std::optional<data_test> after;
-    if (result) {
+    auto const go_on_with = [&](window_contraction found) {
+        result = result ? joined(*result, std::move(found)) : std::move(found);
+        if (result->empty()) return false;
         hindered = narrowed_by(*result, std::move(hindered));
         hindered.prior = result->rest;
+        if (after) result->integrations += after->integrations();
         after.emplace(hindered, options.test);
+        return true;
+    };
+    if (result && !go_on_with(*std::exchange(result, std::nullopt))) return result;
+    auto const asked = [&]() -> data_test& { return after ? *after : test; };
+    if (!result && options.windows && limit()) {
+        again = starts_hinder(test, posed); // of which the equations tell nothing
+        if (auto found = contract_by_equations(test, posed, limit)) {
+            if (!go_on_with(*std::move(found))) return result;
+        }
+        if (auto found = contract_by_growing_windows(asked(), hindered, options, limit)) {
+            if (!go_on_with(*std::move(found))) return result;
+            again = false;
+        }
     }
-    // Windows that were of use with slower inputs go on with the recorded ones.
-    bool const go_on = result && result->windows > 0;
-    if (go_on || hinders || starts_hinder(after ? *after : test, hindered)) {
+    if (options.windows && limit() && (again || starts_hinder(asked(), hindered))) {
         auto found = contract_by_windows(hindered, {.run = options.test.run,
                                                     .seconds = 0.8 * limit.seconds(),
                                                     .keep_going = limit,

@@ -10,36 +10,60 @@
 
 namespace sivid {
 
-/// What marks of q tell of its rate r, \f$ q' = r \f$, as time goes on in one direction. Between
-/// two marks at distance T (negative backward), with \f$ r' \in R \f$ in between,
-///   \f[ r(t) = \frac{\Delta q}{T} + \frac 1 T \int (r(t) - r(s)) \, ds
-///   \in \frac{\Delta q}{T} + \frac T 2 R \f]
-/// at the later one: far marks tell the mean well, near ones what r has done since.
+/// What marks of q tell of its rate r, \f$ q' = r \f$, as time goes on in one direction. From a
+/// mark at \f$ t_0 \f$ to one at t, with T = t - t_0 (negative backward) and bounds of r' piece by
+/// piece in between,
+///   \f[ r(t) = \frac{\Delta q}{T} + \frac 1 T \int_{t_0}^t (s - t_0) \, r'(s) \, ds \f]
+/// since \f$ q(t) - q(t_0) = T r(t) - \int (s - t_0) r'(s) ds \f$: far marks tell the mean well,
+/// near ones what r has done since.
 class derivative_bound {
     using traits = interval_traits<interval>;
 
 public:
-    /// r' over the next piece of time.
-    void add(interval const& rate) { since_ = traits::hull(since_, rate); }
+    /// r' over the next piece of time, which takes so long.
+    /// @param duration  encloses it, at least 0 in either direction
+    void add(interval const& duration, interval const& rate) {
+        auto const before = elapsed_;
+        elapsed_ = traits::add(elapsed_, duration);
+        bounded_ = bounded_ && is_bounded(rate);
+        if (!bounded_) return;
+        auto const middle = traits::mul(traits::point(0.5), traits::add(before, elapsed_));
+        for (bool const upper : {false, true}) {
+            auto const& end = traits::point(upper ? rate.upper() : rate.lower());
+            auto& own = upper ? upper_ : lower_;
+            auto const gained = traits::mul(duration, end);
+            own.sum = traits::add(own.sum, gained);
+            own.moment = traits::add(own.moment, traits::mul(middle, gained));
+        }
+    }
     /// q at the time that is reached.
     void mark(double t, interval const& q) {
-        marks_.push_back({t, q, since_});
-        since_ = traits::empty();
+        marks_.push_back({t, q, elapsed_, lower_, upper_, bounded_});
+        elapsed_ = traits::point(0.0);
+        lower_ = upper_ = {};
+        bounded_ = true;
     }
     /// Encloses r at the last mark.
     [[nodiscard]] interval now() const {
         auto result = traits::entire();
-        auto slope = traits::empty();
         auto const& last = marks_.back();
         auto const most = std::min(marks_.size() - 1, farthest);
+        // Backward, s - t_0 and ds change their signs both: the integral is the same, T is
+        // negative.
+        sums low, high;
         for (std::size_t k = 1; k <= most; ++k) {
-            slope = traits::hull(slope, marks_[marks_.size() - k].slope);
-            if (!is_bounded(slope)) break;
+            auto const& next = marks_[marks_.size() - k]; // with what lies before it
             auto const& first = marks_[marks_.size() - 1 - k];
+            if (!next.bounded) break;
+            low = earlier(next.lower, next.elapsed, low);
+            high = earlier(next.upper, next.elapsed, high);
             auto const T = traits::sub(traits::point(last.t), traits::point(first.t));
             bool undefined = false;
             auto const mean = traits::div(traits::sub(last.q, first.q), T, undefined);
-            auto const bent = traits::mul(traits::mul(traits::point(0.5), T), slope);
+            auto const size = traits::point(mag(T));
+            auto bent = traits::bounds(traits::div(low.moment, size, undefined).lower(),
+                                       traits::div(high.moment, size, undefined).upper());
+            if (last.t < first.t) bent = traits::neg(bent);
             auto const here = traits::add(mean, bent);
             if (undefined || !is_bounded(here)) break;
             auto const both = traits::intersect(result, here);
@@ -51,12 +75,28 @@ public:
 
 private:
     static constexpr std::size_t farthest = 64;
+    /// \f$ \int r' \f$ and \f$ \int s r' \f$ over a stretch, s since its begin.
+    struct sums {
+        interval sum{0.0}, moment{0.0};
+    };
+    /// A stretch and what comes after it.
+    [[nodiscard]] static sums earlier(sums const& first, interval const& lasting,
+                                      sums const& after) {
+        return {
+            traits::add(first.sum, after.sum),
+            traits::add(first.moment, traits::add(after.moment, traits::mul(lasting, after.sum)))};
+    }
     struct sample {
         double t = 0;
-        interval q, slope; ///< r' since the mark before
+        interval q;
+        interval elapsed;    ///< since the mark before
+        sums lower, upper;   ///< of the least and the greatest r' since then
+        bool bounded = true; ///< all r' since then
     };
     std::vector<sample> marks_;
-    interval since_ = traits::empty();
+    interval elapsed_{0.0};
+    sums lower_, upper_;
+    bool bounded_ = true;
 };
 
 } // namespace sivid

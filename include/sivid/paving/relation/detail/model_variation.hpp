@@ -92,6 +92,28 @@ public:
         return settled(
             reach, measure, [](amounts const& of_gaps) { return of_gaps; }, 1);
     }
+    /// For each state whose rate is another state, where the rate of that lies in each gap between
+    /// two samples; nothing for the others.
+    [[nodiscard]] std::vector<std::vector<interval>>
+    curvatures(std::vector<box> const& reach) const {
+        auto const& set = cells_.set();
+        std::vector<std::vector<interval>> result(cells_.samples().size());
+        auto range = cells_.range_of_rates();
+        for (std::size_t q = 0; q < result.size(); ++q) {
+            auto const& rate = (*set.g)[set.functions[q]];
+            if (rate.op != operation::state || !cells_.samples()[q]) continue;
+            auto const r = static_cast<std::size_t>(rate.index);
+            auto const& t = cells_.samples()[q]->times;
+            result[q].assign(t.size() - 1, traits::empty());
+            std::size_t k = 0;
+            for (std::size_t c = 0; c < cells_.size(); ++c) {
+                if (cells_[c].from < t.front() || t.back() < cells_[c].to) continue;
+                while (t[k + 1] <= cells_[c].from) ++k;
+                result[q][k] = hull(result[q][k], cells_.rates_in(range, c, reach[c])[r]);
+            }
+        }
+        return result;
+    }
     /// Over all states of the tubes that declared variations leave, whose rates are as far from the
     /// secants as those allow: whatever the other equations do.
     [[nodiscard]] bounds in_tubes(std::vector<double> const& declared,

@@ -140,7 +140,9 @@ public:
                 auto const over = step(range, c, at, forward);
                 auto const rates = rates_in(range, c, over);
                 auto const lasting = forward ? length(c) : traits::neg(length(c));
-                for (std::size_t p = 0; p < pairs_.size(); ++p) derived[p].add(rates[pairs_[p].r]);
+                for (std::size_t p = 0; p < pairs_.size(); ++p) {
+                    derived[p].add(length(c), rates[pairs_[p].r]);
+                }
                 for (std::size_t i = 0; i < n; ++i) {
                     auto const moved = traits::add(at[i], traits::mul(lasting, rates[i]));
                     auto const end = agreed(over[i], moved);
@@ -263,8 +265,9 @@ private:
             most[i] = hull(own_range(i), at[i]);
             guess[i] = grown(at[i], most[i]);
         }
-        // In the end each round gives up one state at least.
-        constexpr std::size_t patience = 8;
+        // A round carries what moves one state on to those that it drives. In the end each round
+        // gives up one state at least.
+        auto const patience = 8 + 2 * n;
         bool settled = false;
         for (std::size_t k = 0; !settled && k < patience + n + 2; ++k) {
             auto const rates = rates_in(range, c, guess);

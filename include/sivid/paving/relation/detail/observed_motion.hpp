@@ -67,6 +67,8 @@ inline cell_line input_line(signal const& s, double from, double to) {
 struct motion_knowledge {
     std::vector<rate_variation> declared;     ///< of measured states
     std::vector<std::vector<double>> in_gaps; ///< what their rates vary by in each gap; or none
+    std::vector<std::vector<interval>>
+        curvatures{}; ///< where the rates of rates lie there; or none
     std::vector<std::optional<state_samples>> derived{}; ///< of states that no channel shows
     /// Encloses a state between two times: (state, from, to); may be empty.
     std::function<interval(std::size_t, double, double)> reach{};
@@ -96,7 +98,9 @@ observe_motion(bound_model const& model, box const& prior, experiment const& e,
         auto const variations = known.in_gaps.empty()
                                     ? channel_tube::in_gaps(known.declared[i], s.times)
                                     : known.in_gaps[i];
-        result.tubes[i] = channel_tube::of_gaps(s.times, s.bounds, variations);
+        auto const curvatures =
+            known.curvatures.empty() ? std::vector<interval>{} : known.curvatures[i];
+        result.tubes[i] = channel_tube::of_gaps(s.times, s.bounds, variations, curvatures);
         if (derived) continue;
         auto const alone = state_samples::sensed(e, *channels[i]);
         auto const skipped = static_cast<std::ptrdiff_t>(s.times.size() - alone.times.size());
@@ -161,7 +165,11 @@ proved_motion(bound_model const& model, box const& prior, experiment const& e,
         return by_model.cells().over(reach, i, from, to);
     };
     return observe_motion(model, prior, e, channels,
-                          {{}, by_model.of_gaps(reach.over), by_model.cells().samples(), over},
+                          {{},
+                           by_model.of_gaps(reach.over),
+                           by_model.curvatures(reach.over),
+                           by_model.cells().samples(),
+                           over},
                           cells_per_gap);
 }
 

@@ -106,8 +106,7 @@ public:
         if (!obstacle_.empty()) return obstacle_;
         auto const& e = prepared(i);
         if (!e.row.bounded) return "a coefficient is unbounded over the prior";
-        auto const weak = weak_pair(i);
-        if (!shown(i) && (!weak || !weak_windows::of(e.set, *weak))) {
+        if (!shown(i) && !weak_form(i)) {
             return "no measurement shows " + about().states[i].name;
         }
         for (auto const s : e.row.states) {
@@ -122,7 +121,10 @@ public:
         if (!shown(i)) return {window_way::weak};
         std::vector<window_way> result{window_way::direct};
         if (!pairs_of(i).empty()) result.push_back(window_way::by_parts);
-        if (source_ == tube_source::proved) result.push_back(window_way::damped);
+        if (source_ == tube_source::proved) {
+            result.push_back(window_way::damped);
+            if (weak_form(i)) result.push_back(window_way::weak);
+        }
         return result;
     }
 
@@ -263,6 +265,14 @@ private:
         }
         return std::nullopt;
     }
+    /// With everything else that a channel shows the integral of, where nothing is declared.
+    [[nodiscard]] std::optional<weak_windows> weak_form(std::size_t i) {
+        auto const own = weak_pair(i);
+        if (!own) return std::nullopt;
+        auto const others =
+            source_ == tube_source::proved ? pairs_ : std::vector<derivative_pair>{};
+        return weak_windows::of(model_.g, prepared(i).set, *own, others);
+    }
     void add_pair(derivative_pair const& p, std::set<std::size_t>& states,
                   relation_finding& result) const {
         states.insert(p.q);
@@ -279,16 +289,16 @@ private:
     }
     [[nodiscard]] std::vector<window_row> windows(std::size_t i, window_way way, double shortest,
                                                   double longest) {
-        auto& e = way == window_way::weak ? prepared(i) : integrated(i, way);
         std::vector<window_row> result;
         if (way == window_way::weak) {
-            auto const weak = weak_windows::of(e.set, *weak_pair(i));
+            auto const weak = weak_form(i);
             for (std::size_t m = 0; weak && m < motions_.size(); ++m) {
                 auto more = weak->over(motions_[m], m, shortest, longest, options_.go_on);
                 std::move(more.begin(), more.end(), std::back_inserter(result));
             }
             return result;
         }
+        auto& e = integrated(i, way);
         std::size_t total = 0;
         for (int const pass : {0, 1}) {
             std::size_t count = 0;

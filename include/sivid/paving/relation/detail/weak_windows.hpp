@@ -2,9 +2,11 @@
 #ifndef SIVID_PAVING_RELATION_DETAIL_WEAK_WINDOWS_HPP
 #define SIVID_PAVING_RELATION_DETAIL_WEAK_WINDOWS_HPP
 
+#include <sivid/model/graph/rewrite.hpp>
+#include <sivid/paving/relation/detail/cell_means.hpp>
 #include <sivid/paving/relation/detail/observed_motion.hpp>
 #include <sivid/paving/relation/detail/relation_row.hpp>
-#include <sivid/paving/relation/detail/window_integrals.hpp>
+#include <sivid/paving/relation/integrand_set.hpp>
 
 #include <algorithm>
 #include <array>
@@ -30,6 +32,15 @@ struct bump {
         auto const turn = traits::sub(traits::point(1.0), traits::mul(traits::point(2.0), s));
         return traits::mul(traits::point(32.0), traits::mul(around_middle(s), turn));
     }
+    /// \f$ \int_0^s w \f$, which ends at 8/15.
+    [[nodiscard]] static interval integral(interval const& s) { // 16 s^3 (1/3 - s/2 + s^2/5)
+        bool undefined = false;
+        auto const third = traits::div(traits::point(1.0), traits::point(3.0), undefined);
+        auto const fifth = traits::div(s, traits::point(5.0), undefined);
+        auto const inner = traits::sub(traits::point(0.5), fifth);
+        auto const sum = traits::sub(third, traits::mul(s, inner));
+        return traits::mul(traits::mul(traits::point(16.0), s), traits::mul(traits::sqr(s), sum));
+    }
     [[nodiscard]] static interval curvature(interval const& s) { // 32 (1 - 6 s (1 - s))
         auto const inner = traits::mul(traits::point(6.0), around_middle(s));
         return traits::mul(traits::point(32.0), traits::sub(traits::point(1.0), inner));
@@ -44,27 +55,56 @@ private:
 
 /// Windows of an equation \f$ r' = \sum \theta_j \phi_j + \phi_0 \f$ for a state r that was not
 /// measured while q with \f$ q' = r \f$ was: multiplied by a bump w and integrated by parts,
-///   \f[ \int w'' q = \sum_j \theta_j (\int w \psi_j - \kappa_j \int w' q), \quad
-///       \phi_j = \psi_j + \kappa_j r \f]
-/// in which r stands no longer, and a constant error of q does not either. It needs \f$ \phi_j \f$
-/// that are affine in r with constant slopes \f$ \kappa_j \f$.
+///   \f[ \int w'' q = \sum_j \theta_j (\int w \psi_j - \sum_p \kappa_{jp} \int w' q_p), \quad
+///       \phi_j = \psi_j + \sum_p \kappa_{jp} r_p \f]
+/// in which r stands no longer, nor do the rates \f$ r_p \f$ of other measured states, and a
+/// constant error of q does not either. It needs \f$ \phi_j \f$ that are affine in r with constant
+/// slopes \f$ \kappa_j \f$; other rates in which they are not affine stay as they are.
+///   Each q runs along straight lines between the middles of what is known of it at the ends of
+/// cells, for which the integrals are sums, and beside them within what is open.
 class weak_windows {
     using traits = interval_traits<interval>;
 
 public:
     /// Nothing if some function is not affine in r.
-    [[nodiscard]] static std::optional<weak_windows> of(integrand_set const& set,
-                                                        derivative_pair const& pair) {
+    /// @param g       of the functions; functions without the rates are added
+    /// @param own     r and q
+    /// @param others  pairs of measured states and their rates
+    [[nodiscard]] static std::optional<weak_windows>
+    of(graph& g, integrand_set const& set, derivative_pair const& own,
+       std::vector<derivative_pair> const& others = {}) {
         weak_windows result;
-        result.pair_ = pair;
-        for (std::size_t j = 0; j < set.functions.size(); ++j) {
-            auto const slope = set.slopes[j][pair.r];
-            if (!set.g->is_literal(slope) || !set.continuous[j]) return std::nullopt;
-            result.kappa_.push_back(set.g->value((*set.g)[slope]).enclosure);
+        auto const affine_in = [&](std::size_t r) {
+            for (std::size_t j = 0; j < set.functions.size(); ++j) {
+                if (!g.is_literal(set.slopes[j][r]) || !set.continuous[j]) return false;
+            }
+            return true;
+        };
+        if (!affine_in(own.r)) return std::nullopt;
+        result.pairs_.push_back(own);
+        for (auto const& p : others) {
+            bool used = false;
+            for (std::size_t j = 0; j < set.functions.size(); ++j) used = used || set.uses(j, p.r);
+            if (used && p.r != own.r && affine_in(p.r)) result.pairs_.push_back(p);
         }
-        result.set_ = &set;
+        std::vector<node_id> rates;
+        for (auto const& p : result.pairs_) {
+            auto& kappa = result.kappa_.emplace_back();
+            for (auto const& slopes : set.slopes)
+                kappa.push_back(g.value(g[slopes[p.r]]).enclosure);
+            rates.push_back(g.leaf(operation::state, p.r));
+        }
+        auto const same = graph(g);
+        auto const without = copy_into(g, same, set.functions, [&](node const& n, graph& to) {
+            auto const leaf = to.leaf(n.op, static_cast<std::size_t>(n.index));
+            return std::find(rates.begin(), rates.end(), leaf) == rates.end() ? leaf
+                                                                              : to.constant(0.0);
+        });
+        result.still_ = integrand_set::of(g, without, set.states, set.inputs);
         return result;
     }
+    /// Whose rates are integrated by parts, beside that of the equation's own state.
+    [[nodiscard]] std::vector<derivative_pair> const& pairs() const { return pairs_; }
 
     /// All windows of some lengths between `shortest` and `longest` on a grid of starts.
     /// @param go_on  false ends with those found by then; may be empty
@@ -73,9 +113,9 @@ public:
                                                double shortest, double longest,
                                                std::function<bool()> const& go_on = {}) const {
         std::vector<window_row> result;
-        auto const& tube = motion.sensed[pair_.q];
+        auto const& tube = motion.sensed[pairs_[0].q];
         if (!tube || motion.cells.empty()) return result;
-        auto const psi = functions_without_r(motion);
+        known_cells const known{means_over(still_, motion.cells, {}), lines_along(motion)};
         auto const& times = tube->times();
         double const all = times.back() - times.front();
         for (double length = shortest; length <= std::min(longest, all) * (1 + 1e-9);
@@ -92,84 +132,118 @@ public:
                 w.motion = index;
                 w.from = times[a];
                 w.to = *at;
-                if (fill(motion, psi, w)) result.push_back(std::move(w));
+                if (fill(motion, known, w)) result.push_back(std::move(w));
             }
         }
         return result;
     }
 
 private:
-    /// \f$ \psi_j \f$ over each cell: the function with r = 0.
-    [[nodiscard]] std::vector<std::vector<interval>>
-    functions_without_r(observed_motion const& motion) const {
-        graph_range range(*set_->g, set_->functions);
-        std::vector<std::vector<interval>> result;
-        for (auto const& cell : motion.cells) {
-            auto at = cell.at;
-            at.states[pair_.r] = traits::point(0.0);
-            range.evaluate(at);
-            auto& row = result.emplace_back();
-            for (auto const f : set_->functions) {
-                row.push_back(range.undefined(f) ? traits::entire() : range.value(f));
+    /// A state over one cell: along a straight line, but for what is open beside it.
+    struct straight {
+        interval slope{0.0}; ///< of the line
+        interval open{0.0};  ///< beside it, on the average at most
+    };
+    struct known_cells {
+        std::vector<std::vector<cell_means>> means; ///< of \f$ \psi_j \f$: [function][cell]
+        std::vector<std::vector<straight>> lines;   ///< of each pair's q: [pair][cell]
+    };
+
+    [[nodiscard]] std::vector<std::vector<straight>>
+    lines_along(observed_motion const& motion) const {
+        std::vector<std::vector<straight>> result;
+        for (auto const& p : pairs_) {
+            auto& own = result.emplace_back();
+            for (auto const& cell : motion.cells) {
+                auto const& tube = motion.tubes[p.q];
+                auto& line = own.emplace_back();
+                if (!tube || !tube->covers(cell.from, cell.to)) {
+                    line.open = traits::entire();
+                    continue;
+                }
+                double const first = mid(tube->over(cell.from, cell.from));
+                double const last = mid(tube->over(cell.to, cell.to));
+                auto const [beside, off] = tube->beside_line(cell.from, cell.to, first, last);
+                bool undefined = false;
+                auto const h = traits::sub(traits::point(cell.to), traits::point(cell.from));
+                line.slope = traits::div(traits::sub(traits::point(last), traits::point(first)), h,
+                                         undefined);
+                line.open = std::isfinite(off) ? traits::add(beside, traits::bounds(-off, off))
+                                               : traits::entire();
             }
         }
         return result;
     }
 
-    [[nodiscard]] bool fill(observed_motion const& motion,
-                            std::vector<std::vector<interval>> const& psi, window_row& w) const {
+    [[nodiscard]] bool fill(observed_motion const& motion, known_cells const& known,
+                            window_row& w) const {
         bool undefined = false;
         auto const first = motion.boundary_at(w.from);
         auto const last = motion.boundary_at(w.to);
         auto const begin = traits::point(w.from);
         auto const length = traits::sub(traits::point(w.to), begin);
         auto const square = traits::sqr(length);
-        // int w'' (alpha + beta t) = 0: q is taken relative to a straight line.
-        double const q0 = mid(motion.state_over(pair_.q, w.from, w.from));
-        double const q1 = mid(motion.state_over(pair_.q, w.to, w.to));
-        auto const line = [&](interval const& s) {
-            return traits::add(traits::point(q0),
-                               traits::mul(s, traits::sub(traits::point(q1), traits::point(q0))));
+        auto bent = traits::point(0.0);                                  // int w'' q
+        std::vector<interval> turned(pairs_.size(), traits::point(0.0)); // int w' q_p
+        std::vector<interval> weighted(known.means.size(), traits::point(0.0));
+        auto const place = [&](double t) {
+            return traits::intersect(
+                traits::div(traits::sub(traits::point(t), begin), length, undefined),
+                traits::bounds(0.0, 1.0));
         };
-        auto bent = traits::point(0.0); // int w'' q
-        // int w' q = int w' (q - line) - (q1 - q0) int w / length.
-        auto turned = traits::point(0.0);
-        std::vector<interval> weighted(set_->functions.size(), traits::point(0.0));
+        auto from = place(motion.cells[first].from);
+        auto until = bump::integral(from);
         for (std::size_t c = first; c < last; ++c) {
             auto const& cell = motion.cells[c];
-            auto const place = [&](double t) {
-                return traits::intersect(
-                    traits::div(traits::sub(traits::point(t), begin), length, undefined),
-                    traits::bounds(0.0, 1.0));
-            };
-            auto const s = traits::hull(place(cell.from), place(cell.to));
+            auto const to = place(cell.to);
+            auto const up_to = bump::integral(to);
+            auto const s = traits::hull(from, to);
             auto const h = traits::sub(traits::point(cell.to), traits::point(cell.from));
-            auto const off = traits::sub(cell.at.states[pair_.q], line(s));
-            auto const w2 = traits::div(bump::curvature(s), square, undefined);
+            auto const value = bump::value(s);
             auto const w1 = traits::div(bump::slope(s), length, undefined);
-            bent = traits::add(bent, traits::mul(h, traits::mul(w2, off)));
-            turned = traits::add(turned, traits::mul(h, traits::mul(w1, off)));
-            auto const hw = traits::mul(h, bump::value(s));
-            for (std::size_t j = 0; j < weighted.size(); ++j) {
-                weighted[j] = traits::add(weighted[j], traits::mul(hw, psi[c][j]));
+            auto const w2 = traits::div(bump::curvature(s), square, undefined);
+            // int w over the cell; straight lines meet at the ends of cells, where what [w' q] and
+            // [w q] give cancels: int w'' q = - sum (slope [w]), int w' q = - sum (slope int w).
+            auto const whole = traits::mul(length, traits::sub(up_to, until));
+            auto const rise = traits::sub(bump::value(to), bump::value(from));
+            auto const& own = known.lines[0][c];
+            bent = traits::add(bent, traits::sub(traits::mul(h, traits::mul(w2, own.open)),
+                                                 traits::mul(own.slope, rise)));
+            for (std::size_t p = 0; p < pairs_.size(); ++p) {
+                auto const& q = known.lines[p][c];
+                auto const open = traits::mul(h, traits::mul(w1, q.open));
+                turned[p] = traits::add(turned[p], traits::sub(open, traits::mul(q.slope, whole)));
             }
+            auto const mean = traits::div(whole, h, undefined);
+            double const off = mag(traits::sub(value, mean));
+            for (std::size_t j = 0; j < weighted.size(); ++j) {
+                auto const& f = known.means[j][c];
+                auto const swung = traits::mul(traits::point(off), traits::point(f.swing)).upper();
+                auto const part =
+                    traits::mul(h, traits::add(traits::mul(traits::intersect(value, mean), f.whole),
+                                               traits::bounds(-swung, swung)));
+                weighted[j] = traits::add(weighted[j], part);
+            }
+            from = to;
+            until = up_to;
         }
         bool bad = undefined;
-        auto const mean = traits::div(traits::point(8.0), traits::point(15.0), undefined);
-        auto const rise = traits::sub(traits::point(q1), traits::point(q0));
-        turned = traits::sub(turned, traits::mul(rise, mean));
         w.difference = bent;
-        w.length = traits::mul(mean, length);
+        w.length =
+            traits::mul(traits::div(traits::point(8.0), traits::point(15.0), undefined), length);
         for (std::size_t j = 0; j < weighted.size(); ++j) {
-            w.a.push_back(traits::sub(weighted[j], traits::mul(kappa_[j], turned)));
+            for (std::size_t p = 0; p < pairs_.size(); ++p) {
+                weighted[j] = traits::sub(weighted[j], traits::mul(kappa_[p][j], turned[p]));
+            }
+            w.a.push_back(weighted[j]);
             bad = bad || !is_bounded(w.a.back());
         }
         return !bad && is_bounded(bent);
     }
 
-    derivative_pair pair_;
-    std::vector<interval> kappa_;
-    integrand_set const* set_ = nullptr;
+    std::vector<derivative_pair> pairs_;       ///< the equation's own first
+    std::vector<std::vector<interval>> kappa_; ///< [pair][function]
+    integrand_set still_;                      ///< \f$ \psi_j \f$
 };
 
 } // namespace sivid

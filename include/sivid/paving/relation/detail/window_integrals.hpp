@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_RELATION_DETAIL_WINDOW_INTEGRALS_HPP
 #define SIVID_PAVING_RELATION_DETAIL_WINDOW_INTEGRALS_HPP
 
-#include <sivid/model/graph/graph_range.hpp>
+#include <sivid/paving/relation/detail/cell_means.hpp>
 #include <sivid/paving/relation/integrand_set.hpp>
 #include <sivid/paving/relation/time_cell.hpp>
 
@@ -42,7 +42,7 @@ public:
         direct_.assign(count, {});
         parts_.assign(count, {});
         weight_.assign(count, std::vector<std::vector<double>>(pairs.size()));
-        auto ranges = evaluate(set, cells);
+        auto const ranges = means_over(set, cells, pairs);
         if (growth > 0) weigh(cells, growth);
         for (std::size_t j = 0; j < count; ++j) {
             std::vector<interval> whole(n), rest(n);
@@ -94,12 +94,6 @@ public:
     }
 
 private:
-    /// Means over one cell: of the function; with all r frozen at their centres. Slopes in r.
-    struct cell_ranges {
-        interval whole, frozen;
-        double swing = 0; ///< at most from some number
-        std::vector<interval> slopes;
-    };
     /// The weight at the begin of a cell, its mean over the cell, and by how much it is off that.
     struct cell_weight {
         interval at, mean{0.0};
@@ -110,15 +104,6 @@ private:
         std::vector<interval> lower, upper;
         std::vector<std::size_t> unbounded;
     };
-
-    /// Encloses the mean over a cell of D v for a slope D(t) in `slope` and v(t) along the line.
-    [[nodiscard]] static interval mean_product(interval const& slope, cell_line const& v) {
-        auto const drift = traits::mul(traits::point(rad(slope)),
-                                       traits::mul(traits::point(0.25), traits::point(v.drift)));
-        auto const apart = traits::mul(traits::point(mag(slope)), traits::point(v.departure));
-        double const off = traits::add(drift, apart).upper();
-        return traits::add(traits::mul(slope, v.spread), traits::bounds(-off, off));
-    }
 
     void weigh(std::vector<time_cell> const& cells, double growth) {
         auto const at = [&](interval const& t) {
@@ -139,89 +124,15 @@ private:
     }
     /// The mean of weight times function over a cell: of the mean weight, and what moves it times
     /// what moves the function, whose means are 0.
-    [[nodiscard]] interval weighted(cell_ranges const& f, std::size_t c) const {
+    [[nodiscard]] interval weighted(cell_means const& f, std::size_t c) const {
         if (weights_.empty()) return f.whole;
         auto const& w = weights_[c];
         double const off = traits::mul(traits::point(w.off), traits::point(f.swing)).upper();
         return traits::add(traits::mul(w.mean, f.whole), traits::bounds(-off, off));
     }
 
-    [[nodiscard]] std::vector<std::vector<cell_ranges>>
-    evaluate(integrand_set const& set, std::vector<time_cell> const& cells) const {
-        auto const count = set.functions.size();
-        std::vector<node_id> all = set.functions;
-        for (auto const& row : set.slopes) all.insert(all.end(), row.begin(), row.end());
-        graph_range natural(*set.g, all);
-        graph_range centred(*set.g, set.functions);
-        graph_range frozen(*set.g, set.functions);
-        std::vector<std::vector<cell_ranges>> result(count);
-        for (auto const& cell : cells) {
-            natural.evaluate(cell.at);
-            auto at_centre = cell.at;
-            auto const states = cell.at.states.size();
-            auto const inputs = cell.at.inputs.size();
-            for (std::size_t k = 0; k < states; ++k) {
-                at_centre.states[k] = traits::point(cell.lines[k].centre);
-            }
-            for (std::size_t k = 0; k < inputs; ++k) {
-                at_centre.inputs[k] = traits::point(cell.lines[states + k].centre);
-            }
-            at_centre.time = traits::point(cell.lines.back().centre);
-            auto at_frozen = cell.at;
-            for (auto const& pair : pairs_) at_frozen.states[pair.r] = at_centre.states[pair.r];
-            centred.evaluate(at_centre);
-            frozen.evaluate(at_frozen);
-            for (std::size_t j = 0; j < count; ++j) {
-                auto const f = set.functions[j];
-                cell_ranges r;
-                r.whole = natural.value(f);
-                r.frozen = frozen.value(f);
-                bool smooth = set.continuous[j] && !natural.undefined(f);
-                r.swing = width(r.whole);
-                auto mean = centred.value(f);
-                auto moved = traits::point(0.0);
-                auto mean_frozen = mean;
-                for (std::size_t k = 0; k < cell.lines.size(); ++k) {
-                    if (!set.uses(j, k)) continue;
-                    auto const slope = set.slopes[j][k];
-                    auto const& range = natural.value(slope);
-                    smooth = smooth && !natural.undefined(slope) && is_bounded(range);
-                    if (!smooth) break;
-                    auto const shift = mean_product(range, cell.lines[k]);
-                    mean = traits::add(mean, shift);
-                    auto const off = traits::sub(leaf(cell.at, k, states, inputs),
-                                                 traits::point(cell.lines[k].centre));
-                    moved = traits::add(
-                        moved, traits::mul(traits::point(mag(range)), traits::point(mag(off))));
-                    bool const held = std::any_of(pairs_.begin(), pairs_.end(),
-                                                  [k](auto const& pair) { return pair.r == k; });
-                    if (!held) mean_frozen = traits::add(mean_frozen, shift);
-                }
-                if (smooth) {
-                    // At the centre it is a number, or moves itself: slopes by constants do.
-                    moved = traits::add(moved, traits::point(width(centred.value(f))));
-                    r.swing = std::min(r.swing, moved.upper());
-                    r.whole = traits::intersect(r.whole, mean);
-                    r.frozen = traits::intersect(r.frozen, mean_frozen);
-                } else {
-                    r.frozen = traits::entire();
-                }
-                for (auto const& pair : pairs_) {
-                    r.slopes.push_back(natural.value(set.slopes[j][pair.r]));
-                }
-                result[j].push_back(std::move(r));
-            }
-        }
-        return result;
-    }
-
-    /// The range over a cell of what line k is of.
-    [[nodiscard]] static interval const& leaf(leaf_ranges const& at, std::size_t k,
-                                              std::size_t states, std::size_t inputs) {
-        return k < states ? at.states[k] : k < states + inputs ? at.inputs[k - states] : at.time;
-    }
     /// g at the boundaries: the mean slope around knots at distance `slow`, straight in between.
-    [[nodiscard]] static std::vector<double> slow_weight(std::vector<cell_ranges> const& ranges,
+    [[nodiscard]] static std::vector<double> slow_weight(std::vector<cell_means> const& ranges,
                                                          std::vector<time_cell> const& cells,
                                                          std::size_t p, double slow) {
         if (cells.empty()) return {0.0};
@@ -252,7 +163,7 @@ private:
     /// What one pair adds in one cell, up to the boundary terms [g q]: the mean of
     /// \f$ (\partial\phi/\partial r - g)(r - r_c) - g r_c \f$ times the length, minus the mean of q
     /// times the change of g.
-    [[nodiscard]] interval in_parts(cell_ranges const& r, time_cell const& cell, std::size_t p,
+    [[nodiscard]] interval in_parts(cell_means const& r, time_cell const& cell, std::size_t p,
                                     std::size_t c, std::size_t j) const {
         auto const& weight = weight_[j][p];
         auto const g0 = traits::point(weight[c]);
