@@ -106,9 +106,7 @@ public:
         if (!obstacle_.empty()) return obstacle_;
         auto const& e = prepared(i);
         if (!e.row.bounded) return "a coefficient is unbounded over the prior";
-        if (!shown(i) && !weak_form(i)) {
-            return "no measurement shows " + about().states[i].name;
-        }
+        if (!shown(i) && !weak_form(i)) return "no measurement shows " + about().states[i].name;
         for (auto const s : e.row.states) {
             bool const seen = channels_[s] || s == i || source_ == tube_source::proved;
             if (!seen) return "no measurement shows " + about().states[s].name;
@@ -142,19 +140,19 @@ public:
             auto const& tube = own_tube(e.row, motions_[m]);
             if (!tube) continue;
             for (auto const& [a, b] : spread_windows(tube->times().size())) {
-                add(e, way, m, tube->times()[a], tube->times()[b], result);
+                auto found = row_over(e, way, m, tube->times()[a], tube->times()[b]);
+                if (found) result.push_back(*std::move(found));
             }
         }
         return result;
     }
     /// The windows of about one length.
     [[nodiscard]] std::vector<window_row> of_length(std::size_t i, window_way way, double length) {
-        std::vector<window_row> result;
-        for (auto& w : windows(i, way, length, 1.2 * length)) {
-            bool const next =
-                result.empty() || result.back().motion != w.motion || result.back().from < w.from;
-            if (next) result.push_back(std::move(w));
-        }
+        auto result = windows(i, way, length, 1.2 * length);
+        auto const same_begin = [](window_row const& a, window_row const& b) {
+            return a.motion == b.motion && !(a.from < b.from);
+        };
+        result.erase(std::unique(result.begin(), result.end(), same_begin), result.end());
         return result;
     }
 
@@ -167,9 +165,7 @@ public:
         auto const& e = integrated(i, way);
         for (std::size_t m = 0; m < motions_.size(); ++m) {
             if (motions_[m].name != at.scenario || !own_tube(e.row, motions_[m])) continue;
-            std::vector<window_row> found;
-            add(e, way, m, at.from, at.to, found);
-            if (!found.empty()) return found[0];
+            if (auto found = row_over(e, way, m, at.from, at.to)) return found;
         }
         return std::nullopt;
     }
@@ -188,10 +184,9 @@ public:
             // The variation is rounded so that the text assumes rather more than the proof does.
             std::string text;
             for (auto const m : motions) {
-                text += (text.empty() ? "" : ", ") +
-                        to_decimal_lower(motions_[m].variation[s].variation, 6) + " " +
-                        rate_unit(s) + " in " + motions_[m].name;
                 auto const& law = motions_[m].variation[s];
+                text += (text.empty() ? "" : ", ") + to_decimal_lower(law.variation, 6) + " " +
+                        rate_unit(s) + " in " + motions_[m].name;
                 result.variations.push_back({motions_[m].name, s, law.period, law.variation});
             }
             result.assumptions.push_back(
@@ -312,7 +307,8 @@ private:
                         if (length > longest * (1 + 1e-9)) break;
                         if (length < shortest * (1 - 1e-9)) continue;
                         if (++count % stride != 0 || pass == 0) continue;
-                        add(e, way, m, times[a], times[b], result);
+                        auto found = row_over(e, way, m, times[a], times[b]);
+                        if (found) result.push_back(*std::move(found));
                     }
                 }
             }
@@ -324,31 +320,27 @@ private:
     [[nodiscard]] prepared_equation& integrated(std::size_t i, window_way way) {
         auto& e = prepared(i, way);
         if (!e.integrals.empty()) return e;
-        bool const damped = !e.row.centre.empty();
-        for (auto const& m : motions_) {
-            auto const pairs = damped ? std::vector<derivative_pair>{} : pairs_of(e.row.equation);
+        std::vector<derivative_pair> pairs;
+        if (e.row.centre.empty()) pairs = pairs_of(e.row.equation);
+        for (auto const& m : motions_)
             e.integrals.emplace_back(e.set, m.cells, pairs, e.row.growth);
-        }
         return e;
     }
-    void add(prepared_equation const& e, window_way way, std::size_t motion, double from, double to,
-             std::vector<window_row>& list) const {
+    [[nodiscard]] std::optional<window_row> row_over(prepared_equation const& e, window_way way,
+                                                     std::size_t m, double from, double to) const {
         window_row w;
-        w.motion = motion;
+        w.motion = m;
         w.from = from;
         w.to = to;
-        if (fill(e, way, w)) list.push_back(std::move(w));
-    }
-    [[nodiscard]] bool fill(prepared_equation const& e, window_way way, window_row& w) const {
         auto const& motion = motions_[w.motion];
         auto const& tube = *own_tube(e.row, motion);
         auto const& integral = e.integrals[w.motion];
-        if (!tube.covers(w.from, w.to)) return false;
+        if (!tube.covers(w.from, w.to)) return std::nullopt;
         w.length = traits::sub(traits::point(w.to), traits::point(w.from));
         auto const first = motion.boundary_at(w.from);
         auto const last = motion.boundary_at(w.to);
         auto const& ends = motion.boundaries;
-        if (last >= ends.size() || ends[first] != w.from || ends[last] != w.to) return false;
+        if (last >= ends.size() || ends[first] != w.from || ends[last] != w.to) return std::nullopt;
         // Rows of earlier windows have smaller weights: all are scaled to about 1 at their ends.
         double const scale = 1 / mid(integral.weight_at(last));
         auto const scaled = [&](interval const& x) {
@@ -370,7 +362,7 @@ private:
                 auto const both = intersect(value, integral.by_parts(j, first, last, q_at));
                 if (!is_empty(both)) value = both;
             }
-            if (!is_bounded(value)) return false;
+            if (!is_bounded(value)) return std::nullopt;
             w.a.push_back(scaled(value));
         }
         auto const rest = w.a.back();
@@ -382,12 +374,12 @@ private:
             }
             auto const& shown =
                 *state == e.row.equation ? own_tube(e.row, motion) : motion.tubes[*state];
-            if (!shown || !shown->covers(w.from, w.to)) return false;
+            if (!shown || !shown->covers(w.from, w.to)) return std::nullopt;
             w.a.push_back(traits::sub(shown->over(w.to, w.to), shown->over(w.from, w.from)));
-            if (!is_bounded(w.a.back())) return false;
+            if (!is_bounded(w.a.back())) return std::nullopt;
         }
         w.a.push_back(rest);
-        return is_bounded(w.difference);
+        return is_bounded(w.difference) ? std::optional(std::move(w)) : std::nullopt;
     }
 
     identification_problem const* problem_;
