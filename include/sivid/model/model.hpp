@@ -189,7 +189,7 @@ concept dynamic_model = requires {
     M::constants;
     { M::name } -> std::convertible_to<std::string_view>;
 }
-&&(explicit_model<M> || implicit_model<M>)&&observed_model<M>;
+&&(explicit_model<M> != implicit_model<M>)&&observed_model<M>;
 
 /// Names and units of everything a model speaks of.
 struct model_description {
