@@ -41,13 +41,15 @@ template <batch_set_test Test>
 
 namespace identify_detail {
 
-/// What a worker has to know of a search: budgets of outliers, the fit, what windows left.
-[[nodiscard]] inline std::string about(identification_problem const& problem,
+/// What a worker has to know of a search: budgets of outliers, whose it is, the fit, what windows
+/// left.
+[[nodiscard]] inline std::string about(identification_problem const& problem, identity const& who,
                                        std::optional<approximate_fit> const& fit,
                                        std::optional<window_contraction> const& windows) {
     wire_writer out;
     out.put(std::uint64_t{problem.experiments.size()});
     for (auto const& e : problem.experiments) out.put(std::uint64_t{e.outliers});
+    put(out, who);
     out.put(fit.has_value());
     if (fit) {
         out.put(fit->parameters);
@@ -81,6 +83,8 @@ public:
         wire_reader::require(in.count(8) == experiments, "it is of other experiments");
         for (auto& e : problem_.experiments) e.outliers = static_cast<std::size_t>(in.number());
         auto who = identity_of(problem_, options_, also_);
+        // Of another problem nothing else can be read; the coordinator will refuse this one.
+        if (take_identity(in).differing(who) != nullptr) return who;
         working_ = paving_detail::as_searched(problem_, options_.algorithm);
         search_.emplace(working_, dependence_of(working_), options_);
         std::optional<approximate_fit> fit;
@@ -139,7 +143,7 @@ private:
         asked = true;
         box_server<data_test> boxes(test, prior);
         working_coordinator all(
-            others, identify_detail::about(problem, fit, windows), mine,
+            others, identify_detail::about(problem, mine, fit, windows), mine,
             [&boxes](worker&, std::string_view request) { return boxes(request); });
         auto found = cluster::invert(all.helpers(), test, prior, search);
         if (spent != nullptr) *spent = all.helpers().traffic();

@@ -32,10 +32,10 @@ struct identify_options {
     data_test_options test;
     /// Stop when the hulls no longer shrink; the paving stays coarse.
     bool only_hulls = false;
-    /// Contract the prior first, unless slower inputs have done so. Where trajectories over it
-    /// reach less than a quarter of the measurements, by the state equations between samples
-    /// (`contract_by_relations`), in at most 0.15 of the time. Where they reach less than half over
-    /// what is left, by a window of each record that begins with it and grows as the prior shrinks
+    /// Contract the prior first, unless slower inputs have done so. Where runs over it reach less
+    /// than a quarter of the measurements, by the state equations (`contract_by_relations`), in at
+    /// most 0.08 of the time. Where they reach less than half over what is left, or parameters are
+    /// five or more, by a window of each record that begins with it and grows as the prior shrinks
     /// (`contract_by_windows`), in at most 0.7 of the time. Where they still reach less than a
     /// quarter and starts are not known exactly, by windows all along the records, in at most 0.8.
     bool windows = true;

@@ -155,7 +155,7 @@ inline std::optional<window_contraction> contract_by_equations(data_test& test,
                                                                work_limit const& limit) {
     if (!(test.reached(posed.prior) < 0.25)) return std::nullopt;
     auto const begin = std::chrono::steady_clock::now();
-    work_limit const own(0.15 * limit.seconds(), limit);
+    work_limit const own(0.08 * limit.seconds(), limit);
     window_contraction result;
     result.rest = contract_by_relations(posed, {.keep_going = own});
     if (!(relative_volume(result.rest, posed.prior).upper() < 1)) return std::nullopt;
@@ -166,11 +166,13 @@ inline std::optional<window_contraction> contract_by_equations(data_test& test,
 }
 
 /// What one window of each experiment, from its begin, leaves where runs over the prior reach less
-/// than half of the measurements; nothing where they reach more, or nothing is gained.
+/// than half of the measurements, or where there are so many parameters that halving them is slow;
+/// nothing where neither is so, or nothing is gained.
 inline std::optional<window_contraction>
 contract_by_growing_windows(data_test& test, identification_problem const& posed,
                             identify_options const& options, work_limit const& limit) {
-    if (!(test.reached(posed.prior) < 0.5)) return std::nullopt;
+    constexpr std::size_t many = 5;
+    if (posed.prior.size() < many && !(test.reached(posed.prior) < 0.5)) return std::nullopt;
     auto found = contract_by_windows(posed, {.run = options.test.run,
                                              .seconds = 0.7 * limit.seconds(),
                                              .keep_going = limit,
