@@ -3,9 +3,9 @@
 #define SIVID_PAVING_JUDGE_DETAIL_PRIOR_CONTRACTION_HPP
 
 /// @file
-/// What `identify` does before it searches where runs over the prior end early: the state equations
-/// between samples, slower inputs where a logger is faster than the motion, windows where starts
-/// are not known.
+/// What `identify` does before it searches where runs over the prior end early: slower inputs where
+/// a logger is faster than the motion, or else the state equations between samples and windows that
+/// grow; windows all along the records where starts are not known.
 
 #include <sivid/measurement/signal.hpp>
 #include <sivid/model/change/detail/slower_inputs.hpp>
