@@ -2,6 +2,8 @@
 #include <sivid/paving/contract/window_contraction.hpp>
 
 #include <sivid/paving/identify.hpp>
+#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/detail/prior_contraction.hpp>
 
 #include "paving/plain_problem.hpp"
 #include "support/catch.hpp"
@@ -219,15 +221,19 @@ TEST_CASE("windows end in time and when told to") {
     CHECK(left.seconds < 30);
 }
 
-TEST_CASE("starts that are decimals are known: no windows are carried") {
+TEST_CASE("starts that are decimals are known and those of which little is known hinder") {
     auto p = support::swinging(6, 0.95, 7);
+    auto const hinder = [&p] {
+        data_test test(p, {});
+        return paving_detail::starts_hinder(test, p);
+    };
     p.experiments[0].initial[0] = interval(std::nextafter(0.5, 0.0), std::nextafter(0.5, 1.0));
+    CHECK_FALSE(hinder());
+    p.experiments[0].initial[0] = interval(0.2, 0.8);
+    CHECK(hinder());
     identify_options options;
     options.search.seconds = 2;
     options.search.boxes = 16;
-    auto const known = identify(p, options);
-    CHECK((!known.windows || known.windows->windows == 0));
-    p.experiments[0].initial[0] = interval(0.2, 0.8);
     auto const unknown = identify(p, options);
     REQUIRE(unknown.windows.has_value());
     CHECK(unknown.windows->windows > 0);

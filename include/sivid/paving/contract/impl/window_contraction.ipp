@@ -329,9 +329,7 @@ private:
         bool const growing = options_.chained == 1;
         std::size_t starts = growing ? 0 : states();
         for (auto const& e : problem_->experiments) {
-            std::size_t open = 0;
-            for (auto const& side : e.initial) open += rad(side) > 0 ? 1 : 0;
-            starts = std::max(starts, open);
+            starts = std::max(starts, normalised_unknowns(e.initial, {}).variables);
         }
         return problem_->prior.size() + starts <= (growing ? 18U : 14U) ? 3 : 2;
     }
