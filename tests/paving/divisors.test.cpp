@@ -45,6 +45,23 @@ struct jumping : ratio {
     }
 };
 
+/// Divides by what an input moves.
+struct pushed {
+    static constexpr auto name = "pushed";
+    static constexpr auto states = sivid::states({{"x", "m", 2}});
+    static constexpr auto inputs = sivid::inputs({{"u", "1"}});
+    static constexpr auto channels = sivid::channels({{"x", "m"}});
+    static constexpr auto constants = sivid::constants({{"a", "1", 3_dec}});
+    template <class T>
+    vec<T, 1> rate(T const&, vec<T, 1> const&, vec<T, 1> const& c, vec<T, 1> const& u) const {
+        return {1 / (c[0] + u[0])};
+    }
+    template <class T>
+    vec<T, 1> observe(T const&, vec<T, 1> const& x, vec<T, 1> const&, vec<T, 1> const&) const {
+        return x;
+    }
+};
+
 template <class Model>
 std::vector<divisor> found(interval const& a, interval const& b, divisor_options const& how = {}) {
     experiment run{"run", {}, 0, {interval(0.0)}, {{1, 0, interval(0.0, 9.0)}}, 0};
@@ -119,4 +136,21 @@ TEST_CASE("an identification that excludes little says what its equations divide
     REQUIRE(some.size() == 1); // not the one that cannot vanish
     CHECK(some[0].zeros == zeros::some);
     CHECK(said({2.5, 4}).empty());
+}
+
+TEST_CASE("a domain without bounds leaves divisors open and ends no identification") {
+    auto const m = record_model<pushed>();
+    experiment run{"run",
+                   {analytic_signal::from([](auto const& t) { return 1 / t; })},
+                   0,
+                   {interval(0.0)},
+                   {{1, 0, interval(0.0, 9.0)}},
+                   0};
+    identification_problem const p{m, {{"a"}, {}}, {interval(1.0, 2.0)}, {run}};
+    auto const all = divisors_of(p);
+    REQUIRE(all.size() == 1);
+    CHECK(all[0].zeros == zeros::unknown);
+    identify_options quick;
+    quick.search.boxes = 20;
+    CHECK(identify(p, quick).divisors.size() == 1);
 }

@@ -157,8 +157,8 @@ concept explicit_model = requires(M const m, expression t, states_of<M, expressi
 ///     sivid::matrix_of<arm, T> mass(T const& t, states_of<arm, T> const& x, ...) const {
 ///         return {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, m11, m12}, {0, 0, m12, m22}}};
 ///     } @endcode
-/// Where M may be singular nothing is enclosed and nothing is proved; `vanishing_divisors` tells
-/// whether it is within a prior.
+/// Where M may be singular nothing is enclosed and nothing is proved; `divisors_of` tells whether
+/// it is within a prior.
 template <class M>
 concept implicit_model = requires(M const m, expression t, states_of<M, expression> x,
                                   constants_of<M, expression> c, inputs_of<M, expression> u) {
@@ -317,7 +317,7 @@ template <dynamic_model M>
             mass.insert(mass.end(), row.begin(), row.end());
         for (auto const& e : model.force(t, x, c, u)) force.push_back(e);
         std::span<quantity const> further;
-        if constexpr (algebraic_count < M >> 0) further = M::algebraic;
+        if constexpr (requires { M::algebraic; }) further = M::algebraic;
         auto const solved = model_detail::solved_rates(result, mass, force, further);
         auto const rates = solved.begin() + state_count<M>;
         for (auto e = solved.begin(); e != rates; ++e) result.rate.push_back(e->in(g));

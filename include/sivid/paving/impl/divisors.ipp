@@ -194,8 +194,11 @@ SIVID_DECL std::vector<divisor> divisors_of(identification_problem const& proble
         search.keep_going = [&] {
             return !test.vanishes() && (!options.keep_going || options.keep_going());
         };
-        auto const found = invert(test, test.domain(), search);
-        if (!found.paving.has_outer()) {
+        auto const whole = test.domain();
+        // An input that is not bounded (a formula with a pole) leaves it open.
+        bool const bounded = std::all_of(whole.begin(), whole.end(),
+                                         [](interval const& side) { return is_bounded(side); });
+        if (bounded && !invert(test, whole, search).paving.has_outer()) {
             d.zeros = zeros::none;
         } else {
             if (test.vanishes()) d.zeros = zeros::some;

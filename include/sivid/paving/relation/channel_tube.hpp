@@ -185,8 +185,7 @@ private:
 
     std::vector<double> times_;
     std::vector<interval> bounds_;
-    std::vector<interval>
-        bend_; ///< of each gap, times s (1 - s): what it departs from the chord by
+    std::vector<interval> bend_; ///< of each gap: times s (1 - s), what departs from the chord
 };
 
 } // namespace sivid

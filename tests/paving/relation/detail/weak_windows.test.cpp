@@ -25,6 +25,19 @@ TEST_CASE("the bump and its derivatives") {
                WithinAbs((w(s + h) - 2 * w(s) + w(s - h)) / (h * h), 1e-2));
 }
 
+TEST_CASE("what is open on the average may lie where the weight is largest") {
+    // The weight is -2 for a hundredth of the cell and 1 else; what is off by 1 in the mean is all
+    // in that hundredth, the rest lies at 3 everywhere.
+    weak_windows::straight line;
+    line.beside = between(0, 3);
+    line.off = 1;
+    double const mean = 0.01 * -2 * (3 - 100) + 0.99 * 1 * 3;
+    CHECK(mean > 4.9); // 4 is the greatest product of the ranges of weight and sum
+    CHECK(contains(line.times(between(-2, 1)), mean));
+    line.off = HUGE_VAL;
+    CHECK_FALSE(is_bounded(line.times(between(-2, 1))));
+}
+
 namespace {
 
 /// A linear pendulum whose rate x1 is not measured.

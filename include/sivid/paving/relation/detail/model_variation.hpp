@@ -98,18 +98,24 @@ public:
     curvatures(std::vector<box> const& reach) const {
         auto const& set = cells_.set();
         std::vector<std::vector<interval>> result(cells_.samples().size());
-        auto range = cells_.range_of_rates();
+        struct bent {
+            std::size_t q, r, gap = 0;
+        };
+        std::vector<bent> all;
         for (std::size_t q = 0; q < result.size(); ++q) {
             auto const& rate = (*set.g)[set.functions[q]];
             if (rate.op != operation::state || !cells_.samples()[q]) continue;
-            auto const r = static_cast<std::size_t>(rate.index);
-            auto const& t = cells_.samples()[q]->times;
-            result[q].assign(t.size() - 1, traits::empty());
-            std::size_t k = 0;
-            for (std::size_t c = 0; c < cells_.size(); ++c) {
+            result[q].assign(cells_.samples()[q]->times.size() - 1, traits::empty());
+            all.push_back({q, static_cast<std::size_t>(rate.index)});
+        }
+        auto range = cells_.range_of_rates();
+        for (std::size_t c = 0; c < cells_.size() && !all.empty(); ++c) {
+            auto const rates = cells_.rates_in(range, c, reach[c]);
+            for (auto& [q, r, gap] : all) {
+                auto const& t = cells_.samples()[q]->times;
                 if (cells_[c].from < t.front() || t.back() < cells_[c].to) continue;
-                while (t[k + 1] <= cells_[c].from) ++k;
-                result[q][k] = hull(result[q][k], cells_.rates_in(range, c, reach[c])[r]);
+                while (t[gap + 1] <= cells_[c].from) ++gap;
+                result[q][gap] = hull(result[q][gap], rates[r]);
             }
         }
         return result;

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -66,6 +67,21 @@ class weak_windows {
     using traits = interval_traits<interval>;
 
 public:
+    /// A state over one cell: along a straight line, but for what is open beside it.
+    struct straight {
+        interval slope{0.0};  ///< of the line
+        interval beside{0.0}; ///< at any time
+        double off = 0;       ///< and besides, on the average: at most
+
+        /// Encloses the mean of a weight times what is open beside the line. What is known on the
+        /// average only may lie where the weight is largest: it counts apart.
+        [[nodiscard]] interval times(interval const& weight) const {
+            if (!std::isfinite(off)) return traits::entire();
+            auto const apart = traits::mul(traits::point(mag(weight)), traits::bounds(-off, off));
+            return traits::add(traits::mul(weight, beside), apart);
+        }
+    };
+
     /// Nothing if some function is not affine in r.
     /// @param g       of the functions; functions without the rates are added
     /// @param own     r and q
@@ -139,11 +155,6 @@ public:
     }
 
 private:
-    /// A state over one cell: along a straight line, but for what is open beside it.
-    struct straight {
-        interval slope{0.0}; ///< of the line
-        interval open{0.0};  ///< beside it, on the average at most
-    };
     struct known_cells {
         std::vector<std::vector<cell_means>> means; ///< of \f$ \psi_j \f$: [function][cell]
         std::vector<std::vector<straight>> lines;   ///< of each pair's q: [pair][cell]
@@ -158,18 +169,17 @@ private:
                 auto const& tube = motion.tubes[p.q];
                 auto& line = own.emplace_back();
                 if (!tube || !tube->covers(cell.from, cell.to)) {
-                    line.open = traits::entire();
+                    line.off = HUGE_VAL;
                     continue;
                 }
                 double const first = mid(tube->over(cell.from, cell.from));
                 double const last = mid(tube->over(cell.to, cell.to));
-                auto const [beside, off] = tube->beside_line(cell.from, cell.to, first, last);
+                std::tie(line.beside, line.off) =
+                    tube->beside_line(cell.from, cell.to, first, last);
                 bool undefined = false;
                 auto const h = traits::sub(traits::point(cell.to), traits::point(cell.from));
                 line.slope = traits::div(traits::sub(traits::point(last), traits::point(first)), h,
                                          undefined);
-                line.open = std::isfinite(off) ? traits::add(beside, traits::bounds(-off, off))
-                                               : traits::entire();
             }
         }
         return result;
@@ -207,12 +217,12 @@ private:
             auto const whole = traits::mul(length, traits::sub(up_to, until));
             auto const rise = traits::sub(bump::value(to), bump::value(from));
             auto const& own = known.lines[0][c];
-            bent = traits::add(bent, traits::sub(traits::mul(h, traits::mul(w2, own.open)),
-                                                 traits::mul(own.slope, rise)));
+            auto const open = traits::mul(h, own.times(w2));
+            bent = traits::add(bent, traits::sub(open, traits::mul(own.slope, rise)));
             for (std::size_t p = 0; p < pairs_.size(); ++p) {
                 auto const& q = known.lines[p][c];
-                auto const open = traits::mul(h, traits::mul(w1, q.open));
-                turned[p] = traits::add(turned[p], traits::sub(open, traits::mul(q.slope, whole)));
+                auto const apart = traits::mul(h, q.times(w1));
+                turned[p] = traits::add(turned[p], traits::sub(apart, traits::mul(q.slope, whole)));
             }
             auto const mean = traits::div(whole, h, undefined);
             double const off = mag(traits::sub(value, mean));
