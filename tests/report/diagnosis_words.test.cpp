@@ -29,6 +29,15 @@ TEST_CASE("diagnosis words: the whole answer in one sentence") {
     CHECK(claims_of(banner_sentence(v)) == claims{.proved = 4, .estimates = 0});
 }
 
+TEST_CASE("diagnosis words: where and since when an effect acts is said in words") {
+    std::string const name = "rudder_lag@S1>=0.695634187+S2+S3>=1<2.5";
+    std::string const where = " in S1 from 0.696 s, S2, S3 from 1 s until 2.5 s";
+    CHECK(names_of({"wind", name}) == "wind + rudder_lag" + where);
+    diagnosis_view v = hovercraft_diagnosis().view();
+    CHECK(words_of(v, {name}) == v.meanings.at("rudder_lag") + where);
+    CHECK(words_of(v, {"unheard@S2<1"}) == "unheard in S2 until 1 s");
+}
+
 TEST_CASE("diagnosis words: alternatives make the answer open, and what would tell is said") {
     diagnosis_view v = hovercraft_diagnosis().view();
     CHECK(banner_outcome(v) == outcome::undecided);

@@ -18,6 +18,10 @@
 /// estimate.
 namespace sivid::report {
 
+/// An effect's name; where it acts in some experiments only, or from a time on, with three digits:
+/// "payload in S1 from 0.696 s, S2" of "payload@S1>=0.69563+S2".
+[[nodiscard]] SIVID_DECL std::string name_of(std::string effect);
+
 /// "rudder_lag + wind"; without effects "the model as it is".
 [[nodiscard]] SIVID_DECL std::string names_of(std::vector<std::string> const& effects);
 
@@ -66,10 +70,11 @@ namespace sivid::report {
 [[nodiscard]] SIVID_DECL bool says_shrink(range const& share);
 
 [[nodiscard]] SIVID_DECL std::string shrink_clause(range const& share, std::string_view data);
-/// Whether what is removed on held-out data is bounded for every parameter that explains the others.
+/// Whether what is removed on held-out data is bounded for every parameter that explains the
+/// others.
 [[nodiscard]] SIVID_DECL bool says_shrink_over_fits(diagnosis_view const& v);
-/// The same of held-out data: for every parameter that explains the others where that is known, else
-/// at the witness.
+/// The same of held-out data: for every parameter that explains the others where that is known,
+/// else at the witness.
 [[nodiscard]] SIVID_DECL std::string holdout_clause(diagnosis_view const& v);
 
 /// "with overflow an unexplained remainder of 3.1 to 3.2 times the measurement bounds is left
