@@ -4,6 +4,8 @@
 #include "support/catch.hpp"
 #include "support/formulas.hpp"
 
+#include <sivid/model/effects.hpp>
+
 using namespace sivid;
 
 namespace {
@@ -197,10 +199,44 @@ TEST_CASE("an effect in some experiments only has a switch and is none where tha
     late.on_inputs = [](effect_scope& e) { e.delay_input("u"); };
     lag = late;
     lag.on_inputs = [](effect_scope& e) { (void)e.add_state("d", "m", 1, e.input("u")); };
-    CHECK_NOTHROW(with(tank{}, late));
-    CHECK_THROWS_WITH(with(tank{}, only_within(late, {"S1"})),
-                      ContainsSubstring("'late@S1' acts in some experiments only"));
-    CHECK_THROWS_AS(with(tank{}, only_within(lag, {"S1"})), std::invalid_argument);
+    CHECK_FALSE(with(tank{}, late).input_memory[0].only_if);
+    for (auto const& e : {late, lag}) {
+        CHECK_THROWS_WITH(with(tank{}, only_within(e, {"S1"}, {1.5})),
+                          ContainsSubstring("'late@S1>=1.5' begins or ends within an experiment"));
+    }
+    auto const switched = with(tank{}, only_within(late, {"S1"}));
+    REQUIRE(switched.input_memory.size() == 1);
+    REQUIRE(switched.input_memory[0].only_if);
+    CHECK(switched.about.inputs[*switched.input_memory[0].only_if].name == "late@S1");
+    for (double const on : {0.0, 1.0}) {
+        auto const switch_at = analytic_signal::from([on](auto const&) { return on; });
+        CHECK(acts_in(switched.input_memory[0],
+                      {sampled_signal({0.0}, {0.0}, interpolation::linear), switch_at}) ==
+              (on == 1));
+    }
+}
+
+TEST_CASE("a state of an effect is seen where its switch is on, and has a rate where it is off") {
+    auto const lag = effects::input_lag("lag", "u", "m", {0_dec, 0.5_dec}, 5);
+    auto const m = with(tank{}, only_within(lag, {"S1"}));
+    REQUIRE(m.rate.size() == 2);
+    parameter_choice const choice{{"k", "lag@S1.tau"}, {}};
+    for (double const on : {0.0, 1.0}) {
+        sampled_signal const u({0.0, 1.0}, {2.0, 2.0}, interpolation::linear);
+        auto const bound =
+            bind(m, choice, {u, analytic_signal::from([on](auto const&) { return on; })});
+        auto const needed = operands_of(bound.g, {bound.rate[0]});
+        bool sees_input = false, sees_lag = false;
+        for (std::size_t k = 0; k < needed.size(); ++k) {
+            auto const& n = bound.g.nodes()[k];
+            sees_input = sees_input || (needed[k] && n.op == operation::input);
+            sees_lag = sees_lag || (needed[k] && n.op == operation::state && n.index == 1);
+        }
+        CHECK(sees_lag == (on == 1));
+        CHECK(sees_input == (on == 0));
+        // Off, the lag is one of half a second, and no time constant can spoil it.
+        CHECK((bound.g.depends(bound.rate[1]) & on_constant) == (on == 1 ? on_constant : 0));
+    }
 }
 
 TEST_CASE("an effect that begins later has the time in its name, which reads back") {

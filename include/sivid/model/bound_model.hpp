@@ -75,6 +75,13 @@ struct bound_model {
     [[nodiscard]] std::size_t channel_count() const { return observe.size(); }
 };
 
+/// Whether a memory acts in an experiment with these inputs.
+[[nodiscard]] inline bool acts_in(signal_memory const& m, std::vector<signal> const& inputs) {
+    if (!m.only_if) return true;
+    auto const* const on = std::get_if<analytic_signal>(&inputs.at(*m.only_if));
+    return on == nullptr || !on->g.is(on->value, 0);
+}
+
 /// Binds constants and inputs, folds what became constant, and differentiates. Derived constants
 /// that follow their formulas (`followed`) become functions of the others.
 /// @param inputs  one signal per input of the model

@@ -67,14 +67,19 @@ struct effect {
     };
     std::optional<input_threshold> threshold{};
     /// The experiments in which it acts, others do not see it; none: it acts in all. Such an effect
-    /// has a switch, an input of its name that is 1 where it acts and else 0; no delay and no state
-    /// of its own.
+    /// has a switch, an input of its name that is 1 where it acts and else 0.
     std::vector<std::string> only_in{};
-    /// When it begins in each of these [s], from then on it acts; none: at their start.
+    /// When it begins in each of these [s], from then on it acts; none: at their start. An effect
+    /// with a delay, a play or a state of its own acts from start to end.
     std::vector<double> since{};
     /// When it ends in each of these [s], from then on it does not act; none: never.
     std::vector<double> until{};
 
+    /// Whether it acts in an experiment, at least for some time.
+    [[nodiscard]] bool acts_in(std::string const& experiment) const {
+        return only_in.empty() ||
+               std::find(only_in.begin(), only_in.end(), experiment) != only_in.end();
+    }
     /// Whether it begins in some experiment later than that does.
     [[nodiscard]] bool begins_later() const {
         return std::any_of(since.begin(), since.end(), [](double t) { return t > from_start; });
@@ -122,6 +127,10 @@ public:
 private:
     friend recorded_model with(recorded_model const& base, std::vector<effect> effects);
 
+    /// @param unseen  by effect: whether nothing sees it where its switch is 0; receives those that
+    ///                have a switch and add states, which need that
+    static recorded_model join(recorded_model const& base, std::vector<effect> const& effects,
+                               std::vector<bool>& unseen);
     explicit effect_scope(recorded_model& model);
     [[nodiscard]] expression leaf(operation op, std::size_t index) const {
         return expression(model_->g, model_->g.leaf(op, index));
@@ -129,8 +138,12 @@ private:
 
     void begin(effect const& e, std::size_t first_parameter);
     void remember(std::string const& input, std::size_t k, memory_kind kind);
-    /// @throws std::invalid_argument for an effect that acts in some experiments only
-    void acts_everywhere(char const* what) const;
+    /// @throws std::invalid_argument for an effect that begins or ends within an experiment
+    void acts_all_the_time(char const* what) const;
+    /// The switch of the effect, as an input; none: it acts in all experiments.
+    [[nodiscard]] std::optional<std::size_t> switch_of_effect() const;
+    /// What an edit has changed stays so where the switch is 1 and is as before where it is 0.
+    void keep_where(expression const& on, effect_scope const& before);
 
     recorded_model* model_;
     expression time_;
@@ -184,9 +197,10 @@ private:
 /// A model with effects. Their parameters become constants `<effect>.<parameter>`, nominal at the
 /// neutral value; states that they add, and switches of those that act in some experiments only,
 /// stand behind the model's own states and inputs.
+///   Where its switch is 0 an effect leaves no trace: it sees its neutral values; delays and plays
+///   do not act (`acts_in`); states of its own go on, and nothing sees them.
 /// @throws std::invalid_argument when an effect names what the model lacks, or stands twice, or
-/// acts
-///         in some experiments only and has a delay or a state of its own
+///         begins or ends within an experiment and has a delay, a play or a state of its own
 [[nodiscard]] SIVID_DECL recorded_model with(recorded_model const& base,
                                              std::vector<effect> effects);
 

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -234,6 +235,9 @@ struct signal_memory {
     std::size_t index = 0;    ///< of the input or channel
     std::size_t constant = 0; ///< of its size among the model's constants, at least 0
     memory_kind kind = memory_kind::delay;
+    /// A further input by which it acts in some experiments only: in those in which that is 1 (see
+    /// `acts_in`); none: it acts in all.
+    std::optional<std::size_t> only_if{};
 };
 
 /// A state that an effect brought along, with its value at the begin of an experiment.

@@ -53,8 +53,8 @@ public:
                                         " inputs, but " + std::to_string(inputs.size()) +
                                         " signals were given");
         }
-        input_memory_ = memory_of(model, choice, model.input_memory);
-        channel_delays_ = memory_of(model, choice, model.channel_delays);
+        input_memory_ = memory_of(model, choice, model.input_memory, inputs);
+        channel_delays_ = memory_of(model, choice, model.channel_delays, inputs);
         auto prompt = model;
         prompt.input_memory.clear();
         prompt.channel_delays.clear();
@@ -95,9 +95,10 @@ private:
 
     [[nodiscard]] static std::vector<plain_memory>
     memory_of(recorded_model const& model, parameter_choice const& choice,
-              std::vector<signal_memory> const& delays) {
+              std::vector<signal_memory> const& delays, std::vector<signal> const& inputs) {
         std::vector<plain_memory> result;
         for (auto const& d : delays) {
+            if (!acts_in(d, inputs)) continue;
             auto const& c = model.about.constants.at(d.constant);
             plain_memory p;
             p.index = d.index;

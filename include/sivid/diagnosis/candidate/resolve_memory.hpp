@@ -3,6 +3,7 @@
 #define SIVID_DIAGNOSIS_CANDIDATE_RESOLVE_MEMORY_HPP
 
 #include <sivid/measurement/played_signal.hpp>
+#include <sivid/model/bound_model.hpp>
 #include <sivid/model/problem.hpp>
 
 #include <algorithm>
@@ -61,7 +62,8 @@ struct memory_resolved {
     for (auto const& d : problem.model.input_memory) {
         if (d.kind != memory_kind::play) continue;
         for (auto const& e : problem.experiments) {
-            if (std::holds_alternative<analytic_signal>(e.inputs[d.index])) return true;
+            bool const formula = std::holds_alternative<analytic_signal>(e.inputs[d.index]);
+            if (formula && acts_in(d, e.inputs)) return true;
         }
     }
     return false;
@@ -92,6 +94,7 @@ struct memory_resolved {
     std::vector<bool> is_size(model.about.constants.size(), false);
     for (auto& e : problem.experiments) {
         for (auto const& d : model.input_memory) {
+            if (!acts_in(d, e.inputs)) continue;
             auto& u = e.inputs[d.index];
             double const size = value_of(d);
             u = d.kind == memory_kind::play
@@ -101,7 +104,7 @@ struct memory_resolved {
         for (auto& m : e.measurements) {
             double late = 0;
             for (auto const& d : model.channel_delays) {
-                if (d.index == m.channel) late += value_of(d);
+                if (d.index == m.channel && acts_in(d, e.inputs)) late += value_of(d);
             }
             m.time = std::max(e.begin, m.time - late);
         }

@@ -107,13 +107,11 @@ public:
     }
 
     /// Tries single effects (none: all of the plan) as such that act in these experiments only.
-    /// Those with delays or states of their own are left out.
     void try_within(std::vector<std::string> const& experiments, effect_sets some = {}) {
         if (some.empty()) some = singles();
         effect_sets wanted;
         for (auto const& one : some) {
             auto const& e = catalogue_[one.front()];
-            if (remembers(with(base_.model, {e}), base_.model)) continue;
             wanted.push_back({index_of_effect(catalogue_, only_within(e, experiments))});
         }
         try_all(wanted);

@@ -87,9 +87,13 @@ inline void describe(canonical_text& t, recorded_model const& m) {
     }
     describe(t, m.g);
     t("rate", m.rate)("observe", m.observe);
+    auto const remembered = [&t](char const* what, signal_memory const& d) {
+        t(what, d.index, d.constant);
+        if (d.only_if) t("only if", *d.only_if);
+    };
     for (auto const& d : m.input_memory)
-        t(d.kind == memory_kind::play ? "input play" : "input delay", d.index, d.constant);
-    for (auto const& d : m.channel_delays) t("channel delay", d.index, d.constant);
+        remembered(d.kind == memory_kind::play ? "input play" : "input delay", d);
+    for (auto const& d : m.channel_delays) remembered("channel delay", d);
     for (auto const& s : m.added_states) t("added state", s.state, s.at_begin);
     for (auto const& d : m.derived) t("derived constant", d.constant, d.value, d.always);
 }

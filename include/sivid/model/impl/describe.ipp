@@ -82,13 +82,16 @@ SIVID_DECL std::string describe(recorded_model const& model) {
                              bracketed(c.unit),
                              c.formula.empty() ? "" : "= " + c.formula + ", rounded"});
     }
+    auto const size_of = [&about](signal_memory const& d) {
+        auto const& name = about.constants[d.constant].name;
+        return d.only_if ? name + " if " + about.inputs[*d.only_if].name : name;
+    };
     for (auto const& d : model.input_memory) {
         (d.kind == memory_kind::play ? plays : delays)
-            .push_back({"input " + about.inputs[d.index].name, about.constants[d.constant].name});
+            .push_back({"input " + about.inputs[d.index].name, size_of(d)});
     }
     for (auto const& d : model.channel_delays) {
-        delays.push_back(
-            {"channel " + about.channels[d.index].name, about.constants[d.constant].name});
+        delays.push_back({"channel " + about.channels[d.index].name, size_of(d)});
     }
     return "model " + about.name + "\n" + describe_names(about) + section("constants", constants) +
            (delays.empty() ? "" : section("delays", delays)) +

@@ -47,6 +47,12 @@ inline std::vector<std::string> experiments_in(std::string& name) {
     name.resize(at);
     return result;
 }
+
+/// The end of a prior that is farther from 0.
+inline literal farther_end(effect_parameter const& p) {
+    auto const& end = std::abs(nearest(p.upper)) < std::abs(nearest(p.lower)) ? p.lower : p.upper;
+    return literal{enclose(end), nearest(end)};
+}
 } // namespace detail
 
 SIVID_DECL interval effect_parameter::prior() const {
@@ -215,16 +221,36 @@ SIVID_DECL void effect_scope::begin(effect const& e, std::size_t first_parameter
     first_parameter_ = first_parameter;
 }
 
-SIVID_DECL void effect_scope::acts_everywhere(char const* what) const {
-    if (effect_ == nullptr || effect_->only_in.empty()) return;
+SIVID_DECL void effect_scope::acts_all_the_time(char const* what) const {
+    if (effect_ == nullptr || !(effect_->begins_later() || effect_->ends())) return;
     throw std::invalid_argument("effect '" + effect_->name +
-                                "' acts in some experiments only and " + "cannot have " + what);
+                                "' begins or ends within an experiment and cannot have " + what);
+}
+
+SIVID_DECL std::optional<std::size_t> effect_scope::switch_of_effect() const {
+    if (effect_ == nullptr || effect_->only_in.empty()) return std::nullopt;
+    return index_of(model_->about.inputs, effect_->name, "input");
+}
+
+SIVID_DECL void effect_scope::keep_where(expression const& on, effect_scope const& before) {
+    auto& g = model_->g;
+    auto const keep = [&](expression& now, expression const& old) {
+        if (now.in(g) != old.in(g)) now = on * now + (1 - on) * old;
+    };
+    auto const keep_all = [&](std::vector<expression>& now, std::vector<expression> const& old) {
+        for (std::size_t i = 0; i < old.size(); ++i) keep(now[i], old[i]);
+    };
+    keep(time_, before.time_);
+    keep_all(constants_, before.constants_);
+    keep_all(inputs_, before.inputs_);
+    keep_all(rates_, before.rates_);
+    keep_all(channels_, before.channels_);
 }
 
 SIVID_DECL void effect_scope::remember(std::string const& input, std::size_t k, memory_kind kind) {
-    acts_everywhere(kind == memory_kind::play ? "a play" : "a delay");
-    model_->input_memory.push_back(
-        {index_of(model_->about.inputs, input, "input"), first_parameter_ + k, kind});
+    acts_all_the_time(kind == memory_kind::play ? "a play" : "a delay");
+    model_->input_memory.push_back({index_of(model_->about.inputs, input, "input"),
+                                    first_parameter_ + k, kind, switch_of_effect()});
 }
 
 SIVID_DECL void effect_scope::delay_input(std::string const& name, std::size_t k) {
@@ -236,14 +262,15 @@ SIVID_DECL void effect_scope::play_input(std::string const& name, std::size_t k)
 }
 
 SIVID_DECL void effect_scope::delay_channel(std::string const& name, std::size_t k) {
-    acts_everywhere("a delay");
-    model_->channel_delays.push_back(
-        {index_of(model_->about.channels, name, "channel"), first_parameter_ + k});
+    acts_all_the_time("a delay");
+    model_->channel_delays.push_back({index_of(model_->about.channels, name, "channel"),
+                                      first_parameter_ + k, memory_kind::delay,
+                                      switch_of_effect()});
 }
 
 SIVID_DECL expression effect_scope::add_state(std::string const& name, std::string const& unit,
                                               double limit, expression const& at_begin) {
-    acts_everywhere("a state of its own");
+    acts_all_the_time("a state of its own");
     auto const k = model_->about.states.size();
     for (auto const& s : model_->about.states) {
         if (s.name == name) {
@@ -271,6 +298,15 @@ SIVID_DECL effect_scope::effect_scope(recorded_model& model)
 SIVID_DECL recorded_model with(recorded_model const& base, std::vector<effect> effects) {
     std::stable_sort(effects.begin(), effects.end(),
                      [](effect const& a, effect const& b) { return a.order < b.order; });
+    std::vector<bool> const none(effects.size(), false);
+    auto unseen = none;
+    auto result = effect_scope::join(base, effects, unseen);
+    return unseen == none ? result : effect_scope::join(base, effects, unseen);
+}
+
+SIVID_DECL recorded_model effect_scope::join(recorded_model const& base,
+                                             std::vector<effect> const& effects,
+                                             std::vector<bool>& unseen) {
     recorded_model result;
     result.about = base.about;
     result.input_memory = base.input_memory;
@@ -291,20 +327,29 @@ SIVID_DECL recorded_model with(recorded_model const& base, std::vector<effect> e
         if (!e.only_in.empty()) result.about.inputs.push_back({e.name, "1"});
     }
     effect_scope scope(result);
-    // Where its switch is 0 an effect sees its neutral values.
+    // Where its switch is 0 an effect sees its neutral values. With these a state of its own may
+    // have no rate (a lag of no time), so it goes on by others there, and nothing sees it.
     for (std::size_t k = 0; k < effects.size(); ++k) {
         auto const& e = effects[k];
         if (e.only_in.empty()) continue;
         auto const& on = scope.input(e.name);
-        for (std::size_t j = first[k]; j < first[k] + e.parameters.size(); ++j) {
-            expression const neutral(result.g, result.g.constant(constants[j].nominal));
-            scope.constants_[j] = neutral + on * (scope.constants_[j] - neutral);
+        for (std::size_t j = 0; j < e.parameters.size(); ++j) {
+            auto const value =
+                unseen[k] ? detail::farther_end(e.parameters[j]) : constants[first[k] + j].nominal;
+            expression const off(result.g, result.g.constant(value));
+            auto& seen = scope.constants_[first[k] + j];
+            seen = off + on * (seen - off);
         }
     }
     auto const apply_all = [&](effect::edit effect::*stage) {
         for (std::size_t k = 0; k < effects.size(); ++k) {
             scope.begin(effects[k], first[k]);
-            if (effects[k].*stage) (effects[k].*stage)(scope);
+            if (!(effects[k].*stage)) continue;
+            auto const before = scope;
+            (effects[k].*stage)(scope);
+            auto const on = scope.switch_of_effect();
+            if (on && unseen[k]) scope.keep_where(before.inputs_[*on], before);
+            if (on && scope.states_.size() > before.states_.size()) unseen[k] = true;
         }
     };
     apply_all(&effect::on_inputs);

@@ -252,6 +252,62 @@ TEST_CASE("the hull of a late sensor contains its latency, and is narrow") {
     CHECK(is_empty(effect_hulls(wrong, slow, {.seconds = 60}).parameters[1]));
 }
 
+TEST_CASE("hulls of what remembers in one experiment only contain it, and are narrow") {
+    struct planted {
+        effect what;
+        double size;
+        identification_problem everywhere;
+    };
+    std::vector<planted> const all{
+        {late[0], 0.2, small_campaign::problem(small_campaign::with_delay(0.2))},
+        {lag()[0], 0.4, with_lag(0.4)},
+        {effects::input_backlash("gap", "u", "N", {0_dec, 0.5_dec}), 0.3,
+         small_campaign::problem(small_campaign::with_play(0.3))},
+        {effects::sensor_latency("slow", {"p"}, {0_dec, 0.5_dec}), 0.2,
+         diagnosis_support::with_late_position(200)},
+        {lag()[0], 0.05, with_lag(0.05)}};
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        auto const& [what, size, everywhere] = all[k];
+        for (std::size_t const acting : {0U, 1U}) {
+            if (!support::long_sweeps && (k + acting) % 2 == 0) continue;
+            auto problem = small_campaign::problem();
+            problem.experiments[acting] = everywhere.experiments[acting];
+            auto const name = problem.experiments[acting].name;
+            std::vector<effect> const one{only_within(what, {name})};
+            auto const hulls = effect_hulls(problem, one, {.seconds = 60}).parameters;
+            CAPTURE(one[0].name, hulls[0], hulls[1]);
+            REQUIRE(hulls.size() == 2);
+            CHECK(contains(hulls[0], 1.0));
+            CHECK(contains(hulls[1], size));
+            CHECK(width(hulls[1]) < 0.3 * width(one[0].parameters[0].prior()));
+            if (size > 0.1) CHECK(hulls[1].lower() > 0);
+            // In the other experiment it explains nothing.
+            std::vector<effect> const wrong{
+                only_within(what, {problem.experiments[1 - acting].name})};
+            auto const none = effect_hulls(problem, wrong, {.seconds = 60}).parameters;
+            if (size > 0.1) CHECK((is_empty(none[1]) || !contains(none[0], 1.0)));
+        }
+    }
+}
+
+TEST_CASE("what remembers in all experiments by name has the hull of one that acts everywhere") {
+    auto const problem = small_campaign::problem(small_campaign::with_delay(0.2));
+    auto const plain = effect_hulls(problem, late, {.seconds = 60}).parameters;
+    auto const named =
+        effect_hulls(problem, {only_within(late[0], {"E1", "E2"})}, {.seconds = 60}).parameters;
+    for (std::size_t j = 0; j < 2; ++j) {
+        CHECK(plain[j].lower() == named[j].lower());
+        CHECK(plain[j].upper() == named[j].upper());
+    }
+    // In none that is known it is no unknown of the data.
+    auto const nowhere =
+        effect_hulls(small_campaign::problem(), {only_within(late[0], {"E9"})}, {.seconds = 20})
+            .parameters;
+    CHECK(contains(nowhere[0], 1.0));
+    CHECK(nowhere[1].lower() == 0);
+    CHECK(nowhere[1].upper() == 0.5);
+}
+
 TEST_CASE("a delay beside an effect of one experiment: each input has its own place") {
     auto problem = small_campaign::problem(small_campaign::with_delay(0.2));
     auto real = small_campaign::with_slope(0.4);

@@ -201,6 +201,7 @@ private:
         auto late = *base_;
         auto const input = index_of(late.model.about.inputs, lag.input, "input");
         for (auto& e : late.experiments) {
+            if (!(*effects_)[k].acts_in(e.name)) continue;
             auto const* const recorded = std::get_if<sampled_signal>(&e.inputs[input]);
             if (recorded == nullptr) return std::nullopt;
             e.inputs[input] = lagged_within(*recorded, e.begin, e.end(), longest, lag.rests);

@@ -102,6 +102,7 @@ SIVID_DECL identification_problem with_late_channels(identification_problem cons
     };
     auto with_clock = effects;
     auto& e = with_clock[which];
+    e.only_in.clear(); // that is told by which parts there are
     auto const parameter = e.name + "." + e.parameters[0].name;
     auto const clock = e.name + "_clock", clock_slope = e.name + "_clock_slope";
     auto const slope_of = [name = e.name](std::string const& input) {
@@ -143,14 +144,15 @@ SIVID_DECL identification_problem with_late_channels(identification_problem cons
     std::vector<experiment> parts;
     for (auto const& x : problem.experiments) {
         auto in_time = x, behind = x;
-        std::erase_if(in_time.measurements, [&](auto const& m) { return late[m.channel]; });
+        bool const acts = effects[which].acts_in(x.name);
+        std::erase_if(in_time.measurements, [&](auto const& m) { return acts && late[m.channel]; });
         for (auto const& name : own) in_time.inputs[place(name)] = constant(name == clock ? 1 : 0);
         if (timed) {
             in_time.inputs[place(shown)] = analytic_signal::from([](auto const& t) { return t; });
         }
         diagnosis_detail::late_clock const time(x.begin, delays);
         std::erase_if(behind.measurements, [&](auto const& m) {
-            return !late[m.channel] || (m.time > time.stands && m.time < time.runs);
+            return !acts || !late[m.channel] || (m.time > time.stands && m.time < time.runs);
         });
         behind.name += "_late";
         behind.inputs[place(clock)] = time.rate;

@@ -38,12 +38,14 @@ inline std::string full_name(effect const& e) { return e.name + "." + e.paramete
 
 /// The problem with an effect as a line in its only parameter: its slope is a further input, by
 /// which it acts, before all that is joined later.
+/// Where the effect does not act, the slope is 0.
 /// @param range  of the parameter, whose place the distance from its middle takes
 /// @param form   (input, experiment, range) -> input_of_parameter
 template <class Form>
 [[nodiscard]] identification_problem with_line(identification_problem const& base, effect e,
                                                std::size_t input, interval const& range,
                                                Form const& form) {
+    auto const acts = [in = e](experiment const& x) { return in.acts_in(x.name); };
     e.only_in.clear();
     for (auto const& x : base.experiments) e.only_in.push_back(x.name);
     e.parameters[0].neutral = decimal{}; // where its slope is 0, it does nothing
@@ -52,10 +54,15 @@ template <class Form>
     e.on_inputs = [name](effect_scope& h) { h.input(name) += h.parameter(); };
     auto problem = affected(base, {e});
     auto const slope = index_of(problem.model.about.inputs, e.name, "input");
+    auto& side = problem.prior[problem.prior.size() - 1];
+    side = interval_traits<interval>::sub(range, interval(mid(range)));
     for (auto& x : problem.experiments) {
+        if (!acts(x)) {
+            x.inputs[slope] = sampled_signal({x.begin}, {0.0}, interpolation::hold);
+            continue;
+        }
         input_of_parameter line = form(std::get<sampled_signal>(x.inputs[input]), x, range);
-        problem.prior[problem.prior.size() - 1] =
-            interval_traits<interval>::sub(range, interval(line.at));
+        side = interval_traits<interval>::sub(range, interval(line.at));
         x.inputs[slope] = std::move(line.slope);
         x.inputs[input] = std::move(line.middle);
     }
@@ -87,11 +94,13 @@ struct input_change {
             };
             return with_line(base, e, input, range, form);
         }
-        for (auto& x : base.experiments) x.inputs[input] = remembered_within(x, *memory, range);
+        for (auto& x : base.experiments)
+            if (e.acts_in(x.name)) x.inputs[input] = remembered_within(x, *memory, range);
         return base;
     }
     /// Whether it does nothing in an experiment.
-    [[nodiscard]] bool idle_in(experiment const& x) const {
+    [[nodiscard]] bool idle_in(experiment const& x, sivid::effect const& e) const {
+        if (!e.acts_in(x.name)) return true;
         auto const& u = std::get<sampled_signal>(x.inputs[input]);
         return stands_still(u) &&
                (memory ? memory->kind == memory_kind::delay : u.values().front() == 0);
@@ -104,9 +113,11 @@ struct input_change {
                                                         signal_memory const& memory, std::size_t j,
                                                         box const& all) {
     auto problem = resolve_memory(whole, mid(all)).problem;
-    for (std::size_t s = 0; s < problem.experiments.size(); ++s)
-        problem.experiments[s].inputs[memory.index] =
-            remembered_within(whole.experiments[s], memory, all[j]);
+    for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
+        auto const& x = whole.experiments[s];
+        if (!acts_in(memory, x.inputs)) continue;
+        problem.experiments[s].inputs[memory.index] = remembered_within(x, memory, all[j]);
+    }
     std::vector<interval> sides(all.begin(), all.end());
     sides.erase(sides.begin() + static_cast<std::ptrdiff_t>(j));
     problem.prior = box(std::move(sides));
@@ -258,9 +269,11 @@ private:
         auto problem = affected(*base_, others);
         std::vector<experiment> kept;
         for (auto& x : problem.experiments) {
-            bool const idle = std::all_of(changes_.begin(), changes_.end(),
-                                          [&](input_change const& c) { return c.idle_in(x); });
-            if (late_)
+            bool const idle =
+                std::all_of(changes_.begin(), changes_.end(), [&](input_change const& c) {
+                    return c.idle_in(x, (*effects_)[c.effect]);
+                });
+            if (late_ && (*effects_)[*late_].acts_in(x.name))
                 std::erase_if(x.measurements,
                               [&](auto const& m) { return late_channels_[m.channel]; });
             x.outliers = std::min(x.outliers, x.measurements.size());
