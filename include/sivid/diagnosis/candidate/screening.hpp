@@ -83,7 +83,7 @@ public:
         if (!stopped_) try_all(pairs());
         for (std::size_t size = 3; size <= options_.most_effects && !stopped_; ++size) {
             if (explained(size - 1)) break;
-            join_one_more(size);
+            join_one_more(size, most_joined);
         }
         polish();
         if (!stopped_ && !explained(catalogue_.size())) go_beyond();
@@ -117,12 +117,15 @@ public:
         try_all(wanted);
     }
 
-    /// Joins every other effect to each of the closest pairs.
+    /// Joins every other effect to each of the closest pairs; where none explains, to more of them.
     /// @returns  whether some three explain the data
-    /// @cost  some sixty fits with 20 effects
+    /// @cost  some sixty fits with 20 effects, and as many for each three pairs more
     [[nodiscard]] bool try_threes() {
-        join_one_more(3);
-        polish();
+        for (std::size_t pairs = most_joined; pairs <= 3 * most_joined; pairs += most_joined) {
+            if (explained(3) || stopped_) break;
+            join_one_more(3, pairs);
+            polish();
+        }
         return explained(3);
     }
 
@@ -257,10 +260,11 @@ private:
         return {static_cast<std::size_t>(std::count_if(planned.begin(), planned.end(), known)),
                 planned.size()};
     }
-    /// Joins every other effect to the likeliest candidates of size - 1 effects. What explains must
-    /// then do without each of its effects, or a smaller candidate is the answer.
-    void join_one_more(std::size_t size) {
-        try_all(joined(ranked(size - 1, most_joined)));
+    /// Joins every other effect to the likeliest candidates of size - 1 effects, so many of them.
+    /// What explains must then do without each of its effects, or a smaller candidate is the
+    /// answer.
+    void join_one_more(std::size_t size, std::size_t most) {
+        try_all(joined(ranked(size - 1, most)));
         effect_sets parts;
         for (auto const& s : tried_) {
             if (s.figures.effects.size() != size || !s.figures.explains()) continue;

@@ -213,13 +213,14 @@ private:
         return tried.candidates().size() > before;
     }
     /// Whether all of the plan was tried in vain, and neither bounds that are too small nor one
-    /// instrument may be the cause.
-    [[nodiscard]] bool lacks_more() const {
-        auto const& d = run_.result;
-        return d.tried.complete() && d.confined.empty() && !one_sensor_explains(run_.places);
+    /// instrument may be the cause. @param parts  though some experiments alone stand against all
+    [[nodiscard]] bool lacks_more(bool parts) const {
+        auto const may_be = [&](confined_gap const& c) { return !parts || !c.channel.empty(); };
+        return run_.result.tried.complete() && !one_sensor_explains(run_.places) &&
+               std::ranges::none_of(run_.result.confined, may_be);
     }
     [[nodiscard]] bool try_threes(screening& tried) {
-        if (!lacks_more()) return false;
+        if (!lacks_more(true)) return false;
         kept_ = 0.2 * options_.verdict_share * options_.seconds;
         bool const explains = tried.try_threes();
         run_.result.tried = tried.counts();
@@ -227,7 +228,7 @@ private:
     }
     /// What no effect of the catalogue is, in a fifth of the time at most.
     [[nodiscard]] bool try_terms(screening& tried) {
-        if (!lacks_more()) return false;
+        if (!lacks_more(false)) return false;
         kept_ = std::max(0.2 * options_.verdict_share * options_.seconds,
                          effort_.left() - effort_.seconds_of({0, options_.terms_share}));
         return tried.try_terms(proposed_terms(run_.places));
@@ -363,24 +364,22 @@ private:
     }
 
     void propose(candidate_order const& order) {
-        auto& d = run_.result;
         if (order.others().empty() ||
             !effort_.go_on("looking for a manoeuvre that tells rivals apart"))
             return;
         std::vector<screened const*> rivals{&run_.candidates[run_.answer]};
         for (auto const o : order.others()) rivals.push_back(&run_.candidates[o]);
         // Whether a switch were on in another manoeuvre nobody knows.
-        if (!std::all_of(rivals.begin(), rivals.end(),
-                         [this](auto const* s) { return same_inputs(*s); }))
-            return;
+        if (!std::ranges::all_of(rivals, [this](auto const* s) { return same_inputs(*s); })) return;
         std::vector<double> errors(run_.base.model.about.channels.size(), 0.0);
         double period = 0.1;
         for (auto const& e : run_.base.experiments) {
             for (auto const& m : e.measurements) errors[m.channel] = rad(m.bound);
             if (!e.measurements.empty()) period = e.measurements.front().time - e.begin;
         }
-        d.next = propose_experiment(std::move(rivals), options_.menu, std::move(errors),
-                                    period > 0 ? period : 0.1, [this] { return effort_.go_on(); });
+        run_.result.next =
+            propose_experiment(std::move(rivals), options_.menu, std::move(errors),
+                               period > 0 ? period : 0.1, [this] { return effort_.go_on(); });
     }
 
     diagnosis_options options_;

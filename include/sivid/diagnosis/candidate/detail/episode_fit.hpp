@@ -57,8 +57,13 @@ public:
         if (ends_.begins && ends_.ends) starts = {{0.2, 0.6}, {0.4, 0.8}};
         auto const wide = thinned(softened(0.15), few_measurements);
         fitter descend(wide, go_on_);
-        for (auto const& [on, off] : starts)
-            take(descend({placed(on, off), {}}, fit_norm::squares));
+        for (auto const& [on, off] : starts) {
+            take(descend({placed(always_, on, off), {}}, fit_norm::squares));
+            auto const other = awakened(descend, on, off);
+            if (!other.empty()) take(descend({other, {}}, fit_norm::squares));
+        }
+        look_everywhere(0.06, few_measurements);
+        follow(0.06, few_measurements, fit_norm::squares);
         follow(0.03, few_measurements, fit_norm::squares);
     }
     /// The same, from where a search with one step of the two ended.
@@ -75,23 +80,23 @@ public:
     /// By all of them, as sharply as it is; then the fit with the effect switched on there.
     void look_closely() {
         for (double const length : {0.06, 0.03}) {
-            look_everywhere(length);
+            look_everywhere(length, many_measurements);
             follow(length, many_measurements, fit_norm::squares);
         }
         for (double const length : {0.015, 0.008, 0.004})
             follow(length, many_measurements, fit_norm::squares);
         follow(0.002, many_measurements, fit_norm::largest);
-        if (!decide_times()) return;
-        problem_ = affected(*base_, {acting()});
-        auto from = known_.parameters;
-        from.resize(problem_.prior.size());
-        fit_ = sivid::fit(problem_, fit_norm::largest, {std::move(from), {}}, go_on_);
-        if (!(fit_.inflation > 1 && fit_.inflation < 1.05)) return;
-        auto closer =
-            sivid::fit(problem_, fit_norm::largest, {fit_.parameters, fit_.starts}, go_on_);
-        if (!(closer.inflation < fit_.inflation)) return;
-        closer.squares = fit_.squares;
-        fit_ = std::move(closer);
+        fit_at_jumps(4);
+        // Jumps fit a little elsewhere than smooth steps do.
+        better(5, [this] { move_jumps(); });
+        better(1.5, [this] {
+            for (int again = 0; again < 3; ++again) {
+                move_jumps();
+                for (double const width : {0.02, 0.004}) fit_jumps(width, fit_norm::squares);
+            }
+        });
+        for (double const width : {0.02, 0.004, 0.001, 0.0002})
+            better(1.5, [this, width] { fit_jumps(width, fit_norm::largest); });
     }
 
     [[nodiscard]] bool explains() const { return fit_.inflation <= 1; }
@@ -106,12 +111,168 @@ public:
 private:
     static constexpr std::size_t few_measurements = 600;
 
-    /// Parameters with the effect always, and these shares of every experiment.
-    [[nodiscard]] std::vector<double> placed(double on, double off) const {
-        auto from = always_;
+    [[nodiscard]] static double squares_of(std::vector<double> const& residuals) {
+        double sum = 0;
+        for (double const r : residuals) sum += r * r;
+        return sum;
+    }
+    /// These parameters, and these shares of every experiment.
+    [[nodiscard]] std::vector<double> placed(std::vector<double> from, double on,
+                                             double off) const {
         if (ends_.begins) from.insert(from.end(), names_.size(), on);
         if (ends_.ends) from.insert(from.end(), names_.size(), off);
         return from;
+    }
+    /// The same with another value of the effect's only parameter, where that fits better: all the
+    /// time it may fit best where it sleeps. Else nothing.
+    [[nodiscard]] std::vector<double> awakened(fitter& at, double on, double off) const {
+        if (effect_.parameters.size() != 1) return {};
+        auto const misfit = [&at](std::vector<double> const& parameters) {
+            double sum = 0;
+            for (auto const& of_experiment : at.at(parameters, {}).residuals)
+                sum += squares_of(of_experiment);
+            return sum;
+        };
+        double least = misfit(placed(always_, on, off));
+        std::vector<double> best;
+        for (double const share : {0.1, 0.2, 0.35, 0.5, 0.75}) {
+            auto other = always_;
+            auto const all = effect_.parameters[0].prior();
+            other.back() = all.lower() + share * (all.upper() - all.lower());
+            other = placed(std::move(other), on, off);
+            double const squares = misfit(other);
+            if (!(squares < least)) continue;
+            least = squares;
+            best = std::move(other);
+        }
+        return best;
+    }
+    /// Fits with the effect switched on and off where the shares say.
+    void fit_at_jumps(int digits) {
+        if (!decide_times(known_.parameters, digits)) return;
+        problem_ = affected(*base_, {acting()});
+        fit_start from{known_.parameters, {}};
+        from.parameters.resize(problem_.prior.size());
+        fitter descend(problem_, go_on_);
+        fit_ = descend(from, fit_norm::largest);
+        if (!(fit_.inflation > 1 && fit_.inflation < 1.05)) return;
+        auto closer = descend({fit_.parameters, fit_.starts}, fit_norm::largest);
+        if (!(closer.inflation < fit_.inflation)) return;
+        closer.squares = fit_.squares;
+        fit_ = std::move(closer);
+    }
+    /// Moves the jumps of a fit that nearly explains, and keeps that where it fits better.
+    /// @param nearly  the inflation up to which it does
+    template <class Move>
+    void better(double nearly, Move const& move) {
+        if (!(fit_.inflation > 1 && fit_.inflation < nearly) || !go_on_()) return;
+        auto const before = *this;
+        std::copy_n(fit_.parameters.begin(), always_.size(), known_.parameters.begin());
+        known_.starts = fit_.starts;
+        move();
+        fit_at_jumps(4);
+        if (fit_.inflation > 1) fit_at_jumps(8);
+        if (!(fit_.inflation < before.fit_.inflation)) *this = before;
+    }
+    /// Each jump where it fits its experiment best, all else as it is: first anywhere, then ever
+    /// closer.
+    void move_jumps() {
+        auto const misfits = [&](std::vector<double> const& parameters) {
+            std::vector<double> sums(names_.size(), detail::infinity);
+            if (!go_on_() || !decide_times(parameters, 8)) return sums;
+            auto const jumping = affected(*base_, {acting()});
+            auto own = parameters;
+            own.resize(always_.size());
+            auto const residuals = fitter(jumping, go_on_).at(own, known_.starts).residuals;
+            for (std::size_t s = 0; s < residuals.size(); ++s) sums[s] = squares_of(residuals[s]);
+            return sums;
+        };
+        auto least = misfits(known_.parameters);
+        auto const try_all = [&](std::size_t step, auto const& place) {
+            auto const first = always_.size() + step * names_.size();
+            auto probe = known_.parameters;
+            for (std::size_t s = 0; s < names_.size(); ++s)
+                probe[first + s] = place(probe[first + s]);
+            auto const sums = misfits(probe);
+            for (std::size_t s = 0; s < names_.size(); ++s) {
+                if (!(sums[s] < least[s])) continue;
+                least[s] = sums[s];
+                known_.parameters[first + s] = probe[first + s];
+            }
+        };
+        constexpr int places = 32;
+        for (std::size_t step = 0; step < steps(); ++step) {
+            for (int k = 0; k <= places; ++k)
+                try_all(step, [k](double) { return k / double(places); });
+            for (double by = 0.5 / places; by > 1e-4; by /= 2)
+                for (double const way : {-by, by})
+                    try_all(step, [way](double share) { return share + way; });
+        }
+    }
+    /// Fits the jumps and all else together. About each jump the effect acts by a share of its own,
+    /// for as long as `width` of the experiment says to either side: nearly what a jump does that
+    /// comes the sooner the larger the share.
+    void fit_jumps(double width, fit_norm norm) {
+        using namespace literals;
+        auto const switched = only_within(effect_, names_);
+        auto hard = affected(*base_, {switched});
+        auto const held = [&](std::size_t s, double from, double to) {
+            double const begin = base_->experiments[s].begin;
+            std::vector<double> times{begin}, values{from > 0 ? 0.0 : 1.0};
+            auto const add = [&](double share, double value) {
+                double const t = begin + share * spans_[s];
+                if (t > times.back()) times.push_back(t), values.push_back(value);
+            };
+            if (from > 0) add(from, 1);
+            add(to, 0);
+            return sampled_signal(std::move(times), std::move(values), interpolation::hold);
+        };
+        auto* const share = known_.parameters.data() + always_.size();
+        auto const count = names_.size();
+        std::vector<effect> halves(steps() + 1);
+        for (std::size_t s = 0; s < count; ++s) {
+            double const on = ends_.begins ? share[s] + width : 0;
+            double const off = ends_.ends ? share[s + (steps() - 1) * count] - width : 2;
+            hard.experiments[s].inputs.back() = held(s, on, std::max(on, off));
+        }
+        for (std::size_t step = 0; step < halves.size(); ++step) {
+            auto& half = halves[step];
+            half.name = step == steps() ? "which" : "half " + std::to_string(step);
+            half.only_in = names_;
+            if (step == steps()) continue;
+            for (auto const& name : names_)
+                half.parameters.push_back({name, "1", -1_dec, 2_dec, 0_dec});
+            half.on_inputs = [&, count](effect_scope& h) {
+                for (std::size_t s = 0; s < count; ++s) {
+                    auto const here = max(1 - abs(h.input("which") - static_cast<double>(s)), 0);
+                    h.input(switched.name) += here * h.parameter(s); // while it acts
+                }
+            };
+        }
+        auto soft = affected(hard, halves);
+        auto const place = [&](effect const& e) {
+            return index_of(soft.model.about.inputs, e.name, "input");
+        };
+        for (std::size_t s = 0; s < count; ++s) {
+            auto& inputs = soft.experiments[s].inputs;
+            auto const which = static_cast<double>(s);
+            inputs[place(halves.back())] =
+                analytic_signal::from([which](auto const&) { return which; });
+            for (std::size_t step = 0; step < steps(); ++step) {
+                double const at = share[s + step * count];
+                inputs[place(halves[step])] = held(s, std::max(at - width, 1e-9), at + width);
+            }
+        }
+        auto from = known_.parameters;
+        std::fill(from.begin() + std::ssize(always_), from.end(), 0.5);
+        auto const found = sivid::fit(soft, norm, {std::move(from), known_.starts}, go_on_);
+        if (found.parameters.size() != known_.parameters.size()) return;
+        for (std::size_t k = 0; k < known_.parameters.size(); ++k) {
+            auto& now = known_.parameters[k];
+            bool const begins = ends_.begins && k < always_.size() + count;
+            double const later = (begins ? 1 : -1) * width * (1 - 2 * found.parameters[k]);
+            now = k < always_.size() ? found.parameters[k] : now + later;
+        }
     }
     /// The switch with steps whose length is this share of each experiment; at which share of it
     /// they are made are further parameters: for all experiments where it begins, then where it
@@ -166,9 +327,9 @@ private:
         if (!found.parameters.empty()) known_ = std::move(found);
     }
     /// Each step where it fits its experiment best, all else as it is.
-    void look_everywhere(double length) {
+    void look_everywhere(double length, std::size_t measurements) {
         if (known_.parameters.size() <= always_.size()) return;
-        auto const soft = thinned(softened(length), many_measurements);
+        auto const soft = thinned(softened(length), measurements);
         fitter at(soft, go_on_);
         constexpr int places = 24; // first where they are
         for (std::size_t step = 0; step < steps(); ++step) {
@@ -181,8 +342,7 @@ private:
                                 k / double(places));
                 auto const residuals = at.at(probe, known_.starts).residuals;
                 for (std::size_t s = 0; s < std::min(names_.size(), residuals.size()); ++s) {
-                    double sum = 0;
-                    for (double const r : residuals[s]) sum += r * r;
+                    double const sum = squares_of(residuals[s]);
                     if (!(sum < least[s])) continue;
                     least[s] = sum;
                     known_.parameters[first + s] = probe[first + s];
@@ -191,15 +351,19 @@ private:
         }
     }
     /// In decimals far finer than the samples.
+    /// @param digits  of the times, about
     /// @returns  whether it acts somewhere, but not everywhere from the start to the end
-    [[nodiscard]] bool decide_times() {
-        if (known_.parameters.size() <= always_.size()) return false;
-        auto const* share = known_.parameters.data() + always_.size();
+    [[nodiscard]] bool decide_times(std::vector<double> const& parameters, int digits) {
+        if (parameters.size() <= always_.size()) return false;
+        acting_.clear();
+        since_.clear();
+        until_.clear();
+        auto const* share = parameters.data() + always_.size();
         bool partly = false;
         for (std::size_t s = 0; s < names_.size(); ++s) {
             double const on = ends_.begins ? share[s] : 0;
             double const off = ends_.ends ? share[s + (ends_.begins ? names_.size() : 0)] : 1;
-            double const per_second = std::pow(10, 4 - std::floor(std::log10(spans_[s])));
+            double const per_second = std::pow(10, digits - std::floor(std::log10(spans_[s])));
             auto const time = [&](double part) {
                 double const at = base_->experiments[s].begin + part * spans_[s];
                 return std::round(at * per_second) / per_second;
