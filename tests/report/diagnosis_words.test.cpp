@@ -29,13 +29,16 @@ TEST_CASE("diagnosis words: the whole answer in one sentence") {
     CHECK(claims_of(banner_sentence(v)) == claims{.proved = 4, .estimates = 0});
 }
 
-TEST_CASE("diagnosis words: where and since when an effect acts is said in words") {
-    std::string const name = "rudder_lag@S1>=0.695634187+S2+S3>=1<2.5";
-    std::string const where = " in S1 from 0.696 s, S2, S3 from 1 s until 2.5 s";
-    CHECK(names_of({"wind", name}) == "wind + rudder_lag" + where);
+TEST_CASE("diagnosis words: that an effect acts in some experiments or for a time is said") {
+    CHECK(names_of({"wind", "rudder_lag@S1+S3"}) == "wind + rudder_lag in S1, S3");
+    CHECK(names_of({"wind@S1>=0.695634187+S2"}) == "wind from a time on");
+    CHECK(names_of({"wind@S1+S2<1.5"}) == "wind until a time");
+    CHECK(names_of({"wind@S1>=0.3<1.5+S2"}) == "wind for a time");
     diagnosis_view v = hovercraft_diagnosis().view();
-    CHECK(words_of(v, {name}) == v.meanings.at("rudder_lag") + where);
-    CHECK(words_of(v, {"unheard@S2<1"}) == "unheard in S2 until 1 s");
+    v.meanings["rudder_lag@S2>=1.2345678"] = "a lag, in S2 from 1.2345678 s on only";
+    CHECK(words_of(v, {"rudder_lag@S2>=1.2345678"}) ==
+          v.meanings.at("rudder_lag") + " from a time on");
+    CHECK(words_of(v, {"unheard@S2"}) == "unheard in S2");
 }
 
 TEST_CASE("diagnosis words: alternatives make the answer open, and what would tell is said") {

@@ -18,8 +18,8 @@
 /// estimate.
 namespace sivid::report {
 
-/// An effect's name; where it acts in some experiments only, or from a time on, with three digits:
-/// "payload in S1 from 0.696 s, S2" of "payload@S1>=0.69563+S2".
+/// An effect's name, with where it acts if not everywhere and always: "payload in S1, S2" of
+/// "payload@S1+S2", "payload from a time on" of "payload@S1>=0.69563+S2".
 [[nodiscard]] SIVID_DECL std::string name_of(std::string effect);
 
 /// "rudder_lag + wind"; without effects "the model as it is".

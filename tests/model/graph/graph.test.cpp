@@ -77,6 +77,7 @@ TEST_CASE("rewriting never enlarges the domain") {
     CHECK(undefined(pown(x, -2) * 0));
     CHECK(undefined(abs(sqrt(x))));
     CHECK(undefined(min(log(x), log(x))));
+    CHECK(undefined(min(max(sqrt(x), 0.5), 0.5)));
     CHECK(undefined(0 * tan(2 * x)));
     CHECK_FALSE(undefined(0 * x));
     CHECK_FALSE(undefined(x - x));
@@ -101,6 +102,12 @@ TEST_CASE("what rewriting is for: tight values") {
     CHECK(range(abs(-x)).upper() == 2);
     CHECK(range(0 * x).upper() == 0);
     CHECK(range(min(x, x)).lower() == -1);
+    // A dead band of no width, which an effect leaves where it does not act.
+    CHECK(deadband(x, 0.0).in(g) == x.in(g));
+    CHECK(max(0.5, min(0.5, x)).in(g) == expression(0.5).in(g));
+    CHECK(range(min(max(x, 0.5), 1.0)).lower() == 0.5);
+    CHECK(range(min(max(x, 0.5), 1.0)).upper() == 1);
+    CHECK(range(max(max(x, 0.5), 0.5)).upper() == 2);
 }
 
 TEST_CASE("equal parts are shared, whatever their order") {

@@ -5,41 +5,29 @@
 #include <sivid/report/diagnosis_words.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/number/decimal.hpp>
-#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace sivid::report {
 
 namespace detail {
-/// Where an effect acts, if not everywhere: " in S1 from 0.696 s, S2" of "payload@S1>=0.69563+S2".
+/// Where an effect acts, if not everywhere and always: " in S1, S2" of "payload@S1+S2", " from a
+/// time on" of "payload@S1>=0.69563+S2".
 /// @param name  loses it
 inline std::string take_where(std::string& name) {
     auto const at = name.find('@');
     if (at == std::string::npos) return "";
-    std::string out;
-    for (std::size_t begin = at + 1; begin <= name.size();) {
-        auto const end = std::min(name.find('+', begin), name.size());
-        auto where = name.substr(begin, end - begin);
-        begin = end + 1;
-        std::string when;
-        for (auto const& [sign, word] : {std::pair{"<", " until "}, std::pair{">=", " from "}}) {
-            auto const t = where.find(sign);
-            if (t == std::string::npos) continue;
-            auto const text = where.substr(t + std::string_view{sign}.size());
-            auto const time = parse_nearest(text);
-            when = word + (time ? nearest_text(*time, 3) : text) + " s" + when;
-            where.resize(t);
-        }
-        out += (out.empty() ? " in " : ", ") + where + when;
-    }
+    auto where = name.substr(at + 1);
     name.resize(at);
+    bool const begins = where.find(">=") != std::string::npos;
+    if (where.find('<') != std::string::npos) return begins ? " for a time" : " until a time";
+    if (begins) return " from a time on";
+    std::string out = " in ";
+    for (char const c : where) out += c == '+' ? std::string(", ") : std::string(1, c);
     return out;
 }
 } // namespace detail
@@ -59,8 +47,7 @@ SIVID_DECL std::string words_of(diagnosis_view const& v, std::vector<std::string
     std::vector<std::string> words;
     for (std::string const& e : effects) {
         auto name = e;
-        bool const whole = v.meanings.count(e) > 0; // with where it acts, if anybody said so
-        auto const where = whole ? "" : detail::take_where(name);
+        auto const where = detail::take_where(name);
         auto const known = v.meanings.find(name);
         bool const said = known != v.meanings.end() && !known->second.empty();
         words.push_back((said ? known->second : name) + where);

@@ -122,6 +122,15 @@ SIVID_DECL bool graph::simplify(operation op, node_id& a, node_id& b, node_id& r
     case operation::min:
     case operation::max:
         if (a == b) return result = a, true;
+        // A dead band of no width: min(max(x, c), c) = c.
+        for (auto const& [cut, c] : {std::pair{a, b}, std::pair{b, a}}) {
+            auto const& n = nodes_[cut];
+            bool const opposite = n.op != op && (n.op == operation::min || n.op == operation::max);
+            if (!opposite || !total_[cut] || !is_literal(c)) continue;
+            auto const& at = value(nodes_[c]).enclosure;
+            if (at.lower() != at.upper()) continue;
+            if (is(n.a, at.lower()) || is(n.b, at.lower())) return result = c, true;
+        }
         break;
     default:
         break;
