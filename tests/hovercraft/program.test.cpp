@@ -936,14 +936,20 @@ TEST_CASE(
     auto const unknown = with("rudder_trim@S9");
     CHECK(unknown.code == 2);
     CHECK_THAT(unknown.err, ContainsSubstring("unknown scenario to fit 'S9'"));
-    CHECK_THAT(with("position_latency@S3").err, ContainsSubstring("cannot have a delay"));
-    REQUIRE(with("rudder_trim@S3").code == 0);
-    CHECK(json_of(fs::path(result) / "result.json")["effects"] == nlohmann::json{"rudder_trim@S3"});
-    // S1 goes straight ahead, whatever the trim is in S3.
-    auto const straight = run({"verify", result, "--scenario", "S1", "--require",
-                               "always(abs(v) < 1e-6)", "--budget", "5"});
-    CHECK(straight.code == 0);
-    CHECK_THAT(straight.out, ContainsSubstring("proved"));
+    CHECK_THAT(with("position_latency@S3").err, ContainsSubstring("cannot be joined here"));
+    CHECK_THAT(with("rudder_lag@S3>=1").err, ContainsSubstring("cannot have a state of its own"));
+    // A lag may have no time constant, over which nothing is enclosed where it acts.
+    for (auto const& [effect, code] :
+         {std::pair<std::string, int>{"rudder_trim@S3", 0}, {"rudder_lag@S3", 3}}) {
+        CAPTURE(effect);
+        REQUIRE(with(effect).code == code);
+        CHECK(json_of(fs::path(result) / "result.json")["effects"] == nlohmann::json{effect});
+        // S1 goes straight ahead, whatever the trim or the lag is in S3.
+        auto const straight = run({"verify", result, "--scenario", "S1", "--require",
+                                   "always(abs(v) < 1e-6)", "--budget", "5"});
+        CHECK(straight.code == 0);
+        CHECK_THAT(straight.out, ContainsSubstring("proved"));
+    }
 }
 
 TEST_CASE("describe prints the model as text and as a graph, bound or as written") {
