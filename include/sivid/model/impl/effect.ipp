@@ -120,24 +120,15 @@ SIVID_DECL effect widened(effect e) {
 
 SIVID_DECL effect only_within(effect e, std::vector<std::string> experiments,
                               std::vector<double> since, std::vector<double> until) {
-    std::string names, words;
+    std::string names;
     for (std::size_t k = 0; k < experiments.size(); ++k) {
         names += (names.empty() ? "@" : "+") + experiments[k];
-        words += (words.empty() ? ", in " : ", ") + experiments[k];
-        bool const ends = k < until.size() && until[k] < effect::for_ever;
-        if (k < since.size() && since[k] > effect::from_start) {
-            auto const at = detail::time_text(since[k]);
-            names += ">=" + at;
-            words += " from " + at + (ends ? " s" : " s on");
-        }
-        if (ends) {
-            auto const at = detail::time_text(until[k]);
-            names += "<" + at;
-            words += " until " + at + " s";
-        }
+        if (k < since.size() && since[k] > effect::from_start)
+            names += ">=" + detail::time_text(since[k]);
+        if (k < until.size() && until[k] < effect::for_ever)
+            names += "<" + detail::time_text(until[k]);
     }
     e.name += names;
-    if (!e.about.empty()) e.about += words + " only";
     e.only_in = std::move(experiments);
     e.since = std::move(since);
     e.until = std::move(until);

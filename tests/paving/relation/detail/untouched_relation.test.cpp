@@ -68,7 +68,9 @@ TEST_CASE("an effect keeps the relations that it does not act in") {
     auto const lag = any::input_lag("lag", "u", "N", {0_dec, 0.5_dec}, 10);
     CHECK(keeps({}, kinematic()));
     CHECK(keeps({}, dynamic(true)));
-    for (auto const& e : {slope, late, lag}) {
+    for (auto const& e : {slope, late, lag, only_within(slope, {"E1"}), only_within(late, {"E1"}),
+                          only_within(lag, {"E1"})}) {
+        CAPTURE(e.name);
         CHECK(keeps({e}, kinematic()));
         CHECK_FALSE(keeps({e}, dynamic()));
         CHECK_FALSE(keeps({e, scale}, kinematic()));
@@ -90,8 +92,10 @@ TEST_CASE("an effect keeps the relations that it does not act in") {
 TEST_CASE("a channel that is late is another one, a delay of the model itself is left alone") {
     effect seen_late{"seen late", {{"tau", "s", 0_dec, 1_dec, 0_dec}}};
     seen_late.on_channels = [](effect_scope& h) { h.delay_channel("v"); };
-    CHECK_FALSE(keeps({seen_late}, kinematic()));
-    CHECK_FALSE(keeps({seen_late}, dynamic()));
+    for (auto const& e : {seen_late, only_within(seen_late, {"E1"})}) {
+        CHECK_FALSE(keeps({e}, kinematic()));
+        CHECK_FALSE(keeps({e}, dynamic()));
+    }
     effect other_late{"other late", {{"tau", "s", 0_dec, 1_dec, 0_dec}}};
     other_late.on_channels = [](effect_scope& h) { h.delay_channel("p"); };
     CHECK(keeps({other_late}, dynamic()));

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -111,10 +112,14 @@ public:
 private:
     static constexpr std::size_t few_measurements = 600;
 
-    [[nodiscard]] static double squares_of(std::vector<double> const& residuals) {
-        double sum = 0;
-        for (double const r : residuals) sum += r * r;
-        return sum;
+    /// Sums of each experiment; infinite where nothing was simulated.
+    [[nodiscard]] std::vector<double>
+    squares_of(std::vector<std::vector<double>> const& residuals) const {
+        std::vector<double> sums(names_.size(),
+                                 residuals.size() == names_.size() ? 0.0 : detail::infinity);
+        for (std::size_t s = 0; s < std::min(sums.size(), residuals.size()); ++s)
+            for (double const r : residuals[s]) sums[s] += r * r;
+        return sums;
     }
     /// These parameters, and these shares of every experiment.
     [[nodiscard]] std::vector<double> placed(std::vector<double> from, double on,
@@ -127,11 +132,9 @@ private:
     /// time it may fit best where it sleeps. Else nothing.
     [[nodiscard]] std::vector<double> awakened(fitter& at, double on, double off) const {
         if (effect_.parameters.size() != 1) return {};
-        auto const misfit = [&at](std::vector<double> const& parameters) {
-            double sum = 0;
-            for (auto const& of_experiment : at.at(parameters, {}).residuals)
-                sum += squares_of(of_experiment);
-            return sum;
+        auto const misfit = [&](std::vector<double> const& parameters) {
+            auto const sums = squares_of(at.at(parameters, {}).residuals);
+            return std::accumulate(sums.begin(), sums.end(), 0.0);
         };
         double least = misfit(placed(always_, on, off));
         std::vector<double> best;
@@ -174,19 +177,23 @@ private:
         if (fit_.inflation > 1) fit_at_jumps(8);
         if (!(fit_.inflation < before.fit_.inflation)) *this = before;
     }
-    /// Each jump where it fits its experiment best, all else as it is: first anywhere, then ever
-    /// closer.
+    /// Puts jumps where they fit best.
     void move_jumps() {
         auto const misfits = [&](std::vector<double> const& parameters) {
-            std::vector<double> sums(names_.size(), detail::infinity);
-            if (!go_on_() || !decide_times(parameters, 8)) return sums;
+            if (!go_on_() || !decide_times(parameters, 8)) return squares_of({});
             auto const jumping = affected(*base_, {acting()});
             auto own = parameters;
             own.resize(always_.size());
-            auto const residuals = fitter(jumping, go_on_).at(own, known_.starts).residuals;
-            for (std::size_t s = 0; s < residuals.size(); ++s) sums[s] = squares_of(residuals[s]);
-            return sums;
+            return squares_of(fitter(jumping, go_on_).at(own, known_.starts).residuals);
         };
+        place_steps(misfits, 32, 1e-4);
+    }
+    /// Puts each step where it fits its experiment best, all else as it is: first at one of so many
+    /// places or where it is, then ever closer.
+    /// @param misfits  of each experiment, with all parameters
+    /// @param finest   share of an experiment; 1: it stays at its place
+    template <class Misfits>
+    void place_steps(Misfits const& misfits, int places, double finest) {
         auto least = misfits(known_.parameters);
         auto const try_all = [&](std::size_t step, auto const& place) {
             auto const first = always_.size() + step * names_.size();
@@ -200,11 +207,10 @@ private:
                 known_.parameters[first + s] = probe[first + s];
             }
         };
-        constexpr int places = 32;
         for (std::size_t step = 0; step < steps(); ++step) {
             for (int k = 0; k <= places; ++k)
-                try_all(step, [k](double) { return k / double(places); });
-            for (double by = 0.5 / places; by > 1e-4; by /= 2)
+                try_all(step, [&](double) { return k / double(places); });
+            for (double by = 0.5 / places; by > finest; by /= 2)
                 for (double const way : {-by, by})
                     try_all(step, [way](double share) { return share + way; });
         }
@@ -326,29 +332,15 @@ private:
         auto found = sivid::fit(sharper, norm, {known_.parameters, {}}, go_on_);
         if (!found.parameters.empty()) known_ = std::move(found);
     }
-    /// Each step where it fits its experiment best, all else as it is.
+    /// Puts steps of this length where they fit best.
     void look_everywhere(double length, std::size_t measurements) {
         if (known_.parameters.size() <= always_.size()) return;
         auto const soft = thinned(softened(length), measurements);
         fitter at(soft, go_on_);
-        constexpr int places = 24; // first where they are
-        for (std::size_t step = 0; step < steps(); ++step) {
-            auto const first = always_.size() + step * names_.size();
-            auto probe = known_.parameters;
-            std::vector<double> least(names_.size(), detail::infinity);
-            for (int k = -1; k <= places; ++k) {
-                if (k >= 0)
-                    std::fill_n(probe.begin() + static_cast<std::ptrdiff_t>(first), names_.size(),
-                                k / double(places));
-                auto const residuals = at.at(probe, known_.starts).residuals;
-                for (std::size_t s = 0; s < std::min(names_.size(), residuals.size()); ++s) {
-                    double const sum = squares_of(residuals[s]);
-                    if (!(sum < least[s])) continue;
-                    least[s] = sum;
-                    known_.parameters[first + s] = probe[first + s];
-                }
-            }
-        }
+        auto const misfits = [&](std::vector<double> const& parameters) {
+            return squares_of(at.at(parameters, known_.starts).residuals);
+        };
+        place_steps(misfits, 24, 1);
     }
     /// In decimals far finer than the samples.
     /// @param digits  of the times, about
