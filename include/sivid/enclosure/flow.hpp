@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -27,8 +28,10 @@ struct jacobian_entry {
 /// Immutable after construction; shared by all boxes and threads.
 class flow {
 public:
+    /// @param runs  where given, the flow is for these runs alone: states that rest in all of them
+    ///              are numbers (`bind`)
     flow(recorded_model const& model, parameter_choice const& choice,
-         std::vector<signal> const& inputs);
+         std::vector<signal> const& inputs, std::optional<region_of_runs> const& runs = {});
 
     [[nodiscard]] bound_model const& model() const { return model_; }
     [[nodiscard]] std::size_t states() const { return model_.state_count(); }
@@ -53,7 +56,7 @@ public:
     }
 
     [[nodiscard]] sampled_signal const& input(std::size_t i) const { return signals_[i]; }
-    /// All of them; those that are formulas, which stand in the model already, are empty.
+    /// All of them; those that stand in the model already, as formulas or numbers, are empty.
     [[nodiscard]] std::vector<signal> inputs() const { return {signals_.begin(), signals_.end()}; }
     [[nodiscard]] std::vector<std::size_t> const& sampled_inputs() const { return model_.sampled; }
     /// Whether an input has an error bound: each trajectory of the flow then stands for all those

@@ -8,12 +8,14 @@
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/model/parameter_choice.hpp>
+#include <sivid/space/box.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -82,14 +84,23 @@ struct bound_model {
     return on == nullptr || !on->g.is(on->value, 0);
 }
 
+/// Where all runs of a bound model begin, and the parameters that they have.
+struct region_of_runs {
+    box starts, parameters;
+};
+
 /// Binds constants and inputs, folds what became constant, and differentiates. Derived constants
 /// that follow their formulas (`followed`) become functions of the others.
 /// @param inputs  one signal per input of the model
+/// @param runs    where given, the result holds for these runs alone: inputs that do not change and
+///                states that rest (`resting_states`) become numbers, and derivatives by such
+///                states 0
 /// @given  the model has no delays (checked): they have to be resolved first
 /// @throws std::invalid_argument on unknown names, a wrong number of inputs, or an empty value
 [[nodiscard]] SIVID_DECL bound_model bind(recorded_model const& model,
                                           parameter_choice const& choice,
-                                          std::vector<signal> const& inputs);
+                                          std::vector<signal> const& inputs,
+                                          std::optional<region_of_runs> const& runs = {});
 
 } // namespace sivid
 

@@ -7,8 +7,8 @@
 namespace sivid {
 
 SIVID_DECL flow::flow(recorded_model const& model, parameter_choice const& choice,
-                      std::vector<signal> const& inputs)
-    : model_(bind(model, choice, inputs)), signals_(inputs.size()) {
+                      std::vector<signal> const& inputs, std::optional<region_of_runs> const& runs)
+    : model_(bind(model, choice, inputs, runs)), signals_(inputs.size()) {
     for (auto const i : model_.sampled) signals_[i] = std::get<sampled_signal>(inputs[i]);
     rate_ = tape(model_.g, model_.rate);
     rate_state_jacobian_ = with_jacobian(model_.rate, model_.rate_dx, {}, entries_);

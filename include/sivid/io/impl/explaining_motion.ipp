@@ -63,7 +63,8 @@ inline explaining_motion enclose_motion(identification_problem const& problem, m
     for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
         auto const& s = problem.experiments[e];
         auto const f =
-            std::make_shared<flow const>(problem.model, problem.choice, nominal(s.inputs));
+            std::make_shared<flow const>(problem.model, problem.choice, nominal(s.inputs),
+                                         region_of_runs{motion.starts[e], motion.parameters});
         double const end = s.end();
         enclosure_options options;
         if (pieces > 0) options.maximum_step = (end - s.begin) / static_cast<double>(pieces);

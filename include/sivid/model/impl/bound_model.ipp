@@ -3,11 +3,62 @@
 #define SIVID_MODEL_IMPL_BOUND_MODEL_IPP
 
 #include <sivid/model/bound_model.hpp>
+#include <sivid/model/structure/resting_states.hpp>
+
+#include <algorithm>
 
 namespace sivid {
 
+namespace model_detail {
+
+/// The value that an input has at all times; none where it changes, or is not known.
+inline std::optional<double> only_value(signal const& s) {
+    auto const* const sampled = std::get_if<sampled_signal>(&s);
+    if (sampled == nullptr || !sampled->exact()) return std::nullopt;
+    auto const& v = sampled->values();
+    auto const [low, high] = std::minmax_element(v.begin(), v.end());
+    if (*low != *high) return std::nullopt;
+    return *low;
+}
+
+/// Makes the states that rest numbers.
+inline void fold_resting_states(bound_model& m, std::vector<signal> const& inputs,
+                                region_of_runs const& runs) {
+    leaf_ranges at{{}, runs.starts, runs.parameters, box(inputs.size())};
+    for (auto const i : m.sampled) {
+        auto const& s = std::get<sampled_signal>(inputs[i]);
+        for (std::size_t k = 0; k < s.values().size(); ++k) {
+            double const e = s.exact() ? 0 : s.errors()[k];
+            auto const value = interval_traits<interval>::add(
+                interval(s.values()[k]), interval_traits<interval>::bounds(-e, e));
+            at.inputs[i] = k == 0 ? value : hull(at.inputs[i], value);
+        }
+    }
+    auto const rests = resting_states(m.g, m.rate, at);
+    if (std::find(rests.begin(), rests.end(), true) == rests.end()) return;
+    auto const leaf = [&](node const& n, graph& to) {
+        auto const i = static_cast<std::size_t>(n.index);
+        if (n.op != operation::state || !rests[i]) return to.leaf(n.op, i);
+        return to.constant(runs.starts[i].lower());
+    };
+    auto outputs = m.rate;
+    outputs.insert(outputs.end(), m.observe.begin(), m.observe.end());
+    graph folded;
+    auto const images = copy_into(folded, m.g, outputs, leaf);
+    auto const split = images.begin() + static_cast<std::ptrdiff_t>(m.rate.size());
+    m.rate.assign(images.begin(), split);
+    m.observe.assign(split, images.end());
+    for (std::size_t i = 0; i < rests.size(); ++i) {
+        if (rests[i]) m.rate[i] = folded.constant(0.0);
+    }
+    m.g = std::move(folded);
+}
+
+} // namespace model_detail
+
 SIVID_DECL bound_model bind(recorded_model const& model, parameter_choice const& choice,
-                            std::vector<signal> const& inputs) {
+                            std::vector<signal> const& inputs,
+                            std::optional<region_of_runs> const& runs) {
     auto const& about = model.about;
     if (inputs.size() != about.inputs.size()) {
         throw std::invalid_argument("model '" + about.name + "' has " +
@@ -33,8 +84,11 @@ SIVID_DECL bound_model bind(recorded_model const& model, parameter_choice const&
         if (is_empty(value)) throw std::invalid_argument("constant '" + name + "' has no value");
         values[index_of(about.constants, name, "constant")] = literal{value, mid(value)};
     }
+    std::vector<std::optional<double>> only(inputs.size());
     for (std::size_t i = 0; i < inputs.size(); ++i) {
-        if (std::holds_alternative<sampled_signal>(inputs[i])) result.sampled.push_back(i);
+        if (runs) only[i] = model_detail::only_value(inputs[i]);
+        if (!only[i] && std::holds_alternative<sampled_signal>(inputs[i]))
+            result.sampled.push_back(i);
         if (is_uncertain(inputs[i])) result.uncertain.push_back(i);
     }
 
@@ -50,6 +104,7 @@ SIVID_DECL bound_model bind(recorded_model const& model, parameter_choice const&
             return to.leaf(operation::constant, static_cast<std::size_t>(position[k]));
         }
         if (n.op == operation::input) {
+            if (only[k]) return to.constant(*only[k]);
             if (auto const* formula = std::get_if<analytic_signal>(&inputs[k])) {
                 auto const time = [](node const&, graph& h) { return h.leaf(operation::time, 0); };
                 return copy_into(to, formula->g, {formula->value}, time).front();
@@ -64,6 +119,7 @@ SIVID_DECL bound_model bind(recorded_model const& model, parameter_choice const&
     auto const split = images.begin() + static_cast<std::ptrdiff_t>(model.rate.size());
     result.rate.assign(images.begin(), split);
     result.observe.assign(split, images.end());
+    if (runs) model_detail::fold_resting_states(result, inputs, *runs);
 
     std::vector<node_id> x;
     std::vector<node_id> p;

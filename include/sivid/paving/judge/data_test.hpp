@@ -46,13 +46,15 @@ public:
         problem.require_valid();
         records_.reserve(problem.experiments.size()); // the runs keep references
         for (auto const& e : problem.experiments) {
-            flows_.push_back(std::make_shared<flow const>(problem.model, problem.choice, e.inputs));
+            auto const flow_with = [&](std::vector<signal> const& inputs) {
+                return std::make_shared<flow const>(problem.model, problem.choice, inputs,
+                                                    region_of_runs{e.initial, problem.prior});
+            };
+            flows_.push_back(flow_with(e.inputs));
             records_.push_back(sorted(e.measurements));
             starts_.push_back(e.initial);
-            recorded_.push_back(
-                flows_.back()->uncertain()
-                    ? std::make_shared<flow const>(problem.model, problem.choice, nominal(e.inputs))
-                    : flows_.back());
+            recorded_.push_back(flows_.back()->uncertain() ? flow_with(nominal(e.inputs))
+                                                           : flows_.back());
         }
         auto const pool_of = [&](std::vector<std::shared_ptr<flow const>> const& flows) {
             return std::make_unique<run_pool>(
@@ -323,7 +325,9 @@ private:
             inputs.emplace_back(sampled_signal({problem_->experiments[e].begin}, {0.0},
                                                interpolation::hold, {bound}));
         }
-        return std::make_unique<flow const>(smooth.model, problem_->choice, inputs);
+        return std::make_unique<flow const>(
+            smooth.model, problem_->choice, inputs,
+            region_of_runs{problem_->experiments[e].initial, problem_->prior});
     }
     /// Knots of the inputs and measurements until the last of them: each ends a step.
     [[nodiscard]] std::size_t stops(std::size_t e) const {

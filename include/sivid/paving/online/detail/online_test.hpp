@@ -29,7 +29,8 @@ public:
     online_test(identification_problem const& problem, data_test_options options)
         : problem_(&problem), options_(std::move(options)) {
         for (auto const& e : problem.experiments) {
-            flows_.push_back(std::make_unique<flow>(problem.model, problem.choice, e.inputs));
+            flows_.push_back(std::make_unique<flow>(problem.model, problem.choice, e.inputs,
+                                                    region_of_runs{e.initial, problem.prior}));
             // What uncertain inputs cost, no smaller box gives back.
             if (flows_.back()->uncertain()) options_.run.hopeless = 1e300;
             runs_.push_back(make_continued_run(*flows_.back(), e, problem.prior, options_.run));

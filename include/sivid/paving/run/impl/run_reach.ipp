@@ -97,7 +97,7 @@ inline run_reach reach_of_run(identification_problem const& problem, std::size_t
         }
     }
     experiment run{whole.name, whole.inputs, whole.begin, whole.initial, samples, samples.size()};
-    flow const f(seen, problem.choice, whole.inputs);
+    flow const f(seen, problem.choice, whole.inputs, region_of_runs{whole.initial, parameters});
     auto const r = (*make_run(f, run, samples, parameters, options))(whole.initial, parameters);
     result.interrupted = options.enclosure.cancelled();
     auto const local = expand(*r, parameters);
