@@ -77,7 +77,8 @@ public:
     }
     /// 0 within `half_width` of 0, shifted towards 0 by it outside.
     friend expression deadband(expression const& a, expression const& half_width) {
-        return a - saturate(a, -half_width, half_width);
+        // Not a - saturate(a, ...), which is a kink wherever the width is 0.
+        return max(a - half_width, 0) + min(a + half_width, 0);
     }
 
 private:

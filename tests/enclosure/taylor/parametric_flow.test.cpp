@@ -401,6 +401,28 @@ TEST_CASE("parametric flow: a kink is crossed") {
     }
 }
 
+TEST_CASE("parametric flow: a dead band that has no width yet is no kink beyond 0") {
+    // x' = (0.5 - t with a dead band p u), u = 0 until 2: the kinks at 0 are crossed once. A dead
+    // band as x less its saturation would be a kink wherever the width is 0.
+    auto const m =
+        model_of({1, 1, 1, 100}, [](auto const& t, auto const&, auto const& p, auto const& u) {
+            using sivid::deadband;
+            return vector<std::decay_t<decltype(u[0])>>({deadband(0.5 - t, p[0] * u[0])});
+        });
+    auto const f = flow_of(m, {sampled_signal({0, 2, 3}, {0, 1, 1}, interpolation::hold)});
+    parametric_flow<taylor_model<double>> run(*f, {}, 2, 2);
+    run.begin(0, {interval(0.0)}, {between(0.1, 0.2)});
+    std::size_t steps = 0;
+    while (run.time() < 2) {
+        REQUIRE(run.step(2));
+        REQUIRE(++steps < 100);
+    }
+    CHECK(contains(run.set().hull()[0], -1.0)); // t/2 - t^2/2
+    CHECK(width(run.set().hull()[0]) < 1e-6);
+    while (run.time() < 3) REQUIRE(run.step(3)); // (0.5 - t) + p from now on
+    CHECK(contains(run.set().hull()[0], -3 + 0.15));
+}
+
 TEST_CASE("parametric flow: a kink seen by the polynomial of low degree only") {
     // y' = |x^2 + 1e-4 + t|: x^2 + 1e-4 in degree 1 touches zero, in the tube's degree 2 it does
     // not.

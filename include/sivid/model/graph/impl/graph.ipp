@@ -96,6 +96,13 @@ SIVID_DECL bool graph::simplify(operation op, node_id& a, node_id& b, node_id& r
         if (is(b, 0)) return result = a, true;
         if (nodes_[b].op == operation::neg) return result = sub(a, nodes_[b].a), true;
         if (nodes_[a].op == operation::neg) return result = sub(b, nodes_[a].a), true;
+        // max(x, y) + min(x, y) = x + y: a dead band of no width.
+        for (auto const& [high, low] : {std::pair{nodes_[a], nodes_[b]}, {nodes_[b], nodes_[a]}}) {
+            if (high.op == operation::max && low.op == operation::min && high.a == low.a &&
+                high.b == low.b) {
+                return result = add(high.a, high.b), true;
+            }
+        }
         break;
     case operation::sub:
         if (is(b, 0)) return result = a, true;
@@ -122,15 +129,6 @@ SIVID_DECL bool graph::simplify(operation op, node_id& a, node_id& b, node_id& r
     case operation::min:
     case operation::max:
         if (a == b) return result = a, true;
-        // A dead band of no width: min(max(x, c), c) = c.
-        for (auto const& [cut, c] : {std::pair{a, b}, std::pair{b, a}}) {
-            auto const& n = nodes_[cut];
-            bool const opposite = n.op != op && (n.op == operation::min || n.op == operation::max);
-            if (!opposite || !total_[cut] || !is_literal(c)) continue;
-            auto const& at = value(nodes_[c]).enclosure;
-            if (at.lower() != at.upper()) continue;
-            if (is(n.a, at.lower()) || is(n.b, at.lower())) return result = c, true;
-        }
         break;
     default:
         break;
