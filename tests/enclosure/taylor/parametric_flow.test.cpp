@@ -405,9 +405,9 @@ TEST_CASE("parametric flow: a dead band that has no width yet is no kink beyond 
     // x' = (0.5 - t with a dead band p u), u = 0 until 2: the kinks at 0 are crossed once. A dead
     // band as x less its saturation would be a kink wherever the width is 0.
     auto const m =
-        model_of({1, 1, 1, 100}, [](auto const& t, auto const&, auto const& p, auto const& u) {
+        model_of({1, 1, 1, 100}, [](auto const& t, auto const& x, auto const& p, auto const& u) {
             using sivid::deadband;
-            return vector<std::decay_t<decltype(u[0])>>({deadband(0.5 - t, p[0] * u[0])});
+            return vector<std::decay_t<decltype(x)>>({deadband(0.5 - t, p[0] * u[0])});
         });
     auto const f = flow_of(m, {sampled_signal({0, 2, 3}, {0, 1, 1}, interpolation::hold)});
     parametric_flow<taylor_model<double>> run(*f, {}, 2, 2);
