@@ -21,16 +21,15 @@ namespace sivid {
 ///   so that from b on it is tau late: a line in tau, as the late inputs are but for small errors
 ///   (`late_by_parameter`), and what the clock shows takes the place of the time in the equations.
 ///   No derivative of the channels is needed.
-/// @param base     without effects
-/// @param effects  those of the whole problem
-/// @param which    of them is the late sensor, alone with its parameter
-/// @param delays   range of that parameter, whose place the distance from its middle takes
-/// @given  recorded inputs; no late channel depends on the time itself
+/// @param base    with all other effects: they see late inputs and a late time
+/// @param sensor  the late sensor, alone with its parameter
+/// @param delays  range of that parameter, whose place the distance from its middle takes
+/// @given  inputs that are recorded, or do not change; no late channel depends on the time itself
 /// @guarantee  parameters with such a delay that explain the data explain this problem: samples of
 ///             late channels between a and b are left out, each part may have all the outliers
 [[nodiscard]] SIVID_DECL identification_problem
-with_late_channels(identification_problem const& base, std::vector<effect> const& effects,
-                   std::size_t which, std::vector<bool> const& late, interval const& delays);
+with_late_channels(identification_problem const& base, effect const& sensor,
+                   std::vector<bool> const& late, interval const& delays);
 
 } // namespace sivid
 

@@ -93,29 +93,35 @@ struct late_clock {
 } // namespace diagnosis_detail
 
 SIVID_DECL identification_problem with_late_channels(identification_problem const& base,
-                                                     std::vector<effect> const& effects,
-                                                     std::size_t which,
+                                                     effect const& sensor,
                                                      std::vector<bool> const& late,
                                                      interval const& delays) {
     auto const constant = [](double c) {
         return analytic_signal::from([c](auto const&) { return c; });
     };
-    auto with_clock = effects;
-    auto& e = with_clock[which];
+    std::vector<effect> with_clock{sensor};
+    auto& e = with_clock[0];
     e.only_in.clear(); // that is told by which parts there are
     auto const parameter = e.name + "." + e.parameters[0].name;
     auto const clock = e.name + "_clock", clock_slope = e.name + "_clock_slope";
     auto const slope_of = [name = e.name](std::string const& input) {
         return name + "_slope_" + input;
     };
+    std::vector<std::size_t> recorded; // the others are switches
     std::vector<std::string> inputs, everywhere;
-    for (auto const& u : base.model.about.inputs) inputs.push_back(u.name);
+    for (std::size_t i = 0; i < base.model.about.inputs.size(); ++i) {
+        auto const is = [i](experiment const& x) {
+            return std::holds_alternative<sampled_signal>(x.inputs[i]);
+        };
+        if (std::none_of(base.experiments.begin(), base.experiments.end(), is)) continue;
+        recorded.push_back(i);
+        inputs.push_back(base.model.about.inputs[i].name);
+    }
     for (auto const& x : base.experiments) everywhere.push_back(x.name);
     e.on_channels = nullptr;
-    e.order = std::numeric_limits<int>::min(); // what others see is late
-    auto const whole = affected(base, effects).model;
-    bool const timed = std::any_of(whole.rate.begin(), whole.rate.end(),
-                                   [&](node_id n) { return (whole.g.depends(n) & on_time) != 0; });
+    bool const timed = std::any_of(base.model.rate.begin(), base.model.rate.end(), [&](node_id n) {
+        return (base.model.g.depends(n) & on_time) != 0;
+    });
     auto const shown = e.name + "_time", shown_slope = e.name + "_time_slope";
     e.on_inputs = [inputs, slope_of, timed, shown, shown_slope](effect_scope& h) {
         for (auto const& u : inputs) h.input(u) += h.input(slope_of(u)) * h.parameter();
@@ -125,13 +131,12 @@ SIVID_DECL identification_problem with_late_channels(identification_problem cons
     std::vector<std::string> own{clock, clock_slope};
     for (auto const& u : inputs) own.push_back(slope_of(u));
     if (timed) own.insert(own.end(), {shown, shown_slope});
-    auto const states = whole.about.states;
+    auto const states = base.model.about.states;
     for (auto const& name : own) {
         auto& helper = with_clock.emplace_back();
         helper.name = name;
         helper.only_in = everywhere;
         if (name != clock) continue;
-        helper.order = std::numeric_limits<int>::max(); // all rates are slow
         helper.on_rates = [states, clock, clock_slope, parameter](effect_scope& h) {
             auto const rate = h.input(clock) + h.input(clock_slope) * h.constant(parameter);
             for (auto const& s : states) h.rate(s.name) = rate * h.rate(s.name);
@@ -144,7 +149,7 @@ SIVID_DECL identification_problem with_late_channels(identification_problem cons
     std::vector<experiment> parts;
     for (auto const& x : problem.experiments) {
         auto in_time = x, behind = x;
-        bool const acts = effects[which].acts_in(x.name);
+        bool const acts = sensor.acts_in(x.name);
         std::erase_if(in_time.measurements, [&](auto const& m) { return acts && late[m.channel]; });
         for (auto const& name : own) in_time.inputs[place(name)] = constant(name == clock ? 1 : 0);
         if (timed) {
@@ -162,7 +167,7 @@ SIVID_DECL identification_problem with_late_channels(identification_problem cons
             behind.inputs[place(shown_slope)] = time.time_slope;
         }
         for (std::size_t i = 0; i < inputs.size(); ++i) {
-            auto const& u = std::get<sampled_signal>(x.inputs[i]);
+            auto const& u = std::get<sampled_signal>(x.inputs[recorded[i]]);
             auto& slope = behind.inputs[place(slope_of(inputs[i]))];
             sampled_signal middle;
             if (u.kind() == interpolation::linear) {
@@ -176,7 +181,7 @@ SIVID_DECL identification_problem with_late_channels(identification_problem cons
             // While the clock is slow, the input is one of the first ones.
             auto const first = diagnosis_detail::seen_between(
                 u, x.begin, x.begin, x.begin + 2 * (time.runs - time.stands));
-            behind.inputs[i] = diagnosis_detail::widened_between(
+            behind.inputs[recorded[i]] = diagnosis_detail::widened_between(
                 middle, time.stands, time.runs, width(first.values) + 2 * first.error);
         }
         for (auto* part : {&in_time, &behind}) {

@@ -37,7 +37,7 @@ inline bool stands_still(sampled_signal const& u) {
 inline std::string full_name(effect const& e) { return e.name + "." + e.parameters[0].name; }
 
 /// The problem with an effect as a line in its only parameter: its slope is a further input, by
-/// which it acts, before all that is joined later.
+/// which it acts, before all that is there already: what else changes the input sees the line.
 /// Where the effect does not act, the slope is 0.
 /// @param range  of the parameter, whose place the distance from its middle takes
 /// @param form   (input, experiment, range) -> input_of_parameter
@@ -229,26 +229,25 @@ private:
     }
     [[nodiscard]] sliced_input joined() const {
         sliced_input result;
-        std::vector<effect> others; // of the changes
-        std::size_t late_among = 0;
+        std::vector<effect> others; // than the changes and the late sensor
         for (std::size_t k = 0; k < effects_->size(); ++k) {
-            if (late_ && *late_ == k) late_among = others.size();
-            if (std::none_of(changes_.begin(), changes_.end(),
-                             [&](input_change const& c) { return c.effect == k; }))
+            if (late_ != k && std::none_of(changes_.begin(), changes_.end(),
+                                           [&](input_change const& c) { return c.effect == k; }))
                 others.push_back((*effects_)[k]);
         }
         for (auto const& c : changes_) result.sides.push_back(c.side);
         if (late_) result.sides.push_back({late_side_, true});
         auto const names = whole_.choice.unknown;
-        result.over = [names, others, late_among, base = base_, effects = effects_,
-                       changes = changes_, late = late_, late_side = late_side_,
+        result.over = [names, others, base = base_, effects = effects_, changes = changes_,
+                       late = late_, late_side = late_side_,
                        late_channels = late_channels_](box const& all) {
-            auto problem = *base;
+            auto problem = affected(*base, others);
             for (auto const& c : changes)
                 problem = c(std::move(problem), (*effects)[c.effect], all[c.side.index]);
-            problem = late ? with_late_channels(problem, others, late_among, late_channels,
-                                                all[late_side])
-                           : affected(problem, others);
+            if (late) {
+                problem =
+                    with_late_channels(problem, (*effects)[*late], late_channels, all[late_side]);
+            }
             for (std::size_t j = 0; j < names.size(); ++j) {
                 auto const k = index_of_parameter(problem, names[j]);
                 bool const shifted =
@@ -260,12 +259,11 @@ private:
             start_added_states(problem);
             return problem;
         };
-        result.untouched = untouched(others, late_among);
+        result.untouched = untouched(others);
         return result;
     }
-    [[nodiscard]] std::optional<identification_problem> untouched(std::vector<effect> others,
-                                                                  std::size_t late_among) const {
-        if (late_) others.erase(others.begin() + static_cast<std::ptrdiff_t>(late_among));
+    [[nodiscard]] std::optional<identification_problem>
+    untouched(std::vector<effect> const& others) const {
         auto problem = affected(*base_, others);
         std::vector<experiment> kept;
         for (auto& x : problem.experiments) {
