@@ -9,7 +9,6 @@
 #include <sivid/model/bound_model.hpp>
 
 #include <cmath>
-#include <limits>
 #include <type_traits>
 #include <vector>
 
@@ -84,8 +83,8 @@ TEST_CASE("states that hold each other rest together, and one that moves wakes t
           pattern{false, false, false});
 }
 
-// (x_1 - s) g and g(x_1) - g(s)-like formulas at random: wherever a state is said to rest, its rate
-// is 0 there and grows at most in proportion to how far it has moved.
+// Random formulas g and (x_1 - s) g: wherever a state is said to rest, its rate is 0 there and
+// grows at most in proportion to how far it has moved.
 TEST_CASE("random rates of states that rest are zero and Lipschitz") {
     std::size_t rest = 0, all = 0;
     for (std::uint64_t seed = 1; seed <= 4000; ++seed) {
@@ -160,6 +159,8 @@ TEST_CASE("a flow for given runs has numbers for states that rest and inputs tha
         }
         CHECK(run.set().hull()[1].lower() <= 0);
         CHECK(run.set().hull()[1].upper() >= 0);
+        // p0 = 1: t + e^-t until 1, then 4 - t + (e^-1 - 2) e^(1-t).
+        CHECK(contains(run.set().hull()[0], 2 + std::exp(-2.0) - 2 * std::exp(-1.0)));
         return taken;
     };
     auto const with = steps(whole), without = steps(folded);

@@ -41,6 +41,8 @@ public:
         response_list chosen_starts;
     };
 
+    /// @given  boxes that are asked about lie within the prior, and starts within those of their
+    ///         experiments: states that rest there are numbers in the runs (`region_of_runs`)
     data_test(identification_problem const& problem, data_test_options const& options)
         : problem_(&problem), options_(options) {
         problem.require_valid();
