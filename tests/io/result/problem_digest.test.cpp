@@ -32,7 +32,7 @@ TEST_CASE("whatever decides a search changes the digest, budgets and threads do 
     differs([](p& x) { x.prior[0] = interval(0.5, 1.9999999999999998); });
     differs([](p& x) { x.choice.fixed["b"] = interval(1.0); });
     differs([](p& x) { x.experiments[0].name = "walk"; });
-    differs([](p& x) { x.experiments[0].begin = -0.0; });
+    differs([](p& x) { x.experiments[0].begin = 0.5; });
     differs([](p& x) { x.experiments[0].initial[0] = interval(2.0, 2.1); });
     differs([](p& x) { x.experiments[0].outliers = 2; });
     differs([](p& x) { x.experiments[0].measurements[0].time += 1e-16; });
@@ -148,4 +148,16 @@ TEST_CASE("the digest of a problem is that of what it says, not of how it was re
     differs([](p& x) {
         x.experiments[0].inputs.push_back(sampled_signal({0}, {1}, interpolation::hold));
     });
+}
+
+TEST_CASE("zeros of a problem have no sign, which depends on how a compiler adds") {
+    auto const problem = [](double zero) {
+        auto p = io_support::two_rates_problem(true);
+        p.experiments[0].begin = zero;
+        p.experiments[0].initial[0] = interval(zero, 0.1);
+        p.experiments[0].inputs.push_back(sampled_signal({0}, {zero}, interpolation::hold));
+        return p;
+    };
+    CHECK(problem_digest(problem(-0.0)) == problem_digest(problem(0.0)));
+    CHECK(problem_digest(problem(-0.0), {}) == problem_digest(problem(0.0), {}));
 }

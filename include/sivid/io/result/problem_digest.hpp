@@ -21,7 +21,8 @@ namespace sivid {
 
 namespace io_detail {
 
-/// Bytes in which different values are written differently, doubles by their bits.
+/// Bytes in which different values are written differently, doubles by their bits. Zero has no
+/// sign: which one a bound gets depends on how the compiler adds.
 class canonical_text {
 public:
     template <class... Values>
@@ -40,7 +41,7 @@ private:
         text_ += s;
     }
     void put(double x) {
-        auto bits = std::bit_cast<std::uint64_t>(x);
+        auto bits = std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x);
         std::array<char, 9> bytes{' '};
         for (std::size_t k = 1; k < bytes.size(); ++k, bits >>= 8) {
             bytes[k] = static_cast<char>(bits & 0xff);
