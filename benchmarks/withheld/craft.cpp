@@ -193,7 +193,8 @@ channels sensed(world const& w, double t, state const& s) {
                          -std::sin(angle) * a + std::cos(angle) * b};
     };
     double const cosine = std::cos(s[5]), sine = std::sin(s[5]);
-    auto const [u, v] = turned(s[0], s[1] + fault.velocity_arm * s[2], fault.velocity_turn);
+    auto const [u, v] = turned(s[0] - fault.velocity_side * s[2], s[1] + fault.velocity_arm * s[2],
+                               fault.velocity_turn);
     auto const [x, y] =
         turned(s[3] + fault.antenna_x * cosine - fault.antenna_y * sine,
                s[4] + fault.antenna_x * sine + fault.antenna_y * cosine, fault.position_turn);

@@ -60,6 +60,7 @@ inline constexpr std::array<std::string_view, channel_count> channel_names{"u", 
 struct instrument_faults {
     double velocity_turn = 0, position_turn = 0; // rad: axes of u, v or of x, y turned by this
     double velocity_arm = 0;                     // m: u, v are those of a point so far ahead
+    double velocity_side = 0;                    // m: and to the side
     double antenna_x = 0, antenna_y = 0;         // m: x, y are those of a point of the body
     channels drift{};                            // per s
     channels lag{};                              // s: low-pass of first order, settled at the start

@@ -77,4 +77,99 @@ std::vector<double> draw_instrument(std::string_view kind, random_source& random
     return {either(0.1, 0.3)};
 }
 
+std::vector<std::size_t> named_fault::channels() const {
+    std::vector<std::size_t> result;
+    for (auto const& name : in_brackets)
+        for (std::size_t k = 0; k < channel_count; ++k)
+            if (channel_names[k] == name) result.push_back(k);
+    if (kind.ends_with("_arm") && result.size() == 3) result.pop_back(); // the state
+    return result;
+}
+
+std::optional<named_fault> fault_in(std::string const& name) {
+    auto const opens = name.find('('), closes = name.find(")~");
+    if (!name.starts_with("sensor_") || opens == name.npos || closes == name.npos ||
+        name.find('@') != name.npos)
+        return std::nullopt;
+    named_fault f{name.substr(0, opens), {}, {}};
+    for (auto begin = opens + 1; begin <= closes;) {
+        auto const end = std::min(name.find(':', begin), closes);
+        f.in_brackets.push_back(name.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    auto const add = [&](std::string const& parameter) {
+        f.parameters.push_back(name + '.' + parameter);
+    };
+    if (f.kind == "sensor_latency" || f.kind == "sensor_lag") add("tau");
+    if (f.kind == "sensor_drift") {
+        if (f.in_brackets.size() == 1) add("d");
+        for (auto const& y : f.in_brackets)
+            if (f.in_brackets.size() > 1) add("d_" + y);
+    }
+    if (f.kind == "sensor_rotation") add("a");
+    if (f.kind.ends_with("_arm")) {
+        add("a");
+        add("b");
+    }
+    return f;
+}
+
+std::string drawn_name(std::string const& name) {
+    static std::map<std::string, std::string> const heads{{"sensor_latency", "late_"},
+                                                          {"sensor_lag", "lagging_"},
+                                                          {"sensor_drift", "drift_"},
+                                                          {"sensor_rotation", "askew_"}};
+    auto const f = fault_in(name);
+    if (!f) return name;
+    auto const in = [&f](std::vector<std::string> const& those) { return f->in_brackets == those; };
+    if (f->kind == "sensor_velocity_arm" && in({"u", "v", "r"})) return "lever_v";
+    if (f->kind == "sensor_lever_arm" && in({"x", "y", "psi"})) return "lever_xy";
+    auto const head = heads.find(f->kind);
+    if (head == heads.end()) return name;
+    std::string group;
+    for (auto const& y : f->in_brackets) group += y;
+    return channels_of(group).empty() ? name : head->second + group;
+}
+
+std::map<std::string, double> fault_values(named_fault const& f, std::vector<double> const& drawn) {
+    std::map<std::string, double> result;
+    for (std::size_t k = 0; k < f.parameters.size(); ++k) {
+        bool const own = f.kind == "sensor_lever_arm" || k == 0 || f.kind == "sensor_drift";
+        // What is turned one way sees the other way; an arm of velocities lies ahead.
+        double const value = drawn.at(f.kind == "sensor_lever_arm" ? k : 0);
+        result[f.parameters[k]] = !own ? 0 : f.kind == "sensor_rotation" ? -value : value;
+    }
+    return result;
+}
+
+bool set_fault(instrument_faults& all, named_fault const& f,
+               std::function<std::optional<double>(std::string const&)> const& value) {
+    std::vector<double> values;
+    for (auto const& name : f.parameters) {
+        auto const x = value(name);
+        if (!x) return false;
+        values.push_back(*x);
+    }
+    if (values.empty()) return false;
+    auto const seen = f.channels();
+    for (std::size_t n = 0; n < seen.size(); ++n) {
+        if (f.kind == "sensor_latency") all.late[seen[n]] = values[0];
+        if (f.kind == "sensor_lag") all.lag[seen[n]] = values[0];
+        if (f.kind == "sensor_drift") all.drift[seen[n]] = values[n];
+    }
+    bool const velocities = seen == std::vector<std::size_t>{0, 1};
+    if (!velocities && seen != std::vector<std::size_t>{3, 4}) return seen.size() == 1;
+    if (f.kind == "sensor_rotation")
+        (velocities ? all.velocity_turn : all.position_turn) = -values[0];
+    if (f.kind == "sensor_velocity_arm") {
+        all.velocity_arm = values[0];
+        all.velocity_side = values[1];
+    }
+    if (f.kind == "sensor_lever_arm") {
+        all.antenna_x = values[0];
+        all.antenna_y = values[1];
+    }
+    return true;
+}
+
 } // namespace withheld

@@ -2,6 +2,7 @@
 #include "judge.hpp"
 #include "catalogue.hpp"
 #include "consistency.hpp"
+#include "instruments.hpp"
 #include "places.hpp"
 #include "reading.hpp"
 
@@ -50,7 +51,7 @@ bool right_answer(label const& l, json const& answer, bool absorbed) {
     auto const plain = [partial](json const& effects) {
         names result;
         for (auto const& n : names_in(effects))
-            result.insert(partial || n.find('@') == n.npos ? plain_name(n) : n);
+            result.insert(partial || n.find('@') == n.npos ? drawn_name(plain_name(n)) : n);
         return result;
     };
     auto const said = plain(member(answer, "effects"));
@@ -150,12 +151,24 @@ void judge_parameters(label const& l, json const& cause, judgement& j) {
     }
 }
 
+/// Whether the effects are the fault of an instrument that was drawn.
+bool is_drawn_fault(label const& l, names const& effects) {
+    return effects.size() == 1 && l.effects.size() == 1 && fault_in(*effects.begin()) &&
+           drawn_name(*effects.begin()) == l.effects.front().first;
+}
+
 /// Fits that explain the data with the effects of a cause. Where a cause names its effect with
 /// times at which it begins, or ends, or both, hulls hold whatever these are: the truth is one if
 /// it does no more.
 std::vector<known_fit> comparable(label const& l, known_fits const& known, json const& cause) {
     auto all = known.all();
     auto const effects = names_in(member(cause, "effects"));
+    if (is_drawn_fault(l, effects)) { // no catalogue has it, so nobody fitted it
+        auto truth = l.constants_true;
+        truth.merge(fault_values(*fault_in(*effects.begin()), l.effects.front().second));
+        all.push_back({effects, l.number("fit_true").value_or(1.0), std::move(truth)});
+        return all;
+    }
     bool const named = effects.size() == 1 && l.effects.size() == 1 &&
                        plain_name(*effects.begin()) == l.effects.front().first;
     auto const& name = *effects.begin();
@@ -248,7 +261,7 @@ void judge_causes(label const& l, known_fits const& known, json const& d, judgem
         auto const least = known.least(effects);
         auto const verdict = member(c, "verdict");
         if (verdict == "explains") {
-            if (effects == l.names()) {
+            if (effects == l.names() || is_drawn_fault(l, effects)) {
                 j.truth_explains = true;
                 judge_parameters(l, c, j);
             }

@@ -51,9 +51,11 @@ places places_of(std::string const& effect) {
         auto const of = equation.find(name.substr(0, mark));
         return of == equation.end() ? places{} : places{{of->second}, {}, {}};
     }
-    if (auto const group = instrument_of(name); !group.empty()) {
+    auto const fault = fault_in(name);
+    auto const group = instrument_of(name);
+    if (fault || !group.empty()) {
         places at;
-        for (std::size_t const k : channels_of(group))
+        for (std::size_t const k : fault ? fault->channels() : channels_of(group))
             at.sensors.insert(std::string{channel_names[k]});
         return at;
     }

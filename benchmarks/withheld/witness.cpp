@@ -3,6 +3,7 @@
 // simulated here, by other code than that which proved them.
 #include "catalogue.hpp"
 #include "confined.hpp"
+#include "instruments.hpp"
 #include "judge.hpp"
 #include "measure.hpp"
 #include "reading.hpp"
@@ -32,6 +33,13 @@ std::optional<world> world_of(recording const& data, json const& cause, json con
     }
     for (auto const& name : cause.at("effects")) {
         auto const* known = effect_named(name.get<std::string>());
+        if (auto const fault = fault_in(name.get<std::string>())) {
+            bool const set = set_fault(w.instruments, *fault, [&](std::string const& full) {
+                return parameters.contains(full) ? value_in(parameters.at(full)) : std::nullopt;
+            });
+            if (!set) return std::nullopt;
+            continue;
+        }
         if (known == nullptr) return std::nullopt;
         for (auto const& p : known->parameters) {
             auto const full = name.get<std::string>() + '.' + std::string{p.name};

@@ -29,6 +29,7 @@
 #include <sivid/model/closed_loop.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/manoeuvre.hpp>
+#include <sivid/model/named_effects.hpp>
 #include <sivid/paving/work_limit.hpp>
 #include <sivid/report/decision_page.hpp>
 #include <sivid/report/number_text.hpp>
@@ -68,8 +69,8 @@ public:
         auto const folder = c.dataset.empty() ? c.result / stored_.source_folder : c.dataset;
         auto const data = sivid::read_dataset(folder, sivid::names_of(model.about));
         problem_ = sivid::problem_from_dataset(data, model);
-        auto const effects =
-            sivid::effects_named(sivid::chosen_effects(catalogue, data), stored_.effects);
+        auto const effects = sivid::effects_named(sivid::chosen_effects(catalogue, data),
+                                                  stored_.effects, &model.about);
         if (!stored_.source_digest.empty() &&
             sivid::dataset_digest(folder) != stored_.source_digest)
             throw sivid::input_error{{.file = folder.string()},

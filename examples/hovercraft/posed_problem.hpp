@@ -9,6 +9,7 @@
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset_effects.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
+#include <sivid/model/named_effects.hpp>
 
 #include <cstddef>
 #include <optional>
@@ -28,7 +29,8 @@ posed(sivid::dataset const& data, sivid::recorded_model const& model,
     auto problem = sivid::problem_from_dataset(data, model, outliers);
     if (effects.empty()) return problem;
     try {
-        auto const named = sivid::effects_named(sivid::chosen_effects(catalogue(), data), effects);
+        auto const named =
+            sivid::effects_named(sivid::chosen_effects(catalogue(), data), effects, &model.about);
         for (auto const& e : named) {
             for (auto const& scenario : e.only_in)
                 (void)sivid::index_of(problem.experiments, scenario, "scenario to fit");

@@ -72,6 +72,7 @@
 #include <sivid/model/graph/tape.hpp>
 #include <sivid/model/manoeuvre.hpp>
 #include <sivid/model/model.hpp>
+#include <sivid/model/named_effects.hpp>
 #include <sivid/model/parameter_choice.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/model/series/series.hpp>

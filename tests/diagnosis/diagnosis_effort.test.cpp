@@ -21,6 +21,8 @@ TEST_CASE("a step gets its share of the time, and boxes that count all experimen
     CHECK(observers.boxes == 70);
     CHECK(observers.seconds == 25);
     CHECK(observers.go_on());
+    CHECK(effort.within(0.5)());
+    CHECK_FALSE(effort.within(-1)()); // it was to have ended already
 }
 
 TEST_CASE("what is asked whether to go on can stop a diagnosis for good") {

@@ -2,7 +2,9 @@
 #include <sivid/model/effect.hpp>
 
 #include "support/catch.hpp"
+
 #include "support/formulas.hpp"
+#include <sivid/model/named_effects.hpp>
 
 #include <sivid/model/effects.hpp>
 

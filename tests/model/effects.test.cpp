@@ -4,6 +4,8 @@
 #include "model/cart.hpp"
 #include "support/catch.hpp"
 
+#include <sivid/model/named_effects.hpp>
+
 #include <cmath>
 #include <functional>
 #include <stdexcept>

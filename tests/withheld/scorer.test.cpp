@@ -3,6 +3,7 @@
 #include "campaign_files.hpp"
 #include "catalogue.hpp"
 #include "consistency.hpp"
+#include "instruments.hpp"
 #include "judge.hpp"
 #include "places.hpp"
 #include "reading.hpp"
@@ -745,4 +746,71 @@ TEST_CASE("the program: tables, a csv, and the exit code of a false proof") {
     folder.write("results/b/diagnosis.json", open.dump());
     CHECK(score() != 0);
     CHECK_THAT(text_of("out.txt"), ContainsSubstring("CONTRADICTION  b  answer"));
+}
+
+TEST_CASE("faults of instruments are right by the kind that was drawn, their hulls are checked") {
+    auto const drawn = [](std::string const& effect, std::vector<double> const& values) {
+        auto l = labelled("instrument", {effect});
+        l.effects[0].second = values;
+        l.constants_true = {{"L", 0.3}};
+        return l;
+    };
+    auto const found = [](std::string const& fault, json const& parameters) {
+        auto d = answering({fault});
+        d["relations"] = d["where"] = json::array();
+        d["causes"] = json::array({{{"effects", {fault}},
+                                    {"verdict", "explains"},
+                                    {"inflation", {0.9, 0.95}},
+                                    {"parameters", parameters}}});
+        d["answer"]["constants"] = {{"L", {0.29, 0.31}}};
+        return d;
+    };
+    auto const slow = drawn("lagging_uv", {0.2});
+    auto const right = found("sensor_lag(u:v)~0.5", {{"sensor_lag(u:v)~0.5.tau", {0.19, 0.21}}});
+    CHECK(judge(slow, right).right);
+    CHECK(judge(slow, right).truth_explains == true);
+    CHECK(judge(slow, right).hulls_checked == 2);
+    CHECK(false_proofs(slow, right).empty());
+    auto const wrong = found("sensor_lag(u:v)~0.5", {{"sensor_lag(u:v)~0.5.tau", {0.1, 0.19}}});
+    CHECK(false_proofs(slow, wrong) == strings{"hull"});
+    for (auto const* name :
+         {"sensor_lag(u)~0.5", "sensor_latency(u:v)~0.5", "sensor_bias(u:v)~1"}) {
+        CAPTURE(name);
+        CHECK_FALSE(judge(slow, found(name, json::object())).right);
+    }
+    std::string const turned = "sensor_rotation(x:y)~0.5";
+    auto const askew = drawn("askew_xy", {0.05});
+    CHECK(judge(askew, found(turned, {{turned + ".a", {-0.06, -0.04}}})).right);
+    CHECK(false_proofs(askew, found(turned, {{turned + ".a", {-0.06, -0.04}}})).empty());
+    CHECK(false_proofs(askew, found(turned, {{turned + ".a", {0.04, 0.06}}})) == strings{"hull"});
+    std::string const drifts = "sensor_drift(u:v)~0.5", arm = "sensor_velocity_arm(u:v:r)~1",
+                      lever = "sensor_lever_arm(x:y:psi)~2";
+    CHECK(false_proofs(drawn("drift_uv", {0.03}), found(drifts, {{drifts + ".d_u", {0.02, 0.04}},
+                                                                 {drifts + ".d_v", {0, 0.02}}})) ==
+          strings{"hull"});
+    CHECK(false_proofs(drawn("lever_v", {0.2}),
+                       found(arm, {{arm + ".a", {0.1, 0.3}}, {arm + ".b", {-0.1, 0.1}}}))
+              .empty());
+    CHECK(false_proofs(drawn("lever_xy", {0.2, -0.1}),
+                       found(lever, {{lever + ".a", {0.1, 0.3}}, {lever + ".b", {-0.2, 0}}}))
+              .empty());
+    CHECK(judge(drawn("drift_r", {0.03}), found("sensor_drift(r)~1", json::object())).right);
+    CHECK(holds(places_of("sensor_lag(u:v)~0.5"), "sensor", "v"));
+    CHECK_FALSE(holds(places_of("sensor_velocity_arm(u:v:r)~1"), "sensor", "r"));
+    CHECK(places_of("sensor_lever_arm(x:y:psi)~2").sensors == std::set<std::string>{"x", "y"});
+
+    // Witnesses are simulated with them.
+    instrument_faults all;
+    auto const value = [](std::string const& name) {
+        return std::optional{name.ends_with(".b") ? 0.5 : 0.25};
+    };
+    CHECK(set_fault(all, *fault_in(turned), value));
+    CHECK(all.position_turn == -0.25);
+    CHECK(set_fault(all, *fault_in(arm), value));
+    CHECK(all.velocity_side == 0.5);
+    CHECK(set_fault(all, *fault_in(drifts), value));
+    CHECK(all.drift == channels{0.25, 0.25});
+    CHECK_FALSE(set_fault(all, *fault_in("sensor_bias(u)~1"), value));
+    CHECK_FALSE(fault_in("sensor_lag(u)~1@S1"));
+    CHECK_FALSE(fault_in("gyro_bias"));
 }

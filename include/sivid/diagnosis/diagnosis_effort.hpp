@@ -69,6 +69,11 @@ public:
     [[nodiscard]] double seconds_of(step_effort const& e) const {
         return std::min(left(), e.share * all_);
     }
+    /// Whether a step that begins now may go on, for this share of all time; from any thread.
+    [[nodiscard]] std::function<bool()> within(double share) {
+        double const end = left() - seconds_of({0, share});
+        return [this, end] { return left() >= end && go_on(); };
+    }
     /// A search for the inflation of a problem that spends no more.
     [[nodiscard]] inflation_options search(identification_problem const& p,
                                            step_effort const& e) const {

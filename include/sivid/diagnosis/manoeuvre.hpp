@@ -24,6 +24,10 @@ namespace sivid {
 propose_experiment(std::vector<screened const*> candidates, std::vector<manoeuvre> const& menu,
                    std::vector<double> errors, double period,
                    std::function<bool()> const& go_on = {});
+/// The same, measured as in a problem.
+[[nodiscard]] SIVID_DECL std::optional<next_experiment>
+propose_experiment(std::vector<screened const*> candidates, std::vector<manoeuvre> const& menu,
+                   identification_problem const& measured, std::function<bool()> const& go_on = {});
 
 } // namespace sivid
 

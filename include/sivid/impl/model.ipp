@@ -14,6 +14,7 @@
 #include <sivid/model/impl/expression.ipp>
 #include <sivid/model/impl/missing_term.ipp>
 #include <sivid/model/impl/model.ipp>
+#include <sivid/model/impl/named_effects.ipp>
 #include <sivid/model/impl/to_dot.ipp>
 #include <sivid/model/impl/unit.ipp>
 #include <sivid/model/structure/impl/find_combinations.ipp>

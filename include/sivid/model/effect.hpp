@@ -23,6 +23,10 @@ namespace sivid {
 
 class effect_scope;
 
+namespace detail {
+inline constexpr std::string_view wider = "_wider";
+}
+
 /// A parameter of an effect: its prior, and the value at which the effect vanishes.
 struct effect_parameter {
     std::string name;
@@ -52,13 +56,13 @@ struct effect {
     edit on_channels{};
     int order = 0;
     std::string about{}; ///< what it means, for reports
-    /// Where the effect is a first-order lag of an input and nothing else: its only parameter is
-    /// the time constant.
-    struct input_lag {
-        std::string input;
+    /// Where the effect is a first-order lag and nothing else: its only parameter is the time
+    /// constant.
+    struct first_order_lag {
+        std::string input;  ///< empty: of channels
         bool rests = false; ///< it begins at 0, else at the input
     };
-    std::optional<input_lag> lags{};
+    std::optional<first_order_lag> lags{};
     /// Where the effect is a dead band or a saturation of an input and nothing else: its only
     /// parameter is the size of the input from which on it moves, or stands.
     struct input_threshold {
@@ -123,6 +127,10 @@ public:
     void delay_input(std::string const& name, std::size_t k = 0);
     /// The channel shows the past, by the effect's k-th parameter.
     void delay_channel(std::string const& name, std::size_t k = 0);
+    /// The channel h follows by a first-order lag, whose time constant tau > 0 is the effect's k-th
+    /// parameter, from its own value at the begin on: it shows h - w, w' = h' - w/tau, w = 0 there.
+    /// @throws std::invalid_argument  for a channel that shows anything but a state as it is
+    void lag_channel(std::string const& name, std::size_t k = 0);
 
 private:
     friend recorded_model with(recorded_model const& base, std::vector<effect> effects);
@@ -169,31 +177,6 @@ private:
                                             std::vector<double> since = {},
                                             std::vector<double> until = {});
 
-/// A term that an equation lacks, by its formula, as an effect: `v'~0.5*abs(v)*v` is
-/// x' + k 0.5 |v| v in the equation of v, with k in [-1, 1]. The number in front says how large the
-/// term may be, in the unit of the rate.
-///   Factors are joined by * and /: numbers; names of states, inputs and constants, and t; powers
-///   such as x^2; abs(x), sqrt(x), exp(x), sgn(x:s) = x/sqrt(x^2 + s^2), and beyond(x:c), which is
-///   x - c above c, x + c below -c and else 0. In brackets stand sums of products.
-///   Two factors bring unknowns of their own in place of k, a and b in [-1, 1]:
-///   turn(x) = a cos(x) + b sin(x), and wave(x) = a cos(w x) + b sin(w x) with w in [0.85, 1.18].
-///   What the formula names is what the model sees.
-/// @throws std::invalid_argument  for a text that is no such name; when it meets a model, for names
-///         that this lacks
-[[nodiscard]] SIVID_DECL effect missing_term(std::string const& name);
-
-/// Whether a name is one of a missing term.
-[[nodiscard]] inline bool names_missing_term(std::string_view name) {
-    return name.find("'~") != std::string_view::npos;
-}
-
-/// Those of a catalogue that have these names, in the order of the names; `widened` ones, and those
-/// `only_within` some experiments, too, and terms that no catalogue has (`missing_term`).
-/// @throws std::invalid_argument  for a name that the catalogue lacks, an onset or an end that is
-/// no number, and an end that comes before its onset
-[[nodiscard]] SIVID_DECL std::vector<effect> effects_named(std::vector<effect> const& catalogue,
-                                                           std::vector<std::string> const& names);
-
 /// A model with effects. Their parameters become constants `<effect>.<parameter>`, nominal at the
 /// neutral value; states that they add, and switches of those that act in some experiments only,
 /// stand behind the model's own states and inputs.
@@ -214,7 +197,6 @@ template <dynamic_model M, std::same_as<effect>... Effects>
 
 #ifndef SIVID_COMPILED
 #include <sivid/model/impl/effect.ipp>
-#include <sivid/model/impl/missing_term.ipp>
 #endif
 
 #endif

@@ -107,6 +107,13 @@ SIVID_DECL effect sensor_lever_arm(std::string const& name,
                                    std::vector<std::string> const& channels,
                                    std::string const& heading, std::string const& unit,
                                    range const& arm);
+/// An instrument of a velocity that sits beside the point which moves, at (a, b) in its frame:
+/// y - b w and z + a w for its two channels, along and across, with the rate w of the heading.
+/// @param arm  prior of a and of b
+SIVID_DECL effect sensor_velocity_arm(std::string const& name,
+                                      std::vector<std::string> const& channels,
+                                      std::string const& turning, std::string const& unit,
+                                      range const& arm);
 /// Two channels of one unit that are mixed: y + k (z - y) and z + k (y - z); k = 1: their plugs are
 /// interchanged. A prior that goes a little beyond 1 keeps that value off its end.
 SIVID_DECL effect sensor_swap(std::string const& name, std::vector<std::string> const& channels,
@@ -117,6 +124,12 @@ SIVID_DECL effect sensor_scale(std::string const& name, std::vector<std::string>
 /// y(t - tau), and its value at the begin before, for all the channels of one instrument.
 SIVID_DECL effect sensor_latency(std::string const& name, std::vector<std::string> const& channels,
                                  range const& tau);
+/// First-order lag (low-pass): the channel shows y - w with w' = y' - w/tau and w = 0 at the begin,
+/// for all the channels of one instrument, each of which has to show a state. It comes before other
+/// faults of these.
+/// @param tau  above 0
+SIVID_DECL effect sensor_lag(std::string const& name, std::vector<std::string> const& channels,
+                             range const& tau);
 
 } // namespace sivid::effects
 

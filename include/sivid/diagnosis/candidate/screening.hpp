@@ -129,17 +129,17 @@ public:
         return explained(3);
     }
 
-    /// Tries terms that no catalogue has, alone and, where none explains, each of the closest with
-    /// every other one.
+    /// Tries effects that no catalogue has, alone and, where none explains and they may act
+    /// `together`, each of the closest with every other one.
     /// @returns  whether one or two of them explain the data
-    [[nodiscard]] bool try_terms(std::vector<effect> terms) {
+    [[nodiscard]] bool try_further(std::vector<effect> effects, bool together) {
         effect_set numbers;
-        for (auto& e : terms) numbers.push_back(index_of_effect(catalogue_, std::move(e)));
+        for (auto& e : effects) numbers.push_back(index_of_effect(catalogue_, std::move(e)));
         effect_sets singles;
         for (auto const k : numbers) singles.push_back({k});
         try_all(singles);
         polish();
-        if (explained(1)) return true;
+        if (explained(1) || !together) return explained(1);
         std::erase_if(singles, [this](auto const& one) { return find(one) == nullptr; });
         std::stable_sort(singles.begin(), singles.end(), [this](auto const& a, auto const& b) {
             return find(a)->figures.inflation < find(b)->figures.inflation;

@@ -8,6 +8,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/diagnosis/candidate/detail/candidate_order.hpp>
 #include <sivid/diagnosis/candidate/detail/describe_candidate.hpp>
+#include <sivid/diagnosis/candidate/detail/proposed_faults.hpp>
 #include <sivid/diagnosis/candidate/detail/proposed_terms.hpp>
 #include <sivid/diagnosis/candidate/detail/scenario_names.hpp>
 #include <sivid/diagnosis/candidate/screening.hpp>
@@ -110,15 +111,13 @@ private:
     }
     /// Why it could not be told whether there is a gap.
     void see_reach() {
-        double const end = effort_.left() - effort_.seconds_of({0, options_.reach_share});
-        auto const run = limited(effort_.test(), [this, end] { return effort_.left() >= end; }).run;
+        auto const run = limited(effort_.test(), effort_.within(options_.reach_share)).run;
         run_.result.reach = reach_of_runs(run_.base, run_.base.prior, run);
     }
     void find_relations() {
         if (!effort_.go_on("proving which equations cannot hold")) return;
         relation_options options;
-        double const end = effort_.left() - effort_.seconds_of({0, options_.relations_share});
-        options.go_on = [this, end] { return effort_.left() >= end && effort_.go_on(); };
+        options.go_on = effort_.within(options_.relations_share);
         run_.findings = find_broken_relations(run_.base, options);
         for (auto const& f : run_.findings) run_.result.relations.push_back(reported(f));
     }
@@ -132,8 +131,7 @@ private:
     [[nodiscard]] place_options place_effort() {
         place_options result;
         result.workers = effort_.test().workers;
-        double const end = effort_.left() - effort_.seconds_of({0, options_.places_share});
-        result.search.go_on = [this, end] { return effort_.left() >= end && effort_.go_on(); };
+        result.search.go_on = effort_.within(options_.places_share);
         return result;
     }
     void announce() {
@@ -158,8 +156,9 @@ private:
             (void)answer_by_proof(d);
         }
         bool const alone = going && unanswered(d.answer);
-        for (auto const further : {&diagnostician::try_confined, &diagnostician::try_episodes,
-                                   &diagnostician::try_threes, &diagnostician::try_terms}) {
+        for (auto const further : {&diagnostician::try_confined, &diagnostician::try_faults,
+                                   &diagnostician::try_episodes, &diagnostician::try_threes,
+                                   &diagnostician::try_terms}) {
             if (!going || !unanswered(d.answer) || !(this->*further)(tried)) continue;
             order = try_candidates(tried, 0.2 * options_.verdict_share);
             going = candidate_verdicts(run_, order, effort_, options_).verify();
@@ -201,6 +200,13 @@ private:
         }
         return tried.candidates().size() > before;
     }
+    /// Faults of instruments that may be the cause, which the catalogue has not.
+    [[nodiscard]] bool try_faults(screening& tried) {
+        if (!run_.result.tried.complete()) return false;
+        keep_but(options_.terms_share);
+        return tried.try_further(proposed_faults(run_.base, run_.places, run_.result.confined),
+                                 false);
+    }
     /// Effects that begin or end midway; where one instrument may be the cause, an end is a guess.
     /// @returns  whether some explain the data
     [[nodiscard]] bool try_episodes(screening& tried) {
@@ -229,17 +235,20 @@ private:
     /// What no effect of the catalogue is, in a fifth of the time at most.
     [[nodiscard]] bool try_terms(screening& tried) {
         if (!lacks_more(false)) return false;
+        keep_but(options_.terms_share);
+        return tried.try_further(proposed_terms(run_.places), true);
+    }
+    /// What follows may take this share of all time at most, and leaves some for verdicts.
+    void keep_but(double share) {
         kept_ = std::max(0.2 * options_.verdict_share * options_.seconds,
-                         effort_.left() - effort_.seconds_of({0, options_.terms_share}));
-        return tried.try_terms(proposed_terms(run_.places));
+                         effort_.left() - effort_.seconds_of({0, share}));
     }
 
     /// Which measurements alone stand against the model.
     void confine() {
         if (!effort_.go_on("looking which measurements stand alone")) return;
-        double const end = effort_.left() - effort_.seconds_of(options_.confinement);
         confinement_options options;
-        options.go_on = [this, end] { return effort_.left() >= end && effort_.go_on(); };
+        options.go_on = effort_.within(options_.confinement.share);
         options.lower = effort_.search(run_.base, options_.confinement);
         options.lower.keep_going = options.go_on;
         run_.result.confined = find_confined_gaps(run_.base, run_.candidates.front().fit,
@@ -316,9 +325,7 @@ private:
         if (d.gap == gap_verdict::none || run_.findings.empty()) return;
         if (run_.places.places.empty() || instruments_explain(run_.places)) return;
         if (!effort_.go_on("looking whether a sensor may be wrong instead")) return;
-        double const end = effort_.left() - effort_.seconds_of({0, options_.discharge_share});
-        auto const go_on = [this, end] { return effort_.left() >= end && effort_.go_on(); };
-        sensor_discharge discharged(run_.base, {}, {}, go_on);
+        sensor_discharge discharged(run_.base, {}, {}, effort_.within(options_.discharge_share));
         for (auto& f : run_.findings) {
             if (is_about_equation(f, run_.places.places)) f.place = discharged(f);
         }
@@ -371,15 +378,8 @@ private:
         for (auto const o : order.others()) rivals.push_back(&run_.candidates[o]);
         // Whether a switch were on in another manoeuvre nobody knows.
         if (!std::ranges::all_of(rivals, [this](auto const* s) { return same_inputs(*s); })) return;
-        std::vector<double> errors(run_.base.model.about.channels.size(), 0.0);
-        double period = 0.1;
-        for (auto const& e : run_.base.experiments) {
-            for (auto const& m : e.measurements) errors[m.channel] = rad(m.bound);
-            if (!e.measurements.empty()) period = e.measurements.front().time - e.begin;
-        }
-        run_.result.next =
-            propose_experiment(std::move(rivals), options_.menu, std::move(errors),
-                               period > 0 ? period : 0.1, [this] { return effort_.go_on(); });
+        run_.result.next = propose_experiment(std::move(rivals), options_.menu, run_.base,
+                                              [this] { return effort_.go_on(); });
     }
 
     diagnosis_options options_;

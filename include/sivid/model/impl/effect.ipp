@@ -12,40 +12,12 @@
 namespace sivid {
 
 namespace detail {
-inline constexpr std::string_view wider = "_wider";
-
 /// A time as people write it, which reads back as the same double.
 inline std::string time_text(double t) {
     std::array<char, 400> text{};
     auto const end =
         std::to_chars(text.data(), text.data() + text.size(), t, std::chars_format::fixed);
     return {text.data(), end.ptr};
-}
-
-/// Cuts the time off that stands behind a sign at the end of "S4>=1.5" or "S4<4"; `otherwise` where
-/// there is none.
-inline double time_behind(std::string_view sign, std::string& experiment, double otherwise) {
-    auto const at = experiment.find(sign);
-    if (at == std::string::npos) return otherwise;
-    auto const text = experiment.substr(at + sign.size());
-    auto const t = parse_nearest(text);
-    if (!t) throw std::invalid_argument("effect: '" + text + "' is no time in seconds");
-    experiment.resize(at);
-    return *t;
-}
-
-/// Splits "NAME@S4+S5"; without experiments the name as it is.
-inline std::vector<std::string> experiments_in(std::string& name) {
-    std::vector<std::string> result;
-    auto const at = name.find('@');
-    if (at == std::string::npos) return result;
-    for (std::size_t begin = at + 1; begin <= name.size();) {
-        auto const end = std::min(name.find('+', begin), name.size());
-        result.push_back(name.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    name.resize(at);
-    return result;
 }
 
 /// The end of a prior that is farther from 0.
@@ -133,33 +105,6 @@ SIVID_DECL effect only_within(effect e, std::vector<std::string> experiments,
     e.since = std::move(since);
     e.until = std::move(until);
     return e;
-}
-
-SIVID_DECL std::vector<effect> effects_named(std::vector<effect> const& catalogue,
-                                             std::vector<std::string> const& names) {
-    std::vector<effect> result;
-    for (auto name : names) {
-        bool known = std::any_of(catalogue.begin(), catalogue.end(),
-                                 [&](effect const& e) { return e.name == name; });
-        auto within = known ? std::vector<std::string>{} : detail::experiments_in(name);
-        std::vector<double> since, until;
-        for (auto& x : within) {
-            until.push_back(detail::time_behind("<", x, effect::for_ever));
-            since.push_back(detail::time_behind(">=", x, effect::from_start));
-            if (!(since.back() < until.back()))
-                throw std::invalid_argument("effect '" + name + "' ends in " + x +
-                                            " before it begins");
-        }
-        known = std::any_of(catalogue.begin(), catalogue.end(),
-                            [&](effect const& e) { return e.name == name; });
-        bool const wider = !known && name.ends_with(detail::wider);
-        if (wider) name.resize(name.size() - detail::wider.size());
-        auto const in_catalogue = [&] { return catalogue[index_of(catalogue, name, "effect")]; };
-        auto found = !known && names_missing_term(name) ? missing_term(name) : in_catalogue();
-        result.push_back(wider ? widened(std::move(found)) : std::move(found));
-        if (!within.empty()) result.back() = only_within(result.back(), within, since, until);
-    }
-    return result;
 }
 
 SIVID_DECL expression const& effect_scope::parameter(std::size_t k) const {
@@ -257,6 +202,21 @@ SIVID_DECL void effect_scope::delay_channel(std::string const& name, std::size_t
     model_->channel_delays.push_back({index_of(model_->about.channels, name, "channel"),
                                       first_parameter_ + k, memory_kind::delay,
                                       switch_of_effect()});
+}
+
+SIVID_DECL void effect_scope::lag_channel(std::string const& name, std::size_t k) {
+    auto const y = index_of(model_->about.channels, name, "channel");
+    auto const shown = channels_[y].in(model_->g);
+    if (model_->g[shown].op != operation::state) {
+        throw std::invalid_argument("effect '" + effect_->name + "': the channel '" + name +
+                                    "' shows no state as it is, and cannot lag");
+    }
+    auto const i = static_cast<std::size_t>(model_->g[shown].index);
+    auto const own = model_->about.states[i];
+    auto const behind = effect_->name + "." + name;
+    auto const w = add_state(behind, own.unit, 2 * own.limit, expression(0));
+    rate(behind) = rates_[i] - w / parameter(k);
+    channels_[y] -= w;
 }
 
 SIVID_DECL expression effect_scope::add_state(std::string const& name, std::string const& unit,

@@ -25,8 +25,12 @@ inline void need_two(std::vector<std::string> const& channels, char const* what,
     if (channels.size() != 2)
         throw std::invalid_argument(std::string(what) + " '" + name + "': needs two channels");
 }
-inline std::string pair_of(std::vector<std::string> const& channels) {
-    return channels[0] + " and " + channels[1];
+inline std::string all_of(std::vector<std::string> const& channels) {
+    auto text = channels.at(0);
+    for (std::size_t k = 1; k < channels.size(); ++k) {
+        text += (k + 1 < channels.size() ? ", " : " and ") + channels[k];
+    }
+    return text;
 }
 
 } // namespace detail
@@ -63,7 +67,7 @@ SIVID_DECL effect input_lag(std::string const& name, std::string const& input,
         m.rate(name + "." + input) = (u - d) / m.parameter();
         u = d;
     };
-    e.lags = effect::input_lag{input, rests};
+    e.lags = effect::first_order_lag{input, rests};
     return e;
 }
 
@@ -210,7 +214,7 @@ SIVID_DECL effect sensor_rotation(std::string const& name, std::vector<std::stri
                                   range const& a) {
     detail::need_two(channels, "sensor_rotation", name);
     auto e = detail::one(name, "a", "rad", a,
-                         "rotation of the instrument of " + detail::pair_of(channels));
+                         "rotation of the instrument of " + detail::all_of(channels));
     e.on_channels = [channels](effect_scope& m) {
         auto const y = m.channel(channels[0]), z = m.channel(channels[1]);
         auto const c = cos(m.parameter()), s = sin(m.parameter());
@@ -226,7 +230,7 @@ SIVID_DECL effect sensor_lever_arm(std::string const& name,
                                    range const& arm) {
     detail::need_two(channels, "sensor_lever_arm", name);
     auto e = detail::one(name, "a", unit, arm,
-                         "lever arm of the instrument of " + detail::pair_of(channels));
+                         "lever arm of the instrument of " + detail::all_of(channels));
     e.parameters.push_back({"b", unit, arm.lower, arm.upper, {}});
     e.on_channels = [channels, heading](effect_scope& m) {
         auto const c = cos(m.state(heading)), s = sin(m.state(heading));
@@ -236,10 +240,25 @@ SIVID_DECL effect sensor_lever_arm(std::string const& name,
     return e;
 }
 
+SIVID_DECL effect sensor_velocity_arm(std::string const& name,
+                                      std::vector<std::string> const& channels,
+                                      std::string const& turning, std::string const& unit,
+                                      range const& arm) {
+    detail::need_two(channels, "sensor_velocity_arm", name);
+    auto e = detail::one(name, "a", unit, arm,
+                         "lever arm of the instrument of " + detail::all_of(channels));
+    e.parameters.push_back({"b", unit, arm.lower, arm.upper, {}});
+    e.on_channels = [channels, turning](effect_scope& m) {
+        m.channel(channels[0]) -= m.parameter(1) * m.state(turning);
+        m.channel(channels[1]) += m.parameter(0) * m.state(turning);
+    };
+    return e;
+}
+
 SIVID_DECL effect sensor_swap(std::string const& name, std::vector<std::string> const& channels,
                               range const& k) {
     detail::need_two(channels, "sensor_swap", name);
-    auto e = detail::one(name, "k", "1", k, detail::pair_of(channels) + " are mixed");
+    auto e = detail::one(name, "k", "1", k, detail::all_of(channels) + " are mixed");
     e.on_channels = [channels](effect_scope& m) {
         auto const more = m.parameter() * (m.channel(channels[1]) - m.channel(channels[0]));
         m.channel(channels[0]) += more;
@@ -250,7 +269,8 @@ SIVID_DECL effect sensor_swap(std::string const& name, std::vector<std::string> 
 
 SIVID_DECL effect sensor_scale(std::string const& name, std::vector<std::string> const& channels,
                                range const& k) {
-    auto e = detail::one(name, "k", "1", k, "wrong scale of the sensor " + channels.at(0));
+    auto e =
+        detail::one(name, "k", "1", k, "wrong scale of the sensor " + detail::all_of(channels));
     e.on_channels = [channels](effect_scope& m) {
         for (auto const& y : channels) m.channel(y) *= 1 + m.parameter();
     };
@@ -259,10 +279,22 @@ SIVID_DECL effect sensor_scale(std::string const& name, std::vector<std::string>
 
 SIVID_DECL effect sensor_latency(std::string const& name, std::vector<std::string> const& channels,
                                  range const& tau) {
-    auto e = detail::one(name, "tau", "s", tau, "latency of the sensor " + channels.at(0));
+    auto e =
+        detail::one(name, "tau", "s", tau, "latency of the sensor " + detail::all_of(channels));
     e.on_channels = [channels](effect_scope& m) {
         for (auto const& y : channels) m.delay_channel(y);
     };
+    return e;
+}
+
+SIVID_DECL effect sensor_lag(std::string const& name, std::vector<std::string> const& channels,
+                             range const& tau) {
+    auto e =
+        detail::one(name, "tau", "s", tau, "lag of the sensor " + detail::all_of(channels), -1);
+    e.on_channels = [channels](effect_scope& m) {
+        for (auto const& y : channels) m.lag_channel(y);
+    };
+    e.lags = effect::first_order_lag{};
     return e;
 }
 

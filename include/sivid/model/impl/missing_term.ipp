@@ -2,7 +2,7 @@
 #ifndef SIVID_MODEL_IMPL_MISSING_TERM_IPP
 #define SIVID_MODEL_IMPL_MISSING_TERM_IPP
 
-#include <sivid/model/effect.hpp>
+#include <sivid/model/named_effects.hpp>
 
 #include <sivid/compiled.hpp>
 #include <sivid/model/expression.hpp>

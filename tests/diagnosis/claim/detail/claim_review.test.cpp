@@ -105,19 +105,44 @@ TEST_CASE("a channel that alone stands against the model is suspected where no p
     d.gap = gap_verdict::certified;
     d.answer = answer_kind::unexplained;
     d.confined = {{.scenarios = {"S3"}}, {.channel = "y", .scenarios = {"S4"}}, {.channel = "v"}};
-    suspect_channel(d);
+    suspect_instrument(d);
     REQUIRE(d.where.size() == 1);
     CHECK(d.where[0].kind == "sensor");
     CHECK(d.where[0].name == "y");
     CHECK(d.where[0].where.scenario == "S4");
     CHECK_FALSE(d.where[0].proved);
-    suspect_channel(d);
+    suspect_instrument(d);
     CHECK(d.where.size() == 1);
     for (auto const answer : {answer_kind::effects, answer_kind::none}) {
         d.where.clear();
         d.answer = answer;
         d.gap = answer == answer_kind::none ? gap_verdict::none : gap_verdict::certified;
-        suspect_channel(d);
+        suspect_instrument(d);
         CHECK(d.where.empty());
     }
+}
+
+TEST_CASE("the instrument whose fault is the answer is the first place") {
+    diagnosis d;
+    d.gap = gap_verdict::certified;
+    d.answer = answer_kind::effects;
+    d.effects = {"sensor_lag(u:v)~0.5"};
+    d.where.resize(3);
+    d.where[0].kind = "equation";
+    d.where[0].name = "v";
+    d.where[1].kind = d.where[2].kind = "sensor";
+    d.where[1].name = "r";
+    d.where[2].name = "v";
+    auto const first = [&d] { return d.where.front().kind + " " + d.where.front().name; };
+    suspect_instrument(d);
+    CHECK(first() == "sensor v");
+    CHECK(d.where.size() == 3);
+    CHECK(d.where[1].kind == "equation");
+    d.effects = {"sensor_lag(x:y)~0.5"};
+    suspect_instrument(d);
+    CHECK(first() == "sensor x");
+    CHECK(d.where.size() == 4);
+    d.effects = {"wind"};
+    suspect_instrument(d);
+    CHECK(d.where.size() == 4);
 }

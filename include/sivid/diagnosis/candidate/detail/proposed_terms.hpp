@@ -3,7 +3,7 @@
 #define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_PROPOSED_TERMS_HPP
 
 #include <sivid/approximate/place/estimated_place.hpp>
-#include <sivid/model/effect.hpp>
+#include <sivid/model/named_effects.hpp>
 
 #include <cstddef>
 #include <stdexcept>

@@ -153,7 +153,9 @@ private:
         explained_hull hulls;
         for (std::size_t k = 0; k < effects_->size(); ++k) {
             auto const& e = (*effects_)[k];
-            if (!e.lags || !finds_as_recorded(base_->model, *effects_, k, e.lags->input)) continue;
+            if (!e.lags || e.lags->input.empty() ||
+                !finds_as_recorded(base_->model, *effects_, k, e.lags->input))
+                continue;
             auto const j = index_of_parameter(whole, e.name + "." + e.parameters[0].name);
             auto const prior = whole.prior[j];
             if (prior.lower() != 0) continue; // below 0 a lag is none

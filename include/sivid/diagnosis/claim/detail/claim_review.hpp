@@ -7,6 +7,7 @@
 #include <sivid/diagnosis/claim/detail/diagnosis_consistency.hpp>
 #include <sivid/diagnosis/claim/detail/place_report.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
+#include <sivid/model/named_effects.hpp>
 #include <sivid/number/interval_traits.hpp>
 #include <sivid/paving/relation/detail/untouched_relation.hpp>
 
@@ -201,14 +202,29 @@ inline void withdraw_contradictions(diagnosis& d,
     }
 }
 
-/// Where no place was found, and no effect: the channel that alone stands against the model.
-inline void suspect_channel(diagnosis& d) {
-    bool const explained = d.gap == gap_verdict::none || d.answer == answer_kind::effects;
-    if (explained || !d.where.empty()) return;
+/// Where no place was found, and no effect: the channel that alone stands against the model. Where
+/// the answer is the fault of an instrument: this before all other places.
+inline void suspect_instrument(diagnosis& d) {
+    if (d.gap == gap_verdict::none) return;
+    suspected_place s;
+    s.kind = "sensor";
+    if (d.answer == answer_kind::effects) {
+        if (d.effects.size() != 1 || !names_sensor_fault(d.effects.front())) return;
+        auto const faulty = faulty_channels(d.effects.front());
+        auto const known = std::find_if(d.where.begin(), d.where.end(), [&](auto const& w) {
+            return w.kind == s.kind &&
+                   std::find(faulty.begin(), faulty.end(), w.name) != faulty.end();
+        });
+        s.name = faulty.front();
+        if (known == d.where.end())
+            d.where.insert(d.where.begin(), std::move(s));
+        else
+            std::rotate(d.where.begin(), known, known + 1);
+        return;
+    }
+    if (!d.where.empty()) return;
     for (auto const& c : d.confined) {
         if (c.channel.empty()) continue;
-        suspected_place s;
-        s.kind = "sensor";
         s.name = c.channel;
         if (c.scenarios.size() == 1) s.where.scenario = c.scenarios.front();
         d.where.push_back(std::move(s));
@@ -247,7 +263,7 @@ inline void settle_claims(diagnosis_run& run) {
         return std::all_of(at->parameters.begin(), at->parameters.end(),
                            [](auto const& p) { return contains(p.prior(), nearest(p.neutral)); });
     });
-    suspect_channel(run.result);
+    suspect_instrument(run.result);
     list_assumptions(run.result);
 }
 
