@@ -4,7 +4,7 @@
 #include "../../../../examples/hovercraft/model.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/model/effect.hpp>
+#include <sivid/model/named_effects.hpp>
 
 #include <algorithm>
 #include <cmath>
