@@ -140,7 +140,7 @@ inline std::string_view compiler_word(std::string const& line, std::string_view 
 /// return. Where one is *started* is said here.
 inline bool may_include_approximate(std::string_view other, std::string_view includer) {
     static std::set<std::string_view> const results{"approximate_fit.hpp", "detail/residuals.hpp",
-                                                    "place/estimated_place.hpp"};
+                                                    "place/estimated_place.hpp", "place/place.hpp"};
     static std::map<std::string_view, std::set<std::string_view>> const starters{
         {"sivid/paving/impl/identify.ipp", {"fit/fit.hpp"}},
         {"sivid/paving/online/detail/online_witness.hpp", {"fit/fit.hpp"}},

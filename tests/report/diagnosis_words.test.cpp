@@ -27,6 +27,10 @@ TEST_CASE("diagnosis words: the whole answer in one sentence") {
                                           "0.169\xC2\xA0s", "0.160 to 0.180, proved", "explains",
                                           "proved", "98.2 to 100\xC2\xA0%", "proved"}) == "");
     CHECK(claims_of(banner_sentence(v)) == claims{.proved = 4, .estimates = 0});
+    // The fault of an instrument that no catalogue names is said in words.
+    v.effects = v.candidates[0].effects = {"sensor_drift(r)~0.1"};
+    v.meanings["sensor_drift(r)~0.1"] = "drift of the sensor r";
+    CHECK_THAT(headline(v), ContainsSubstring("drift of the sensor r explains the data"));
 }
 
 TEST_CASE("diagnosis words: that an effect acts in some experiments or for a time is said") {

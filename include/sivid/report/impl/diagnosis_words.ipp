@@ -5,6 +5,7 @@
 #include <sivid/report/diagnosis_words.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/model/named_effects.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -295,7 +296,9 @@ SIVID_DECL std::string headline(diagnosis_view const& v) {
         c != nullptr && c->state == candidate_state::explains ? " (proved)" : " (estimate)";
     std::string const verb = v.effects.size() > 1 ? " explain the data" : " explains the data";
     std::size_t const n = v.indistinguishable.size();
-    return gap + "; " + names_of(v.effects) +
+    // Names of a catalogue are the reader's own; those of faults that it has not are code.
+    bool const faults = std::all_of(v.effects.begin(), v.effects.end(), names_sensor_fault);
+    return gap + "; " + (faults ? words_of(v, v.effects) : names_of(v.effects)) +
            (c != nullptr && c->state == candidate_state::excluded ? " comes closest" : verb + how) +
            (n == 0   ? ""
             : n == 1 ? ", but so may another"
