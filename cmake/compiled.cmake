@@ -24,19 +24,26 @@ foreach(component IN ITEMS verifier report)
         list(APPEND parts ${component})
     endif()
 endforeach()
+set(unoptimised ${SIVID_UNOPTIMISED_PARTS})
+if(unoptimised)
+    list(REMOVE_ITEM parts ${unoptimised})
+    list(APPEND parts ${unoptimised})
+endif()
 foreach(part IN LISTS parts)
     sivid_compiled_source(${part} "#include <sivid/impl/${part}.ipp>\n")
-endforeach()
-
-# Not a word of this is for users: the check compiles what hardly computes in a third of the time. Where another part has
-# an inline function, too, linkers take its own, which is optimised: these parts stand last.
-foreach(part IN LISTS SIVID_UNOPTIMISED_PARTS)
-    set_source_files_properties("${CMAKE_CURRENT_BINARY_DIR}/sivid_compiled/${part}.cpp" PROPERTIES COMPILE_OPTIONS -O0)
 endforeach()
 
 add_library(sivid_compiled STATIC EXCLUDE_FROM_ALL ${sivid_compiled_sources})
 add_library(sivid::compiled ALIAS sivid_compiled)
 target_compile_definitions(sivid_compiled PUBLIC SIVID_COMPILED)
+# For sivid's own check alone (cmake/own_programs.cmake). Of an inline function that several objects have, linkers take what
+# comes first: the library's before that of programs, and in it that of optimised parts before that of the others.
+foreach(part IN LISTS unoptimised)
+    set_source_files_properties("${CMAKE_CURRENT_BINARY_DIR}/sivid_compiled/${part}.cpp" PROPERTIES COMPILE_OPTIONS -O0)
+endforeach()
+if((SIVID_UNOPTIMISED OR unoptimised) AND CMAKE_SYSTEM_NAME STREQUAL "Linux")
+    target_link_options(sivid_compiled INTERFACE -Wl,--whole-archive $<TARGET_FILE:sivid_compiled> -Wl,--no-whole-archive)
+endif()
 foreach(component IN ITEMS sivid io verifier report)
     if(TARGET sivid::${component})
         target_link_libraries(sivid_compiled PRIVATE sivid::${component})

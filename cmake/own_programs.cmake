@@ -63,13 +63,12 @@ endfunction()
 set(SIVID_UNOPTIMISED "" CACHE STRING
     "Floors of the tests, and examples, to compile at -O0: they call the library, and most of their time is the compiler's")
 
+set(SIVID_UNOPTIMISED_PARTS "" CACHE STRING
+    "Parts of the compiled library to compile at -O0: they hardly compute, and take the compiler a third of the time then")
+mark_as_advanced(SIVID_UNOPTIMISED SIVID_UNOPTIMISED_PARTS)
+
 function(sivid_leave_unoptimised target)
     target_compile_options(${target} PRIVATE -O0)
-    if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
-        # Of an inline function that both have, linkers take what comes first: the library's, which is optimised.
-        target_link_options(${target} PRIVATE -Wl,--whole-archive $<TARGET_FILE:sivid_compiled> -Wl,--no-whole-archive)
-        add_dependencies(${target} sivid_compiled) # an option is none
-    endif()
 endfunction()
 
 # sivid_leave_folder_unoptimised(<folder>): its targets and those of the folders in it.
