@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Faults of instruments that no catalogue has.
+#include <sivid/diagnosis/candidate/detail/effect_hulls.hpp>
 #include <sivid/diagnosis/claim/detail/diagnosis_consistency.hpp>
 #include <sivid/diagnosis/diagnose.hpp>
 
 #include "diagnosis/small_campaign.hpp"
 #include "support/catch.hpp"
+#include "support/random.hpp"
+#include "support/sweep.hpp"
+
+#include <sivid/model/named_effects.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -22,9 +27,9 @@ namespace {
 using instrument = std::function<double(std::vector<double> const& should, std::size_t k)>;
 
 /// The cart of small_campaign.hpp, one of whose channels is seen by that.
-identification_problem seen_by(std::size_t channel, instrument const& shows) {
-    auto problem = small_campaign::problem();
-    small_campaign::truth fine;
+identification_problem seen_by(std::size_t channel, instrument const& shows,
+                               small_campaign::truth fine = {}) {
+    auto problem = small_campaign::problem(fine);
     fine.every = 1;
     for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
         auto& real = problem.experiments[e];
@@ -46,6 +51,15 @@ diagnosis diagnosed(identification_problem problem, std::vector<effect> catalogu
     auto d = diagnose(std::move(problem), std::move(catalogue), options).result;
     for (auto const& c : find_contradictions(d)) FAIL_CHECK(c.claim + ": " + c.reason);
     return d;
+}
+/// Follows by a first-order lag.
+instrument slow(double tau) {
+    return [tau](std::vector<double> const& y, std::size_t k) {
+        double z = y[0];
+        for (std::size_t n = 1; n <= k; ++n)
+            z += (0.5 * (y[n - 1] + y[n]) - z) * (1 - std::exp(-0.001 / tau));
+        return z;
+    };
 }
 std::string joined(std::vector<std::string> const& names) {
     std::string all;
@@ -72,12 +86,7 @@ TEST_CASE("the fault of an instrument is found without a catalogue, and bounded"
          [](auto const& y, std::size_t k) { return std::clamp(y[k], -0.375, 0.375); }},
         {"sensor_latency(v)", 1, 0.25,
          [](auto const& y, std::size_t k) { return y[k - std::min<std::size_t>(k, 250)]; }},
-        {"sensor_lag(v)", 1, 0.25, [](auto const& y, std::size_t k) {
-             double z = y[0];
-             for (std::size_t n = 1; n <= k; ++n)
-                 z += (0.5 * (y[n - 1] + y[n]) - z) * (1 - std::exp(-0.001 / 0.25));
-             return z;
-         }}};
+        {"sensor_lag(v)", 1, 0.25, slow(0.25)}};
     for (auto const& one : all) {
         CAPTURE(one.name);
         auto const d = diagnosed(seen_by(one.channel, one.shows));
@@ -128,4 +137,31 @@ TEST_CASE("a fault of the catalogue is found as before, no other one is tried") 
     CHECK(joined(d.effects) == "drifts");
     for (auto const& c : d.causes)
         CHECK(std::none_of(c.effects.begin(), c.effects.end(), names_sensor_fault));
+}
+
+TEST_CASE("hulls of a low-pass contain it, alone and beside another effect") {
+    using namespace sivid::literals;
+    auto const drag = effects::quadratic_damping("drag", "v", "1/m", {0_dec, 1_dec});
+    auto const seeds = support::swept(4, 60);
+    for (int seed = 1; seed <= seeds; ++seed) {
+        support::draws d(static_cast<std::uint64_t>(seed));
+        double const tau = 0.005 * std::pow(100.0, d.uniform(0, 1)), k = d.uniform(0, 1);
+        bool const both = d.coin();
+        std::size_t const channel = d.coin() ? 1 : 0;
+        small_campaign::truth real;
+        if (both) real.missing = [k](double, double v, double) { return -k * std::abs(v) * v; };
+        std::string const name = channel == 1 ? "sensor_lag(v)~0.5" : "sensor_lag(p)~0.5";
+        CAPTURE(seed, tau, k, both, name);
+        std::vector<effect> effects{sensor_fault(name)};
+        if (both) effects.push_back(drag);
+        effect_hull_options options;
+        options.seconds = 20;
+        options.boxes = 400;
+        auto const hull =
+            effect_hulls(seen_by(channel, slow(tau), real), effects, options).parameters;
+        REQUIRE(hull.size() == effects.size() + 1);
+        CHECK(contains(hull[0], 1.0));
+        CHECK(contains(hull[1], tau));
+        if (both) CHECK(contains(hull[2], k));
+    }
 }
