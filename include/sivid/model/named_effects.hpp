@@ -29,22 +29,18 @@ namespace sivid {
     return name.find("'~") != std::string_view::npos;
 }
 
-/// A fault of an instrument by its name, as an effect (those of `model/effects.hpp`):
-/// `sensor_lag(u)~0.5`, `sensor_rotation(x:y)~0.2`. In brackets stand its channels, behind ~ a
-/// decimal s, how large the fault may be:
-///
-///   | name                                      | fault                                | prior |
-///   |-------------------------------------------|--------------------------------------|-------------|
-///   | `sensor_bias(y:..)`, `sensor_drift(y:..)` | an own offset or drift for each      | [-s, s] |
-///   | `sensor_scale(y:..)`                      | (1 + k) y for all                    | [-s, s] |
-///   | `sensor_latency(y:..)`                    | all are late                         | [0, s] |
-///   | `sensor_lag(y:..)`                        | all follow by a first-order lag      | [s/100,
-///   s]  | | `sensor_saturation(y)`                    | cut off                              |
-///   [s/10, s]   | | `sensor_rotation(y:z)`                    | mounted askew, by an angle in rad
-///   | [-s, s]     | | `sensor_swap(y:z)`                        | mixed, with k = 1 interchanged
-///   | [-s, s]     | | `sensor_lever_arm(y:z:h)`                 | positions beside, with the
-///   heading h | [-s, s] twice | | `sensor_velocity_arm(y:z:w)`              | velocities beside,
-///   turning at w      | [-s, s] twice |
+/// A fault of an instrument by its name, as an effect (those of `model/effects.hpp`). In brackets
+/// stand its channels, behind ~ a decimal s, which says how large the fault may be:
+/// `sensor_lag(u:v)~0.5`, `sensor_rotation(x:y)~0.2`.
+///   - `sensor_bias(y:..)`, `sensor_drift(y:..)`: an own offset, or drift, for each, in [-s, s];
+///   - `sensor_scale(y:..)`: (1 + k) y for all, k in [-s, s];
+///   - `sensor_latency(y:..)`: all are late, by a time in [0, s];
+///   - `sensor_lag(y:..)`: all follow by a first-order lag, its time constant in [s/100, s];
+///   - `sensor_saturation(y)`: cut off, at a limit in [s/10, s];
+///   - `sensor_rotation(y:z)`: turned by an angle in [-s, s] rad;
+///   - `sensor_swap(y:z)`: mixed by k in [-s, s], for k = 1 interchanged;
+///   - `sensor_lever_arm(y:z:h)`: positions of a point beside, with the heading h, arms in [-s, s];
+///   - `sensor_velocity_arm(y:z:w)`: velocities of one, turning at the rate w, arms in [-s, s].
 ///
 /// @param about  of the model, for the parameters' units; may be null
 /// @throws std::invalid_argument  for a text that is no such name; when it meets a model, for names

@@ -204,8 +204,8 @@ private:
     [[nodiscard]] bool try_faults(screening& tried) {
         if (!run_.result.tried.complete()) return false;
         keep_but(options_.terms_share);
-        return tried.try_further(proposed_faults(run_.base, run_.places, run_.result.confined),
-                                 false);
+        auto faults = proposed_faults(run_.base, run_.places, run_.result.confined);
+        return !faults.empty() && tried.try_further(std::move(faults), false);
     }
     /// Effects that begin or end midway; where one instrument may be the cause, an end is a guess.
     /// @returns  whether some explain the data

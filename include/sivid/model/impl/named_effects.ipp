@@ -93,20 +93,6 @@ struct fault_name {
     }
 };
 
-/// The same fault in each of some channels, by as much as a parameter of its own says.
-inline effect in_each(fault_name const& f, char const* parameter, std::vector<effect> const& one) {
-    auto joint = one.front();
-    if (one.size() == 1) return joint;
-    joint.parameters.clear();
-    joint.about.clear();
-    for (std::size_t k = 0; k < one.size(); ++k) {
-        joint.parameters.push_back(one[k].parameters.front());
-        joint.parameters.back().name = std::string(parameter) + "_" + f.in_brackets[k];
-        joint.about += (k == 0 ? "" : ", ") + one[k].about;
-    }
-    return joint;
-}
-
 } // namespace detail
 
 SIVID_DECL std::vector<std::string> faulty_channels(std::string const& name) {
@@ -131,14 +117,17 @@ SIVID_DECL effect sensor_fault(std::string const& name, model_description const*
     };
     if (f.kind == "sensor_bias" || f.kind == "sensor_drift") {
         bool const drifts = f.kind == "sensor_drift";
-        std::vector<effect> one;
+        effect joint;
         for (auto const& y : channels) {
             auto const unit = unit_of(y);
-            one.push_back(drifts ? kinds::sensor_drift(name, y, unit.empty() ? unit : unit + "/s",
-                                                       f.either_way())
-                                 : kinds::sensor_bias(name, y, unit, f.either_way()));
+            auto one = drifts ? kinds::sensor_drift(name, y, unit.empty() ? unit : unit + "/s",
+                                                    f.either_way())
+                              : kinds::sensor_bias(name, y, unit, f.either_way());
+            joint.name = name;
+            joint.about += (joint.about.empty() ? "" : ", ") + one.about;
+            joint.parameters.push_back(one.parameters.front());
+            if (channels.size() > 1) joint.parameters.back().name += "_" + y;
         }
-        auto joint = detail::in_each(f, drifts ? "d" : "b", one);
         joint.on_channels = [channels, drifts](effect_scope& m) {
             for (std::size_t k = 0; k < channels.size(); ++k)
                 m.channel(channels[k]) += drifts ? m.parameter(k) * m.time() : m.parameter(k);

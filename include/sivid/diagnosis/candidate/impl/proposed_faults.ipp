@@ -21,8 +21,9 @@ namespace sivid {
 
 namespace diagnosis_detail {
 
-/// 1, 2 or 5 times a power of ten, no less than x > 0, as a decimal; nothing beyond 1e9 or 1e-9.
+/// 1, 2 or 5 times a power of ten, no less than x, as a decimal from 1e-9 to 5e8; else nothing.
 inline std::string round_size(double x) {
+    if (!(x > 0)) return {};
     for (int power = -9; power < 9; ++power) {
         for (int const digit : {1, 2, 5}) {
             if (static_cast<double>(digit) * std::pow(10.0, power) < x * (1 - 1e-9)) continue;
