@@ -523,7 +523,7 @@ TEST_CASE("parametric flow: a block that sticks, and one that sticks and slips")
     while (run.time() < 6) REQUIRE(run.step(6));
     CHECK(width(run.set().hull()[1]) < 3e-5);
     // It stops, sticks and breaks away, again and again.
-    check_run<4, 3>(*f, options, start, {between(1.99, 2.01), between(2.99, 3.01)}, 8, exact, 2,
+    check_run<4, 3>(*f, options, start, {between(1.99, 2.01), between(2.99, 3.01)}, 12, exact, 2,
                     1e-9L);
     // Not every member sticks, and those that do break away at times that differ.
     check_run<4, 2>(*f, options, start, {between(1.8, 2.2), between(1.9, 2.1)}, 3, exact, 3, 1e-9L);
