@@ -133,7 +133,6 @@
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/identify_options.hpp>
 #include <sivid/paving/inflation.hpp>
-#include <sivid/paving/inflation/interval_observer.hpp>
 #include <sivid/paving/inflation/observer_refutation.hpp>
 #include <sivid/paving/inversion_options.hpp>
 #include <sivid/paving/invert.hpp>
@@ -141,6 +140,8 @@
 #include <sivid/paving/judge/data_test.hpp>
 #include <sivid/paving/judge/data_test_options.hpp>
 #include <sivid/paving/judge/witness.hpp>
+#include <sivid/paving/observer/interval_observer.hpp>
+#include <sivid/paving/observer/observer_contraction.hpp>
 #include <sivid/paving/online_identification.hpp>
 #include <sivid/paving/outlier_budget.hpp>
 #include <sivid/paving/products/change_of_variables.hpp>

@@ -8,6 +8,7 @@
 #include <sivid/paving/impl/outlier_budget.ipp>
 #include <sivid/paving/inflation/impl/holdout_inflation.ipp>
 #include <sivid/paving/judge/impl/response_judgement.ipp>
+#include <sivid/paving/observer/impl/observer_contraction.ipp>
 #include <sivid/paving/relation/impl/relation_contraction.ipp>
 #include <sivid/paving/relation/impl/separation.ipp>
 #include <sivid/paving/run/impl/run_reach.ipp>

@@ -3,9 +3,8 @@
 #define SIVID_PAVING_INFLATION_OBSERVER_REFUTATION_HPP
 
 #include <sivid/model/problem.hpp>
-#include <sivid/number/guard.hpp>
 #include <sivid/paving/inflation/detail/observer_effort.hpp>
-#include <sivid/paving/inflation/interval_observer.hpp>
+#include <sivid/paving/observer/detail/observer_bank.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>
@@ -13,8 +12,6 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <limits>
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -26,38 +23,31 @@ namespace sivid {
 class observer_refutation {
 public:
     /// @given  a valid problem whose model has no delays (checked)
-    explicit observer_refutation(identification_problem const& problem) : prior_(problem.prior) {
-        require_sound_environment();
-        problem.require_valid();
-        cover_.push_back(prior_);
-        for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
-            observers_.emplace_back().observe = std::make_unique<interval_observer>(problem, s);
-        }
-    }
+    explicit observer_refutation(identification_problem const& problem)
+        : prior_(problem.prior), cover_{prior_}, observers_(problem) {}
 
     /// Begins with the boxes that the last proof came to.
     /// @returns  true: proved, no parameter has an inflation of at most `level`
     /// @param go_on  false ends the search without a proof
     [[nodiscard]] bool operator()(double level, std::function<bool()> const& go_on) {
-        for (auto& by : observers_) by.observe->keep_going = go_on;
         std::vector<box> open = cover_;
         std::vector<box> refuted;
         while (!open.empty()) {
             if (!go_on()) return false;
             std::vector<box> batch;
-            while (!open.empty() && batch.size() < interval_observer::width) {
+            while (!open.empty() && batch.size() < observer_bank::width) {
                 batch.push_back(std::move(open.back()));
                 open.pop_back();
             }
             // A full pack costs little more than one box.
-            while (2 * batch.size() <= interval_observer::width) {
+            while (2 * batch.size() <= observer_bank::width) {
                 std::vector<box> halves;
                 for (auto const& b : batch) {
                     if (!split(b, {}, halves)) return false;
                 }
                 batch = std::move(halves);
             }
-            if (!judge(batch, level, refuted, open)) return false;
+            if (!judge(batch, level, go_on, refuted, open)) return false;
         }
         cover_ = std::move(refuted);
         return true;
@@ -65,64 +55,15 @@ public:
     [[nodiscard]] std::size_t tested() const { return tested_; }
 
 private:
-    /// The observer of one experiment, and how many of its measurements it is worth to look at:
-    /// where boxes used to be refuted early, half of one that was not soon is.
-    struct watcher {
-        std::unique_ptr<interval_observer> observe;
-        std::vector<std::size_t> last; ///< measurements that the last refutations took, a ring
-        std::size_t refuted = 0, asked = 0;
-
-        [[nodiscard]] std::size_t worth() {
-            // Now and then all of them: more may refute what fewer do not.
-            if (last.size() < memory || ++asked % 4 == 0)
-                return std::numeric_limits<std::size_t>::max();
-            auto sorted = last;
-            std::sort(sorted.begin(), sorted.end());
-            auto const most_of_them = sorted[3 * memory / 4];
-            return most_of_them + most_of_them / 4 + 1;
-        }
-        void note(std::size_t samples) {
-            if (last.size() < memory) last.push_back(samples);
-            last[refuted++ % memory] = samples;
-        }
-        static constexpr std::size_t memory = 32;
-    };
-
     /// @returns  false when a box is left that is too small to be split
-    bool judge(std::vector<box> const& batch, double level, std::vector<box>& gone,
-               std::vector<box>& open) {
-        std::vector<bool> refuted(batch.size(), false);
-        std::vector<std::vector<double>> influence(batch.size(),
-                                                   std::vector<double>(prior_.size(), 0.0));
+    bool judge(std::vector<box> const& batch, double level, std::function<bool()> const& go_on,
+               std::vector<box>& gone, std::vector<box>& open) {
         tested_ += batch.size();
-        for (std::size_t k = 0; k < observers_.size(); ++k) {
-            std::vector<box> rest;
-            std::vector<std::size_t> whose;
-            for (std::size_t b = 0; b < batch.size(); ++b) {
-                if (refuted[b]) continue;
-                rest.push_back(batch[b]);
-                whose.push_back(b);
-            }
-            if (rest.empty()) break;
-            auto& by = observers_[k];
-            auto const found = (*by.observe)(rest, level, by.worth());
-            bool any = false;
-            for (std::size_t r = 0; r < rest.size(); ++r) {
-                if ((found.refuted >> r & 1u) != 0) {
-                    refuted[whose[r]] = any = true;
-                    by.note(found.samples[r]);
-                }
-                for (std::size_t j = 0; j < prior_.size(); ++j) {
-                    influence[whose[r]][j] += found.influence[j][r];
-                }
-            }
-            // What refutes often is asked first.
-            if (any && k > 0) std::swap(observers_[k], observers_[k - 1]);
-        }
+        auto const found = observers_(batch, level, go_on);
         for (std::size_t b = 0; b < batch.size(); ++b) {
-            if (refuted[b]) {
+            if (found.refuted[b]) {
                 gone.push_back(batch[b]);
-            } else if (!split(batch[b], influence[b], open)) {
+            } else if (!split(batch[b], found.influence[b], open)) {
                 return false;
             }
         }
@@ -150,7 +91,7 @@ private:
 
     box prior_;
     std::vector<box> cover_; ///< of the prior
-    std::vector<watcher> observers_;
+    observer_bank observers_;
     std::size_t tested_ = 0;
 };
 

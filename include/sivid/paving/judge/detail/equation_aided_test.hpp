@@ -4,7 +4,9 @@
 
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/observer/observer_contraction.hpp>
 #include <sivid/paving/relation/relation_contraction.hpp>
+#include <sivid/paving/run/detail/lending_pool.hpp>
 #include <sivid/paving/set_test.hpp>
 
 #include <atomic>
@@ -15,9 +17,9 @@
 
 namespace sivid {
 
-/// `data_test`, and the state equations between samples where its runs end before they could tell:
-/// both together search a prior over which no trajectory is carried far.
-/// @guarantee  as both; what equations exclude has no certificate
+/// `data_test`, and where its runs end before they could tell interval observers and the state
+/// equations between samples: together they search a prior over which no trajectory is carried far.
+/// @guarantee  as all of them; what observers and equations exclude has no certificate
 class equation_aided_test {
 public:
     static constexpr bool concurrent = true;
@@ -30,6 +32,9 @@ public:
                         relation_contraction_options const& options, double below = 0.5)
         : runs_(&runs),
           equations_(problem, options),
+          observers_([&problem, go_on = options.keep_going] {
+              return observer_contraction(problem, {.keep_going = go_on, .rounds = 6});
+          }),
           asks_(!problem.model.has_memory()),
           below_(below),
           early_(asks_) {}
@@ -52,9 +57,10 @@ public:
                 (found.knowledge && !(data_test::reached(found) < below_)))
                 continue;
             early = true;
-            auto more = equations_(found.rest);
             found.proof.clear();
-            if (more.verdict == box_verdict::outside) {
+            auto const seen = (*observers_.borrow())(found.rest);
+            auto more = is_empty(seen) ? assessment<>{} : equations_(seen);
+            if (is_empty(seen) || more.verdict == box_verdict::outside) {
                 found = {.verdict = box_verdict::outside, .rest = boxes[k], .cost = found.cost};
                 continue;
             }
@@ -74,6 +80,7 @@ public:
 private:
     data_test* runs_;
     relation_test equations_;
+    lending_pool<observer_contraction> observers_;
     bool asks_;
     double below_;
     std::atomic<bool> early_;

@@ -2,6 +2,7 @@
 #ifndef SIVID_PAVING_RUN_DETAIL_RUN_POOL_HPP
 #define SIVID_PAVING_RUN_DETAIL_RUN_POOL_HPP
 
+#include <sivid/paving/run/detail/lending_pool.hpp>
 #include <sivid/paving/run/experiment_run.hpp>
 
 #include <algorithm>
@@ -9,7 +10,6 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -18,34 +18,30 @@ namespace sivid {
 /// One run per experiment.
 using run_set = std::vector<std::unique_ptr<experiment_run>>;
 
-/// Sets of runs to borrow: a run is for one thread at a time, so there are as many sets as threads
-/// have asked at once.
+/// Sets of runs to borrow.
 class run_pool {
 public:
     /// @param make  a further set; called by several threads at once
-    explicit run_pool(std::function<run_set()> make) : make_(std::move(make)) {
-        free_.push_back(make_());
-        for (auto const& run : free_[0]) at_once_ = std::max(at_once_, run->at_once());
+    explicit run_pool(std::function<run_set()> make) : sets_(std::move(make)) {
+        auto first = sets_.borrow();
+        for (auto const& run : *first) at_once_ = std::max(at_once_, run->at_once());
     }
 
     /// A set of runs, given back at the end of its life.
     class loan {
     public:
-        explicit loan(run_pool& from) : from_(&from), runs_(from.take()) {}
-        loan(loan const&) = delete;
-        loan& operator=(loan const&) = delete;
-        ~loan() { from_->give_back(std::move(runs_)); }
+        explicit loan(run_pool& from) : from_(&from), runs_(from.sets_) {}
 
         /// Runs experiment e over boxes of starts and parameters.
         [[nodiscard]] std::vector<std::shared_ptr<response const>>
         operator()(std::size_t e, box const& initial, std::vector<box> const& parameters) {
             from_->integrations_ += parameters.size();
-            return (*runs_[e])(initial, parameters);
+            return (*(*runs_)[e])(initial, parameters);
         }
 
     private:
         run_pool* from_;
-        run_set runs_;
+        lending_pool<run_set>::loan runs_;
     };
     [[nodiscard]] loan borrow() { return loan(*this); }
 
@@ -56,26 +52,8 @@ public:
     void count(std::size_t more) { integrations_ += more; }
 
 private:
-    [[nodiscard]] run_set take() {
-        {
-            std::lock_guard const guard(mutex_);
-            if (!free_.empty()) {
-                auto runs = std::move(free_.back());
-                free_.pop_back();
-                return runs;
-            }
-        }
-        return make_();
-    }
-    void give_back(run_set runs) {
-        std::lock_guard const guard(mutex_);
-        free_.push_back(std::move(runs));
-    }
-
-    std::function<run_set()> make_;
+    lending_pool<run_set> sets_;
     std::size_t at_once_ = 1;
-    std::mutex mutex_;
-    std::vector<run_set> free_;
     std::atomic<std::size_t> integrations_ = 0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_PAVING_INFLATION_INTERVAL_OBSERVER_HPP
-#define SIVID_PAVING_INFLATION_INTERVAL_OBSERVER_HPP
+#ifndef SIVID_PAVING_OBSERVER_INTERVAL_OBSERVER_HPP
+#define SIVID_PAVING_OBSERVER_INTERVAL_OBSERVER_HPP
 
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/graph/arithmetic.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/paving/inflation/interval_observer.hpp>
+#include <sivid/paving/observer/interval_observer.hpp>
 
 #include "support/catch.hpp"
 #include "support/inflations.hpp"
