@@ -72,6 +72,21 @@ public:
         }
         return worst;
     }
+    /// The same among some functions, each given by its block and its place there.
+    [[nodiscard]] signed_constraint
+    worst_among(std::vector<std::pair<std::size_t, std::size_t>> const& functions,
+                std::vector<double> const& point) const {
+        signed_constraint worst;
+        for (auto const& [b, y] : functions) {
+            auto const& block = (*blocks_)[b];
+            double value = block.offset[y];
+            for (std::size_t v = 0; v < block.variable.size(); ++v)
+                value += point[block.variable[v]] * block.slope[v * block.functions() + y];
+            double const excess = std::abs(value) - block.margin[y];
+            if (excess > worst.excess) worst = {false, b, y, value > 0, excess};
+        }
+        return worst;
+    }
     /// The unknown with the largest |d| - 1.
     [[nodiscard]] signed_constraint worst_bound(std::vector<double> const& point) const {
         signed_constraint worst;

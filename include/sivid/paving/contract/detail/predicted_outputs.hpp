@@ -37,15 +37,20 @@ struct predicted_outputs {
 /// @param part      inside the boxes that the responses were computed for (trusted)
 /// @guarantee  `ranges` contains the outputs of all such parameters, each from some start; for any
 ///             weights
-/// @cost  two linear programs and certificates for each output that the parameters move
+/// @cost  a linear program and a certificate for each end of an output that is looked at and that
+///        the parameters move
 class output_prediction {
     using traits = interval_traits<interval>;
 
 public:
-    output_prediction(response_list const& measured, response_list const& others, box const& part)
+    /// @param known  of each experiment with known starts: ranges that hold already (trusted).
+    ///               Only the outputs of the largest misfits are then tightened; empty: all
+    output_prediction(response_list const& measured, response_list const& others, box const& part,
+                      std::vector<std::vector<interval>> const& known = {})
         : measured_(&measured),
           others_(&others),
           part_(&part),
+          given_(&known),
           known_(measured, part),
           own_(others, part) {
         for (std::size_t s = 0; s < measured.size(); ++s) {
@@ -64,9 +69,10 @@ public:
         for (std::size_t s = 0; s < others_->size() && !result.none; ++s) {
             auto const& r = *(*others_)[s];
             start_follower follower(r, *part_);
+            bool const all = s >= given_->size() || (*given_)[s].size() < r.outputs();
             auto found = follower.has_starts()
-                             ? from_good_rule(program, r, follower, result.none)
-                             : tightened(program, r, from_known_start(s), result.none);
+                             ? from_good_rule(program, r, follower, all, result.none)
+                             : tightened(program, r, from_known_start(s), all, result.none);
             result.ranges.push_back(std::move(found.ranges));
             result.about.push_back(std::move(found.about));
         }
@@ -105,6 +111,10 @@ private:
         auto const& r = *(*others_)[s];
         auto const local = expand(r, *part_);
         outputs result{{}, output_ranges(r, local)};
+        if (s < given_->size()) {
+            for (std::size_t y = 0; y < std::min(r.outputs(), (*given_)[s].size()); ++y)
+                result.ranges[y] = intersect(result.ranges[y], (*given_)[s][y]);
+        }
         for (std::size_t y = 0; y < r.outputs(); ++y) {
             auto g = empty_goal(local.value[y]);
             auto const& places = own_.places[s];
@@ -115,33 +125,59 @@ private:
         }
         return result;
     }
-    /// Each output tightened at both ends.
+    /// Outputs tightened at their ends, those of the largest misfits first.
+    /// @param all     else those whose misfit may be the largest
+    /// @param enough  a larger misfit ends it: nobody asks for more
     [[nodiscard]] prediction tightened(cut_program& program, response const& r, outputs of,
-                                       bool& none) const {
+                                       bool all, bool& none,
+                                       double enough = detail::infinity) const {
         prediction result{std::move(of.ranges), std::vector(r.outputs(), 0.0)};
-        for (std::size_t y = 0; y < r.outputs() && !none; ++y) {
-            auto const misfit_of = [&r, y](double output) {
-                return (output - mid(r.bounds[y])) / rad(r.bounds[y]);
-            };
-            for (double const sign : {1.0, -1.0}) {
-                auto end = tighten(program, r, y, of.goals[y], sign, result.ranges[y], none);
-                double const about = sign * misfit_of(end.about);
-                result.about[y] = std::max(result.about[y], about);
-                if (!end.at.empty()) result.ends.emplace_back(about, std::move(end.at));
-            }
-            result.most = std::max(result.most, upper(misfit(result.ranges[y], r.bounds[y])));
+        struct end {
+            double misfit; ///< at most
+            std::size_t output;
+            double sign;
+        };
+        std::vector<end> ends;
+        auto const misfit_at = [&r](std::size_t y, double sign, double output) {
+            double const off = sign * (output - mid(r.bounds[y])) / rad(r.bounds[y]);
+            return std::isnan(off) ? 0 : off; // on an exact measurement
+        };
+        for (std::size_t y = 0; y < r.outputs(); ++y) {
+            auto const& range = result.ranges[y];
+            for (double const sign : {1.0, -1.0})
+                ends.push_back(
+                    {misfit_at(y, sign, sign > 0 ? range.upper() : range.lower()), y, sign});
         }
+        std::stable_sort(ends.begin(), ends.end(),
+                         [](auto const& a, auto const& b) { return a.misfit > b.misfit; });
+        bool const some = !all && r.allowed == 0;
+        double farthest = 0;
+        for (auto const& e : ends) {
+            if (none || (some && e.misfit <= farthest)) break;
+            auto& range = result.ranges[e.output];
+            auto found = tighten(program, r, e.output, of.goals[e.output], e.sign, range, none);
+            double const about = misfit_at(e.output, e.sign, found.about);
+            result.about[e.output] = std::max(result.about[e.output], about);
+            farthest = std::max(farthest, about);
+            if (!found.at.empty()) result.ends.emplace_back(about, std::move(found.at));
+            double const left =
+                misfit_at(e.output, e.sign, e.sign > 0 ? range.upper() : range.lower());
+            if (left > enough) break;
+        }
+        for (std::size_t y = 0; y < r.outputs(); ++y)
+            result.most = std::max(result.most, upper(misfit(result.ranges[y], r.bounds[y])));
         return result;
     }
     /// From starts that follow the parameters by the best of a few rules, each of which is about
     /// best where the ones before it did worst.
     [[nodiscard]] prediction from_good_rule(cut_program& program, response const& r,
-                                            start_follower& follower, bool& none) const {
+                                            start_follower& follower, bool all, bool& none) const {
         prediction found;
         std::vector<std::vector<double>> worst;
         auto rule = start_rule_search().propose(follower.forms());
         for (int round = 0;; ++round) {
-            auto next = tightened(program, r, from_rule(r, follower, rule), none);
+            auto next = tightened(program, r, from_rule(r, follower, rule), all, none,
+                                  round == 0 ? detail::infinity : found.most);
             add_worst(next, follower.parameters(), worst);
             bool const further = round == 0 || next.most < 0.98 * found.most;
             if (round == 0 || next.most < found.most) found = std::move(next);
@@ -239,6 +275,7 @@ private:
     response_list const* measured_;
     response_list const* others_;
     box const* part_;
+    std::vector<std::vector<interval>> const* given_;
     shared_unknowns known_, own_;
     std::vector<minimax_block> blocks_; ///< in units of e
     std::vector<std::vector<double>> scales_;

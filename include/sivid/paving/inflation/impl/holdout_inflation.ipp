@@ -137,25 +137,16 @@ private:
     /// @returns  about the largest inflation among them
     [[nodiscard]] static double predict(node& b, response_list const& met, response_list const& own,
                                         std::vector<std::size_t> const& budgets) {
-        auto const predicted = output_prediction(met, own, b.set)();
+        // Of a part of a box, the outputs are known as they are of the whole.
+        auto const predicted = output_prediction(met, own, b.set, b.outputs)();
         if (predicted.none) {
             b.fits = false;
             return 0;
         }
         double most = 0, about = 0;
-        bool const known_starts = std::all_of(own.begin(), own.end(), [](auto const& r) {
-            auto const& x = r->unknowns.initial;
-            return std::all_of(x.begin(), x.end(),
-                               [](auto const& side) { return side.radius == 0; });
-        });
         for (std::size_t s = 0; s < own.size(); ++s) {
             auto const& r = *own[s];
             auto ranges = predicted.ranges[s];
-            // What was known of the whole holds here, if it is of the same starts.
-            if (known_starts && s < b.outputs.size()) {
-                for (std::size_t y = 0; y < std::min(ranges.size(), b.outputs[s].size()); ++y)
-                    ranges[y] = intersect(ranges[y], b.outputs[s][y]);
-            }
             std::vector<double> misfits(r.measurements, detail::infinity), likely = misfits;
             for (std::size_t y = 0; y < ranges.size(); ++y) {
                 misfits[y] = upper(misfit(ranges[y], r.bounds[y]));
@@ -163,8 +154,14 @@ private:
             }
             most = std::max(most, largest_after(std::move(misfits), budgets[s]));
             about = std::max(about, largest_after(std::move(likely), budgets[s]));
-            if (s == b.outputs.size()) b.outputs.emplace_back();
-            b.outputs[s] = std::move(ranges);
+            bool const known_start =
+                std::all_of(r.unknowns.initial.begin(), r.unknowns.initial.end(),
+                            [](auto const& side) { return side.radius == 0; });
+            if (s == b.outputs.size()) {
+                b.outputs.push_back(std::move(ranges));
+            } else if (known_start || b.outputs[s].size() < ranges.size()) {
+                b.outputs[s] = std::move(ranges);
+            } // else those of the whole stay, from starts of their own
         }
         b.most = std::min(b.most, most);
         return about;
