@@ -46,7 +46,7 @@ public:
     /// @param known  of each experiment with known starts: ranges that hold already (trusted).
     ///               Only the outputs of the largest misfits are then tightened; empty: all
     output_prediction(response_list const& measured, response_list const& others, box const& part,
-                      std::vector<std::vector<interval>> const& known = {})
+                      std::vector<std::vector<interval>> const& known)
         : measured_(&measured),
           others_(&others),
           part_(&part),
