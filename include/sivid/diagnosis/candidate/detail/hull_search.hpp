@@ -9,7 +9,7 @@
 #include <sivid/paving/judge/data_test.hpp>
 #include <sivid/paving/judge/data_test_options.hpp>
 #include <sivid/paving/judge/detail/equation_aided_test.hpp>
-#include <sivid/paving/observer/observer_contraction.hpp>
+#include <sivid/paving/judge/detail/runless_contraction.hpp>
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/reduction.hpp>
 #include <sivid/paving/relation/relation_contraction.hpp>
@@ -66,17 +66,9 @@ public:
         auto prior = posed.prior;
         relation_contraction_options equations{.keep_going =
                                                    work_limit(search.seconds / 4, limit_)};
-        if (!posed.model.has_memory() && limit_() && test.reached(prior) < 1) {
-            observer_contraction along(posed, {.keep_going = equations.keep_going});
-            relation_test const between_samples(posed, equations);
-            for (bool gains = true; gains && equations.keep_going();) {
-                auto const found = between_samples(prior);
-                if (found.verdict == box_verdict::outside) return std::nullopt;
-                prior = along(found.rest);
-                if (is_empty(prior)) return std::nullopt;
-                gains = relative_volume(prior, found.rest).upper() < 0.8;
-            }
-        }
+        if (!posed.model.has_memory() && limit_() && test.reached(prior) < 1)
+            prior = contract_without_runs(posed, equations);
+        if (is_empty(prior)) return std::nullopt;
         equations.keep_going = work_limit(search.seconds, limit_);
         // Parts of what rests are excluded soon or not at all.
         equations.rounds = 1;

@@ -13,7 +13,7 @@
 #include <sivid/paving/identify_options.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/judge/data_test.hpp>
-#include <sivid/paving/relation/relation_contraction.hpp>
+#include <sivid/paving/judge/detail/runless_contraction.hpp>
 #include <sivid/paving/work_limit.hpp>
 
 #include <algorithm>
@@ -148,16 +148,16 @@ contract_by_slower_inputs(data_test& exact, identification_problem const& posed,
     return result;
 }
 
-/// What the equations leave of the prior where runs over it reach less than a quarter of the
-/// measurements; nothing where they reach more, or the equations tell nothing.
+/// What equations and observers leave of the prior where runs over it reach less than a quarter of
+/// the measurements; nothing where they reach more, or nothing is gained.
 inline std::optional<window_contraction> contract_by_equations(data_test& test,
                                                                identification_problem const& posed,
                                                                work_limit const& limit) {
-    if (!(test.reached(posed.prior) < 0.25)) return std::nullopt;
+    if (posed.model.has_memory() || !(test.reached(posed.prior) < 0.25)) return std::nullopt;
     auto const begin = std::chrono::steady_clock::now();
     work_limit const own(0.08 * limit.seconds(), limit);
     window_contraction result;
-    result.rest = contract_by_relations(posed, {.keep_going = own});
+    result.rest = contract_without_runs(posed, {.keep_going = own});
     if (!(relative_volume(result.rest, posed.prior).upper() < 1)) return std::nullopt;
     for (auto const& e : posed.experiments) result.starts.push_back(e.initial);
     result.seconds =
