@@ -32,12 +32,13 @@ enum class family {
     three,
     backlash,
     friction,
-    episode
+    episode,
+    noise
 };
-inline constexpr std::array<std::string_view, 19> family_names{
+inline constexpr std::array<std::string_view, 20> family_names{
     "single", "weak",  "wide",     "pose",       "pair",        "outliers", "outside",
     "none",   "alias", "askew",    "instrument", "experiments", "bounds",   "strong",
-    "onset",  "three", "backlash", "friction",   "episode"};
+    "onset",  "three", "backlash", "friction",   "episode",     "noise"};
 
 /// The first of them are drawn in every round, the others where they are asked for.
 inline constexpr std::size_t usual_families = 16;
@@ -79,9 +80,11 @@ struct campaign {
     foreign_values true_foreign;
     instrument_faults true_instruments;
     channels bound_factor{1, 1, 1, 1, 1, 1}; // noise reaches so many times the stated bound
-    std::vector<std::string> effects;        // names, empty for none
-    std::string effects_text = "none";       // with parameters, as in the labels
-    std::string noise;                       // the shape of the noise
+    channels noise_of_value{};         // noise reaches so much of what is shown besides its bound
+    channels jitter{};                 // time stamps are off by so many seconds, at most
+    std::vector<std::string> effects;  // names, empty for none
+    std::string effects_text = "none"; // with parameters, as in the labels
+    std::string noise;                 // the shape of the noise
 };
 
 /// What a campaign of a family leaves open, with its priors.

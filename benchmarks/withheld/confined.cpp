@@ -27,9 +27,12 @@ recording loosened(recording data, json const& part, double factor) {
 
 std::optional<bool> is_confined_to(label const& truth, recording const& data, json const& part) {
     auto const scenarios = names_in(member(part, "scenarios"));
-    if (truth.family == "bounds") {
-        auto const channel = text_of(member(part, "channel"));
-        return truth.names() == names{"bounds_" + channel};
+    auto const channel = text_of(member(part, "channel"));
+    if (truth.family == "bounds") return truth.names() == names{"bounds_" + channel};
+    if (truth.family == "noise") {
+        auto const with = text_of(member(member(part, "grows"), "with"));
+        return (with == "rate" && truth.names() == names{"jitter_" + channel}) ||
+               (with == "value" && truth.names() == names{"growing_" + channel});
     }
     if (truth.family != "experiments") return std::nullopt;
     names acting;

@@ -144,6 +144,16 @@ void widen_noise(std::size_t channel, double factor, campaign& c) {
     c.effects_text = name + '(' + six_digits(c.bound_factor[channel]) + ')';
 }
 
+/// Noise that grows with what a channel shows, or with how fast that changes: the time stamps of
+/// one instrument are off.
+void grow_noise(std::size_t channel, bool jitters, random_source& random, campaign& c) {
+    auto& size = (jitters ? c.jitter : c.noise_of_value)[channel];
+    size = rounded(jitters ? random.uniform(0.02, 0.1) : random.uniform(0.02, 0.1));
+    auto const name = (jitters ? "jitter_" : "growing_") + std::string{channel_names[channel]};
+    c.effects = {name};
+    c.effects_text = name + '(' + six_digits(size) + ')';
+}
+
 /// Beyond the prior that it is diagnosed over.
 void draw_excess(effect const& which, random_source& random, effect_values& e) {
     bool first = true;
@@ -213,6 +223,9 @@ bool draw_other(std::uint64_t seed, std::size_t n, random_source& random, campai
     case family::bounds:
         widen_noise(dealt(deck, n, channel_count), random.uniform(1.3, 2), c);
         return true;
+    case family::noise:
+        grow_noise(dealt(deck, n / 2, channel_count), n % 2 == 0, random, c);
+        return true;
     case family::alias: // the fourth has no effect of the catalogue
         if (n % 4 != 3) return false;
         if (n % 8 == 7) widen_noise(dealt(deck, n / 8, channel_count), random.uniform(1.3, 1.7), c);
@@ -230,6 +243,8 @@ void draw_effects(std::uint64_t seed, std::size_t n, double size, random_source&
     c.true_foreign = {};
     c.true_instruments = {};
     c.bound_factor.fill(1);
+    c.noise_of_value.fill(0);
+    c.jitter.fill(0);
     c.effects.clear();
     c.effects_text = "none";
     for (auto& s : c.scenarios) s.gusts.clear();
@@ -276,6 +291,7 @@ bool matters(campaign const& c, double size) {
         bool const offset = name == "gyro_bias" || name == "heading_bias";
         return std::min(size, 1.0) * (offset ? 1.8 : 3.0) / (c.kind == family::weak ? 3 : 1);
     };
+    if (c.kind == family::noise) return largest_growth(c) >= 2;
     // Nothing to wait for: the model is right, and noise alone may break bounds.
     bool const right = c.effects.empty() || c.bound_factor != channels{1, 1, 1, 1, 1, 1};
     if (right) return true;

@@ -22,13 +22,19 @@ std::vector<std::size_t> channels_of(std::string_view group) {
 }
 
 std::string instrument_of(std::string_view name) {
-    static constexpr std::array<std::string_view, 6> heads{"lagging", "late",  "drift",
-                                                           "askew",   "lever", "bounds"};
+    static constexpr std::array<std::string_view, 8> heads{
+        "lagging", "late", "drift", "askew", "lever", "bounds", "jitter", "growing"};
     auto const at = name.find('_');
     if (at == std::string_view::npos) return {};
     bool const known = std::find(heads.begin(), heads.end(), head_of(name)) != heads.end();
     std::string group{name.substr(at + 1)};
     return known && !channels_of(group).empty() ? group : std::string{};
+}
+
+bool is_noise(std::string_view name) {
+    auto const head = head_of(name);
+    return !instrument_of(name).empty() &&
+           (head == "bounds" || head == "jitter" || head == "growing");
 }
 
 std::vector<std::string_view> const& askew_kinds() {
@@ -48,7 +54,7 @@ bool set_instrument(instrument_faults& all, std::string const& name,
                     std::vector<double> const& values) {
     auto const group = instrument_of(name);
     auto const head = head_of(name);
-    if (group.empty() || head == "bounds") return false;
+    if (group.empty() || is_noise(name)) return false;
     for (std::size_t const k : channels_of(group)) {
         if (head == "lagging") all.lag[k] = values.at(0);
         if (head == "late") all.late[k] = values.at(0);

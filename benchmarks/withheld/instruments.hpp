@@ -18,9 +18,11 @@ namespace withheld {
 /// The channels of a group: "uv", "xy", or one channel's name; none for an unknown one.
 std::vector<std::size_t> channels_of(std::string_view group);
 
-/// What stands behind the underscore of lagging_, late_, drift_, askew_, lever_ or bounds_; empty
-/// for other names.
+/// What stands behind the underscore of lagging_, late_, drift_, askew_, lever_, bounds_,
+/// jitter_ or growing_; empty for other names.
 std::string instrument_of(std::string_view name);
+/// Of these the last three: noise that is larger than its bound.
+bool is_noise(std::string_view name);
 
 /// Kinds that are drawn: of the family askew, of the family instrument.
 std::vector<std::string_view> const& askew_kinds();

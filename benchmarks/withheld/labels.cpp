@@ -162,7 +162,7 @@ world world_of(label const& l, constants const& fixed) {
             w.f.swell_force = values.at(0);
             w.f.swell_frequency = values.at(1);
         } else if (!set_instrument(w.instruments, name, values) && name != "gust" &&
-                   !name.starts_with("bounds_")) {
+                   !is_noise(name)) {
             throw std::runtime_error("unknown effect " + name);
         }
     }

@@ -44,6 +44,25 @@ double largest_deviation(campaign const& c, effect_values const& e, foreign_valu
     return most;
 }
 
+double largest_growth(campaign const& c) {
+    double most = 0;
+    for (auto const& s : c.scenarios) {
+        if (s.plan.holdout) continue;
+        double const step = 5e-3;
+        auto const& times = s.plan.sample_times;
+        auto const now = readings(world_of(c, s), s.initial, times, step);
+        for (std::size_t i = 1; i < now.size(); ++i) {
+            for (std::size_t const k : c.channels_measured) {
+                double const rate = (now[i][k] - now[i - 1][k]) / (times[i] - times[i - 1]);
+                double const grown =
+                    c.noise_of_value[k] * std::abs(now[i][k]) + c.jitter[k] * std::abs(rate);
+                most = std::max(most, grown / error_bound[k]);
+            }
+        }
+    }
+    return most;
+}
+
 double inflation_of(std::vector<double>& misfits, std::size_t allowed) {
     if (allowed >= misfits.size()) return 0;
     auto const place = misfits.begin() + static_cast<std::ptrdiff_t>(allowed);

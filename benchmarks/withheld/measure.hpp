@@ -13,6 +13,10 @@ enum class part { fit, holdout };
 /// a model with these effects.
 double largest_deviation(campaign const& c, effect_values const& e, foreign_values const& f);
 
+/// The most by which noise that grows with values and rates widens a bound of the fit scenarios, in
+/// its own size.
+double largest_growth(campaign const& c);
+
 /// At the true constants and starts: the factor by which all bounds must grow until the model with
 /// these effects explains the written data, outliers beyond the budget excepted. The true inflation
 /// of that model, a minimum, is at most this.

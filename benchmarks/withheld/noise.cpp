@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "noise.hpp"
+#include "measure.hpp"
 #include "simulate.hpp"
 
 #include <algorithm>
@@ -29,16 +30,36 @@ double drawn(shape s, random_source& random) {
     return a;
 }
 
-void add_noise(measured_scenario& s, shape noise, double reach, channels const& factor,
-               random_source& random) {
+/// The truth as it is shown by instruments whose time stamps are off.
+std::vector<channels> shown(campaign const& c, measured_scenario const& s, random_source& random) {
+    auto result = s.truth;
+    for (std::size_t k = 0; k < channel_count; ++k) {
+        if (!(c.jitter[k] > 0)) continue;
+        auto const& when = s.plan.sample_times;
+        auto off = when;
+        for (std::size_t i = 0; i < when.size(); ++i) {
+            double const room =
+                i + 1 < when.size() ? when[i + 1] - when[i] : 0; // none is overtaken
+            double const most = std::min(c.jitter[k], 0.49 * room);
+            off[i] = std::max(0.0, when[i] + random.uniform(-most, most));
+        }
+        auto const late = readings(world_of(c, s), s.initial, off, careful_step);
+        for (std::size_t i = 0; i < when.size(); ++i) result[i][k] = late[i][k];
+    }
+    return result;
+}
+
+void add_noise(measured_scenario& s, std::vector<channels> const& truth, shape noise, double reach,
+               channels const& factor, channels const& of_value, random_source& random) {
     s.value.assign(s.truth.size(), channels{});
     for (std::size_t i = 0; i < s.truth.size(); ++i)
         for (std::size_t k = 0; k < channel_count; ++k) {
             // Rounding and the integration must not push a sample over its bound.
-            double const room = reach * factor[k] * error_bound[k] - 2e-6;
+            double const grown = of_value[k] * std::abs(truth[i][k]);
+            double const room = reach * (factor[k] * error_bound[k] + grown) - 2e-6;
             // Where the bound is too small, it is broken often.
-            shape const own = factor[k] > 1 ? shape::uniform : noise;
-            s.value[i][k] = six_decimals(s.truth[i][k] + room * drawn(own, random));
+            shape const own = factor[k] > 1 || of_value[k] > 0 ? shape::uniform : noise;
+            s.value[i][k] = six_decimals(truth[i][k] + room * drawn(own, random));
         }
 }
 
@@ -67,7 +88,7 @@ std::size_t outlier_budget(double fraction, std::size_t samples) {
 }
 
 void add_uniform_noise(measured_scenario& s, random_source& random) {
-    add_noise(s, shape::uniform, 1, {1, 1, 1, 1, 1, 1}, random);
+    add_noise(s, s.truth, shape::uniform, 1, {1, 1, 1, 1, 1, 1}, {}, random);
 }
 
 void measure(campaign& c, random_source& random) {
@@ -85,7 +106,7 @@ void measure(campaign& c, random_source& random) {
     if (reach < 1) c.noise += " 0.95";
     for (auto& s : c.scenarios) {
         s.truth = readings(world_of(c, s), s.initial, s.plan.sample_times, careful_step);
-        add_noise(s, noise, reach, c.bound_factor, random);
+        add_noise(s, shown(c, s, random), noise, reach, c.bound_factor, c.noise_of_value, random);
         add_outliers(s, c, random);
     }
 }

@@ -149,6 +149,13 @@ TEST_CASE("diagnosis words: which measurements stand alone") {
     confined_view const c{.channel = "v", .factor = {1.6123, 1.6548}};
     CHECK(missing_fact(confined_clause(c), {"all data but those of v", "1.61 to 1.66", "proved"}) ==
           "");
+    auto grows = c;
+    grows.grows = confined_view::growth::rate;
+    grows.coefficient = {0.0212, 0.0219};
+    CHECK(missing_fact(confined_clause(grows), {"1.61 to 1.66", "0.0212 to 0.0219 s of its rate",
+                                                "time stamps", "proved to explain"}) == "");
+    grows.grows = confined_view::growth::value;
+    CHECK(missing_fact(confined_clause(grows), {"0.0212 to 0.0219 times its value"}) == "");
     diagnosis_view v = hovercraft_diagnosis().view();
     auto const answered = banner_sentence(v);
     v.confined = {c};

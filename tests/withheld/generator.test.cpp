@@ -195,6 +195,15 @@ TEST_CASE("what each family is about") {
         CHECK(factor >= 1.3);
         CHECK(factor <= 2);
         CHECK(std::count(small.bound_factor.begin(), small.bound_factor.end(), 1) == 5);
+        auto const noisy = draw_campaign(5, i, {family::noise});
+        auto const grown = [](channels const& sizes) {
+            return std::count_if(sizes.begin(), sizes.end(), [](double x) { return x > 0; });
+        };
+        CHECK(grown(noisy.jitter) == (i % 2 == 0 ? 1 : 0));
+        CHECK(grown(noisy.noise_of_value) == (i % 2 == 0 ? 0 : 1));
+        CHECK(largest_growth(noisy) >= 2);
+        CHECK(inflation_at_truth(noisy, true, part::fit) > 1);
+        CHECK(inflation_at_truth(noisy, true, part::fit) < 1.1 * (1 + largest_growth(noisy)));
     }
     std::set<std::string> kinds;
     for (std::size_t i = 0; i < instrument_kinds().size(); ++i)

@@ -204,7 +204,8 @@ TEST_CASE("answers to what no candidate holds") {
     unexplained["answer"]["kind"] = "unexplained";
     open["answer"]["kind"] = "open";
     for (auto const& l : {with("askew", "askew_uv", {0.05}), with("instrument", "drift_r", {0.05}),
-                          with("bounds", "bounds_v", {1.6}), with("strong", "payload", {0.7})}) {
+                          with("bounds", "bounds_v", {1.6}), with("strong", "payload", {0.7}),
+                          with("noise", "jitter_v", {0.05}), with("noise", "growing_v", {0.05})}) {
         CAPTURE(l.effects[0].first);
         CHECK_FALSE(l.attainable());
         CHECK(judge(l, unexplained).right);
@@ -601,6 +602,48 @@ TEST_CASE("an effect in some scenarios is named with them, and held to them") {
     CHECK_FALSE(judge(l, answering({"wind@S1+S3"})).right);
     l.more.erase("onsets"); // it acts everywhere
     CHECK_FALSE(judge(l, answering({"quadratic_yaw_damping@S1+S3"})).right);
+}
+
+TEST_CASE("noise that grows, against the truth") {
+    temporary_folder const folder;
+    for (std::size_t i = 0; i < 2; ++i) {
+        auto c = draw_campaign(3, i, {family::noise});
+        c.id = "w0000";
+        write_dataset(c, folder.path());
+        auto const data = read_recording(folder.path());
+        auto l = labelled("noise", c.effects);
+        auto const& name = c.effects.at(0);
+        auto const channel = name.substr(name.find('_') + 1);
+        auto const at = std::find(channel_names.begin(), channel_names.end(), channel);
+        auto const k = static_cast<std::size_t>(at - channel_names.begin());
+        double const size = i == 0 ? c.jitter[k] : c.noise_of_value[k];
+        l.effects[0].second = {size};
+        json truth;
+        for (auto const& u : c.unknown)
+            truth["parameters"][u.name] = l.constants_true[u.name] =
+                c.true_constants.*constant_named(u.name);
+        auto const found = [&](std::string const& with, double lower, bool right,
+                               double upper = 9) {
+            json const part{
+                {"channel", channel},
+                {"scenarios", json::array()},
+                {"factor", {1, 1000}},
+                {"witness", truth},
+                {"grows", {{"with", with}, {"coefficient", {lower, upper}}, {"witness", truth}}}};
+            json const d{{"gap", {{"verdict", "certified"}, {"confined", json::array({part})}}}};
+            judgement j;
+            check_claims(l, data, d, j);
+            check_witnesses(data, d, j);
+            CHECK(j.part_right == right);
+            return kinds_of(j.false_proofs);
+        };
+        std::string const own = i == 0 ? "rate" : "value", other = i == 0 ? "value" : "rate";
+        CHECK(found(own, 0.9 * size, true).empty());
+        CHECK(found(own, 1.2 * size, true) == strings{"confined"});
+        CHECK(found(own, 0.9 * size, true, 1.05 * size).empty());
+        CHECK(found(own, 0.1 * size, true, 0.2 * size) == strings{"confined"}); // the witness
+        CHECK(found(other, 1.2 * size, false).empty());                         // nobody knows
+    }
 }
 
 TEST_CASE("parts that stand alone against the truth") {

@@ -168,6 +168,20 @@ struct named_witness {
     std::vector<start> starts;
 };
 
+/// How error bounds of one channel have to grow where what it shows is large, or changes fast.
+struct noise_growth {
+    enum class with { value, rate };
+    with what = with::value;
+    /// The least c >= 0 with which bounds e + c |y|, or e + c |dy/dt|, let a parameter explain all
+    /// data; y is the output at a fit. Both ends are proved. A channel whose time stamps are off by
+    /// up to c seconds has such errors.
+    interval coefficient{0.0};
+    /// By how much likelier uniform noise within these bounds is than noise within the bounds that
+    /// are so many times as wide (`confined_gap::factor`): natural logarithm, of fits.
+    double likelier = 0;
+    named_witness witness{}; ///< a validated run proves `coefficient.upper()` there
+};
+
 /// Measurements that alone stand against the model: one parameter of the prior explains all the
 /// others, and these, too, once their error bounds grow.
 struct confined_gap {
@@ -178,6 +192,7 @@ struct confined_gap {
     inflation_range factor = unknown_inflation();
     named_witness witness{}; ///< a validated run proves `factor.upper()` there
     std::vector<std::string> assumptions{};
+    std::optional<noise_growth> grows{}; ///< where that is much likelier, of a channel
 };
 
 /// How well hold-out data are met, before and after an effect is joined.

@@ -93,6 +93,19 @@ private:
             json_.key("factor").bounds(c.factor);
             witness(c.witness);
             strings("assumptions", c.assumptions);
+            json_.key("grows");
+            if (c.grows) {
+                bool const rate = c.grows->what == noise_growth::with::rate;
+                json_.begin_object();
+                json_.key("with").string(rate ? "rate" : "value");
+                json_.key("unit").string(rate ? "s" : "1");
+                json_.key("coefficient").bounds(c.grows->coefficient);
+                json_.key("likelier").nearest(c.grows->likelier);
+                witness(c.grows->witness);
+                json_.end_object();
+            } else {
+                json_.null();
+            }
             json_.end_object();
         }
         json_.end_array();

@@ -141,6 +141,11 @@ struct confined_view {
     std::string channel{};                ///< empty: every one
     std::vector<std::string> scenarios{}; ///< none: every one
     range factor{}; ///< by which these bounds must grow until all data are explained; proved
+    /// What they grow with where that is much likelier than a factor, and the share of it (s, of a
+    /// rate); proved to explain.
+    enum class growth { times, value, rate };
+    growth grows = growth::times;
+    range coefficient{};
 };
 
 /// What is left of the gap with the candidate that comes closest, when none explains the data.

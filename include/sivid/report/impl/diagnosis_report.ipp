@@ -187,6 +187,11 @@ SIVID_DECL diagnosis_view view_of(diagnosis const& d, diagnosis_plot_data const&
     };
     for (confined_gap const& c : d.confined) {
         v.confined.push_back({c.channel, c.scenarios, detail::drawn(c.factor)});
+        if (!c.grows) continue;
+        auto& own = v.confined.back();
+        own.grows = c.grows->what == noise_growth::with::rate ? confined_view::growth::rate
+                                                              : confined_view::growth::value;
+        own.coefficient = detail::drawn(c.grows->coefficient);
     }
     for (suspected_place const& p : d.where) v.places.push_back(place(p));
     for (broken_relation_report const& r : d.relations) {

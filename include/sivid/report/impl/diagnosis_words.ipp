@@ -258,9 +258,26 @@ SIVID_DECL std::string part_words(confined_view const& c) {
     return c.channel + (c.channel.empty() || where.empty() ? "" : " in ") + where;
 }
 
+namespace detail {
+
+/// Nothing where bounds grow by a factor.
+inline std::string growth_clause(confined_view const& c) {
+    if (c.grows == confined_view::growth::times) return "";
+    auto const size = inflation_text(c.coefficient);
+    return c.grows == confined_view::growth::rate
+               ? "; likelier, they grow with how fast it changes, by " + size +
+                     " s of its rate (proved to explain): time stamps that are so far off would "
+                     "show that"
+               : "; likelier, they grow with what it shows, by " + size +
+                     " times its value (proved to explain)";
+}
+
+} // namespace detail
+
 SIVID_DECL std::string confined_clause(confined_view const& c) {
     return "one parameter explains all data but those of " + part_words(c) +
-           ", whose bounds must grow by a factor of " + inflation_text(c.factor) + " (proved)";
+           ", whose bounds must grow by a factor of " + inflation_text(c.factor) + " (proved)" +
+           detail::growth_clause(c);
 }
 
 SIVID_DECL std::string open_clause(diagnosis_view const& v) {

@@ -32,49 +32,116 @@ struct data_part {
     }
 };
 
-/// The problem with the error bounds of a part so many times as wide, about the same middles.
-/// @guarantee  the bounds are rounded outward
-[[nodiscard]] inline identification_problem loosened(identification_problem p,
-                                                     data_part const& part, double factor) {
-    using traits = interval_traits<interval>;
-    for (std::size_t e = 0; e < p.experiments.size(); ++e) {
-        for (auto& m : p.experiments[e].measurements) {
-            if (!part.holds(e, m)) continue;
-            auto const reach = traits::mul(traits::point(rad(m.bound)), traits::point(factor));
-            auto const middle = traits::point(mid(m.bound));
-            m.bound = traits::bounds(traits::sub(middle, reach).lower(),
-                                     traits::add(middle, reach).upper());
-        }
-    }
-    return p;
-}
+/// By how much bounds of a part grow, in units of some number: per experiment and measurement, in
+/// the order of the problem; 0: not at all.
+struct bound_growth {
+    std::vector<std::vector<double>> reach;
 
-/// By which factor bounds grew at most, about their exact middles: the least number, rounded up,
-/// that widens each of `was` to hold its own of `is`. Bounds of no width that grew: infinite.
-[[nodiscard]] inline double growth_of(identification_problem const& was,
-                                      identification_problem const& is) {
-    using traits = interval_traits<interval>;
-    double most = 1;
-    for (std::size_t e = 0; e < was.experiments.size(); ++e) {
-        for (std::size_t k = 0; k < was.experiments[e].measurements.size(); ++k) {
-            auto const &a = was.experiments[e].measurements[k].bound,
-                       &b = is.experiments[e].measurements[k].bound;
-            auto const ends = [](double x, double y) {
-                return traits::sub(traits::point(x), traits::point(y));
-            };
-            double const grown =
-                std::max(ends(a.lower(), b.lower()).upper(), ends(b.upper(), a.upper()).upper());
-            if (!(grown > 0)) continue;
-            bool undefined = false;
-            auto const more = traits::div(traits::mul(traits::point(2.0), traits::point(grown)),
-                                          ends(a.upper(), a.lower()), undefined);
-            double const factor = traits::add(traits::point(1.0), more).upper();
-            if (undefined) return std::numeric_limits<double>::infinity();
-            most = std::max(most, factor);
-        }
+    /// So many times as wide bounds: each grows by its own half-width.
+    [[nodiscard]] static bound_growth of(identification_problem const& p, data_part const& part) {
+        return of(p, part, [&](std::size_t e, std::size_t k) {
+            return half_width(p.experiments[e].measurements[k].bound).lower();
+        });
     }
-    return most;
-}
+    /// @param size  of (experiment, measurement), at least 0
+    template <class Size>
+    [[nodiscard]] static bound_growth of(identification_problem const& p, data_part const& part,
+                                         Size const& size) {
+        bound_growth result;
+        for (std::size_t e = 0; e < p.experiments.size(); ++e) {
+            auto const& all = p.experiments[e].measurements;
+            auto& own = result.reach.emplace_back(all.size(), 0.0);
+            for (std::size_t k = 0; k < all.size(); ++k)
+                if (part.holds(e, all[k])) own[k] = size(e, k);
+        }
+        return result;
+    }
+
+    /// The problem with bounds that grow by so many units, about the same middles.
+    /// @guarantee  the bounds are rounded outward
+    [[nodiscard]] identification_problem operator()(identification_problem p, double units) const {
+        using traits = interval_traits<interval>;
+        for (std::size_t e = 0; e < p.experiments.size(); ++e) {
+            for (std::size_t k = 0; k < p.experiments[e].measurements.size(); ++k) {
+                if (!(reach[e][k] > 0)) continue;
+                auto& bound = p.experiments[e].measurements[k].bound;
+                auto const more =
+                    traits::mul(traits::point(reach[e][k]), traits::point(units)).upper();
+                bound = traits::bounds(
+                    traits::sub(traits::point(bound.lower()), traits::point(more)).lower(),
+                    traits::add(traits::point(bound.upper()), traits::point(more)).upper());
+            }
+        }
+        return p;
+    }
+    /// The largest growth of a bound as a share of its half-width, for one unit; rounded up.
+    [[nodiscard]] double greatest_share(identification_problem const& p) const {
+        using traits = interval_traits<interval>;
+        double most = 0;
+        for (std::size_t e = 0; e < reach.size(); ++e) {
+            for (std::size_t k = 0; k < reach[e].size(); ++k) {
+                if (!(reach[e][k] > 0)) continue;
+                bool undefined = false;
+                auto const share =
+                    traits::div(traits::point(reach[e][k]),
+                                half_width(p.experiments[e].measurements[k].bound), undefined);
+                most = std::max(most, undefined ? detail::infinity : share.upper());
+            }
+        }
+        return most;
+    }
+    /// How many bounds grow.
+    [[nodiscard]] double count() const {
+        std::ptrdiff_t all = 0;
+        for (auto const& own : reach)
+            all += std::count_if(own.begin(), own.end(), [](double r) { return r > 0; });
+        return static_cast<double>(all);
+    }
+    /// The logarithm by which so many units make uniform noise within the bounds less likely.
+    [[nodiscard]] double cost(identification_problem const& p, double units) const {
+        double sum = 0;
+        for (std::size_t e = 0; e < reach.size(); ++e) {
+            for (std::size_t k = 0; k < reach[e].size(); ++k) {
+                if (reach[e][k] > 0)
+                    sum += std::log1p(units * reach[e][k] /
+                                      rad(p.experiments[e].measurements[k].bound));
+            }
+        }
+        return sum;
+    }
+    /// The least number of units, rounded up, with which each bound of `was` holds its own of `is`;
+    /// infinite where one without reach grew.
+    [[nodiscard]] double between(identification_problem const& was,
+                                 identification_problem const& is) const {
+        using traits = interval_traits<interval>;
+        auto const ends = [](double x, double y) {
+            return traits::sub(traits::point(x), traits::point(y)).upper();
+        };
+        double most = 0;
+        for (std::size_t e = 0; e < was.experiments.size(); ++e) {
+            for (std::size_t k = 0; k < was.experiments[e].measurements.size(); ++k) {
+                auto const &a = was.experiments[e].measurements[k].bound,
+                           &b = is.experiments[e].measurements[k].bound;
+                double const grown =
+                    std::max(ends(a.lower(), b.lower()), ends(b.upper(), a.upper()));
+                if (!(grown > 0)) continue;
+                bool undefined = false;
+                auto const units =
+                    traits::div(traits::point(grown), traits::point(reach[e][k]), undefined);
+                if (undefined) return std::numeric_limits<double>::infinity();
+                most = std::max(most, units.upper());
+            }
+        }
+        return most;
+    }
+
+private:
+    [[nodiscard]] static interval half_width(interval const& bound) {
+        using traits = interval_traits<interval>;
+        return traits::mul(traits::point(0.5),
+                           traits::sub(traits::point(bound.upper()), traits::point(bound.lower())));
+    }
+};
 
 struct confinement_options {
     bool channels = true; ///< else parts are whole experiments

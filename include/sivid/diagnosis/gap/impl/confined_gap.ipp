@@ -12,6 +12,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <map>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -54,6 +57,10 @@ private:
     static constexpr double precision = 0.02;
     /// ... and a validated run has this much room.
     static constexpr double slack = 1e-3;
+    /// Growth that adds so many times its width to some bound is tried first.
+    static constexpr double widest = 1000;
+    /// Of two explanations one is much likelier: by a factor of 20 (logarithm), ...
+    static constexpr double clearly = 3;
 
     [[nodiscard]] bool go_on() const { return !options_->go_on || options_->go_on(); }
 
@@ -108,7 +115,7 @@ private:
     }
     [[nodiscard]] approximate_fit fit_of_others(data_part const& part) const {
         constexpr double promising = 3, close = 1.05;
-        auto const others = loosened(*p_, part, nothing);
+        auto const others = bound_growth::of(*p_, part)(*p_, nothing);
         fitter descend(others, options_->go_on);
         auto best = descend({fit_->parameters});
         auto const try_again = [&](double below, fit_start const& from) {
@@ -169,16 +176,18 @@ private:
         return result;
     }
 
-    /// The least factor that a fit finds, by halving its logarithm, proved from above by a witness
-    /// and from below by a search.
-    [[nodiscard]] std::optional<confined_gap> judged(found const& f) const {
-        auto const& part = f.part;
-        auto at = f.others;
-        double high = needed(part, at), low = std::max(1.0, whole_.lower());
-        if (!(high > 1)) return std::nullopt; // it explains all data
+    /// Both ends of the least growth, in its units, and who proves the upper one.
+    struct least_growth {
+        double lower, upper; ///< lower 0: nothing is proved
+        approximate_fit at;
+        verified_inflation proved;
+    };
+    /// Brings a fit to about the least growth, by halving its logarithm.
+    void approach(bound_growth const& by, double share, approximate_fit& at, double& high) const {
+        double low = std::max(1.0, whole_.lower());
         while (high > low * (1 + precision) && go_on()) {
             double const middle = std::sqrt(low) * std::sqrt(high);
-            auto const problem = loosened(*p_, part, middle);
+            auto const problem = by(*p_, (middle - 1) / share);
             auto next = fitter(problem, options_->go_on)({at.parameters});
             if (next.inflation > 1) {
                 low = middle;
@@ -187,21 +196,111 @@ private:
                 at = std::move(next);
             }
         }
+    }
+    /// The least growth that a fit finds, proved from above by a witness and from below by a
+    /// search.
+    /// @param at    explains all data where some bound grows to `high` times its width
+    [[nodiscard]] std::optional<least_growth> least(bound_growth const& by, approximate_fit at,
+                                                    double high) const {
+        double const share = by.greatest_share(*p_);
+        approach(by, share, at, high);
         double const upper = high * (1 + slack);
-        auto const problem = loosened(*p_, part, upper);
-        auto const proved = verify_at(problem, at, options_->lower.test);
+        auto const grown_by = [&](double greatest) { return by(*p_, (greatest - 1) / share); };
+        auto const problem = grown_by(upper);
+        auto proved = verify_at(problem, at, options_->lower.test);
         if (!(proved.range.upper() <= 1) || !proved.witness) return std::nullopt;
-        double const proved_upper = growth_of(*p_, problem); // bounds were rounded outward
-        if (!(proved_upper < detail::infinity)) return std::nullopt;
-        double const lower = std::min(lower_end(part, at, upper), proved_upper);
+        double const most = by.between(*p_, problem); // bounds were rounded outward
+        if (!(most < detail::infinity)) return std::nullopt;
+        double const lower = std::min(lower_end(by, share, at, upper), most);
+        return least_growth{lower, most, std::move(at), std::move(proved)};
+    }
+    [[nodiscard]] std::optional<confined_gap> judged(found const& f) const {
+        using traits = interval_traits<interval>;
+        auto const& part = f.part;
+        double const high = needed(part, f.others);
+        if (!(high > 1)) return std::nullopt; // it explains all data
+        auto const times = bound_growth::of(*p_, part);
+        auto const known = least(times, f.others, high);
+        if (!known) return std::nullopt;
         confined_gap result;
         if (part.channel) result.channel = p_->model.about.channels[*part.channel].name;
         for (auto const e : part.experiments) {
             result.scenarios.push_back(p_->experiments[e].name);
         }
-        result.factor = interval_traits<interval>::bounds(lower, proved_upper);
-        result.witness = named(*p_, proved.witness->parameters, proved.witness->starts);
-        result.assumptions = proved.assumptions;
+        auto const factor =
+            traits::add(traits::point(1.0), traits::bounds(known->lower, known->upper));
+        result.factor = known->lower > 0 ? factor : traits::bounds(0.0, factor.upper());
+        result.witness = witness_of(*known);
+        result.assumptions = known->proved.assumptions;
+        if (part.channel) result.grows = likelier_growth(part, times, *known);
+        return result;
+    }
+    [[nodiscard]] named_witness witness_of(least_growth const& g) const {
+        return named(*p_, g.proved.witness->parameters, g.proved.witness->starts);
+    }
+
+    /// Noise of a channel that grows with what it shows, or with how fast that changes, where it is
+    /// much likelier than bounds that are so many times as wide.
+    [[nodiscard]] std::optional<noise_growth> likelier_growth(data_part const& part,
+                                                              bound_growth const& times,
+                                                              least_growth const& known) const {
+        std::optional<noise_growth> best;
+        double const cost = times.cost(*p_, known.upper);
+        for (auto const what : {noise_growth::with::value, noise_growth::with::rate}) {
+            if (!go_on()) break;
+            // What is shown is taken at a fit that its own growth leads to.
+            auto by = growth_with(what, part, known.at);
+            auto at = known.at;
+            double high = 1 + widest;
+            for (bool const last : {false, true}) {
+                at = fitter(by(*p_, widest / by.greatest_share(*p_)),
+                            options_->go_on)({at.parameters});
+                high = 1 + widest;
+                if (last || at.inflation > 1) break;
+                approach(by, by.greatest_share(*p_), at, high);
+                by = growth_with(what, part, at);
+            }
+            if (at.inflation > 1) continue;
+            auto const found = least(by, std::move(at), high);
+            if (!found) continue;
+            double const likelier = cost - by.cost(*p_, found->upper);
+            // ... and by more than the few largest errors decide by chance where tails are thin.
+            if (!(likelier > clearly + std::sqrt(times.count())) ||
+                (best && !(likelier > best->likelier)))
+                continue;
+            best = {what, interval_traits<interval>::bounds(found->lower, found->upper), likelier,
+                    witness_of(*found)};
+        }
+        return best;
+    }
+    /// The size of what a channel shows at a fit, or of its rate, by central differences.
+    [[nodiscard]] bound_growth growth_with(noise_growth::with what, data_part const& part,
+                                           approximate_fit const& at) const {
+        auto const there = fitter(*p_).at(at.parameters, at.starts);
+        std::vector<std::map<double, double>> shown(p_->experiments.size()); // by time
+        for (std::size_t e = 0; e < p_->experiments.size(); ++e) {
+            auto const data = sorted(p_->experiments[e].measurements);
+            for (std::size_t k = 0; k < data.size(); ++k) {
+                auto const& m = data[k];
+                if (part.holds(e, m))
+                    shown[e][m.time] = mid(m.bound) + there.residuals[e][k] * rad(m.bound);
+            }
+        }
+        auto result = bound_growth::of(*p_, part, [&](std::size_t e, std::size_t k) {
+            auto const now = shown[e].find(p_->experiments[e].measurements[k].time);
+            auto before = now, after = std::next(now);
+            if (what == noise_growth::with::value) return std::abs(now->second);
+            if (before != shown[e].begin()) --before;
+            if (after == shown[e].end()) after = now;
+            double const lasts = after->first - before->first;
+            return lasts > 0 ? std::abs(after->second - before->second) / lasts : 0.0;
+        });
+        // What is lost in rounding would be a large share of next to nothing.
+        double most = 0;
+        for (auto const& own : result.reach)
+            for (double const size : own) most = std::max(most, size);
+        for (auto& own : result.reach)
+            for (double& size : own) size = size > 1e-6 * most ? size : 0;
         return result;
     }
     /// By how much a part's bounds must grow at a fit, outliers included.
@@ -217,14 +316,22 @@ private:
         return most;
     }
     /// Where no parameter explains the data with all bounds so wide, none does with some of them.
-    [[nodiscard]] double lower_end(data_part const& part, approximate_fit const& at,
+    /// @param share  the largest growth by one unit, as a share of a bound
+    /// @param upper  times its width to which some bound grows
+    [[nodiscard]] double lower_end(bound_growth const& by, double share, approximate_fit const& at,
                                    double upper) const {
-        double const known = whole_.lower() > 1 ? whole_.lower() : 0;
-        double const tried = (1 - 2 * precision) * upper;
-        if (tried <= std::max(known, 1.0) || p_->model.has_memory() || !go_on()) return known;
+        using traits = interval_traits<interval>;
+        bool undefined = false;
+        auto const above = traits::sub(traits::point(whole_.lower()), traits::point(1.0));
+        double const known =
+            whole_.lower() > 1
+                ? std::max(0.0, traits::div(above, traits::point(share), undefined).lower())
+                : 0;
+        double const tried = ((1 - 2 * precision) * upper - 1) / share;
+        if (!(tried > known) || p_->model.has_memory() || !go_on()) return known;
         auto search = options_->lower;
         search.only_verdict = true;
-        auto const refuted = bound_inflation(loosened(*p_, part, tried), &at, search);
+        auto const refuted = bound_inflation(by(*p_, tried), &at, search);
         return refuted.value.lower() > 1 ? tried : known;
     }
 
