@@ -152,8 +152,8 @@ TEST_CASE("diagnosis words: which measurements stand alone") {
     auto grows = c;
     grows.grows = confined_view::growth::rate;
     grows.coefficient = {0.0212, 0.0219};
-    CHECK(missing_fact(confined_clause(grows), {"1.61 to 1.66", "0.0212 to 0.0219 s of its rate",
-                                                "time stamps", "proved to explain"}) == "");
+    CHECK(missing_fact(confined_clause(grows), {"1.61 to 1.66", "0.0212 to 0.0219 s times its rate",
+                                                "proved to explain", "time stamps"}) == "");
     grows.grows = confined_view::growth::value;
     CHECK(missing_fact(confined_clause(grows), {"0.0212 to 0.0219 times its value"}) == "");
     diagnosis_view v = hovercraft_diagnosis().view();

@@ -266,7 +266,7 @@ inline std::string growth_clause(confined_view const& c) {
     auto const size = inflation_text(c.coefficient);
     return c.grows == confined_view::growth::rate
                ? "; likelier, they grow with how fast it changes, by " + size +
-                     " s of its rate (proved to explain): time stamps that are so far off would "
+                     " s times its rate (proved to explain): time stamps that are so far off would "
                      "show that"
                : "; likelier, they grow with what it shows, by " + size +
                      " times its value (proved to explain)";
