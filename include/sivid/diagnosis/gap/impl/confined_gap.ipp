@@ -261,15 +261,15 @@ private:
                 by = growth_with(what, part, at);
             }
             if (at.inflation > 1) continue;
-            auto const found = least(by, std::move(at), high);
-            if (!found) continue;
-            double const likelier = cost - by.cost(*p_, found->upper);
+            auto const own = least(by, std::move(at), high);
+            if (!own) continue;
+            double const likelier = cost - by.cost(*p_, own->upper);
             // ... and by more than the few largest errors decide by chance where tails are thin.
             if (!(likelier > clearly + std::sqrt(times.count())) ||
                 (best && !(likelier > best->likelier)))
                 continue;
-            best = {what, interval_traits<interval>::bounds(found->lower, found->upper), likelier,
-                    witness_of(*found)};
+            best = {what, interval_traits<interval>::bounds(own->lower, own->upper), likelier,
+                    witness_of(*own)};
         }
         return best;
     }
