@@ -148,7 +148,7 @@ void widen_noise(std::size_t channel, double factor, campaign& c) {
 /// one instrument are off.
 void grow_noise(std::size_t channel, bool jitters, random_source& random, campaign& c) {
     auto& size = (jitters ? c.jitter : c.noise_of_value)[channel];
-    size = rounded(jitters ? random.uniform(0.02, 0.1) : random.uniform(0.02, 0.1));
+    size = rounded(random.uniform(0.02, 0.1));
     auto const name = (jitters ? "jitter_" : "growing_") + std::string{channel_names[channel]};
     c.effects = {name};
     c.effects_text = name + '(' + six_digits(size) + ')';

@@ -26,7 +26,7 @@ struct observer_contraction_options {
 /// state, a start that nobody knows), observers often are: measurements narrow them again.
 /// @guarantee  no parameter that explains the data is removed; empty: proved, there is none
 /// @cost  two runs of the observers for every four parameters, and as many again for each time
-///        that something is cut off; some 20 ms for five records of a hundred samples
+///        that something is cut off; a run over five records of a hundred samples takes some 20 ms
 class observer_contraction {
 public:
     /// @param problem  outlives this; its model has no delays (checked)
