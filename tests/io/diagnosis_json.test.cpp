@@ -35,8 +35,11 @@ TEST_CASE("measurements that stand alone are written with their factor and its w
     d.confined.push_back(
         {"v", {"S1", "S3"}, interval(1.5, 2.25), {{{"k", "1/s", 3}}, {}}, {"held"}});
     d.confined.push_back({"", {"S2"}, interval(0, 4), {}, {}});
-    d.confined[0].grows =
-        noise_growth{noise_growth::with::rate, interval(0.5, 0.75), 42, {{{"k", "1/s", 5}}, {}}};
+    d.confined[0].grows = noise_growth{noise_growth::with::rate,
+                                       interval(0.5, 0.75),
+                                       42,
+                                       {{{"k", "1/s", 5}}, {}},
+                                       {{{"k", "1/s", 6}}, {}}};
     auto const json = nlohmann::json::parse(diagnosis_json(d, "cart"))["gap"]["confined"];
     REQUIRE(json.size() == 2);
     CHECK(json[0]["channel"] == "v");
@@ -49,6 +52,7 @@ TEST_CASE("measurements that stand alone are written with their factor and its w
     CHECK(json[0]["grows"]["coefficient"] == nlohmann::json{0.5, 0.75});
     CHECK(json[0]["grows"]["likelier"] == 42);
     CHECK(json[0]["grows"]["witness"]["parameters"]["k"] == 5);
+    CHECK(json[0]["grows"]["shown"]["parameters"]["k"] == 6);
     CHECK(json[1]["channel"].is_null());
     CHECK(json[1]["grows"].is_null());
     CHECK(nlohmann::json::parse(diagnosis_json({}, "cart"))["gap"]["confined"].empty());

@@ -102,6 +102,7 @@ private:
                 json_.key("coefficient").bounds(c.grows->coefficient);
                 json_.key("likelier").nearest(c.grows->likelier);
                 witness(c.grows->witness);
+                witness(c.grows->shown, "shown");
                 json_.end_object();
             } else {
                 json_.null();
@@ -159,8 +160,8 @@ private:
         }
         json_.end_object();
     }
-    void witness(std::optional<named_witness> const& w) {
-        json_.key("witness");
+    void witness(std::optional<named_witness> const& w, std::string const& key = "witness") {
+        json_.key(key);
         if (!w) {
             json_.null();
             return;

@@ -250,7 +250,7 @@ private:
             if (!go_on()) break;
             // What is shown is taken at a fit that its own growth leads to.
             auto by = growth_with(what, part, known.at);
-            auto at = known.at;
+            auto at = known.at, shown = at;
             double high = 1 + widest;
             for (bool const last : {false, true}) {
                 at = fitter(by(*p_, widest / by.greatest_share(*p_)),
@@ -259,6 +259,7 @@ private:
                 if (last || at.inflation > 1) break;
                 approach(by, by.greatest_share(*p_), at, high);
                 by = growth_with(what, part, at);
+                shown = at;
             }
             if (at.inflation > 1) continue;
             auto const own = least(by, std::move(at), high);
@@ -269,7 +270,7 @@ private:
                 (best && !(likelier > best->likelier)))
                 continue;
             best = {what, interval_traits<interval>::bounds(own->lower, own->upper), likelier,
-                    witness_of(*own)};
+                    witness_of(*own), named(*p_, shown.parameters, shown.starts)};
         }
         return best;
     }
