@@ -37,7 +37,7 @@ public:
     sampled_signal& operator=(sampled_signal&&) noexcept;
     ~sampled_signal();
 
-    /// @param errors  a bound for each sample, 0 or more; none: the samples are exact
+    /// @param errors  a bound for each sample, 0 or more; none, or all 0: the samples are exact
     /// @given  as many values as times, at least one, finite, times strictly increasing (checked).
     sampled_signal(std::vector<double> times, std::vector<double> values, interpolation kind,
                    std::vector<double> errors = {});

@@ -4,6 +4,8 @@
 
 #include <sivid/measurement/signal.hpp>
 
+#include <algorithm>
+
 namespace sivid {
 
 SIVID_DECL sampled_signal::sampled_signal() = default;
@@ -39,6 +41,9 @@ SIVID_DECL sampled_signal::sampled_signal(std::vector<double> times, std::vector
                 "sampled_signal: error bounds must be finite and not negative");
         }
     }
+    // Exact: by that others know that states may rest.
+    if (std::all_of(errors_.begin(), errors_.end(), [](double e) { return e == 0; }))
+        errors_.clear();
 }
 
 } // namespace sivid

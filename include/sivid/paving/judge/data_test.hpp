@@ -7,6 +7,7 @@
 #include <sivid/paving/judge/data_test_options.hpp>
 #include <sivid/paving/judge/detail/response_judgement.hpp>
 #include <sivid/paving/response/local_response.hpp>
+#include <sivid/paving/run/detail/lasting_radii.hpp>
 #include <sivid/paving/run/detail/run_pool.hpp>
 #include <sivid/paving/run/experiment_run.hpp>
 #include <sivid/paving/set_test.hpp>
@@ -74,14 +75,8 @@ public:
             lasting_.emplace_back();
             if (!flows_[e]->uncertain()) continue;
             if (!recorded_pool_) recorded_pool_ = pool_of(recorded_);
-            // At a point the inputs alone make the radii.
-            auto whole = problem.experiments[e];
-            whole.outliers = whole.measurements.size(); // misfits end nothing
-            auto const at_point =
-                make_run(*flows_[e], whole, records_[e], problem.prior, options.run);
-            lasting_[e] =
-                (*at_point)(point_box(mid(whole.initial)), point_box(mid(problem.prior)))->radius;
-            pool_->count(1);
+            lasting_[e] = std::make_unique<lasting_radii>(
+                *flows_[e], problem, problem.experiments[e], records_[e], options.run);
         }
     }
 
@@ -189,12 +184,8 @@ public:
                 regions.push_back(region);
             }
             auto const& all = problem_->experiments[e].initial;
-            auto const answers = marked(e, runs(e, all, regions));
-            bool const choice_matters =
-                flows_[e]->uncertain() || (!is_point(all) && starts_differ(e));
+            auto const answers = runs(e, all, regions);
             std::vector<std::size_t> still_open;
-            std::vector<box> promising;
-            std::vector<std::size_t> whose;
             for (std::size_t n = 0; n < open.size(); ++n) {
                 auto const k = open[n];
                 ++results[k].cost;
@@ -214,27 +205,11 @@ public:
                 }
                 add_smear(results[k], says.smear);
                 still_open.push_back(k);
-                // Not worth a run where neither the box nor, later, parts of it might hold.
-                bool const sharp = answers[n]->outputs() == answers[n]->measurements &&
-                                   says.sharpness <= options_.sharp_enough;
-                // Else starts that follow the parameters do as well, without a run.
-                bool const spoilt =
-                    flows_[e]->uncertain() || !options_.contract || says.blur > 0.25;
-                if (choice_matters && !says.explained && (says.may_hold || sharp) && spoilt) {
-                    promising.push_back(found[k]->region);
-                    whose.push_back(k);
-                }
-            }
-            if (!promising.empty()) {
-                auto const chosen = flows_[e]->uncertain()
-                                        ? recorded_pool_->borrow()(e, starts_[e], promising)
-                                        : runs(e, starts_[e], promising);
-                for (std::size_t n = 0; n < whose.size(); ++n) {
-                    ++results[whose[n]].cost;
-                    found[whose[n]]->chosen_starts.back() = chosen[n];
-                }
             }
             open = std::move(still_open);
+        }
+        for (std::size_t e = 0; e < flows_.size() && !open.empty(); ++e) {
+            run_chosen(runs, e, open, results, found);
         }
         for (auto const k : open) {
             // `rest` may have shrunk since an experiment was judged.
@@ -293,7 +268,9 @@ public:
     /// One experiment over boxes of starts and parameters, for all possible inputs.
     [[nodiscard]] std::vector<std::shared_ptr<response const>>
     run(std::size_t e, box const& initial, std::vector<box> const& parameters) {
-        return marked(e, pool_->borrow()(e, initial, parameters));
+        auto answers = pool_->borrow()(e, initial, parameters);
+        for (auto& answer : answers) answer = marked(e, answer);
+        return answers;
     }
     [[nodiscard]] std::shared_ptr<response const> run(std::size_t e, box const& initial,
                                                       box const& parameters) {
@@ -342,16 +319,44 @@ private:
         }
         return count;
     }
-    /// Notes how much of the radii is due to uncertain inputs.
-    [[nodiscard]] std::vector<std::shared_ptr<response const>>
-    marked(std::size_t e, std::vector<std::shared_ptr<response const>> answers) const {
-        if (!flows_[e]->uncertain()) return answers;
-        for (auto& answer : answers) {
-            auto own = std::make_shared<response>(*answer);
-            own->lasting = lasting_[e];
-            answer = std::move(own);
+    /// Runs from the chosen starts, with inputs as recorded, over what no experiment refutes.
+    void run_chosen(run_pool::loan& runs, std::size_t e, std::vector<std::size_t> const& open,
+                    std::vector<assessment<knowledge>>& results,
+                    std::vector<std::shared_ptr<knowledge>> const& found) const {
+        auto const& all = problem_->experiments[e].initial;
+        bool const uncertain = flows_[e]->uncertain();
+        if (!uncertain && (is_point(all) || !starts_differ(e))) return;
+        std::vector<box> promising;
+        std::vector<std::size_t> whose;
+        for (auto const k : open) {
+            auto& answer = found[k]->all_starts[e];
+            if (uncertain) answer = found[k]->chosen_starts[e] = marked(e, answer);
+            auto part = results[k].rest;
+            auto const says = assess(*answer, part);
+            // Not worth a run where neither the box nor, later, parts of it might hold.
+            bool const sharp = answer->outputs() == answer->measurements &&
+                               says.sharpness <= options_.sharp_enough;
+            // Else starts that follow the parameters do as well, without a run.
+            bool const spoilt = uncertain || !options_.contract || says.blur > 0.25;
+            if (says.explained || says.refuted || !(says.may_hold || sharp) || !spoilt) continue;
+            promising.push_back(found[k]->region);
+            whose.push_back(k);
         }
-        return answers;
+        if (promising.empty()) return;
+        auto const chosen = uncertain ? recorded_pool_->borrow()(e, starts_[e], promising)
+                                      : runs(e, starts_[e], promising);
+        for (std::size_t n = 0; n < whose.size(); ++n) {
+            ++results[whose[n]].cost;
+            found[whose[n]]->chosen_starts[e] = chosen[n];
+        }
+    }
+    /// Notes how much of the radii is due to uncertain inputs.
+    [[nodiscard]] std::shared_ptr<response const>
+    marked(std::size_t e, std::shared_ptr<response const> answer) const {
+        if (!flows_[e]->uncertain()) return answer;
+        auto own = std::make_shared<response>(*answer);
+        own->lasting = (*lasting_[e])();
+        return own;
     }
     static bool same(box const& x, box const& y) { return subset(x, y) && subset(y, x); }
     static bool is_point(box const& x) {
@@ -384,8 +389,8 @@ private:
     std::vector<box> starts_;
     std::optional<box> left_;                                                 ///< of all parameters
     std::optional<std::pair<box, std::vector<assessment<knowledge>>>> first_; ///< learnt ahead
-    std::vector<std::shared_ptr<flow const>> recorded_; ///< `flows_`, without input errors
-    std::vector<std::vector<double>> lasting_;          ///< see `response`
+    std::vector<std::shared_ptr<flow const>> recorded_;   ///< `flows_`, without input errors
+    std::vector<std::unique_ptr<lasting_radii>> lasting_; ///< where inputs have errors
     std::unique_ptr<run_pool> pool_;
     std::unique_ptr<run_pool> recorded_pool_; ///< where inputs have errors
 };
