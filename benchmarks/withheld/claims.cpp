@@ -160,33 +160,28 @@ std::optional<double> base_inflation(label const& l, recording const& data,
     return most;
 }
 
-/// Noise that grows by no less than is said. It grows with what a fit shows, which is not what the
-/// truth does: a tenth more is no fault.
-void check_growth(label const& l, json const& part, judgement& j) {
-    auto const grows = member(part, "grows");
-    if (l.effects.size() != 1) return;
-    auto const& truth = l.effects.front();
-    auto const channel = text_of(member(part, "channel"));
-    auto const lower = number(member(grows, "coefficient"), 0);
-    auto const own = text_of(member(grows, "with")) == "rate" ? "jitter_" : "growing_";
-    if (!lower || truth.first != own + channel) return;
-    j.proof(*lower <= 1.1 * truth.second.at(0), "confined",
-            confined_text(part) + ", with its " + text_of(member(grows, "with")));
-}
-
 /// Bounds of a part that must grow by no less: neither the true constants nor the label's fit do
 /// with less.
 void check_confined(label const& l, recording const& data, json const& d, judgement& j) {
     auto const parts = member(member(d, "gap"), "confined");
     if (!j.absorbed) j.part_right = is_confined_to(l, data, parts.empty() ? json{} : parts.front());
     for (auto const& part : parts) {
-        check_growth(l, part, j);
         double const lower = number(member(part, "factor"), 0).value_or(0);
         auto const less = loosened(data, part, lower * (1 - 1e-3));
         for (auto const& values : {l.constants_true, l.values("best_fit")}) {
             auto const attained = base_inflation(l, less, values, false);
             j.proof(!attained || *attained > 1, "confined",
                     confined_text(part) + ", by less than " + short_text(lower));
+        }
+        auto const grows = member(part, "grows");
+        auto const least = number(member(grows, "coefficient"), 0);
+        if (!least || !(*least > 0)) continue;
+        auto const narrow = grown(data, part, *least * (1 - 1e-3));
+        for (auto const& values : {l.constants_true, l.values("best_fit")}) {
+            auto const attained = narrow ? base_inflation(l, *narrow, values, false) : std::nullopt;
+            j.proof(narrow && (!attained || *attained > 1), "confined",
+                    confined_text(part) + ", with less than " + short_text(*least) + " of its " +
+                        text_of(member(grows, "with")));
         }
     }
 }

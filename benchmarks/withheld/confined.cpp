@@ -2,9 +2,13 @@
 #include "confined.hpp"
 
 #include "reading.hpp"
+#include "simulate.hpp"
+#include "witness.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <set>
 
 namespace withheld {
 
@@ -21,6 +25,36 @@ recording loosened(recording data, json const& part, double factor) {
         if (!scenarios.empty() && !scenarios.contains(s.plan.name)) continue;
         for (auto& m : s.samples)
             if (channel.empty() || channel == channel_names[m.channel]) m.error *= factor;
+    }
+    return data;
+}
+
+std::optional<recording> grown(recording data, json const& part, double units) {
+    auto const grows = member(part, "grows");
+    bool const by_rate = text_of(member(grows, "with")) == "rate";
+    auto const shown = member(grows, "shown");
+    auto const channel = text_of(member(part, "channel"));
+    auto const fit = world_of(data, json{{"effects", json::array()}}, shown);
+    if (!fit) return std::nullopt;
+    for (auto& s : data.scenarios) {
+        auto w = *fit;
+        w.motor = s.plan.motor;
+        w.rudder = s.plan.rudder;
+        auto const& when = s.plan.sample_times;
+        auto const model = readings(w, start_of(s.plan, shown), when, careful_step);
+        std::set<std::size_t> measured;
+        for (auto const& m : s.samples)
+            if (channel == channel_names[m.channel]) measured.insert(m.time);
+        for (auto& m : s.samples) {
+            if (channel != channel_names[m.channel]) continue;
+            auto const at = [&](std::size_t i) { return model[i][m.channel]; };
+            auto const now = measured.find(m.time), after = std::next(now);
+            auto const from = now == measured.begin() ? *now : *std::prev(now);
+            auto const to = after == measured.end() ? *now : *after;
+            double const lasts = when[to] - when[from];
+            double const rate = lasts > 0 ? (at(to) - at(from)) / lasts : 0;
+            m.error += units * std::abs(by_rate ? rate : at(m.time));
+        }
     }
     return data;
 }

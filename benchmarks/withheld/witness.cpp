@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A cause that is proved to explain the data names parameters and starts that do. They are
 // simulated here, by other code than that which proved them.
+#include "witness.hpp"
 #include "catalogue.hpp"
 #include "confined.hpp"
 #include "instruments.hpp"
@@ -17,9 +18,6 @@
 
 namespace withheld {
 
-namespace {
-
-/// The model that the witness describes; nothing when a value is left open.
 std::optional<world> world_of(recording const& data, json const& cause, json const& witness) {
     world w;
     w.c = data.fixed;
@@ -64,6 +62,8 @@ channels start_of(scenario const& plan, json const& witness) {
     return start;
 }
 
+namespace {
+
 /// Effects that act in some scenarios only are none in the others, and begin and end where they are
 /// said to.
 void switch_off(world& w, json const& cause, std::string const& scenario) {
@@ -94,36 +94,6 @@ double inflation_at(recording const& data, world const& all, json const& cause, 
         most = std::max(most, inflation_of(missed, s.budget));
     }
     return most;
-}
-
-/// With bounds that grow with what a witness shows, or with its rate. They were stated for what
-/// another fit shows: a twentieth of it, and a fiftieth of the largest, is allowed besides.
-recording grown(recording data, json const& part, world const& all, json const& witness) {
-    auto const grows = member(part, "grows");
-    bool const by_rate = text_of(member(grows, "with")) == "rate";
-    double const upper = number(member(grows, "coefficient"), 1).value_or(0);
-    auto const channel = text_of(member(part, "channel"));
-    for (auto& s : data.scenarios) {
-        auto w = all;
-        w.motor = s.plan.motor;
-        w.rudder = s.plan.rudder;
-        auto const& when = s.plan.sample_times;
-        auto const model = readings(w, start_of(s.plan, witness), when, careful_step);
-        auto const size = [&](sample const& m) {
-            auto const from = m.time - (m.time > 0 ? 1 : 0);
-            auto const to = m.time + (m.time + 1 < when.size() ? 1 : 0);
-            auto const shown = [&](std::size_t i) { return model[i][m.channel]; };
-            return std::abs(by_rate ? (shown(to) - shown(from)) / (when[to] - when[from])
-                                    : shown(m.time));
-        };
-        double most = 0;
-        for (auto const& m : s.samples)
-            if (channel == channel_names[m.channel]) most = std::max(most, size(m));
-        for (auto& m : s.samples)
-            if (channel == channel_names[m.channel])
-                m.error += upper * (1.05 * size(m) + 0.02 * most);
-    }
-    return data;
 }
 
 /// Hold-out starts are nuisances; a value is comparable only where there is nothing to choose.
@@ -218,10 +188,12 @@ void check_witnesses(recording const& data, json const& diagnosis, judgement& j)
                 "confined", confined_text(part) + ", its witness");
         if (!member(part, "grows").is_object()) continue;
         auto const other = member(member(part, "grows"), "witness");
+        auto const upper = number(member(member(part, "grows"), "coefficient"), 1);
         base["witness"] = other;
         auto const there = world_of(data, base, other);
-        j.proof(there && within_priors(data, *there, base, other) &&
-                    inflation_at(grown(data, part, *there, other), *there, base, false) <= 1 + 1e-3,
+        auto const wider = grown(data, part, upper.value_or(0) * (1 + 1e-3));
+        j.proof(there && wider && within_priors(data, *there, base, other) &&
+                    inflation_at(*wider, *there, base, false) <= 1 + 1e-3,
                 "confined", confined_text(part) + ", the witness of what it grows with");
     }
 }

@@ -146,3 +146,23 @@ TEST_CASE("the instrument whose fault is the answer is the first place") {
     suspect_instrument(d);
     CHECK(d.where.size() == 4);
 }
+
+TEST_CASE("a channel whose noise grows is the first place where no effect explains") {
+    diagnosis d;
+    d.gap = gap_verdict::certified;
+    d.answer = answer_kind::unexplained;
+    d.confined = {{.channel = "y"}, {.channel = "v", .grows = noise_growth{}}};
+    d.where.resize(1);
+    d.where[0].kind = "equation";
+    d.where[0].name = "v";
+    suspect_instrument(d);
+    REQUIRE(d.where.size() == 2);
+    CHECK(d.where[0].kind + " " + d.where[0].name == "sensor v");
+    suspect_instrument(d);
+    CHECK(d.where.size() == 2);
+    d.answer = answer_kind::effects;
+    d.effects = {"wind"};
+    d.where = {d.where[1]};
+    suspect_instrument(d);
+    CHECK(d.where.size() == 1);
+}

@@ -202,34 +202,35 @@ inline void withdraw_contradictions(diagnosis& d,
     }
 }
 
-/// Where no place was found, and no effect: the channel that alone stands against the model. Where
-/// the answer is the fault of an instrument: this before all other places.
+/// Puts an instrument before all other places: the one whose fault is the answer, or, where no
+/// effect is, one whose noise grows. Where no place was found, the channel that alone stands
+/// against the model is one.
 inline void suspect_instrument(diagnosis& d) {
     if (d.gap == gap_verdict::none) return;
+    std::vector<std::string> suspects;
     suspected_place s;
     s.kind = "sensor";
     if (d.answer == answer_kind::effects) {
-        if (d.effects.size() != 1 || !names_sensor_fault(d.effects.front())) return;
-        auto const faulty = faulty_channels(d.effects.front());
-        auto const known = std::find_if(d.where.begin(), d.where.end(), [&](auto const& w) {
-            return w.kind == s.kind &&
-                   std::find(faulty.begin(), faulty.end(), w.name) != faulty.end();
+        if (d.effects.size() == 1 && names_sensor_fault(d.effects.front()))
+            suspects = faulty_channels(d.effects.front());
+    } else {
+        auto const alone = std::find_if(d.confined.begin(), d.confined.end(), [&](auto const& c) {
+            return !c.channel.empty() && (d.where.empty() || c.grows);
         });
-        s.name = faulty.front();
-        if (known == d.where.end())
-            d.where.insert(d.where.begin(), std::move(s));
-        else
-            std::rotate(d.where.begin(), known, known + 1);
-        return;
+        if (alone == d.confined.end()) return;
+        suspects = {alone->channel};
+        if (alone->scenarios.size() == 1) s.where.scenario = alone->scenarios.front();
     }
-    if (!d.where.empty()) return;
-    for (auto const& c : d.confined) {
-        if (c.channel.empty()) continue;
-        s.name = c.channel;
-        if (c.scenarios.size() == 1) s.where.scenario = c.scenarios.front();
-        d.where.push_back(std::move(s));
-        return;
-    }
+    if (suspects.empty()) return;
+    auto const known = std::find_if(d.where.begin(), d.where.end(), [&](auto const& w) {
+        return w.kind == s.kind &&
+               std::find(suspects.begin(), suspects.end(), w.name) != suspects.end();
+    });
+    s.name = suspects.front();
+    if (known == d.where.end())
+        d.where.insert(d.where.begin(), std::move(s));
+    else
+        std::rotate(d.where.begin(), known, known + 1);
 }
 
 /// Adds every assumption that a shown proof rests on to the list of all.
