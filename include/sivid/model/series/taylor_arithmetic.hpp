@@ -134,9 +134,9 @@ struct taylor_arithmetic {
 
     static decided_sign<mask> sign_of(value_type const& a) {
         auto values = rough_bounds(a); // decides as often as not, and costs nothing
-        if (!side_by_side::all((values.lower > C(0.0)) | (values.upper < C(0.0)))) {
-            values = bounds(a);
-        }
+        auto const decided = (values.lower > C(0.0)) | (values.upper < C(0.0));
+        bool const open = !side_by_side::all(decided) && a.degree() > 0;
+        if (open && !side_by_side::all(decided | changes_sign(a))) values = bounds(a);
         decided_sign<mask> s;
         s.positive = values.lower > C(0.0);
         s.negative = values.upper < C(0.0);
@@ -152,7 +152,10 @@ struct taylor_arithmetic {
         if (!side_by_side::any(side.neither)) return sure;
         return sivid::select(
             side.neither,
-            by_range([](interval const& x) { return interval_traits<interval>::abs(x); }, a), sure);
+            by_range(
+                side.neither, [](interval const& x) { return interval_traits<interval>::abs(x); },
+                a),
+            sure);
     }
     /// As a set: [-1, 1] where the argument touches 0.
     static value_type sign(value_type const& a) {
@@ -164,12 +167,14 @@ struct taylor_arithmetic {
         auto const side = sign_of(a - b);
         auto const sure = sivid::select(side.positive, b, a);
         if (!side_by_side::any(side.neither)) return sure;
-        return sivid::select(
-            side.neither,
-            by_range([](interval const& x,
-                        interval const& y) { return interval_traits<interval>::min(x, y); },
-                     a, b),
-            sure);
+        return sivid::select(side.neither,
+                             by_range(
+                                 side.neither,
+                                 [](interval const& x, interval const& y) {
+                                     return interval_traits<interval>::min(x, y);
+                                 },
+                                 a, b),
+                             sure);
     }
     static value_type max(value_type const& a, value_type const& b) { return -min(-a, -b); }
 
@@ -182,10 +187,21 @@ private:
             traits::div(traits::point(1.0), traits::point(static_cast<double>(k)), never);
         return {mid(x), rad(x)};
     }
-    /// A function of the arguments' ranges, lane by lane.
+    static interval range_in(value_bounds<C> const& values, std::size_t lane) {
+        double const lower = side_by_side::get(values.lower, lane);
+        double const upper = side_by_side::get(values.upper, lane);
+        bool const known = std::isfinite(lower) && std::isfinite(upper);
+        return known ? interval(lower, upper) : interval_traits<interval>::entire();
+    }
+    /// A function of the arguments' ranges in the wanted lanes; 0 in the others.
     template <class F, class... Models>
-    static value_type by_range(F const& f, Models const&... models) {
-        auto result = enclose_lanes([&](std::size_t l) { return f(range(lane_of(models, l))...); });
+    static value_type by_range(mask wanted, F const& f, Models const&... models) {
+        auto const of_values = [&](auto const&... values) {
+            return enclose_lanes([&](std::size_t l) {
+                return side_by_side::test(wanted, l) ? f(range_in(values, l)...) : interval(0.0);
+            });
+        };
+        auto result = of_values(bounds(models)...);
         result.give_up_when_huge(result.norms()[0]);
         return result;
     }

@@ -242,3 +242,46 @@ TEST_CASE("ranges of tiny and huge models") {
         }
     }
 }
+
+TEST_CASE("ranges of many variables: tops of squares inside of the box are contained") {
+    using model = sized_model<12, 2>;
+    draws d(21);
+    for (int trial = 0; trial < 30; ++trial) {
+        model a;
+        std::array<rational, 2> end{}; // of the sum of c q^2 + b q, by exact numbers
+        for (std::size_t v = 0; v < 12; ++v) {
+            double const c = d.coin() ? d.uniform(-2, 2) : 0.0, b = d.uniform(-3, 3);
+            auto const x = model::variable(v, 0, 1);
+            a = a + x * x * model::constant(c) + x * model::constant(b);
+            rational const at_end[2] = {rational(c) - rational(b), rational(c) + rational(b)};
+            rational lo = std::min(at_end[0], at_end[1]), hi = std::max(at_end[0], at_end[1]);
+            if (std::abs(b) < 2 * std::abs(c)) {
+                rational const top = -rational(b) * rational(b) / (4 * rational(c));
+                lo = std::min(lo, top);
+                hi = std::max(hi, top);
+            }
+            end[0] += lo;
+            end[1] += hi;
+        }
+        auto const values = range(a);
+        REQUIRE(contains_exactly(values, end[0]));
+        REQUIRE(contains_exactly(values, end[1]));
+    }
+}
+
+TEST_CASE("a polynomial that changes its sign at corners has a range of both signs") {
+    draws d(22);
+    int changes = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+        auto a = random_model<4, 3>(d, 1, 1, 0.1);
+        a.c(0) = d.uniform(-3, 3);
+        a.finish();
+        if (!changes_sign(a)) continue;
+        ++changes;
+        auto const values = range(a);
+        REQUIRE(values.lower() < 0);
+        REQUIRE(values.upper() > 0);
+    }
+    CHECK(changes > 20);
+    CHECK(changes < 200);
+}
