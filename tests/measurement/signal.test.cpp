@@ -142,3 +142,13 @@ TEST_CASE("error bounds that bound nothing are refused") {
         CHECK_THROWS_AS(make(bad), std::invalid_argument);
     }
 }
+
+TEST_CASE("a signal whose error bounds are all 0 is exact") {
+    auto const held = [](std::vector<double> errors) {
+        return sampled_signal({0, 1}, {0, 3}, interpolation::hold, std::move(errors));
+    };
+    CHECK(held({0, 0}).exact());
+    CHECK(held({0, 0}).errors().empty());
+    CHECK_FALSE(held({0, 1e-300}).exact());
+    CHECK(held({0, 0}).error_bound(1, 2) == 0);
+}

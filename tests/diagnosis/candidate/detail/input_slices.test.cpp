@@ -260,3 +260,18 @@ TEST_CASE("a switch lies within its slice whenever in it it goes on and off") {
     CHECK(open_time(0, 4, {interval(1, 2), interval(2.5, 3)}) == 1.5);
     CHECK(open_time(0, 4, {interval(1, 3), interval(2, 4)}) == 3);
 }
+
+TEST_CASE("an input that never changes is exact in every slice, so that states may rest") {
+    for (double const value : {0.0, 250.0}) {
+        for (auto const kind : {interpolation::linear, interpolation::hold}) {
+            sampled_signal const u({0, 0.5, 1, 1.5}, {value, value, value, value}, kind);
+            interval const delays(0.05, 0.2);
+            CHECK(delayed_within(u, 0, 2, delays).exact());
+            CHECK(lagged_within(u, 0, 2, 0.2, false).exact());
+        }
+        sampled_signal const u({0, 0.5, 1}, {value, value, value}, interpolation::linear);
+        auto const late = late_by_parameter(u, 0, 2, interval(0.05, 0.2));
+        CHECK(late.middle.exact());
+        for (double const slope : late.slope.values()) CHECK(slope == 0);
+    }
+}
