@@ -19,6 +19,9 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
                                  data_test_options const& test, std::size_t boxes) {
     if (data.empty() || run.candidates.empty()) return;
     auto const begin = std::chrono::steady_clock::now();
+    auto const elapsed = [begin] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    };
     // Whether effects of some scenarios act in the hold-out ones nobody knows.
     auto const& inputs = run.base.model.about.inputs;
     bool const answered =
@@ -45,10 +48,8 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
         search.seconds = (before ? 0.15 : 0.8) * seconds;
         search.work = (before ? boxes / 8 : boxes / 2) *
                       (run.base.experiments.size() + judged.experiments.size() + 1);
-        search.test = limited(test, [&test, begin, end = share * seconds] {
-            auto const now = std::chrono::steady_clock::now();
-            return std::chrono::duration<double>(now - begin).count() < end &&
-                   !test.run.enclosure.cancelled();
+        search.test = limited(test, [&test, elapsed, end = share * seconds] {
+            return elapsed() < end && !test.run.enclosure.cancelled();
         });
         return judge_by_holdout(candidate, bound, explaining, judged, over, search);
     };
@@ -61,6 +62,7 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
                 judge(run.candidates[run.answer], run.answer_bound, run.answer_hull, 1);
         }
     });
+    run.result.seconds += elapsed();
     if (!answered) return;
     auto const& before = *run.holdout_before;
     auto const& after = *run.holdout_after;
