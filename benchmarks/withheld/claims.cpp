@@ -166,23 +166,23 @@ void check_confined(label const& l, recording const& data, json const& d, judgem
     auto const parts = member(member(d, "gap"), "confined");
     if (!j.absorbed) j.part_right = is_confined_to(l, data, parts.empty() ? json{} : parts.front());
     for (auto const& part : parts) {
+        // Where a claim names nothing that it can be held to, it is false.
+        auto const refuses = [&](std::optional<recording> const& narrow, std::string const& what) {
+            for (auto const& values : {l.constants_true, l.values("best_fit")}) {
+                auto const attained =
+                    narrow ? base_inflation(l, *narrow, values, false) : std::nullopt;
+                j.proof(narrow && (!attained || *attained > 1), "confined",
+                        confined_text(part) + what);
+            }
+        };
         double const lower = number(member(part, "factor"), 0).value_or(0);
-        auto const less = loosened(data, part, lower * (1 - 1e-3));
-        for (auto const& values : {l.constants_true, l.values("best_fit")}) {
-            auto const attained = base_inflation(l, less, values, false);
-            j.proof(!attained || *attained > 1, "confined",
-                    confined_text(part) + ", by less than " + short_text(lower));
-        }
+        refuses(loosened(data, part, lower * (1 - 1e-3)), ", by less than " + short_text(lower));
         auto const grows = member(part, "grows");
         auto const least = number(member(grows, "coefficient"), 0);
         if (!least || !(*least > 0)) continue;
-        auto const narrow = grown(data, part, *least * (1 - 1e-3));
-        for (auto const& values : {l.constants_true, l.values("best_fit")}) {
-            auto const attained = narrow ? base_inflation(l, *narrow, values, false) : std::nullopt;
-            j.proof(narrow && (!attained || *attained > 1), "confined",
-                    confined_text(part) + ", with less than " + short_text(*least) + " of its " +
-                        text_of(member(grows, "with")));
-        }
+        refuses(grown(data, part, *least * (1 - 1e-3)), ", with less than " + short_text(*least) +
+                                                            " of its " +
+                                                            text_of(member(grows, "with")));
     }
 }
 

@@ -641,11 +641,29 @@ TEST_CASE("noise that grows, against the truth") {
             return kinds_of(j.false_proofs);
         };
         std::string const own = i == 0 ? "rate" : "value", other = i == 0 ? "value" : "rate";
-        CHECK(found(own, 0.2 * size, true).empty());
-        CHECK(found(own, 1.2 * size, true) == strings{"confined"}); // the truth does with less
-        CHECK(found(own, 0.2 * size, true, 1.05 * size).empty());
-        CHECK(found(own, 0.1 * size, true, 0.2 * size) == strings{"confined"}); // the witness
-        static_cast<void>(found(other, 0, false)); // it is not the right form
+        for (bool const right : {true, false}) {
+            // The least with which the truth meets its data.
+            bool const by_rate = (right ? own : other) == "rate";
+            double least = 0;
+            for (auto const& m : c.scenarios) {
+                if (m.plan.holdout) continue;
+                auto const& when = m.plan.sample_times;
+                for (std::size_t n = 0; n < when.size(); ++n) {
+                    auto const before = n > 0 ? n - 1 : n, after = std::min(n + 1, when.size() - 1);
+                    double const rate =
+                        (m.truth[after][k] - m.truth[before][k]) / (when[after] - when[before]);
+                    double const grows = std::abs(by_rate ? rate : m.truth[n][k]);
+                    double const off = std::abs(m.value[n][k] - m.truth[n][k]) - error_bound[k];
+                    if (off > 0) least = std::max(least, off / grows);
+                }
+            }
+            auto const& with = right ? own : other;
+            CAPTURE(i, with, size, least);
+            REQUIRE(least > 0);
+            CHECK(found(with, 0.98 * least, right, 1.02 * least).empty());
+            CHECK(found(with, 1.02 * least, right, 2 * least) == strings{"confined"});
+            CHECK(found(with, 0.5 * least, right, 0.98 * least) == strings{"confined"});
+        }
     }
 }
 

@@ -7,6 +7,7 @@
 #include <sivid/model/graph/tape.hpp>
 #include <sivid/model/series/series.hpp>
 #include <sivid/model/series/taylor_arithmetic.hpp>
+#include <sivid/number/pack/lanes.hpp>
 
 #include <algorithm>
 #include <array>
@@ -187,6 +188,52 @@ TEST_CASE("kinks and jumps of Taylor models are sets") {
     REQUIRE(support::holds(touching, {-1, 0}, mp(-1)));
     REQUIRE(support::holds(touching, {-1, 0}, mp(1)));
     REQUIRE(arithmetic::sign_of(model::variable(0, 1, 1)).neither);
+}
+
+TEST_CASE("kinks of many unknowns, side by side: some lanes are decided, others are sets") {
+    using many = lanes<8>;
+    using side_by_side = arithmetic_of<taylor_model<many>>;
+    auto const& single = model_shape<double>::of(9, 2); // more than 4096 Bernstein coefficients
+    draws d(104);
+    std::size_t mixed = 0;
+    for (int trial = 0; trial < 120; ++trial) {
+        double const bend = trial % 2 == 0 ? 1 : 1e-3; // nearly lines, too
+        auto const drawn = [&] {
+            taylor_model<many> result(model_shape<many>::of(9, 2));
+            for (std::size_t l = 0; l < 8; ++l) {
+                auto a = support::random_model(d, single, 1, 0.8, 0.2);
+                for (std::size_t i = 0; i < a.terms(); ++i) {
+                    if (a.space().degree_of(i) == 2) a.c(i) *= bend;
+                    if (i == 0) a.c(i) = d.coin() ? d.uniform(-2, 2) : d.uniform(-30, 30);
+                    lane_traits<many>::put(result.c(i), l, a.c(i));
+                }
+                lane_traits<many>::put(result.r(), l, a.r());
+            }
+            result.finish();
+            return result;
+        };
+        auto const a = drawn(), b = drawn();
+        auto const absolute = side_by_side::abs(a), least = side_by_side::min(a, b),
+                   most = side_by_side::max(a, b);
+        auto const side = side_by_side::sign_of(a);
+        auto const open = lane_traits<many>::any(side.neither);
+        mixed += open && !lane_traits<many>::all(side.neither) ? 1 : 0;
+        for (std::size_t l = 0; l < 8; ++l) {
+            auto const own = lane_of(a, l), other = lane_of(b, l);
+            for (int sample = 0; sample < 10; ++sample) {
+                auto q = support::short_point(d, 9);
+                if (sample < 5) // corners
+                    for (double& x : q) x = d.coin() ? 1 : -1;
+                auto const x = support::member<mp>(d, own, q), y = support::member<mp>(d, other, q);
+                REQUIRE(support::holds(lane_of(absolute, l), q, mp(abs(x)), 1e-40));
+                REQUIRE(support::holds(lane_of(least, l), q, support::real::min(x, y), 1e-40));
+                REQUIRE(support::holds(lane_of(most, l), q, support::real::max(x, y), 1e-40));
+                if (lane_traits<many>::test(side.positive, l)) REQUIRE(x > 0);
+                if (lane_traits<many>::test(side.negative, l)) REQUIRE(x < 0);
+            }
+        }
+    }
+    CHECK(mixed > 40);
 }
 
 TEST_CASE("products with constants, powers and quotients contain those of members") {

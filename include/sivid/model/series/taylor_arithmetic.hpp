@@ -135,7 +135,7 @@ struct taylor_arithmetic {
     static decided_sign<mask> sign_of(value_type const& a) {
         auto values = rough_bounds(a); // decides as often as not, and costs nothing
         auto const decided = (values.lower > C(0.0)) | (values.upper < C(0.0));
-        bool const open = !side_by_side::all(decided) && a.degree() > 0;
+        bool const open = !side_by_side::all(decided) && a.degree() > 1;
         if (open && !side_by_side::all(decided | changes_sign(a))) values = bounds(a);
         decided_sign<mask> s;
         s.positive = values.lower > C(0.0);

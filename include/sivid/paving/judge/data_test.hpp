@@ -75,8 +75,8 @@ public:
             lasting_.emplace_back();
             if (!flows_[e]->uncertain()) continue;
             if (!recorded_pool_) recorded_pool_ = pool_of(recorded_);
-            lasting_[e] = std::make_unique<lasting_radii>(
-                *flows_[e], problem, problem.experiments[e], records_[e], options.run);
+            lasting_[e] = std::make_unique<lasting_radii>(*flows_[e], problem.experiments[e],
+                                                          records_[e], problem.prior, options.run);
         }
     }
 

@@ -250,7 +250,7 @@ template <class C>
     // in each stage; the last two operations below add less than four units of it.
     double excess = (static_cast<double>(n * (2 * side + 8)) + 8) * model::unit;
     if (count > number_detail::most_tensor) {
-        // Of what is nearly a line the rough bounds are close, and a hundred times as cheap.
+        // Of what is nearly a line the rough bounds are close, and cost nothing.
         auto const bent = a.spread() - a.norms()[1];
         if (side_by_side::all(bent < (a.spread() + a.r()) * number_detail::nearly_line))
             return rough;
