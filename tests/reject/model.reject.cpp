@@ -2,8 +2,8 @@
 // A model must not branch on values: its functor is run once, on a scalar that has none.
 // reject 1: deleted
 // reject 2: deleted
-// reject 3: contextually convert|could not convert|not contextually convertible|no viable
-// conversion reject 4: cannot convert|no viable conversion
+// reject 3: contextually convert|could not convert|no viable conversion
+// reject 4: cannot convert|no viable conversion
 #include <sivid/model/expression.hpp>
 
 using sivid::expression;
