@@ -457,15 +457,16 @@ TEST_CASE("parametric flow: jumps of the right-hand side, as a differential incl
 
 namespace {
 
-/// The first time in (from, to] at which `crosses` holds, to the last digits; `to` where none.
-template <class Condition>
-extended first_time(extended from, extended to, Condition const& crosses) {
+/// The first time in (from, to] at which `room` is below 0, to the last digits; `to` where none.
+/// Its slope is `steepest` at most: it lasts for a while where there is much of it.
+template <class Room>
+extended first_time(extended from, extended to, Room const& room, extended steepest) {
     for (extended low = from; low < to;) {
-        extended high = std::min(low + 1e-3L, to);
-        if (crosses(high)) {
+        extended high = std::min(low + std::max(1e-3L, room(low) / steepest), to);
+        if (room(high) < 0) {
             for (int k = 0; k < 60; ++k) {
                 extended const middle = (low + high) / 2;
-                (crosses(middle) ? high : low) = middle;
+                (room(middle) < 0 ? high : low) = middle;
             }
             return high;
         }
@@ -482,15 +483,16 @@ extended_state block(extended end, extended x, extended v, extended mu, extended
         extended const push = a * std::sin(t);
         extended s = v > 0 ? 1 : v < 0 ? -1 : push > mu ? 1 : push < -mu ? -1 : 0;
         if (s == 0) {
-            t = first_time(t, end,
-                           [&](extended later) { return std::fabs(a * std::sin(later)) > mu; });
+            t = first_time(
+                t, end, [&](extended later) { return mu - std::fabs(a * std::sin(later)); },
+                std::fabs(a));
             continue;
         }
         auto const speed = [&](extended later) {
             return v - a * (std::cos(later) - std::cos(t)) - s * mu * (later - t);
         };
-        extended const stop =
-            first_time(t, end, [&](extended later) { return s * speed(later) < 0; });
+        extended const stop = first_time(
+            t, end, [&](extended later) { return s * speed(later); }, std::fabs(a) + mu);
         extended const h = stop - t;
         x += v * h - a * (std::sin(stop) - std::sin(t)) + a * std::cos(t) * h - s * mu * h * h / 2;
         v = stop < end ? 0 : speed(stop);
