@@ -263,7 +263,7 @@ TEST_CASE("check verifies what identify wrote, and refutes what was changed sinc
     temporary_folder const folder;
     auto const out = folder.path() / "out";
     REQUIRE(run({"identify", h3, "--out", out.string(), "--quiet", "--accuracy",
-                 support::swept("0.05", "0.02")})
+                 support::swept("0.1", "0.02")})
                 .code == 0);
     auto const check = [&](std::vector<std::string> more = {}) {
         more.insert(more.begin(), {"check", out.string(), "--sample", "6"});
@@ -800,10 +800,10 @@ TEST_CASE("design says that no experiment can, and refuses what it cannot read")
     std::vector<std::string> causes;
     for (auto const* effect : {"wind", "rudder_trim"}) {
         causes.push_back((about.path() / effect).string());
-        run({"identify", h3, "--with", effect, "--out", causes.back(), "--quiet", "--budget", "3"});
+        run({"identify", h3, "--with", effect, "--out", causes.back(), "--quiet", "--budget", "1"});
     }
     auto const same = run({"design", causes[0], "--against", causes[1], "--scenario", "S3",
-                           "--vary", "delta=-0.5:0.5", "--budget", "6", "--quiet"});
+                           "--vary", "delta=-0.5:0.5", "--budget", "3", "--quiet"});
     CHECK(same.code == 3);
     CHECK_THAT(same.out,
                ContainsSubstring("no proved experiment that tells wind from rudder_trim"));

@@ -24,7 +24,7 @@ TEST_CASE("from a robot's log to gains that are proved for all that it leaves", 
     auto const data = (folder.path() / "data").string(), out = (folder.path() / "out").string();
     auto const mapping = std::string{SIVID_SOURCE_DIR} + "/examples/own_robot/mapping.json";
     REQUIRE(support::run_program(IMPORT_PROGRAM, {mapping, "--out", data}).code == 0);
-    auto const found = run({data, "--out", out, "--budget", "20", "--quiet"});
+    auto const found = run({data, "--out", out, "--budget", "10", "--quiet"});
     CHECK_THAT(found.out, ContainsSubstring("dry_friction"));
     auto const result = out + "/model";
     REQUIRE(fs::exists(result + "/result.json"));
