@@ -63,6 +63,24 @@ TEST_CASE("a fit from a given point stays within the prior and improves on it") 
     CHECK(found.inflation < 1.2);
 }
 
+TEST_CASE("a rough look at a point misses little of the bounds") {
+    draws d(343);
+    for (std::size_t model = 0; model < support::planted_models; ++model) {
+        auto const planted = support::plant(d, model, {.experiments = 2, .samples = 15});
+        fitter fit(planted.problem);
+        for (auto const& parameters : {planted.truth, mid(planted.problem.prior)}) {
+            auto const starts = middles(planted.problem);
+            auto const rough = fit.roughly_at(parameters, starts);
+            auto const fine = fit.at(parameters, starts);
+            CHECK(rough.parameters == fine.parameters);
+            CHECK(rough.starts == fine.starts);
+            for (std::size_t e = 0; e < fine.residuals.size(); ++e)
+                for (std::size_t k = 0; k < fine.residuals[e].size(); ++k)
+                    CHECK_THAT(rough.residuals[e][k], WithinAbs(fine.residuals[e][k], 0.02));
+        }
+    }
+}
+
 TEST_CASE("data that nothing explains give a finite inflation above one") {
     draws d(343);
     auto planted = support::plant(d, 0, {});

@@ -68,3 +68,36 @@ TEST_CASE("what depends on constants alone is computed by prepare") {
         CHECK_THAT(memory[program.output(0)], WithinAbs(3 * std::exp(2 * p), 1e-9));
     }
 }
+
+TEST_CASE("divisions by one divisor are products, and mean the same") {
+    // By a constant, by what several divide by, by what one does; by 0, too.
+    auto const model =
+        support::model_of({2, 1}, [](auto const& t, auto const& x, auto const& p, auto const&) {
+            auto const s = sqr(x[1]);
+            return std::vector{x[0] / p[0], (x[0] + t) / p[0] / 3.0, x[0] / s, x[1] / s,
+                               t / x[0],    p[0] / (2 * p[0]),       1 / s};
+        });
+    plain_program const program(model.g, model.rate, {2, 0, 1});
+    auto memory = program.memory();
+    double const t = 0.3;
+    for (double const p : {0.9, -3.0}) {
+        memory[3] = p;
+        program.prepare(memory);
+        for (double const b : {0.7, -2.0, 0.0}) {
+            double const a = 1.7, s = b * b;
+            memory[0] = t;
+            memory[1] = a;
+            memory[2] = b;
+            program.run(memory);
+            double const expected[] = {a / p, (a + t) / p / 3, a / s, b / s, t / a, 0.5, 1 / s};
+            for (std::size_t k = 0; k < std::size(expected); ++k) {
+                CAPTURE(p, b, k);
+                double const found = memory[program.output(k)];
+                if (std::isfinite(expected[k]))
+                    CHECK_THAT(found, WithinAbs(expected[k], 1e-14 * (1 + std::abs(expected[k]))));
+                else
+                    CHECK_FALSE(std::isfinite(found));
+            }
+        }
+    }
+}

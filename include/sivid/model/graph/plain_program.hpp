@@ -2,11 +2,14 @@
 #ifndef SIVID_MODEL_GRAPH_PLAIN_PROGRAM_HPP
 #define SIVID_MODEL_GRAPH_PLAIN_PROGRAM_HPP
 
+#include <sivid/model/graph/detail/grouped_steps.hpp>
 #include <sivid/model/graph/graph.hpp>
 #include <sivid/model/graph/program.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 
 #include <cstddef>
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace sivid {
@@ -53,8 +56,13 @@ public:
             (varies ? varying : fixed)[k] = true;
         }
         auto const place = [&](std::size_t k) { return slots[k]; };
+        auto steps = program(g, varying, place, size).steps();
+        std::vector<bool> steady(size, false); // per slot
+        for (std::size_t k = 0; k < g.size(); ++k)
+            if (needed[k] && !varying[k] && !is_moving(g.nodes()[k].op)) steady[slots[k]] = true;
+        size = multiply_by_reciprocals(steps, steady, size);
         fixed_ = program(g, fixed, place, size);
-        varying_ = program(g, varying, place, size);
+        varying_ = grouped_steps(steps, size);
         for (auto const i : outputs) outputs_.push_back(slots[i]);
     }
 
@@ -64,15 +72,58 @@ public:
     /// Slot of an output.
     [[nodiscard]] std::size_t output(std::size_t k) const { return outputs_[k]; }
     /// After the constants have been written.
-    void prepare(std::vector<double>& memory) const { fixed_.run<arithmetic>(memory); }
+    void prepare(std::vector<double>& memory) const {
+        fixed_.run<arithmetic>(memory);
+        memory[one_] = 1;
+        for (auto const& [target, of] : reciprocals_) memory[target] = 1 / memory[of];
+    }
     /// After t, states and inputs have been written.
-    void run(std::vector<double>& memory) const { varying_.run<arithmetic>(memory); }
+    void run(std::vector<double>& memory) const { varying_.run(memory); }
 
 private:
     using arithmetic = approximate_arithmetic;
+    using slot = program::slot;
+
+    [[nodiscard]] static bool is_moving(operation op) {
+        return op == operation::time || op == operation::state || op == operation::input;
+    }
+    /// Divisions by what is steady, and by what several divide by, become products: a division
+    /// takes as long as four of them.
+    /// @returns  the size of the memory with the reciprocals
+    [[nodiscard]] std::size_t multiply_by_reciprocals(std::vector<program::step>& steps,
+                                                      std::vector<bool> const& steady,
+                                                      std::size_t size) {
+        std::map<slot, int> divided;
+        for (auto const& s : steps)
+            if (s.op == operation::div) ++divided[s.b];
+        std::map<slot, slot> reciprocal;
+        std::vector<program::step> result;
+        one_ = static_cast<slot>(size);
+        for (auto s : steps) {
+            if (s.op == operation::div && (steady[s.b] || divided[s.b] > 1)) {
+                auto const [at, is_new] = reciprocal.try_emplace(s.b, static_cast<slot>(size + 1));
+                if (is_new) {
+                    ++size;
+                    if (steady[s.b]) {
+                        reciprocals_.push_back({at->second, s.b});
+                    } else {
+                        result.push_back({operation::div, 0, at->second, one_, s.b});
+                    }
+                }
+                s.op = operation::mul;
+                s.b = at->second;
+            }
+            result.push_back(s);
+        }
+        steps = std::move(result);
+        return size + 1;
+    }
 
     program_shape shape_;
-    program fixed_, varying_;
+    program fixed_;
+    slot one_ = 0;                                   ///< where 1 is
+    std::vector<std::pair<slot, slot>> reciprocals_; ///< of what is fixed
+    grouped_steps varying_;
     std::vector<std::size_t> outputs_;
 };
 

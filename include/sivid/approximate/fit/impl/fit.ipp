@@ -48,12 +48,12 @@ public:
     }
 
     [[nodiscard]] approximate_fit at(std::vector<double> const& parameters,
-                                     std::vector<std::vector<double>> const& starts) {
+                                     std::vector<std::vector<double>> const& starts, bool roughly) {
         descent_point here;
         if (!descent(campaign_).evaluate(campaign_.variables(parameters, starts), here)) {
             return {};
         }
-        return finished(std::move(here));
+        return roughly ? as_descended(campaign_, std::move(here)) : finished(std::move(here));
     }
 
 private:
@@ -204,7 +204,8 @@ private:
         down.run(here, 2, {}, {20, 1e-3}, &best);
         squares_ = std::min(squares_, squares_of(here));
         if (best.inflation < 0.7) return best;
-        down.run(here, 8, {}, {6, 1e-2}, &best);
+        // Far from an explanation Chebyshev steps alone come as far.
+        if (best.inflation <= hopeless_inflation) down.run(here, 8, {}, {6, 1e-2}, &best);
         minimax(campaign_).run(best, sides());
         return best;
     }
@@ -245,7 +246,11 @@ SIVID_DECL approximate_fit fitter::operator()(fit_start const& start, fit_norm n
 }
 SIVID_DECL approximate_fit fitter::at(std::vector<double> const& parameters,
                                       std::vector<std::vector<double>> const& starts) {
-    return work_->at(parameters, starts);
+    return work_->at(parameters, starts, false);
+}
+SIVID_DECL approximate_fit fitter::roughly_at(std::vector<double> const& parameters,
+                                              std::vector<std::vector<double>> const& starts) {
+    return work_->at(parameters, starts, true);
 }
 
 } // namespace sivid

@@ -86,6 +86,7 @@ namespace sivid {
             parameters[j] = known->fit.parameters[k];
         }
     }
+    constexpr double roughly = 0.05; // of the bounds: what rough simulations may miss
     std::size_t const steps = open.size() == 1 ? 9 : 4;
     std::size_t count = 1;
     for (std::size_t k = 0; k < open.size(); ++k) count *= steps;
@@ -100,8 +101,9 @@ namespace sivid {
     };
     for (std::size_t n = 0; n < count; ++n) {
         go_to(n);
-        auto const here = descend.at(parameters, starts);
-        bool const sleeps = alike(here.residuals, reference);
+        auto const here = descend.roughly_at(parameters, starts);
+        bool const sleeps = alike(here.residuals, reference, roughly) &&
+                            alike(descend.at(parameters, starts).residuals, reference);
         silent = (n == 0 || silent) && sleeps;
         if (!sleeps && here.inflation < least_awake) {
             least_awake = here.inflation;
@@ -146,8 +148,9 @@ namespace sivid {
         }
     }
     if (!(found.inflation < best.inflation)) {
-        best.squares = found.squares; // the descent's, whose least inflation is no better
-        found = std::move(best);
+        auto const squares = found.squares; // the descent's, whose least inflation is no better
+        found = descend.at(from, starts);
+        found.squares = squares;
     }
     return many && !found.parameters.empty() ? fitter(full, go_on)({found.parameters, {}}) : found;
 }

@@ -133,7 +133,7 @@ private:
     [[nodiscard]] std::vector<double> awakened(fitter& at, double on, double off) const {
         if (effect_.parameters.size() != 1) return {};
         auto const misfit = [&](std::vector<double> const& parameters) {
-            auto const sums = squares_of(at.at(parameters, {}).residuals);
+            auto const sums = squares_of(at.roughly_at(parameters, {}).residuals);
             return std::accumulate(sums.begin(), sums.end(), 0.0);
         };
         double least = misfit(placed(always_, on, off));
@@ -338,7 +338,7 @@ private:
         auto const soft = thinned(softened(length), measurements);
         fitter at(soft, go_on_);
         auto const misfits = [&](std::vector<double> const& parameters) {
-            return squares_of(at.at(parameters, known_.starts).residuals);
+            return squares_of(at.roughly_at(parameters, known_.starts).residuals);
         };
         place_steps(misfits, 24, 1);
     }

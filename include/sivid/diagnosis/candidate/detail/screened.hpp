@@ -37,13 +37,13 @@ struct made_fit {
     bool cut_short = false; ///< ended before it was done
 };
 
-/// Whether the residuals of two fits are the same, but for rounding.
+/// Whether the residuals of two fits are the same, but for rounding, or but for so much.
 [[nodiscard]] inline bool alike(std::vector<std::vector<double>> const& a,
-                                std::vector<std::vector<double>> const& b) {
+                                std::vector<std::vector<double>> const& b, double but_for = 1e-5) {
     if (a.size() != b.size()) return false;
     for (std::size_t e = 0; e < a.size(); ++e) {
         for (std::size_t k = 0; k < a[e].size(); ++k) {
-            if (!(std::abs(a[e][k] - b[e][k]) < 1e-5)) return false;
+            if (!(std::abs(a[e][k] - b[e][k]) < but_for)) return false;
         }
     }
     return true;

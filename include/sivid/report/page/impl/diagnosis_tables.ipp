@@ -81,10 +81,12 @@ SIVID_DECL table summary_table(diagnosis_view const& v) {
         excluded += !c.effects.empty() && c.state == candidate_state::excluded ? 1 : 0;
     }
     std::string const all = tried_text(v);
-    std::string const count = tried == 0
-                                  ? ""
-                                  : "; " + count_text(excluded) + " of the " + count_text(tried) +
-                                        " candidates tried are excluded (proved)";
+    bool const beyond = tried > v.singles.planned + v.pairs.planned + v.larger.planned;
+    std::string const count =
+        tried == 0
+            ? ""
+            : "; " + count_text(excluded) + " of the " + count_text(tried) + " candidates tried" +
+                  (beyond ? ", those beyond the plan among them," : "") + " are excluded (proved)";
     if (v.answer == answer_state::effects && !v.effects.empty()) {
         add("Effect", answer_clause(v) + count + (v.interrupted && !all.empty() ? "; " + all : ""));
     } else if (v.answer == answer_state::unexplained) {
