@@ -50,7 +50,8 @@ inline void write_identified_model(sivid::identification_problem const& problem,
                                    std::string const& command, progress_line& progress) {
     namespace report = sivid::report;
     if (problem.model.has_memory()) {
-        std::cout << "  ranges of its parameters: not proved, the model has a delay or a play\n";
+        std::cout << "  ranges of its parameters: not proved, the model has a delay, a play or a "
+                     "rate limit\n";
         return;
     }
     if (sivid::starts_follow_parameters(problem)) {

@@ -43,6 +43,7 @@
 #include <sivid/space/linear_program/minimax_lp.hpp>
 #include <sivid/space/matrix.hpp>
 #include <sivid/measurement/error_bound.hpp>
+#include <sivid/measurement/limited_signal.hpp>
 #include <sivid/measurement/played_signal.hpp>
 #include <sivid/measurement/quantisation.hpp>
 #include <sivid/measurement/record.hpp>

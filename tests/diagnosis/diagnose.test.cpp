@@ -203,6 +203,24 @@ TEST_CASE("backlash is found, its gap is bounded, and its witness verified") {
     }
 }
 
+TEST_CASE("a rate limit is found, bounded, and its witness verified") {
+    using namespace sivid::literals;
+    auto catalogue = small_campaign::catalogue();
+    catalogue.push_back(effects::input_rate_limit("slow_servo", "u", "N/s", {0.25_dec, 4_dec}));
+    auto const d =
+        diagnose(small_campaign::problem(small_campaign::with_rate_limit(0.8)), catalogue, {});
+    for (auto const& c : find_contradictions(d.result)) FAIL_CHECK(c.claim + ": " + c.reason);
+    CHECK(d.result.gap == gap_verdict::certified);
+    REQUIRE(d.result.effects == names{"slow_servo"});
+    auto const& cause = d.result.causes.front();
+    CHECK(cause.verdict == cause_verdict::explains);
+    CHECK(cause.assumptions.empty());
+    REQUIRE(cause.parameters.size() == 1);
+    REQUIRE(cause.parameters[0].hull);
+    CHECK(contains(*cause.parameters[0].hull, 0.8));
+    CHECK(cause.parameters[0].hull->upper() < 2);
+}
+
 TEST_CASE("instruments that drift, are askew, clip or are mixed up are named") {
     using namespace sivid::literals;
     std::vector<effect> const instruments{

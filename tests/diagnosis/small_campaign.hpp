@@ -55,6 +55,7 @@ struct truth {
     std::function<double(double)> seen_position = [](double p) { return p; };
     double delay = 0; ///< of the input
     double play = 0;  ///< half of a gap behind it
+    double limit = 0; ///< of its rate [N/s]; 0: none
     int every = 100;  ///< milliseconds from one measurement to the next
     sivid::interpolation between = sivid::interpolation::linear; ///< samples of the input
 };
@@ -75,14 +76,17 @@ inline sivid::experiment experiment(std::size_t e, truth const& real) {
     result.initial = sivid::box{interval(0.0), interval(v0)};
     double p = 0, v = v0;
     double const h = 1e-3;
-    std::vector<double> behind{u.approximate(0)}; // the play, every half step
+    std::vector<double> behind{u.approximate(0)}; // the play or the limit, every half step
     for (int k = 1; k <= 8000; ++k) {
         double const now = u.approximate(k * h / 2);
-        behind.push_back(std::clamp(behind.back(), now - real.play, now + real.play));
+        double const most = real.limit * h / 2;
+        behind.push_back(real.limit > 0
+                             ? std::clamp(now, behind.back() - most, behind.back() + most)
+                             : std::clamp(behind.back(), now - real.play, now + real.play));
     }
     auto const rate = [&](double t, double w) {
         double const late = std::max(0.0, t - real.delay);
-        double const force = real.play > 0
+        double const force = real.play > 0 || real.limit > 0
                                  ? behind[static_cast<std::size_t>(std::lround(2 * late / h))]
                                  : u.approximate(late);
         return real.k * force - w / 4 + real.missing(t, w, force);

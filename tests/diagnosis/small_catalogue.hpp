@@ -45,6 +45,12 @@ inline truth with_play(double b) {
     return t;
 }
 
+inline truth with_rate_limit(double limit) {
+    truth t;
+    t.limit = limit;
+    return t;
+}
+
 } // namespace small_campaign
 
 #endif

@@ -135,4 +135,8 @@ TEST_CASE("states of effects, delays and plays are described") {
     m.input_memory[0].kind = memory_kind::play;
     auto const behind = describe(m);
     CHECK(behind.find("input w", behind.find("plays")) != std::string::npos);
+    m.input_memory[0].kind = memory_kind::rate_limit;
+    auto const slow = describe(m);
+    CHECK(slow.find("plays") == std::string::npos);
+    CHECK(slow.find("input w", slow.find("rate limits")) != std::string::npos);
 }

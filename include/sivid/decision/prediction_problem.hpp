@@ -78,7 +78,8 @@ struct prediction_problem {
             });
         };
         if (model.has_memory())
-            fail("the model has a delay or a play of unknown size, which cannot be enclosed; leave "
+            fail("the model has a delay, a play or a rate limit of unknown size, which cannot be "
+                 "enclosed; leave "
                  "the effect out");
         if (!(end > 0) || !std::isfinite(end)) fail("the duration must be above 0 and finite");
         if (sets.empty()) fail("no parameters are left to predict for");

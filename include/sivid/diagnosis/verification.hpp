@@ -32,7 +32,7 @@ namespace sivid {
                                                   data_test_options const& options = {}) {
     verified_inflation result;
     if (guess.parameters.size() != problem.prior.size()) return result;
-    if (plays_with_formulas(problem)) return result; // nothing is known
+    if (remembers_formulas(problem)) return result; // nothing is known
     auto at = problem;
     bool uncertain = false;
     for (auto& e : at.experiments) {

@@ -74,7 +74,7 @@ struct effect {
     /// has a switch, an input of its name that is 1 where it acts and else 0.
     std::vector<std::string> only_in{};
     /// When it begins in each of these [s], from then on it acts; none: at their start. An effect
-    /// with a delay, a play or a state of its own acts from start to end.
+    /// with a delay, a play, a rate limit or a state of its own acts from start to end.
     std::vector<double> since{};
     /// When it ends in each of these [s], from then on it does not act; none: never.
     std::vector<double> until{};
@@ -123,6 +123,8 @@ public:
                          expression const& at_begin);
     /// The model sees the input behind a play, whose half-width is the effect's k-th parameter.
     void play_input(std::string const& name, std::size_t k = 0);
+    /// The model sees the input behind a rate limit, which is the effect's k-th parameter.
+    void limit_input_rate(std::string const& name, std::size_t k = 0);
     /// The model sees the input late, by the effect's k-th parameter.
     void delay_input(std::string const& name, std::size_t k = 0);
     /// The channel shows the past, by the effect's k-th parameter.
@@ -180,10 +182,11 @@ private:
 /// A model with effects. Their parameters become constants `<effect>.<parameter>`, nominal at the
 /// neutral value; states that they add, and switches of those that act in some experiments only,
 /// stand behind the model's own states and inputs.
-///   Where its switch is 0 an effect leaves no trace: it sees its neutral values; delays and plays
-///   do not act (`acts_in`); states of its own go on, and nothing sees them.
+///   Where its switch is 0 an effect leaves no trace: it sees its neutral values; delays, plays and
+///   rate limits do not act (`acts_in`); states of its own go on, and nothing sees them.
 /// @throws std::invalid_argument when an effect names what the model lacks, or stands twice, or
-///         begins or ends within an experiment and has a delay, a play or a state of its own
+///         begins or ends within an experiment and has a delay, a play, a rate limit or a state of
+///         its own, or for two rate limits of one input
 [[nodiscard]] SIVID_DECL recorded_model with(recorded_model const& base,
                                              std::vector<effect> effects);
 

@@ -33,6 +33,11 @@ SIVID_DECL effect input_dead_band(std::string const& name, std::string const& in
 /// acts on the input as recorded, before other effects on it.
 SIVID_DECL effect input_backlash(std::string const& name, std::string const& input,
                                  std::string const& unit, range const& b);
+/// Behind a rate limit R: what follows the input moves by R a second at most, and is u where it has
+/// caught up (`rate_limited`). It acts on the input as recorded, before other effects on it.
+/// @param R  above 0; at its upper end, which belongs above all that u does, the effect vanishes
+SIVID_DECL effect input_rate_limit(std::string const& name, std::string const& input,
+                                   std::string const& unit, range const& R);
 /// First-order lag: d' = (u - d)/tau replaces u. tau = 0 is a limit, where the right-hand side is
 /// not defined.
 /// @param limit  of |d|, in the unit of the input

@@ -225,12 +225,13 @@ struct model_description {
 };
 
 enum class memory_kind {
-    delay, ///< by so much time [s]
-    play   ///< of this half-width, in the unit of the input (see measurement/played_signal.hpp)
+    delay,     ///< by so much time [s]
+    play,      ///< of this half-width, in the unit of the input (see measurement/played_signal.hpp)
+    rate_limit ///< of this size, in that unit per second (see measurement/limited_signal.hpp)
 };
 
 /// What depends on the past, which no graph in t, x, c, u can express: an input that acts late or
-/// behind a play, or a channel that is seen late.
+/// behind a play or a rate limit, or a channel that is seen late.
 struct signal_memory {
     std::size_t index = 0;    ///< of the input or channel
     std::size_t constant = 0; ///< of its size among the model's constants, at least 0

@@ -38,7 +38,7 @@ struct divisor_options {
 /// states within their own limits, times and inputs within the range of the records. A trajectory
 /// on which a divisor vanishes ends there, and over boxes of parameters and states in which one
 /// does no trajectory is enclosed; for an implicit model, those are where its matrix is singular.
-/// @returns  those that depend on anything; nothing for models with delays or plays
+/// @returns  those that depend on anything; nothing for models with delays, plays or rate limits
 /// @cost  microseconds a box
 [[nodiscard]] SIVID_DECL std::vector<divisor> divisors_of(identification_problem const& problem,
                                                           divisor_options const& options = {});

@@ -29,7 +29,7 @@ TEST_CASE("the mesh follows an unknown delay of input and channel") {
     CHECK(mesh.slope(0, 0) == 0);
     CHECK_FALSE(mesh.jumps());
     mesh.place({0.25, 0.75});
-    CHECK(mesh.slope_by(memory_kind::delay, 1, 0) == -mesh.slope(1, 0));
+    CHECK(mesh.slope_by(memory_kind::delay, 1, 0, mesh.time(1)) == -mesh.slope(1, 0));
     mesh.place({0, 0});
     CHECK(mesh.time(1) == 0.5);
     CHECK(mesh.observed(1) == std::vector<std::size_t>{0});
@@ -50,7 +50,7 @@ TEST_CASE("the mesh follows an unknown play, of a record and of a formula, late 
     std::vector<double> times, slopes;
     for (std::size_t k = 0; k <= mesh.pieces(); ++k) times.push_back(mesh.time(k));
     for (std::size_t k = 0; k < mesh.pieces(); ++k)
-        slopes.push_back(mesh.slope_by(memory_kind::play, k, 0));
+        slopes.push_back(mesh.slope_by(memory_kind::play, k, 0, mesh.time(k)));
     CHECK(times == std::vector<double>{0, 0.25, 1, 1.5, 2});
     CHECK(slopes == std::vector<double>{0, -1, -1, 1});
     CHECK_THAT(mesh.input(2, 0, 1.25), WithinAbs(0.75, 1e-12));

@@ -57,8 +57,29 @@ TEST_CASE("resolving a play puts the recorded input behind it, late or not") {
     // Of a formula nothing is known behind a play.
     auto formula = p;
     formula.experiments[1].inputs[0] = analytic_signal::from([](auto const& t) { return sin(t); });
-    CHECK(plays_with_formulas(formula));
+    CHECK(remembers_formulas(formula));
     CHECK_THROWS_AS(resolve_memory(formula, {1.25, 0.125, 0.25}), std::invalid_argument);
+}
+
+TEST_CASE("resolving a rate limit puts the recorded input behind it, before a play and a delay") {
+    std::vector<effect> all{effects::input_delay("late", "u", {0_dec, 0.5_dec}),
+                            effects::input_backlash("gap", "u", "N", {0_dec, 0.5_dec}),
+                            effects::input_rate_limit("slow", "u", "N/s", {0.25_dec, 4_dec})};
+    auto const p = affected(small_campaign::problem(), all);
+    auto const r = resolve_memory(p, {1.25, 0.25, 0.125, 0.75});
+    CHECK(r.kept == std::vector<std::size_t>{0});
+    auto const& e = p.experiments[0];
+    auto const slow =
+        rate_limited(std::get<sampled_signal>(e.inputs[0]), 0, 4, interval(0.75)).within;
+    auto const alone = played(slow, 0, 4, interval(0.125)).within;
+    auto const& u = std::get<sampled_signal>(r.problem.experiments[0].inputs[0]);
+    for (double t = 0; t < 4; t += 0.0625)
+        CHECK(std::abs(u.approximate(t) - alone.approximate(std::max(0.0, t - 0.25))) < 1e-12);
+    CHECK_THROWS_AS(resolve_memory(p, {1.25, 0.25, 0.125, 0.0}), std::invalid_argument);
+    CHECK_THROWS_AS(affected(small_campaign::problem(),
+                             {effects::input_rate_limit("a", "u", "N/s", {1_dec, 4_dec}),
+                              effects::input_rate_limit("b", "u", "N/s", {1_dec, 4_dec})}),
+                    std::invalid_argument);
 }
 
 TEST_CASE("resolving delays moves signals and measurements and drops the unknowns") {

@@ -21,7 +21,8 @@ struct plain_derivative {
     std::size_t slot = 0; ///< of its value in the program's memory
 };
 
-/// A delay or play of an input, or a delay of a channel: of an unknown size or of a known one.
+/// A delay, play or rate limit of an input, or a delay of a channel: of an unknown size or of a
+/// known one.
 struct plain_memory {
     std::size_t index = 0;     ///< of the input or channel
     bool unknown = false;      ///< whether `parameter` is its size, else `size`

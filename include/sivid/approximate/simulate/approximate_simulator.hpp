@@ -182,7 +182,7 @@ private:
             for (auto const& e : f.by_input) {
                 if (e.row != request.channel || e.column != d.index) continue;
                 if (c == sensitivity_layout::none) continue;
-                row[c] += memory[e.slot] * mesh_.slope_by(d.kind, rate_.piece(), d.index);
+                row[c] += memory[e.slot] * mesh_.slope_by(d.kind, rate_.piece(), d.index, t);
             }
         }
         for (auto const& d : model().channel_delays()) {

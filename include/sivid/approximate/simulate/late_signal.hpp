@@ -2,6 +2,7 @@
 #ifndef SIVID_APPROXIMATE_SIMULATE_LATE_SIGNAL_HPP
 #define SIVID_APPROXIMATE_SIMULATE_LATE_SIGNAL_HPP
 
+#include <sivid/measurement/limited_signal.hpp>
 #include <sivid/measurement/played_signal.hpp>
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/graph/plain_program.hpp>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -36,8 +38,11 @@ public:
     [[nodiscard]] bool jumps() const {
         return !is_formula_ && samples_.kind() == interpolation::hold;
     }
-    /// From now on the input behind a play of this half-width, until `end`.
-    void play(double half_width, double end) {
+    static constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+    /// From now on the input behind this rate limit, then behind a play of this half-width, if
+    /// there is one, until `end`.
+    void remember(double rate_limit, std::optional<double> half_width, double end) {
         if (is_formula_) {
             std::vector<double> times, values;
             for (int k = 0; k <= fine; ++k) {
@@ -49,7 +54,14 @@ public:
             is_formula_ = false;
         }
         if (!recorded_) recorded_ = samples_;
-        auto behind = played(recorded_->nominal(), begin_, end, interval(half_width));
+        samples_ = recorded_->nominal();
+        by_play_.clear();
+        if (rate_limit < no_limit) {
+            limited_ = rate_limited(samples_, begin_, end, interval(rate_limit));
+            samples_ = limited_.within.nominal();
+        }
+        if (!half_width) return;
+        auto behind = played(samples_, begin_, end, interval(*half_width));
         samples_ = std::move(behind.within);
         by_play_ = std::move(behind.slope_by_width);
     }
@@ -69,9 +81,10 @@ public:
         }
     }
 
-    /// A straight piece: value at its begin, slope, and slope by the half-width of a play.
+    /// A straight piece: value at its begin and slope; slope by the half-width of a play; slope by
+    /// a rate limit at its begin (behind a play: of what comes before), and its change per second.
     struct line {
-        double value = 0, slope = 0, by_play = 0;
+        double value = 0, slope = 0, by_play = 0, by_limit = 0, limit_change = 0;
     };
     /// On (from, to), between neighbouring knots.
     [[nodiscard]] line on(double delay, double from, double to) {
@@ -84,7 +97,15 @@ public:
         auto const k = samples_.piece(middle);
         double const a = samples_.approximate_on(k, from - delay);
         double const b = samples_.approximate_on(k, to - delay);
-        return {a, to > from ? (b - a) / (to - from) : 0, k < by_play_.size() ? by_play_[k] : 0};
+        line result{a, to > from ? (b - a) / (to - from) : 0};
+        if (k < by_play_.size()) result.by_play = by_play_[k];
+        if (!limited_.slope_change.empty()) {
+            auto const j = limited_.within.piece(middle);
+            result.limit_change = limited_.slope_change[j];
+            result.by_limit = limited_.slope_by_limit[j] +
+                              result.limit_change * (from - delay - limited_.within.times()[j]);
+        }
+        return result;
     }
     /// At one time; after a jump.
     [[nodiscard]] double at(double delay, double t) {
@@ -100,8 +121,9 @@ public:
 private:
     double begin_;
     sampled_signal samples_;
-    std::optional<sampled_signal> recorded_; ///< before the play
-    std::vector<double> by_play_;            ///< slopes by its half-width, by piece
+    std::optional<sampled_signal> recorded_; ///< before the limit and the play
+    limited_signal limited_;
+    std::vector<double> by_play_; ///< slopes by its half-width, by piece
     plain_program formula_;
     std::vector<double> memory_;
     bool is_formula_ = false;

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -20,8 +22,8 @@ struct output_request {
 };
 
 /// The times at which a simulation has to stop: knots of the inputs (late ones where the delay puts
-/// them, those of a play where it turns), of disturbances, and the times at which the requested
-/// outputs are looked at. Between neighbours every input is a straight line.
+/// them, those of a play or a rate limit where it turns), of disturbances, and the times at which
+/// the requested outputs are looked at. Between neighbours every input is a straight line.
 class simulation_mesh {
 public:
     simulation_mesh(approximate_model const& model, std::vector<signal> const& inputs, double begin,
@@ -30,6 +32,7 @@ public:
         for (auto const& u : inputs) signals_.emplace_back(u, begin);
         input_delay_.assign(inputs.size(), 0.0);
         play_.assign(inputs.size(), 0.0);
+        limit_.assign(inputs.size(), late_signal::no_limit);
         channel_delay_.assign(model.channels(), 0.0);
         for (auto const i : model.used_inputs()) jumps_ = jumps_ || signals_[i].jumps();
         for (auto const* list : {&model.input_memory(), &model.channel_delays()}) {
@@ -53,12 +56,28 @@ public:
         set(input_delay_, model_->input_memory(), memory_kind::delay);
         set(channel_delay_, model_->channel_delays(), memory_kind::delay);
         set(play_, model_->input_memory(), memory_kind::play);
+        for (auto const& m : model_->input_memory()) {
+            if (m.kind != memory_kind::rate_limit) continue;
+            double const now = std::max(std::numeric_limits<double>::min(), m.value(parameters));
+            moved = moved || std::exchange(limit_[m.index], now) != now;
+        }
         if (!moved) return;
         double end = begin_;
         for (auto const& r : requests_) end = std::max(end, r.time);
         if (requests_.empty() && !knots_.empty()) end = std::max(end, knots_.back());
+        std::vector<bool> remembered(signals_.size(), false);
         for (auto const& m : model_->input_memory()) {
-            if (m.kind == memory_kind::play) signals_[m.index].play(play_[m.index], end);
+            auto const i = m.index;
+            if (m.kind == memory_kind::delay || remembered[i]) continue;
+            auto const plays = [i](plain_memory const& other) {
+                return other.index == i && other.kind == memory_kind::play;
+            };
+            auto const& all = model_->input_memory();
+            signals_[i].remember(
+                limit_[i],
+                std::any_of(all.begin(), all.end(), plays) ? std::optional(play_[i]) : std::nullopt,
+                end);
+            remembered[i] = true;
         }
         times_ = {begin_, end};
         auto const within = [&](double t) {
@@ -109,8 +128,11 @@ public:
         return lines_[k * signals_.size() + i].slope;
     }
     /// Slope of the input by the size of a memory of this kind.
-    [[nodiscard]] double slope_by(memory_kind kind, std::size_t k, std::size_t i) const {
-        return kind == memory_kind::play ? lines_[k * signals_.size() + i].by_play : -slope(k, i);
+    [[nodiscard]] double slope_by(memory_kind kind, std::size_t k, std::size_t i, double t) const {
+        auto const& l = lines_[k * signals_.size() + i];
+        return kind == memory_kind::play         ? l.by_play
+               : kind == memory_kind::rate_limit ? l.by_limit + l.limit_change * (t - times_[k])
+                                                 : -l.slope;
     }
     /// Whether some input jumps between its pieces.
     [[nodiscard]] bool jumps() const { return jumps_; }
@@ -126,7 +148,7 @@ private:
     std::vector<output_request> requests_;
     std::vector<double> knots_;
     std::vector<late_signal> signals_;
-    std::vector<double> input_delay_, play_, channel_delay_, times_;
+    std::vector<double> input_delay_, play_, limit_, channel_delay_, times_;
     std::vector<std::vector<std::size_t>> observed_;
     std::vector<late_signal::line> lines_; ///< [piece * inputs + input]
     bool jumps_ = false, moves_ = false;

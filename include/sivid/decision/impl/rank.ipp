@@ -315,8 +315,9 @@ SIVID_DECL ranking rank(identification_problem const& problem, rank_options cons
     auto const begin = std::chrono::steady_clock::now();
     problem.require_valid();
     if (problem.model.has_memory())
-        throw std::invalid_argument("rank: the model has a delay or a play of unknown size, which "
-                                    "cannot be enclosed; leave the effect out");
+        throw std::invalid_argument(
+            "rank: the model has a delay, a play or a rate limit of unknown size, which "
+            "cannot be enclosed; leave the effect out");
     for (auto const& e : problem.experiments) {
         for (auto const& a : problem.model.added_states) {
             if (width(e.initial[a.state]) > 0)

@@ -2,6 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_CANDIDATE_RESOLVE_MEMORY_HPP
 #define SIVID_DIAGNOSIS_CANDIDATE_RESOLVE_MEMORY_HPP
 
+#include <sivid/measurement/limited_signal.hpp>
 #include <sivid/measurement/played_signal.hpp>
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/problem.hpp>
@@ -51,16 +52,25 @@ namespace sivid {
     return sampled_signal(std::move(times), std::move(values), sampled.kind(), std::move(errors));
 }
 
-/// A problem at one value of its delays and plays, in which no signal has a memory any more.
+/// A problem at one value of its delays, plays and rate limits, in which no signal has a memory any
+/// more.
 struct memory_resolved {
     identification_problem problem; ///< without their sizes among its unknowns
     std::vector<std::size_t> kept;  ///< its parameters, by index in the original problem
 };
 
-/// Whether some input that is a formula is behind a play: only recorded ones can be resolved.
-[[nodiscard]] inline bool plays_with_formulas(identification_problem const& problem) {
+/// A recorded input behind a play or a rate limit of any size in a range.
+[[nodiscard]] inline sampled_signal resolved_input(sampled_signal const& u, memory_kind kind,
+                                                   experiment const& x, interval const& size) {
+    return kind == memory_kind::play ? played(u, x.begin, x.end(), size).within
+                                     : rate_limited(u, x.begin, x.end(), size).within;
+}
+
+/// Whether some input that is a formula is behind a play or a rate limit: only recorded ones can be
+/// resolved.
+[[nodiscard]] inline bool remembers_formulas(identification_problem const& problem) {
     for (auto const& d : problem.model.input_memory) {
-        if (d.kind != memory_kind::play) continue;
+        if (d.kind == memory_kind::delay) continue;
         for (auto const& e : problem.experiments) {
             bool const formula = std::holds_alternative<analytic_signal>(e.inputs[d.index]);
             if (formula && acts_in(d, e.inputs)) return true;
@@ -69,13 +79,15 @@ struct memory_resolved {
     return false;
 }
 
-/// Fixes delays and plays at the values in `parameters`, moves inputs and measurements accordingly,
-/// and puts inputs behind their plays, with errors that cover the roundings.
+/// Fixes delays, plays and rate limits at the values in `parameters`, moves inputs and measurements
+/// accordingly, and puts inputs behind their limits, then behind their plays, with errors that
+/// cover the roundings.
 ///   Times that a delay moves are rounded to the nearest double; everything else is exact.
-/// @throws std::invalid_argument for a negative size, and for a play of a formula
+/// @throws std::invalid_argument for a negative size, and for a play or a rate limit of a formula
 [[nodiscard]] inline memory_resolved resolve_memory(identification_problem const& original,
                                                     std::vector<double> const& parameters) {
-    if (plays_with_formulas(original)) throw std::invalid_argument("a play needs a recorded input");
+    if (remembers_formulas(original))
+        throw std::invalid_argument("a play or a rate limit needs a recorded input");
     memory_resolved result{original, {}};
     auto& problem = result.problem;
     auto& model = problem.model;
@@ -93,13 +105,15 @@ struct memory_resolved {
     };
     std::vector<bool> is_size(model.about.constants.size(), false);
     for (auto& e : problem.experiments) {
-        for (auto const& d : model.input_memory) {
-            if (!acts_in(d, e.inputs)) continue;
-            auto& u = e.inputs[d.index];
-            double const size = value_of(d);
-            u = d.kind == memory_kind::play
-                    ? played(std::get<sampled_signal>(u), e.begin, e.end(), interval(size)).within
-                    : delayed(u, size, e.begin);
+        for (auto const kind : {memory_kind::rate_limit, memory_kind::play, memory_kind::delay}) {
+            for (auto const& d : model.input_memory) {
+                if (d.kind != kind || !acts_in(d, e.inputs)) continue;
+                auto& u = e.inputs[d.index];
+                double const size = value_of(d);
+                u = kind == memory_kind::delay
+                        ? delayed(u, size, e.begin)
+                        : resolved_input(std::get<sampled_signal>(u), kind, e, interval(size));
+            }
         }
         for (auto& m : e.measurements) {
             double late = 0;

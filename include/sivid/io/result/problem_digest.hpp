@@ -93,7 +93,10 @@ inline void describe(canonical_text& t, recorded_model const& m) {
         if (d.only_if) t("only if", *d.only_if);
     };
     for (auto const& d : m.input_memory)
-        remembered(d.kind == memory_kind::play ? "input play" : "input delay", d);
+        remembered(d.kind == memory_kind::play         ? "input play"
+                   : d.kind == memory_kind::rate_limit ? "input rate limit"
+                                                       : "input delay",
+                   d);
     for (auto const& d : m.channel_delays) remembered("channel delay", d);
     for (auto const& s : m.added_states) t("added state", s.state, s.at_begin);
     for (auto const& d : m.derived) t("derived constant", d.constant, d.value, d.always);

@@ -57,8 +57,9 @@ SIVID_DECL bound_model bind(recorded_model const& model, parameter_choice const&
                                     std::to_string(inputs.size()) + " signals were given");
     }
     if (model.has_memory()) {
-        throw std::invalid_argument("model '" + about.name +
-                                    "' has delays or plays; fix them and change the signals first");
+        throw std::invalid_argument(
+            "model '" + about.name +
+            "' has delays, plays or rate limits; fix them and change the signals first");
     }
     bound_model result;
     result.about = about;

@@ -238,8 +238,9 @@ SIVID_DECL void closed_loop::command(std::string_view input, expression const& v
 SIVID_DECL closed_model closed_loop::finish() const {
     if (commands_.empty()) throw std::invalid_argument("control law: it commands no input");
     if (open_.has_memory())
-        throw std::invalid_argument("control law: the model has a delay or a play of unknown size, "
-                                    "which cannot be enclosed; leave the effect out");
+        throw std::invalid_argument(
+            "control law: the model has a delay, a play or a rate limit of unknown size, "
+            "which cannot be enclosed; leave the effect out");
     auto const& from = open_;
     closed_model result;
     auto& to = result.model;

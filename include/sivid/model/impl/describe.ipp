@@ -76,7 +76,7 @@ namespace model_detail {
 SIVID_DECL std::string describe(recorded_model const& model) {
     using namespace model_detail;
     auto const& about = model.about;
-    std::vector<std::vector<std::string>> constants, delays, plays;
+    std::vector<std::vector<std::string>> constants, delays, plays, limits;
     for (auto const& c : about.constants) {
         constants.push_back({c.name, "= " + graph_listing::literal_text(c.nominal),
                              bracketed(c.unit),
@@ -87,7 +87,9 @@ SIVID_DECL std::string describe(recorded_model const& model) {
         return d.only_if ? name + " if " + about.inputs[*d.only_if].name : name;
     };
     for (auto const& d : model.input_memory) {
-        (d.kind == memory_kind::play ? plays : delays)
+        (d.kind == memory_kind::play         ? plays
+         : d.kind == memory_kind::rate_limit ? limits
+                                             : delays)
             .push_back({"input " + about.inputs[d.index].name, size_of(d)});
     }
     for (auto const& d : model.channel_delays) {
@@ -95,7 +97,9 @@ SIVID_DECL std::string describe(recorded_model const& model) {
     }
     return "model " + about.name + "\n" + describe_names(about) + section("constants", constants) +
            (delays.empty() ? "" : section("delays", delays)) +
-           (plays.empty() ? "" : section("plays", plays)) + describe_graph(graph_listing(model));
+           (plays.empty() ? "" : section("plays", plays)) +
+           (limits.empty() ? "" : section("rate limits", limits)) +
+           describe_graph(graph_listing(model));
 }
 
 SIVID_DECL std::string describe(bound_model const& model) {

@@ -58,6 +58,13 @@ SIVID_DECL effect input_backlash(std::string const& name, std::string const& inp
     return e;
 }
 
+SIVID_DECL effect input_rate_limit(std::string const& name, std::string const& input,
+                                   std::string const& unit, range const& R) {
+    auto e = detail::one(name, "R", unit, R, "rate limit of the input " + input, 0, R.upper);
+    e.on_inputs = [input](effect_scope& m) { m.limit_input_rate(input); };
+    return e;
+}
+
 SIVID_DECL effect input_lag(std::string const& name, std::string const& input,
                             std::string const& unit, range const& tau, double limit, bool rests) {
     auto e = detail::one(name, "tau", "s", tau, "first-order lag of the input " + input, 2);

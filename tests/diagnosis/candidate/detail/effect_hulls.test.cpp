@@ -74,6 +74,30 @@ TEST_CASE("the hull of a play contains it, and excludes that there is none") {
     CHECK(is_empty(effect_hulls(wrong, gap, {.seconds = 60}).parameters[1]));
 }
 
+TEST_CASE("the hull of a rate limit contains it, and excludes that there is none") {
+    std::vector<effect> const slow{
+        effects::input_rate_limit("slow", "u", "N/s", {0.25_dec, 4_dec})};
+    for (auto const between : {interpolation::linear, interpolation::hold}) {
+        for (double const limit : {0.6, 1.2}) {
+            auto real = small_campaign::with_rate_limit(limit);
+            real.between = between;
+            auto const hulls =
+                effect_hulls(small_campaign::problem(real), slow, {.seconds = 60}).parameters;
+            CAPTURE(limit, between == interpolation::hold, hulls[0], hulls[1]);
+            REQUIRE(hulls.size() == 2);
+            CHECK(contains(hulls[0], 1.0));
+            CHECK(contains(hulls[1], limit));
+            CHECK(hulls[1].upper() < 2); // the fastest that the input is
+            CHECK(width(hulls[1]) < 0.15 * 3.75);
+            CHECK(width(hulls[0]) < 0.3);
+        }
+    }
+    auto const none = effect_hulls(small_campaign::problem(), slow, {.seconds = 20}).parameters;
+    CHECK(none[1].upper() == 4);
+    auto const wrong = small_campaign::problem(small_campaign::with_drag(0.8));
+    CHECK(is_empty(effect_hulls(wrong, slow, {.seconds = 60}).parameters[1]));
+}
+
 TEST_CASE("the hull of a lag contains it, and excludes that there is none") {
     auto const hulls = effect_hulls(with_lag(0.4), lag(), {.seconds = 60}).parameters;
     REQUIRE(hulls.size() == 2);

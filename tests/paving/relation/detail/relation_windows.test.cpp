@@ -124,7 +124,7 @@ TEST_CASE("what stands in the way is said") {
         auto problem = pendulum_problem(d, {0, 1});
         problem.model.input_memory.push_back({0, 0});
         relation_windows windows(problem, {});
-        CHECK(windows.obstacle(0) == "the model has delays or plays");
+        CHECK(windows.obstacle(0) == "the model has delays, plays or rate limits");
     }
     SECTION("a coefficient without bounds") {
         identification_problem problem{

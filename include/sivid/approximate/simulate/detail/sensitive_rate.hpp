@@ -153,7 +153,7 @@ public:
             if (c == sensitivity_layout::none) continue;
             for (auto const& e : rate.by_input) {
                 if (e.column != d.index) continue;
-                dx[at(e.row, c)] += memory_[e.slot] * mesh_->slope_by(d.kind, piece_, d.index);
+                dx[at(e.row, c)] += memory_[e.slot] * mesh_->slope_by(d.kind, piece_, d.index, t);
             }
         }
         auto const count = layout_->disturbed.size();

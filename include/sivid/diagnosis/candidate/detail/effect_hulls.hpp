@@ -14,13 +14,15 @@ namespace sivid {
 
 /// Encloses all parameters of a model with effects that explain the data: those of the model
 /// itself, then those of the effects.
-///   A delay or a play has no enclosure over a range, thresholds are kinks, and a lag's equation is
+///   A delay, a play or a rate limit has no enclosure over a range, thresholds are kinks, and a
+///   lag's equation is
 /// singular where its time constant is 0. Over a slice of their priors they are inputs with error
 /// bounds (`sliced_input_of`, `lagged_within`): slices that cannot explain the data are excluded,
 /// the hulls of the others are joined. Short time constants are such a slice; the others are an
 /// ordinary state, octave by octave.
 /// @param base     without the effects
-/// @param effects  delays and plays of different inputs, and one delay of channels: where
+/// @param effects  delays, plays and rate limits of different inputs, and one delay of channels:
+/// where
 ///                 `sliced_input_of` cannot take them apart, all keep their priors
 /// @guarantee  every parameter of `affected(base, effects)` that explains the data lies in the
 ///             result; empty when none does

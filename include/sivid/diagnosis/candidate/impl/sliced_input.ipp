@@ -69,12 +69,12 @@ template <class Form>
     return problem;
 }
 
-/// A recorded input behind a delay or a play of any size in a range.
+/// A recorded input behind a delay, a play or a rate limit of any size in a range.
 [[nodiscard]] inline sampled_signal remembered_within(experiment const& x, signal_memory const& m,
                                                       interval const& range) {
     auto const& u = std::get<sampled_signal>(x.inputs[m.index]);
-    return m.kind == memory_kind::play ? played(u, x.begin, x.end(), range).within
-                                       : delayed_within(u, x.begin, x.end(), range);
+    return m.kind == memory_kind::delay ? delayed_within(u, x.begin, x.end(), range)
+                                        : resolved_input(u, m.kind, x, range);
 }
 
 /// One parameter that changes a recorded input, taken out of the effects.
@@ -103,7 +103,7 @@ struct input_change {
         if (!e.acts_in(x.name)) return true;
         auto const& u = std::get<sampled_signal>(x.inputs[input]);
         return stands_still(u) &&
-               (memory ? memory->kind == memory_kind::delay : u.values().front() == 0);
+               (memory ? memory->kind != memory_kind::play : u.values().front() == 0);
     }
 };
 

@@ -51,7 +51,7 @@ public:
             if (e.outliers == 0 && (proved || !any_uncertain(e.inputs))) trusted.push_back(&e);
         }
         if (problem.model.has_memory()) {
-            obstacle_ = "the model has delays or plays";
+            obstacle_ = "the model has delays, plays or rate limits";
         } else if (trusted.empty()) {
             obstacle_ = "every experiment has an outlier budget or inputs with error bounds: no "
                         "window can be trusted";
