@@ -35,6 +35,7 @@ TEST_CASE("measurements that stand alone are written with their factor and its w
     d.confined.push_back(
         {"v", {"S1", "S3"}, interval(1.5, 2.25), {{{"k", "1/s", 3}}, {}}, {"held"}});
     d.confined.push_back({"", {"S2"}, interval(0, 4), {}, {}});
+    d.confined[0].correlated = error_correlation{0.5, 0.25};
     d.confined[0].grows = noise_growth{noise_growth::with::rate,
                                        interval(0.5, 0.75),
                                        42,
@@ -49,6 +50,9 @@ TEST_CASE("measurements that stand alone are written with their factor and its w
     CHECK(json[0]["assumptions"][0] == "held");
     CHECK(json[0]["grows"]["with"] == "rate");
     CHECK(json[0]["grows"]["unit"] == "s");
+    CHECK(json[0]["correlated"]["of_neighbours"] == 0.5);
+    CHECK(json[0]["correlated"]["seconds"] == 0.25);
+    CHECK(json[1]["correlated"].is_null());
     CHECK(json[0]["grows"]["coefficient"] == nlohmann::json{0.5, 0.75});
     CHECK(json[0]["grows"]["likelier"] == 42);
     CHECK(json[0]["grows"]["witness"]["parameters"]["k"] == 5);

@@ -156,6 +156,10 @@ TEST_CASE("diagnosis words: which measurements stand alone") {
                                                 "proved to explain", "time stamps"}) == "");
     grows.grows = confined_view::growth::value;
     CHECK(missing_fact(confined_clause(grows), {"0.0212 to 0.0219 times its value"}) == "");
+    auto together = c;
+    CHECK_THAT(confined_clause(together), !ContainsSubstring("go together"));
+    together.together_for = 0.4123;
+    CHECK(missing_fact(confined_clause(together), {"go together for 0.412 s", "estimate"}) == "");
     diagnosis_view v = hovercraft_diagnosis().view();
     auto const answered = banner_sentence(v);
     v.confined = {c};

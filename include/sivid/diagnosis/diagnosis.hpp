@@ -183,6 +183,13 @@ struct noise_growth {
     named_witness shown{};   ///< the fit whose outputs the bounds grow with; not proved
 };
 
+/// Errors of a channel that go together instead of being drawn one by one: a slow disturbance of
+/// the instrument, or an effect on it. An estimate.
+struct error_correlation {
+    double of_neighbours = 0; ///< correlation of each error with the next one
+    double seconds = 0;       ///< in which it falls to 1/e
+};
+
 /// Measurements that alone stand against the model: one parameter of the prior explains all the
 /// others, and these, too, once their error bounds grow.
 struct confined_gap {
@@ -193,7 +200,8 @@ struct confined_gap {
     inflation_range factor = unknown_inflation();
     named_witness witness{}; ///< a validated run proves `factor.upper()` there
     std::vector<std::string> assumptions{};
-    std::optional<noise_growth> grows{}; ///< where that is much likelier, of a channel
+    std::optional<noise_growth> grows{};           ///< where that is much likelier, of a channel
+    std::optional<error_correlation> correlated{}; ///< where that is clear, of a channel
 };
 
 /// How well hold-out data are met, before and after an effect is joined.

@@ -107,6 +107,15 @@ private:
             } else {
                 json_.null();
             }
+            json_.key("correlated");
+            if (c.correlated) {
+                json_.begin_object();
+                json_.key("of_neighbours").nearest(c.correlated->of_neighbours);
+                json_.key("seconds").nearest(c.correlated->seconds);
+                json_.end_object();
+            } else {
+                json_.null();
+            }
             json_.end_object();
         }
         json_.end_array();

@@ -146,6 +146,7 @@ struct confined_view {
     enum class growth { times, value, rate };
     growth grows = growth::times;
     range coefficient{};
+    double together_for = 0; ///< seconds over which its errors go together; 0: not seen
 };
 
 /// What is left of the gap with the candidate that comes closest, when none explains the data.

@@ -187,8 +187,9 @@ SIVID_DECL diagnosis_view view_of(diagnosis const& d, diagnosis_plot_data const&
     };
     for (confined_gap const& c : d.confined) {
         v.confined.push_back({c.channel, c.scenarios, detail::drawn(c.factor)});
-        if (!c.grows) continue;
         auto& own = v.confined.back();
+        if (c.correlated) own.together_for = c.correlated->seconds;
+        if (!c.grows) continue;
         own.grows = c.grows->what == noise_growth::with::rate ? confined_view::growth::rate
                                                               : confined_view::growth::value;
         own.coefficient = detail::drawn(c.grows->coefficient);

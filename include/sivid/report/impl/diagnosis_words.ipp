@@ -260,16 +260,21 @@ SIVID_DECL std::string part_words(confined_view const& c) {
 
 namespace detail {
 
-/// Nothing where bounds grow by a factor.
+/// Nothing where bounds grow by a factor, and errors come one by one.
 inline std::string growth_clause(confined_view const& c) {
-    if (c.grows == confined_view::growth::times) return "";
     auto const size = inflation_text(c.coefficient);
-    return c.grows == confined_view::growth::rate
-               ? "; likelier, they grow with how fast it changes, by " + size +
-                     " s times its rate (proved to explain): time stamps that are so far off would "
-                     "show that"
-               : "; likelier, they grow with what it shows, by " + size +
-                     " times its value (proved to explain)";
+    std::string const grows =
+        c.grows == confined_view::growth::times ? ""
+        : c.grows == confined_view::growth::rate
+            ? "; likelier, they grow with how fast it changes, by " + size +
+                  " s times its rate (proved to explain): time stamps that are so far off would "
+                  "show that"
+            : "; likelier, they grow with what it shows, by " + size +
+                  " times its value (proved to explain)";
+    return c.together_for > 0 ? grows + "; its errors go together for " +
+                                    rounded_text(c.together_for, rounding::nearest) +
+                                    " s or so (estimate), as those of something slow do"
+                              : grows;
 }
 
 } // namespace detail

@@ -134,19 +134,24 @@ TEST_CASE("bounds that are too small are found with their factor") {
 namespace {
 
 /// Readings of the speed that are off by so much of what `size` says of it, at most.
-template <class Size>
-identification_problem noisy_speed(draws& d, std::size_t experiments, Size const& size) {
+template <class Size, class Slow>
+identification_problem noisy_speed(draws& d, std::size_t experiments, Size const& size,
+                                   Slow const& slow) {
     auto p = campaign(experiments, {}, {});
     for (auto& e : p.experiments) {
         auto const& u = std::get<sampled_signal>(e.inputs[0]);
         for (auto& m : e.measurements) {
             if (m.channel != 1) continue;
             double const v = mid(m.bound),
-                         off = d.uniform(-1, 1) * size(v, u.approximate(m.time) - v / 4);
+                         off = d.uniform(-1, 1) * size(v, u.approximate(m.time) - v / 4) + slow();
             m.bound = interval(v + off - rad(m.bound), v + off + rad(m.bound));
         }
     }
     return p;
+}
+template <class Size>
+identification_problem noisy_speed(draws& d, std::size_t experiments, Size const& size) {
+    return noisy_speed(d, experiments, size, [] { return 0.0; });
 }
 
 } // namespace
@@ -178,6 +183,27 @@ TEST_CASE(
         auto const as_ever = confined(noisy_speed(d, 3, [&](double, double) { return size / 3; }));
         REQUIRE(as_ever.size() == 1);
         CHECK_FALSE(as_ever[0].grows);
+        for (auto const& c : {by_value[0], by_rate[0], as_ever[0]}) CHECK_FALSE(c.correlated);
+    }
+}
+
+TEST_CASE("errors that go together are told from noise") {
+    draws d(78);
+    for (double const lasts : {0.3, 1.0}) {
+        double slow = 0;
+        auto const kept = std::exp(-0.1 / lasts); // of the one before, 0.1 s ago
+        auto const found = confined(noisy_speed(
+            d, 3, [&](double, double) { return 0.0; },
+            [&] {
+                slow = kept * slow + (1 - kept) * d.uniform(-1, 1);
+                return 0.3 * slow / std::sqrt((1 - kept) / (1 + kept));
+            }));
+        REQUIRE(!found.empty());
+        CHECK(found[0].channel == "v");
+        REQUIRE(found[0].correlated);
+        CAPTURE(lasts, found[0].correlated->seconds);
+        CHECK(found[0].correlated->seconds > 0.4 * lasts);
+        CHECK(found[0].correlated->seconds < 1.6 * lasts);
     }
 }
 

@@ -3,6 +3,7 @@
 #define SIVID_DIAGNOSIS_GAP_IMPL_CONFINED_GAP_IPP
 
 #include <sivid/diagnosis/gap/detail/confined_gap.hpp>
+#include <sivid/diagnosis/gap/detail/error_sequence.hpp>
 
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>
@@ -232,8 +233,29 @@ private:
         result.factor = known->lower > 0 ? factor : traits::bounds(0.0, factor.upper());
         result.witness = witness_of(*known);
         result.assumptions = known->proved.assumptions;
-        if (part.channel) result.grows = likelier_growth(part, times, *known);
+        if (part.channel) {
+            result.grows = likelier_growth(part, times, *known);
+            result.correlated = correlation(part, times, *known);
+        }
         return result;
+    }
+    /// By least squares within the grown bounds: Chebyshev fits shape what they leave.
+    [[nodiscard]] std::optional<error_correlation>
+    correlation(data_part const& part, bound_growth const& times, least_growth const& known) const {
+        auto const grown = times(*p_, known.upper);
+        auto const at =
+            fitter(grown, options_->go_on)({known.at.parameters, {}}, fit_norm::squares);
+        if (at.residuals.empty()) return std::nullopt;
+        std::vector<error_sequence> records(grown.experiments.size());
+        for (std::size_t e = 0; e < records.size(); ++e) {
+            auto const data = sorted(grown.experiments[e].measurements);
+            for (std::size_t k = 0; k < data.size(); ++k) {
+                if (!part.holds(e, data[k])) continue;
+                records[e].times.push_back(data[k].time);
+                records[e].errors.push_back(at.residuals[e][k]);
+            }
+        }
+        return correlation_of(records);
     }
     [[nodiscard]] named_witness witness_of(least_growth const& g) const {
         return named(*p_, g.proved.witness->parameters, g.proved.witness->starts);
