@@ -33,12 +33,13 @@ enum class family {
     backlash,
     friction,
     episode,
-    noise
+    noise,
+    slow
 };
-inline constexpr std::array<std::string_view, 20> family_names{
+inline constexpr std::array<std::string_view, 21> family_names{
     "single", "weak",  "wide",     "pose",       "pair",        "outliers", "outside",
     "none",   "alias", "askew",    "instrument", "experiments", "bounds",   "strong",
-    "onset",  "three", "backlash", "friction",   "episode",     "noise"};
+    "onset",  "three", "backlash", "friction",   "episode",     "noise",    "slow"};
 
 /// The first of them are drawn in every round, the others where they are asked for.
 inline constexpr std::size_t usual_families = 16;
@@ -82,6 +83,7 @@ struct campaign {
     channels bound_factor{1, 1, 1, 1, 1, 1}; // noise reaches so many times the stated bound
     channels noise_of_value{};         // noise reaches so much of what is shown besides its bound
     channels jitter{};                 // time stamps are off by so many seconds, at most
+    channels slow{};                   // noise goes together for so many seconds
     std::vector<std::string> effects;  // names, empty for none
     std::string effects_text = "none"; // with parameters, as in the labels
     std::string noise;                 // the shape of the noise

@@ -63,6 +63,8 @@ std::optional<bool> is_confined_to(label const& truth, recording const& data, js
     auto const scenarios = names_in(member(part, "scenarios"));
     auto const channel = text_of(member(part, "channel"));
     if (truth.family == "bounds") return truth.names() == names{"bounds_" + channel};
+    if (truth.family == "slow")
+        return truth.names() == names{"slow_" + channel} && member(part, "correlated").is_object();
     if (truth.family == "noise") {
         auto const with = text_of(member(member(part, "grows"), "with"));
         return (with == "rate" && truth.names() == names{"jitter_" + channel}) ||

@@ -144,6 +144,16 @@ void widen_noise(std::size_t channel, double factor, campaign& c) {
     c.effects_text = name + '(' + six_digits(c.bound_factor[channel]) + ')';
 }
 
+/// The same of noise that goes together for a while: a slow disturbance of the instrument.
+void slow_noise(std::size_t channel, random_source& random, campaign& c) {
+    widen_noise(channel, random.uniform(1.3, 2), c);
+    c.slow[channel] = rounded(random.uniform(0.2, 1));
+    auto const name = "slow_" + std::string{channel_names[channel]};
+    c.effects = {name};
+    c.effects_text =
+        name + '(' + six_digits(c.bound_factor[channel]) + ',' + six_digits(c.slow[channel]) + ')';
+}
+
 /// Noise that grows with what a channel shows, or with how fast that changes: the time stamps of
 /// one instrument are off.
 void grow_noise(std::size_t channel, bool jitters, random_source& random, campaign& c) {
@@ -226,6 +236,9 @@ bool draw_other(std::uint64_t seed, std::size_t n, random_source& random, campai
     case family::noise:
         grow_noise(dealt(deck, n / 2, channel_count), n % 2 == 0, random, c);
         return true;
+    case family::slow:
+        slow_noise(dealt(deck, n, channel_count), random, c);
+        return true;
     case family::alias: // the fourth has no effect of the catalogue
         if (n % 4 != 3) return false;
         if (n % 8 == 7) widen_noise(dealt(deck, n / 8, channel_count), random.uniform(1.3, 1.7), c);
@@ -245,6 +258,7 @@ void draw_effects(std::uint64_t seed, std::size_t n, double size, random_source&
     c.bound_factor.fill(1);
     c.noise_of_value.fill(0);
     c.jitter.fill(0);
+    c.slow.fill(0);
     c.effects.clear();
     c.effects_text = "none";
     for (auto& s : c.scenarios) s.gusts.clear();

@@ -22,8 +22,8 @@ std::vector<std::size_t> channels_of(std::string_view group) {
 }
 
 std::string instrument_of(std::string_view name) {
-    static constexpr std::array<std::string_view, 8> heads{
-        "lagging", "late", "drift", "askew", "lever", "bounds", "jitter", "growing"};
+    static constexpr std::array<std::string_view, 9> heads{
+        "lagging", "late", "drift", "askew", "lever", "bounds", "jitter", "growing", "slow"};
     auto const at = name.find('_');
     if (at == std::string_view::npos) return {};
     bool const known = std::find(heads.begin(), heads.end(), head_of(name)) != heads.end();
@@ -34,7 +34,7 @@ std::string instrument_of(std::string_view name) {
 bool is_noise(std::string_view name) {
     auto const head = head_of(name);
     return !instrument_of(name).empty() &&
-           (head == "bounds" || head == "jitter" || head == "growing");
+           (head == "bounds" || head == "jitter" || head == "growing" || head == "slow");
 }
 
 std::vector<std::string_view> const& askew_kinds() {

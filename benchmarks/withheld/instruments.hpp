@@ -19,7 +19,7 @@ namespace withheld {
 std::vector<std::size_t> channels_of(std::string_view group);
 
 /// What stands behind the underscore of lagging_, late_, drift_, askew_, lever_, bounds_,
-/// jitter_ or growing_; empty for other names.
+/// jitter_, growing_ or slow_; empty for other names.
 std::string instrument_of(std::string_view name);
 /// Of these the last three: noise that is larger than its bound.
 bool is_noise(std::string_view name);

@@ -4,6 +4,7 @@
 #include "simulate.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -49,9 +50,28 @@ std::vector<channels> shown(campaign const& c, measured_scenario const& s, rando
     return result;
 }
 
+/// Errors within [-1, 1] that reach an end and fall to 1/e, without new ones, in so many seconds.
+std::vector<double> slow_errors(std::vector<double> const& times, double seconds,
+                                random_source& random) {
+    std::vector<double> result;
+    double now = random.uniform(-1, 1), most = 1e-9;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        double const kept = i == 0 ? 1 : std::exp((times[i - 1] - times[i]) / seconds);
+        now = kept * now + std::sqrt(1 - kept * kept) * random.uniform(-1, 1);
+        result.push_back(now);
+        most = std::max(most, std::abs(now));
+    }
+    for (double& e : result) e /= most;
+    return result;
+}
+
 void add_noise(measured_scenario& s, std::vector<channels> const& truth, shape noise, double reach,
-               channels const& factor, channels const& of_value, random_source& random) {
+               channels const& factor, channels const& of_value, channels const& slow,
+               random_source& random) {
     s.value.assign(s.truth.size(), channels{});
+    std::array<std::vector<double>, channel_count> together;
+    for (std::size_t k = 0; k < channel_count; ++k)
+        if (slow[k] > 0) together[k] = slow_errors(s.plan.sample_times, slow[k], random);
     for (std::size_t i = 0; i < s.truth.size(); ++i)
         for (std::size_t k = 0; k < channel_count; ++k) {
             // Rounding and the integration must not push a sample over its bound.
@@ -59,7 +79,8 @@ void add_noise(measured_scenario& s, std::vector<channels> const& truth, shape n
             double const room = reach * (factor[k] * error_bound[k] + grown) - 2e-6;
             // Where the bound is too small, it is broken often.
             shape const own = factor[k] > 1 || of_value[k] > 0 ? shape::uniform : noise;
-            s.value[i][k] = six_decimals(truth[i][k] + room * drawn(own, random));
+            double const error = slow[k] > 0 ? together[k][i] : drawn(own, random);
+            s.value[i][k] = six_decimals(truth[i][k] + room * error);
         }
 }
 
@@ -88,7 +109,7 @@ std::size_t outlier_budget(double fraction, std::size_t samples) {
 }
 
 void add_uniform_noise(measured_scenario& s, random_source& random) {
-    add_noise(s, s.truth, shape::uniform, 1, {1, 1, 1, 1, 1, 1}, {}, random);
+    add_noise(s, s.truth, shape::uniform, 1, {1, 1, 1, 1, 1, 1}, {}, {}, random);
 }
 
 void measure(campaign& c, random_source& random) {
@@ -106,7 +127,8 @@ void measure(campaign& c, random_source& random) {
     if (reach < 1) c.noise += " 0.95";
     for (auto& s : c.scenarios) {
         s.truth = readings(world_of(c, s), s.initial, s.plan.sample_times, careful_step);
-        add_noise(s, shown(c, s, random), noise, reach, c.bound_factor, c.noise_of_value, random);
+        add_noise(s, shown(c, s, random), noise, reach, c.bound_factor, c.noise_of_value, c.slow,
+                  random);
         add_outliers(s, c, random);
     }
 }

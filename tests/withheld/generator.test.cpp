@@ -195,6 +195,12 @@ TEST_CASE("what each family is about") {
         CHECK(factor >= 1.3);
         CHECK(factor <= 2);
         CHECK(std::count(small.bound_factor.begin(), small.bound_factor.end(), 1) == 5);
+        auto const slow = draw_campaign(5, i, {family::slow});
+        double const lasts = *std::max_element(slow.slow.begin(), slow.slow.end());
+        CHECK(lasts >= 0.2);
+        CHECK(lasts <= 1);
+        CHECK(inflation_at_truth(slow, true, part::fit) > 1);
+        CHECK(inflation_at_truth(slow, true, part::fit) <= 2);
         auto const noisy = draw_campaign(5, i, {family::noise});
         auto const grown = [](channels const& sizes) {
             return std::count_if(sizes.begin(), sizes.end(), [](double x) { return x > 0; });

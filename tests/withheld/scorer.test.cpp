@@ -205,7 +205,8 @@ TEST_CASE("answers to what no candidate holds") {
     open["answer"]["kind"] = "open";
     for (auto const& l : {with("askew", "askew_uv", {0.05}), with("instrument", "drift_r", {0.05}),
                           with("bounds", "bounds_v", {1.6}), with("strong", "payload", {0.7}),
-                          with("noise", "jitter_v", {0.05}), with("noise", "growing_v", {0.05})}) {
+                          with("noise", "jitter_v", {0.05}), with("noise", "growing_v", {0.05}),
+                          with("slow", "slow_v", {1.5, 0.4})}) {
         CAPTURE(l.effects[0].first);
         CHECK_FALSE(l.attainable());
         CHECK(judge(l, unexplained).right);
