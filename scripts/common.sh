@@ -65,7 +65,7 @@ need_check_packages() {
 configure_check() {
     local long=${1:-OFF} name=check compiler=() batch=24
     [ "$long" = OFF ] || name=long
-    # Batches of 48 take clang three quarters of the time of 24, and 1.1 GB at most; g++ would need more than that.
+    # Batches of 48 take clang three quarters of the time of 24, and little more memory; g++ would need far more.
     [ "$long" = ON ] || [ -n "${CXX:-}" ] || { compiler=(-DCMAKE_CXX_COMPILER=clang++); batch=48; }
     build=${BUILD_DIR:-build/$name}
     # A cache of another compiler would be thrown away by CMake, with all that is set below.

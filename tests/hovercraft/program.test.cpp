@@ -263,7 +263,7 @@ TEST_CASE("check verifies what identify wrote, and refutes what was changed sinc
     temporary_folder const folder;
     auto const out = folder.path() / "out";
     REQUIRE(run({"identify", h3, "--out", out.string(), "--quiet", "--accuracy",
-                 support::swept("0.1", "0.02")})
+                 support::swept("0.05", "0.02")})
                 .code == 0);
     auto const check = [&](std::vector<std::string> more = {}) {
         more.insert(more.begin(), {"check", out.string(), "--sample", "6"});
