@@ -59,7 +59,7 @@ public:
         for (auto const& m : model_->input_memory()) {
             if (m.kind != memory_kind::rate_limit) continue;
             double const now = std::max(std::numeric_limits<double>::min(), m.value(parameters));
-            moved = moved || std::exchange(limit_[m.index], now) != now;
+            moved = std::exchange(limit_[m.index], now) != now || moved;
         }
         if (!moved) return;
         double end = begin_;

@@ -53,11 +53,13 @@ public:
             if (std::abs(gap) <= 2 * rad(now) + 4 * unit * (std::abs(here) + std::abs(value_))) {
                 off_ = sum(off_, distance(interval(here), interval(value_)));
                 value_ = here;
-                by_limit_ = 0;
                 if (std::abs(p) <= middle_) {
                     keep_up(end, slope, u);
                 } else {
-                    go_as_fast_as_possible(end, std::copysign(1.0, p), false, u);
+                    double const way = std::copysign(1.0, p);
+                    // Another limit would have met u at another time, from where it falls behind.
+                    by_limit_ *= (p - way * middle_) / (p - came_by_ * middle_);
+                    go_as_fast_as_possible(end, way, false, u);
                 }
                 continue;
             }
@@ -85,6 +87,7 @@ private:
     /// It is u. So are limits that have caught up; others come nearer by what they are faster.
     template <class Input>
     void keep_up(double end, interval const& slope, Input const& u) {
+        by_limit_ = 0;
         auto const gains = traits::sub(interval(limit_.lower()), interval(mag(slope)));
         double const caught_up = time_ + off_ / gains.lower() * (1 + 1e-12);
         if (gains.lower() > 0 && caught_up > time_ && caught_up < end) go_with(caught_up, gains, u);
@@ -118,7 +121,8 @@ private:
         double const rounding = sum(distance(reached, interval(value)), passed_by);
         stand(rounding, way);
         off_ = sum(sum(off_, product(spread_, passed.upper())), rounding);
-        by_limit_ = meets ? 0 : by_limit_ + way * mid(passed);
+        by_limit_ += way * mid(passed);
+        came_by_ = way;
         time_ = end;
         value_ = value;
     }
@@ -126,6 +130,7 @@ private:
     static constexpr double unit = std::numeric_limits<double>::epsilon();
     interval limit_;
     double middle_, spread_ = 0, time_, value_, off_ = 0, by_limit_ = 0;
+    double came_by_ = 0; ///< which way it went last
     std::vector<knot> knots_;
 };
 

@@ -22,7 +22,7 @@ struct error_sequence {
 /// over all records, and the time -dt / ln r in which it falls to 1/e, dt between neighbours in the
 /// median. Independent errors have |r| below 1/sqrt(n) mostly.
 /// @returns  nothing where r is below 0.2, or less than `clearly` times 1/sqrt(n)
-/// @guarantee  none: an estimate
+/// @guarantee  none: an estimate, too short where the fit takes up what is slow
 [[nodiscard]] inline std::optional<error_correlation>
 correlation_of(std::vector<error_sequence> const& records, double clearly = 5) {
     double together = 0, alone = 0;
