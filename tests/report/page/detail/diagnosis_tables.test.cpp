@@ -28,13 +28,18 @@ TEST_CASE("diagnosis tables: cards say how each figure is known") {
 }
 
 TEST_CASE("diagnosis tables: the summary point by point") {
-    diagnosis_view const v = hovercraft_diagnosis().view();
+    diagnosis_view v = hovercraft_diagnosis().view();
     auto const t = summary_table(v);
     REQUIRE(t.rows.size() == 6);
     CHECK(t.rows[2][0] == "Effect");
     CHECK_THAT(t.rows[2][1], ContainsSubstring("2 of the 12 candidates tried are excluded"));
     CHECK_THAT(t.rows[5][1], EndsWith("(prediction, not proved)."));
     CHECK(summary_table({}).rows.size() == 1);
+    v.singles = {12, 12};
+    CHECK(summary_table(v).rows[2][1] == t.rows[2][1]);
+    v.singles = {10, 10}; // two more were tried when these did not explain
+    CHECK_THAT(summary_table(v).rows[2][1],
+               ContainsSubstring("2 of the 12 candidates tried, those beyond the plan among them"));
 }
 
 TEST_CASE("diagnosis tables: parameters with hull and prior") {

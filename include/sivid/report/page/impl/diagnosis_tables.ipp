@@ -81,7 +81,8 @@ SIVID_DECL table summary_table(diagnosis_view const& v) {
         excluded += !c.effects.empty() && c.state == candidate_state::excluded ? 1 : 0;
     }
     std::string const all = tried_text(v);
-    bool const beyond = tried > v.singles.planned + v.pairs.planned + v.larger.planned;
+    std::size_t const planned = v.singles.planned + v.pairs.planned + v.larger.planned;
+    bool const beyond = planned > 0 && tried > planned;
     std::string const count =
         tried == 0
             ? ""
