@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/measurement/played_signal.hpp>
 
+#include "measurement/drawn_signal.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 
@@ -9,23 +10,11 @@
 #include <vector>
 
 using namespace sivid;
+using measurement_support::drawn;
 using support::draws;
 
 namespace {
 
-/// A signal with knots of its own, going up, down and resting.
-sampled_signal drawn(draws& d, interpolation kind, bool errors) {
-    std::vector<double> times{d.uniform(-1, 0.2)}, values{d.uniform(-1, 1)}, bounds;
-    for (auto n = d.below(12); n > 0; --n) {
-        times.push_back(times.back() + std::exp(d.uniform(-4, 0)));
-        values.push_back(d.below(4) == 0 ? values.back() : d.uniform(-1, 1));
-    }
-    if (errors) {
-        for (std::size_t k = 0; k < times.size(); ++k)
-            bounds.push_back(d.below(3) == 0 ? 0.0 : d.uniform(0, 0.1));
-    }
-    return {times, values, kind, bounds};
-}
 /// The play by its definition, at these increasing times, between which u goes one way.
 /// @param sign  where u lies within its bounds, from -1 to 1
 std::vector<double> by_definition(sampled_signal const& u, std::vector<double> const& times,

@@ -186,7 +186,7 @@ private:
 ///   rate limits do not act (`acts_in`); states of its own go on, and nothing sees them.
 /// @throws std::invalid_argument when an effect names what the model lacks, or stands twice, or
 ///         begins or ends within an experiment and has a delay, a play, a rate limit or a state of
-///         its own, or for two rate limits of one input
+///         its own
 [[nodiscard]] SIVID_DECL recorded_model with(recorded_model const& base,
                                              std::vector<effect> effects);
 

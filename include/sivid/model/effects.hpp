@@ -35,7 +35,8 @@ SIVID_DECL effect input_backlash(std::string const& name, std::string const& inp
                                  std::string const& unit, range const& b);
 /// Behind a rate limit R: what follows the input moves by R a second at most, and is u where it has
 /// caught up (`rate_limited`). It acts on the input as recorded, before other effects on it.
-/// @param R  above 0; at its upper end, which belongs above all that u does, the effect vanishes
+/// @param R  above 0; at its upper end, which belongs above all that u does, the effect vanishes; a
+///           held u jumps, which no limit lets through
 SIVID_DECL effect input_rate_limit(std::string const& name, std::string const& input,
                                    std::string const& unit, range const& R);
 /// First-order lag: d' = (u - d)/tau replaces u. tau = 0 is a limit, where the right-hand side is

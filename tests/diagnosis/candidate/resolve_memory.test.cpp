@@ -76,10 +76,15 @@ TEST_CASE("resolving a rate limit puts the recorded input behind it, before a pl
     for (double t = 0; t < 4; t += 0.0625)
         CHECK(std::abs(u.approximate(t) - alone.approximate(std::max(0.0, t - 0.25))) < 1e-12);
     CHECK_THROWS_AS(resolve_memory(p, {1.25, 0.25, 0.125, 0.0}), std::invalid_argument);
-    CHECK_THROWS_AS(affected(small_campaign::problem(),
-                             {effects::input_rate_limit("a", "u", "N/s", {1_dec, 4_dec}),
-                              effects::input_rate_limit("b", "u", "N/s", {1_dec, 4_dec})}),
-                    std::invalid_argument);
+    // Two limits, as pairs of a catalogue may be: one behind the other.
+    auto const two = affected(small_campaign::problem(),
+                              {effects::input_rate_limit("a", "u", "N/s", {0.25_dec, 4_dec}),
+                               effects::input_rate_limit("b", "u", "N/s", {0.25_dec, 4_dec})});
+    auto const both = resolve_memory(two, {1.25, 0.75, 0.5});
+    auto const slower = rate_limited(slow, 0, 4, interval(0.5)).within;
+    auto const& seen = std::get<sampled_signal>(both.problem.experiments[0].inputs[0]);
+    for (double t = 0; t < 4; t += 0.0625)
+        CHECK(std::abs(seen.approximate(t) - slower.approximate(t)) < 1e-12);
 }
 
 TEST_CASE("resolving delays moves signals and measurements and drops the unknowns") {

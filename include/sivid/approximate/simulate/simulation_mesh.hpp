@@ -56,11 +56,14 @@ public:
         set(input_delay_, model_->input_memory(), memory_kind::delay);
         set(channel_delay_, model_->channel_delays(), memory_kind::delay);
         set(play_, model_->input_memory(), memory_kind::play);
-        for (auto const& m : model_->input_memory()) {
+        auto const before = limit_;
+        std::fill(limit_.begin(), limit_.end(), late_signal::no_limit);
+        for (auto const& m : model_->input_memory()) { // of two the smaller one, nearly
             if (m.kind != memory_kind::rate_limit) continue;
             double const now = std::max(std::numeric_limits<double>::min(), m.value(parameters));
-            moved = std::exchange(limit_[m.index], now) != now || moved;
+            limit_[m.index] = std::min(limit_[m.index], now);
         }
+        moved = moved || limit_ != before;
         if (!moved) return;
         double end = begin_;
         for (auto const& r : requests_) end = std::max(end, r.time);

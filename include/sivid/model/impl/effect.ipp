@@ -187,13 +187,8 @@ SIVID_DECL void effect_scope::remember(std::string const& input, std::size_t k, 
     acts_all_the_time(kind == memory_kind::play         ? "a play"
                       : kind == memory_kind::rate_limit ? "a rate limit"
                                                         : "a delay");
-    auto const place = index_of(model_->about.inputs, input, "input");
-    for (auto const& m : model_->input_memory) {
-        if (kind == memory_kind::rate_limit && m.kind == kind && m.index == place)
-            throw std::invalid_argument("effect '" + effect_->name + "': the input '" + input +
-                                        "' has a rate limit already");
-    }
-    model_->input_memory.push_back({place, first_parameter_ + k, kind, switch_of_effect()});
+    model_->input_memory.push_back({index_of(model_->about.inputs, input, "input"),
+                                    first_parameter_ + k, kind, switch_of_effect()});
 }
 
 SIVID_DECL void effect_scope::delay_input(std::string const& name, std::size_t k) {
