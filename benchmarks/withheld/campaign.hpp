@@ -34,12 +34,13 @@ enum class family {
     friction,
     episode,
     noise,
-    slow
+    slow,
+    memory
 };
-inline constexpr std::array<std::string_view, 21> family_names{
-    "single", "weak",  "wide",     "pose",       "pair",        "outliers", "outside",
-    "none",   "alias", "askew",    "instrument", "experiments", "bounds",   "strong",
-    "onset",  "three", "backlash", "friction",   "episode",     "noise",    "slow"};
+inline constexpr std::array<std::string_view, 22> family_names{
+    "single",   "weak",     "wide",       "pose",        "pair",   "outliers", "outside", "none",
+    "alias",    "askew",    "instrument", "experiments", "bounds", "strong",   "onset",   "three",
+    "backlash", "friction", "episode",    "noise",       "slow",   "memory"};
 
 /// The first of them are drawn in every round, the others where they are asked for.
 inline constexpr std::size_t usual_families = 16;

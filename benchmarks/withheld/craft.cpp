@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <utility>
 
 namespace withheld {
@@ -103,7 +102,7 @@ double rudder_angle(world const& w, command const& now, state const& s, state& r
         rate[6] = s[8];
         rate[8] = omega * omega * (now.rudder - s[6]) - 2 * w.f.servo_damping * omega * s[8];
     } else if (w.e.rudder_lag > 0) {
-        angle = s[6];
+        if (!w.lags_unseen) angle = s[6];
         rate[6] = (now.rudder - s[6]) / w.e.rudder_lag;
     }
     return std::clamp(angle, -w.e.rudder_limit, w.e.rudder_limit) + w.e.rudder_trim;
@@ -113,7 +112,7 @@ double motor_speed(world const& w, double t, command const& now, state const& s,
     double const fed = now.motor * (1 - w.e.battery_sag * t);
     if (w.e.motor_lag <= 0) return fed;
     rate[7] = (fed - s[7]) / w.e.motor_lag;
-    return s[7];
+    return w.lags_unseen ? fed : s[7];
 }
 
 } // namespace
@@ -207,13 +206,8 @@ channels sensed(world const& w, double t, state const& s) {
 void act_within(world& w, episode const& when) {
     w.acting = {};
     if (when.always()) return;
-    auto const& e = w.e;
-    bool const memory = e.rudder_lag > 0 || e.input_delay > 0 || e.motor_lag > 0 ||
-                        e.position_latency > 0 || e.rudder_play > 0;
     if (when.never())
         w.e = {};
-    else if (memory)
-        throw std::invalid_argument("an effect with a memory acts from the start on or never");
     else
         w.acting = when;
 }

@@ -93,10 +93,11 @@ struct world {
     polyline motor, rudder; // W and delta
     instrument_faults instruments;
     episode acting;
+    bool lags_unseen = false; // they go on, and what is before them acts
 };
 
-/// Lets the catalogue's effects act then only.
-/// @throws std::invalid_argument where an effect that has a memory begins later or ends
+/// Lets the catalogue's effects act then only. What is remembered (by lags, plays, delays) goes on
+/// all the time and acts then.
 void act_within(world& w, episode const& when);
 
 /// u, v, r, x, y, psi, then the rudder's angle and the motor's speed behind their lags, and the

@@ -188,12 +188,15 @@ std::size_t index_of(std::string_view name) {
     return static_cast<std::size_t>(effect_named(name) - catalogue().data());
 }
 
+/// Effects that depend on the past.
+constexpr std::array<std::string_view, 5> memories{"rudder_lag", "input_delay", "motor_lag",
+                                                   "position_latency", "rudder_backlash"};
 bool has_memory(effect const& e) {
-    return e.name == "rudder_lag" || e.name == "input_delay" || e.name == "motor_lag" ||
-           e.name == "position_latency" || e.name == "rudder_backlash";
+    return std::find(memories.begin(), memories.end(), e.name) != memories.end();
 }
 
-/// With poses only, a bias of the gyro leaves no trace. What begins later has no memory.
+/// With poses only, a bias of the gyro leaves no trace. What has a memory and begins later has a
+/// family of its own.
 bool possible(effect const& e, family kind) {
     if (kind == family::pose) return e.name != "gyro_bias";
     return (kind != family::onset && kind != family::episode) || !has_memory(e);
@@ -206,7 +209,7 @@ void draw_times(random_source& random, campaign& c, std::size_t n) {
             return six_decimals(random.uniform(least, most) * s.plan.duration);
         };
         s.acting = {};
-        if (c.kind == family::onset) s.acting.from = share(0.15, 0.7);
+        if (c.kind == family::onset || c.kind == family::memory) s.acting.from = share(0.15, 0.7);
         if (c.kind == family::experiments && !random.coin()) s.acting.from = for_ever;
         if (c.kind != family::episode) continue;
         bool const begins = n % 2 == 1;
@@ -283,6 +286,7 @@ void draw_effects(std::uint64_t seed, std::size_t n, double size, random_source&
     }
     if (c.kind == family::backlash) which = index_of("rudder_backlash");
     if (c.kind == family::friction) which = index_of("stribeck");
+    if (c.kind == family::memory) which = index_of(memories[dealt(deck, n, memories.size())]);
     while (c.effects.size() < count) {
         while (!possible(all[which], c.kind) ||
                std::find(c.effects.begin(), c.effects.end(), all[which].name) != c.effects.end())
@@ -311,8 +315,8 @@ bool matters(campaign const& c, double size) {
     if (right) return true;
     if (effect_named(c.effects.front()) == nullptr) return largest_deviation(c, {}, {}) >= 3;
     // Nor does it matter everywhere and always.
-    bool const partial =
-        c.kind == family::onset || c.kind == family::experiments || c.kind == family::episode;
+    bool const partial = c.kind == family::onset || c.kind == family::experiments ||
+                         c.kind == family::episode || c.kind == family::memory;
     if (partial && largest_deviation(c, c.true_effects, c.true_foreign) < 3) return false;
     for (auto const& name : c.effects) {
         effect_values without = c.true_effects;

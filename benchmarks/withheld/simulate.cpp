@@ -12,6 +12,7 @@ namespace {
 /// Times in (0, end) at which the command behind delay and dead band, or W, has a kink.
 std::vector<double> kinks(world const& w, polyline const& rudder, double end) {
     std::vector<double> all = w.motor.t;
+    if (!w.acting.always()) all.insert(all.end(), w.rudder.t.begin(), w.rudder.t.end());
     auto const& [t, value] = rudder;
     for (std::size_t i = 0; i < t.size(); ++i) {
         all.push_back(t[i] + w.e.input_delay);
@@ -28,6 +29,7 @@ std::vector<double> kinks(world const& w, polyline const& rudder, double end) {
     return all;
 }
 
+/// @param rudder  behind the play
 command command_at(world const& w, polyline const& rudder, double t) {
     // Before the start the rudder stands at delta(0); the recording may begin earlier.
     double const seen = std::max(t - w.e.input_delay, 0.0);
@@ -69,15 +71,21 @@ std::vector<state> states_at(world const& w, channels const& initial,
     if (!w.acting.always()) {
         neutral = w;
         neutral.e = {};
+        neutral.e.rudder_lag = w.e.rudder_lag;
+        neutral.e.motor_lag = w.e.motor_lag;
+        neutral.lags_unseen = true;
     }
-    auto const acting = [&](double t) -> world const& { return w.acting.holds(t) ? w : neutral; };
+    auto const acting = [&](double at) -> world const& { return w.acting.holds(at) ? w : neutral; };
+    auto const commanded = [&](world const& model, double at) {
+        return command_at(model, &model == &neutral ? w.rudder : rudder, at);
+    };
     state now{};
     std::copy(initial.begin(), initial.end(), now.begin());
     // The lag begins at rest, the motor at zero.
-    now[6] = command_at(acting(0), rudder, 0).rudder;
+    now[6] = commanded(acting(0), 0).rudder;
     state const start = now;
     double t = 0;
-    command here = command_at(acting(0), rudder, 0);
+    command here = commanded(acting(0), 0);
     std::size_t wanted = 0;
     auto const record = [&] {
         for (; wanted < times.size() && times[wanted] <= t; ++wanted) result.push_back(now);
@@ -86,7 +94,7 @@ std::vector<state> states_at(world const& w, channels const& initial,
     for (double const stop : stops) {
         if (stop <= t) continue;
         world const& model = acting(t);
-        command const there = command_at(model, rudder, stop);
+        command const there = commanded(model, stop);
         auto const steps = std::max(1.0, std::ceil((stop - t) / max_step - 1e-9));
         double const begin = t, h = (stop - t) / steps;
         auto const between = [&](double share) {
@@ -98,7 +106,7 @@ std::vector<state> states_at(world const& w, channels const& initial,
                               between((k + 1) / steps));
         t = stop;
         bool const changes = stop == w.acting.from || stop == w.acting.to;
-        here = changes ? command_at(acting(stop), rudder, stop) : there;
+        here = changes ? commanded(acting(stop), stop) : there;
         record();
     }
     return result;
@@ -165,9 +173,10 @@ std::vector<channels> readings(world const& w, channels const& initial,
     }
     auto const older = [](double t, double by) { return std::max(t - by, 0.0); };
     std::vector<double> wanted = times, grid;
-    for (double const a : age)
-        for (double const t : times)
-            if (a > 0) wanted.push_back(older(t, a));
+    for (auto const& ages : {age, w.instruments.late})
+        for (double const a : ages)
+            for (double const t : times)
+                if (a > 0) wanted.push_back(older(t, a));
     if (slow) {
         grid = times;
         for (int i = 0; i * 1e-3 < times.back(); ++i) grid.push_back(i * 1e-3);
@@ -176,10 +185,13 @@ std::vector<channels> readings(world const& w, channels const& initial,
         wanted.insert(wanted.end(), grid.begin(), grid.end());
     }
     known_states const at(w, initial, std::move(wanted), max_step);
+    auto const age_at = [&](std::size_t k, double t) {
+        return w.acting.holds(t) ? age[k] : w.instruments.late[k];
+    };
     for (double const t : times) {
         channels shown{};
         for (std::size_t k = 0; k < channel_count; ++k)
-            shown[k] = sensed(w, t, at(older(t, age[k])))[k];
+            shown[k] = sensed(w, t, at(older(t, age_at(k, t))))[k];
         result.push_back(shown);
     }
     for (std::size_t k = 0; k < channel_count; ++k) {

@@ -53,10 +53,13 @@ struct truth {
         return 0.0;
     };
     std::function<double(double)> seen_position = [](double p) { return p; };
-    double delay = 0; ///< of the input
-    double play = 0;  ///< half of a gap behind it
-    double limit = 0; ///< of its rate [N/s]; 0: none
-    int every = 100;  ///< milliseconds from one measurement to the next
+    double delay = 0;             ///< of the input
+    double play = 0;              ///< half of a gap behind it
+    double limit = 0;             ///< of its rate [N/s]; 0: none
+    double lag = 0;               ///< time constant behind it [s]
+    double sensor_delay = 0;      ///< of the position
+    double from = 0, until = 100; ///< when these are seen [s]
+    int every = 100;              ///< milliseconds from one measurement to the next
     sivid::interpolation between = sivid::interpolation::linear; ///< samples of the input
 };
 
@@ -84,9 +87,21 @@ inline sivid::experiment experiment(std::size_t e, truth const& real) {
                              ? std::clamp(now, behind.back() - most, behind.back() + most)
                              : std::clamp(behind.back(), now - real.play, now + real.play));
     }
+    if (real.lag > 0) { // exact for straight lines
+        double const left = std::exp(-h / 2 / real.lag);
+        for (std::size_t k = 1; k < behind.size(); ++k) {
+            double const before = u.approximate((static_cast<double>(k) - 1) * h / 2);
+            double const slope = (u.approximate(static_cast<double>(k) * h / 2) - before) / (h / 2);
+            double const limit = before - slope * real.lag;
+            behind[k] = limit + slope * h / 2 + (behind[k - 1] - limit) * left;
+        }
+    }
+    auto const acts = [&](double t) { return t >= real.from && t < real.until; };
+    std::vector<double> past{p};
     auto const rate = [&](double t, double w) {
         double const late = std::max(0.0, t - real.delay);
-        double const force = real.play > 0 || real.limit > 0
+        double const force = !acts(t) ? u.approximate(t)
+                             : real.play > 0 || real.limit > 0 || real.lag > 0
                                  ? behind[static_cast<std::size_t>(std::lround(2 * late / h))]
                                  : u.approximate(late);
         return real.k * force - w / 4 + real.missing(t, w, force);
@@ -97,11 +112,14 @@ inline sivid::experiment experiment(std::size_t e, truth const& real) {
         double const a3 = rate(t + h / 2, v + h / 2 * a2), a4 = rate(t + h, v + h * a3);
         p += h * (v + h / 6 * (a1 + a2 + a3));
         v += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+        past.push_back(p);
         if (step % real.every != 0) continue;
         double const wave = 0.6 * std::sin(12.9898 * step + 4.1 * static_cast<double>(e));
         auto const around = [](double y, double size) { return interval(y - size, y + size); };
+        auto const steps_ago = acts(step * h) ? std::lround(real.sensor_delay / h) : 0;
+        double const shown = past[static_cast<std::size_t>(std::max(0L, step - steps_ago))];
         result.measurements.push_back(
-            {step * h, 0, around(real.seen_position(p) + 0.02 * wave, 0.02)});
+            {step * h, 0, around(real.seen_position(shown) + 0.02 * wave, 0.02)});
         result.measurements.push_back({step * h, 1, around(v + 0.03 * wave, 0.03)});
     }
     return result;

@@ -39,6 +39,35 @@ inline truth with_delay(double tau) {
     return t;
 }
 
+/// An effect of something that is remembered, of which size in the truth, from what to what.
+struct memory {
+    sivid::effect e;
+    double truth::*size;
+    double least, most;
+};
+inline std::vector<memory> memories() {
+    using namespace sivid::literals;
+    namespace any = sivid::effects;
+    return {
+        {any::input_delay("late", "u", {0_dec, 0.6_dec}), &truth::delay, 0.2, 0.4},
+        {any::input_backlash("gap", "u", "N", {0_dec, 0.6_dec}), &truth::play, 0.2, 0.4},
+        {any::input_rate_limit("slow", "u", "N/s", {0.1_dec, 5_dec}), &truth::limit, 0.4, 0.7},
+        {any::sensor_latency("sensor", {"p"}, {0_dec, 0.6_dec}), &truth::sensor_delay, 0.2, 0.4},
+        {any::input_lag("lag", "u", "N", {0_dec, 0.8_dec}, 5), &truth::lag, 0.2, 0.4}};
+}
+/// It is seen in each experiment from one time until another one.
+inline sivid::identification_problem seen_within(truth real, std::vector<double> const& from,
+                                                 std::vector<double> const& until) {
+    auto result = problem();
+    result.experiments.clear();
+    for (std::size_t e = 0; e < from.size(); ++e) {
+        real.from = from[e];
+        real.until = until[e];
+        result.experiments.push_back(experiment(e, real));
+    }
+    return result;
+}
+
 inline truth with_play(double b) {
     truth t;
     t.play = b;

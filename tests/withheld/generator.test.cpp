@@ -176,6 +176,12 @@ TEST_CASE("what each family is about") {
             CHECK(s.acting.from < s.plan.duration);
             CHECK_FALSE(s.acting.ends());
         }
+        auto const remembered = draw_campaign(5, i, {family::memory});
+        for (auto const& s : remembered.scenarios) CHECK(s.acting.begins_later());
+        auto const& e = remembered.true_effects;
+        CHECK(e.rudder_lag + e.input_delay + e.motor_lag + e.position_latency + e.rudder_play > 0);
+        CHECK(largest_deviation(remembered, {}, {}) >= 3);
+        CHECK(largest_deviation(remembered, e, {}) >= 3); // nor is it there from the start on
         auto const episode = draw_campaign(5, i, {family::episode});
         for (auto const& s : episode.scenarios) {
             CHECK(s.acting.begins_later() == (i % 2 == 1));

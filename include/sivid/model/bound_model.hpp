@@ -83,6 +83,14 @@ struct bound_model {
     auto const* const on = std::get_if<analytic_signal>(&inputs.at(*m.only_if));
     return on == nullptr || !on->g.is(on->value, 0);
 }
+/// Whether a memory of a channel acts on what that shows at t.
+[[nodiscard]] inline bool acts_at(signal_memory const& m, std::vector<signal> const& inputs,
+                                  double t) {
+    if (!acts_in(m, inputs)) return false;
+    auto const* const on =
+        m.only_if ? std::get_if<sampled_signal>(&inputs.at(*m.only_if)) : nullptr;
+    return on == nullptr || on->approximate(t) != 0; // held
+}
 
 /// Where all runs of a bound model begin, and the parameters that they have.
 struct region_of_runs {

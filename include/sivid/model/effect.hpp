@@ -73,8 +73,9 @@ struct effect {
     /// The experiments in which it acts, others do not see it; none: it acts in all. Such an effect
     /// has a switch, an input of its name that is 1 where it acts and else 0.
     std::vector<std::string> only_in{};
-    /// When it begins in each of these [s], from then on it acts; none: at their start. An effect
-    /// with a delay, a play, a rate limit or a state of its own acts from start to end.
+    /// When it begins in each of these [s], from then on it acts; none: at their start. What it
+    /// remembers (behind a delay, a play, a rate limit, or in a state of its own) goes on from
+    /// start to end, and is seen while it acts; a channel is late at the times at which it acts.
     std::vector<double> since{};
     /// When it ends in each of these [s], from then on it does not act; none: never.
     std::vector<double> until{};
@@ -92,6 +93,8 @@ struct effect {
     [[nodiscard]] bool ends() const {
         return std::any_of(until.begin(), until.end(), [](double t) { return t < for_ever; });
     }
+    /// Whether it begins or ends in the midst of an experiment.
+    [[nodiscard]] bool changes_within() const { return begins_later() || ends(); }
     static constexpr double for_ever = std::numeric_limits<double>::infinity();
     static constexpr double from_start = -for_ever;
 };
@@ -148,8 +151,8 @@ private:
 
     void begin(effect const& e, std::size_t first_parameter);
     void remember(std::string const& input, std::size_t k, memory_kind kind);
-    /// @throws std::invalid_argument for an effect that begins or ends within an experiment
-    void acts_all_the_time(char const* what) const;
+    /// An input (by index) and its copies, which are behind the same memories.
+    [[nodiscard]] std::vector<std::size_t> with_copies(std::size_t input) const;
     /// The switch of the effect, as an input; none: it acts in all experiments.
     [[nodiscard]] std::optional<std::size_t> switch_of_effect() const;
     /// What an edit has changed stays so where the switch is 1 and is as before where it is 0.
@@ -158,6 +161,7 @@ private:
     recorded_model* model_;
     expression time_;
     std::vector<expression> states_, constants_, inputs_, rates_, channels_;
+    std::vector<effect const*> owners_; ///< of states; nullptr: the model itself
     std::size_t first_parameter_ = 0;
     effect const* effect_ = nullptr; ///< whose edit it is
 };
@@ -183,10 +187,10 @@ private:
 /// neutral value; states that they add, and switches of those that act in some experiments only,
 /// stand behind the model's own states and inputs.
 ///   Where its switch is 0 an effect leaves no trace: it sees its neutral values; delays, plays and
-///   rate limits do not act (`acts_in`); states of its own go on, and nothing sees them.
-/// @throws std::invalid_argument when an effect names what the model lacks, or stands twice, or
-///         begins or ends within an experiment and has a delay, a play, a rate limit or a state of
-///         its own
+///   rate limits do not act (`acts_in`); states of its own go on, and nothing sees them. One that
+///   begins or ends within an experiment has its delay, play or rate limit on a copy of the input,
+///   which the model sees while it acts.
+/// @throws std::invalid_argument when an effect names what the model lacks, or stands twice
 [[nodiscard]] SIVID_DECL recorded_model with(recorded_model const& base,
                                              std::vector<effect> effects);
 

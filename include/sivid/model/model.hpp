@@ -237,8 +237,15 @@ struct signal_memory {
     std::size_t constant = 0; ///< of its size among the model's constants, at least 0
     memory_kind kind = memory_kind::delay;
     /// A further input by which it acts in some experiments only: in those in which that is 1 (see
-    /// `acts_in`); none: it acts in all.
+    /// `acts_in`); none: it acts in all. A channel is late at the times at which that is 1
+    /// (`acts_at`).
     std::optional<std::size_t> only_if{};
+};
+
+/// An input that is another one once more, for a memory that acts only for a time: the model goes
+/// over from one to the other.
+struct input_copy {
+    std::size_t copy = 0, of = 0; ///< by index among the inputs
 };
 
 /// A state that an effect brought along, with its value at the begin of an experiment.
@@ -267,6 +274,7 @@ struct recorded_model {
     /// The channel at t shows its value at t - c, and the one at the begin before.
     std::vector<signal_memory> channel_delays;
     std::vector<added_state> added_states; ///< of effects (see effect.hpp)
+    std::vector<input_copy> input_copies;  ///< likewise; experiments give both the same signal
     std::vector<derived_constant> derived;
 
     [[nodiscard]] bool has_memory() const {

@@ -7,6 +7,7 @@
 #include <sivid/model/graph/plain_program.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -29,6 +30,7 @@ struct plain_memory {
     std::size_t parameter = 0; ///< among the unknown parameters
     double size = 0;           ///< [s], or in the unit of the input
     memory_kind kind = memory_kind::delay;
+    std::optional<std::size_t> when{}; ///< of a channel: while this held input is not 0
 
     [[nodiscard]] double value(std::vector<double> const& parameters) const {
         return unknown ? parameters[parameter] : size;
@@ -104,6 +106,8 @@ private:
             plain_memory p;
             p.index = d.index;
             p.kind = d.kind;
+            if (d.only_if && std::holds_alternative<sampled_signal>(inputs[*d.only_if]))
+                p.when = d.only_if;
             p.size = c.nominal.nearest;
             if (auto const f = choice.fixed.find(c.name); f != choice.fixed.end()) {
                 p.size = mid(f->second);

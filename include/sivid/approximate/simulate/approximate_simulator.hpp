@@ -186,7 +186,7 @@ private:
             }
         }
         for (auto const& d : model().channel_delays()) {
-            if (!d.unknown || d.index != request.channel) continue;
+            if (!d.unknown || !mesh_.shows_late(d, request)) continue;
             auto const c = column[d.parameter];
             if (c == sensitivity_layout::none || !(t > mesh_.time(0))) continue;
             refresh(t);

@@ -38,6 +38,8 @@ public:
     [[nodiscard]] bool jumps() const {
         return !is_formula_ && samples_.kind() == interpolation::hold;
     }
+    /// A sampled signal as it is.
+    [[nodiscard]] double recorded_at(double t) const { return samples_.approximate(t); }
     static constexpr double no_limit = std::numeric_limits<double>::infinity();
 
     /// From now on the input behind this rate limit, then behind a play of this half-width, if

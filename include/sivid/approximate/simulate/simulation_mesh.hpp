@@ -33,7 +33,6 @@ public:
         input_delay_.assign(inputs.size(), 0.0);
         play_.assign(inputs.size(), 0.0);
         limit_.assign(inputs.size(), late_signal::no_limit);
-        channel_delay_.assign(model.channels(), 0.0);
         for (auto const i : model.used_inputs()) jumps_ = jumps_ || signals_[i].jumps();
         for (auto const* list : {&model.input_memory(), &model.channel_delays()}) {
             for (auto const& d : *list) moves_ = moves_ || d.unknown;
@@ -54,7 +53,11 @@ public:
             moved = moved || sizes != before;
         };
         set(input_delay_, model_->input_memory(), memory_kind::delay);
-        set(channel_delay_, model_->channel_delays(), memory_kind::delay);
+        std::vector<double> late;
+        for (auto const& d : model_->channel_delays())
+            late.push_back(std::max(0.0, d.value(parameters)));
+        moved = moved || late != channel_delay_;
+        channel_delay_ = std::move(late);
         set(play_, model_->input_memory(), memory_kind::play);
         auto const before = limit_;
         std::fill(limit_.begin(), limit_.end(), late_signal::no_limit);
@@ -140,9 +143,16 @@ public:
     /// Whether some input jumps between its pieces.
     [[nodiscard]] bool jumps() const { return jumps_; }
     [[nodiscard]] bool jumps(std::size_t i) const { return signals_[i].jumps(); }
+    /// Whether a delay of channels acts on the output that is requested.
+    [[nodiscard]] bool shows_late(plain_memory const& d, output_request const& r) const {
+        return d.index == r.channel && (!d.when || signals_[*d.when].recorded_at(r.time) != 0);
+    }
     /// When the output that is requested leaves the model.
     [[nodiscard]] double seen(output_request const& r) const {
-        return std::max(begin_, r.time - channel_delay_[r.channel]);
+        double late = 0;
+        for (std::size_t k = 0; k < channel_delay_.size(); ++k)
+            if (shows_late(model_->channel_delays()[k], r)) late += channel_delay_[k];
+        return std::max(begin_, r.time - late);
     }
 
 private:
@@ -151,7 +161,8 @@ private:
     std::vector<output_request> requests_;
     std::vector<double> knots_;
     std::vector<late_signal> signals_;
-    std::vector<double> input_delay_, play_, limit_, channel_delay_, times_;
+    std::vector<double> input_delay_, play_, limit_, times_;
+    std::vector<double> channel_delay_; ///< one for each of the model's
     std::vector<std::vector<std::size_t>> observed_;
     std::vector<late_signal::line> lines_; ///< [piece * inputs + input]
     bool jumps_ = false, moves_ = false;

@@ -118,7 +118,7 @@ struct memory_resolved {
         for (auto& m : e.measurements) {
             double late = 0;
             for (auto const& d : model.channel_delays) {
-                if (d.index == m.channel && acts_in(d, e.inputs)) late += value_of(d);
+                if (d.index == m.channel && acts_at(d, e.inputs, m.time)) late += value_of(d);
             }
             m.time = std::max(e.begin, m.time - late);
         }

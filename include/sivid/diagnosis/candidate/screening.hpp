@@ -151,14 +151,13 @@ public:
     }
 
     /// Tries single effects of the plan as such that begin in each experiment at a time of its own
-    /// (or end, or both), and adds those that explain the data so. Those with delays or states of
-    /// their own are left out.
+    /// (or end, or both), and adds those that explain the data so.
     /// @param ends  whether effects that end are tried, too
     void try_episodes(bool ends) {
         std::vector<episode_search::single> effects;
         for (auto const& one : singles()) {
             auto const* always = find(one);
-            if (always == nullptr || remembers(always->problem.model, base_.model)) continue;
+            if (always == nullptr) continue;
             effects.push_back({catalogue_[one.front()], always->fit.parameters});
         }
         std::mutex asking;
@@ -230,12 +229,6 @@ public:
 private:
     using clock = std::chrono::steady_clock;
     static constexpr std::size_t most_joined = 3; ///< sets that further effects join
-
-    [[nodiscard]] static bool remembers(recorded_model const& with, recorded_model const& without) {
-        return with.input_memory.size() > without.input_memory.size() ||
-               with.channel_delays.size() > without.channel_delays.size() ||
-               with.rate.size() > without.rate.size();
-    }
 
     [[nodiscard]] effect_sets singles() const {
         effect_sets wanted;

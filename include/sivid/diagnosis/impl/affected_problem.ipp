@@ -33,6 +33,13 @@ SIVID_DECL identification_problem affected(identification_problem const& base,
     auto const& inputs = result.model.about.inputs;
     for (auto& x : result.experiments) {
         for (auto k = base.model.about.inputs.size(); k < inputs.size(); ++k) {
+            auto const& copies = result.model.input_copies;
+            auto const c = std::find_if(copies.begin(), copies.end(),
+                                        [k](input_copy const& one) { return one.copy == k; });
+            if (c != copies.end()) {
+                x.inputs.push_back(signal(x.inputs[c->of]));
+                continue;
+            }
             auto const e = std::find_if(effects.begin(), effects.end(), [&](effect const& other) {
                 return other.name == inputs[k].name;
             });

@@ -93,6 +93,7 @@ substituted(recorded_model const& model, std::vector<std::string> const& replace
     };
     result.input_memory = moved(model.input_memory);
     result.channel_delays = moved(model.channel_delays);
+    result.input_copies = model.input_copies;
     for (std::size_t j = 0; show && j < replaced.size(); ++j) {
         result.about.channels.push_back({replaced[j], old[gone[j]].unit});
         result.observe.push_back(images[j]);

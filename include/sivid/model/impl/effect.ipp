@@ -157,12 +157,6 @@ SIVID_DECL void effect_scope::begin(effect const& e, std::size_t first_parameter
     first_parameter_ = first_parameter;
 }
 
-SIVID_DECL void effect_scope::acts_all_the_time(char const* what) const {
-    if (effect_ == nullptr || !(effect_->begins_later() || effect_->ends())) return;
-    throw std::invalid_argument("effect '" + effect_->name +
-                                "' begins or ends within an experiment and cannot have " + what);
-}
-
 SIVID_DECL std::optional<std::size_t> effect_scope::switch_of_effect() const {
     if (effect_ == nullptr || effect_->only_in.empty()) return std::nullopt;
     return index_of(model_->about.inputs, effect_->name, "input");
@@ -179,16 +173,53 @@ SIVID_DECL void effect_scope::keep_where(expression const& on, effect_scope cons
     keep(time_, before.time_);
     keep_all(constants_, before.constants_);
     keep_all(inputs_, before.inputs_);
-    keep_all(rates_, before.rates_);
+    for (std::size_t i = 0; i < before.rates_.size(); ++i)
+        if (owners_[i] != effect_) keep(rates_[i], before.rates_[i]); // its own ones go on
     keep_all(channels_, before.channels_);
 }
 
+SIVID_DECL std::vector<std::size_t> effect_scope::with_copies(std::size_t input) const {
+    std::vector<std::size_t> all{input};
+    for (auto const& c : model_->input_copies)
+        if (c.of == input) all.push_back(c.copy);
+    return all;
+}
+
 SIVID_DECL void effect_scope::remember(std::string const& input, std::size_t k, memory_kind kind) {
-    acts_all_the_time(kind == memory_kind::play         ? "a play"
-                      : kind == memory_kind::rate_limit ? "a rate limit"
-                                                        : "a delay");
-    model_->input_memory.push_back({index_of(model_->about.inputs, input, "input"),
-                                    first_parameter_ + k, kind, switch_of_effect()});
+    auto const of = index_of(model_->about.inputs, input, "input");
+    auto const constant = first_parameter_ + k;
+    if (!effect_->changes_within()) {
+        for (auto const i : with_copies(of))
+            model_->input_memory.push_back({i, constant, kind, switch_of_effect()});
+        return;
+    }
+    // Each that the model may see has a copy behind this memory, which takes its place.
+    auto& inputs = model_->about.inputs;
+    std::vector<std::pair<std::size_t, std::size_t>> replaced;
+    for (auto const i : with_copies(of)) {
+        auto const copy = inputs.size();
+        inputs.push_back({effect_->name + "." + inputs[i].name, inputs[i].unit});
+        model_->input_copies.push_back({copy, of});
+        inputs_.push_back(leaf(operation::input, copy));
+        auto const so_far = model_->input_memory;
+        for (auto m : so_far) {
+            if (m.index != i) continue;
+            m.index = copy;
+            model_->input_memory.push_back(m);
+        }
+        model_->input_memory.push_back({copy, constant, kind, {}});
+        replaced.emplace_back(i, copy);
+    }
+    auto& seen = inputs_[of];
+    auto const before = model_->g;
+    auto const image =
+        copy_into(model_->g, before, {seen.in(model_->g)}, [&](auto const& n, graph& g) {
+            auto const index = static_cast<std::size_t>(n.index);
+            for (auto const& [i, copy] : replaced)
+                if (n.op == operation::input && index == i) return g.leaf(n.op, copy);
+            return g.leaf(n.op, index);
+        });
+    seen = expression(model_->g, image.front());
 }
 
 SIVID_DECL void effect_scope::delay_input(std::string const& name, std::size_t k) {
@@ -204,7 +235,6 @@ SIVID_DECL void effect_scope::limit_input_rate(std::string const& name, std::siz
 }
 
 SIVID_DECL void effect_scope::delay_channel(std::string const& name, std::size_t k) {
-    acts_all_the_time("a delay");
     model_->channel_delays.push_back({index_of(model_->about.channels, name, "channel"),
                                       first_parameter_ + k, memory_kind::delay,
                                       switch_of_effect()});
@@ -227,7 +257,6 @@ SIVID_DECL void effect_scope::lag_channel(std::string const& name, std::size_t k
 
 SIVID_DECL expression effect_scope::add_state(std::string const& name, std::string const& unit,
                                               double limit, expression const& at_begin) {
-    acts_all_the_time("a state of its own");
     auto const k = model_->about.states.size();
     for (auto const& s : model_->about.states) {
         if (s.name == name) {
@@ -238,6 +267,7 @@ SIVID_DECL expression effect_scope::add_state(std::string const& name, std::stri
     model_->added_states.push_back({k, at_begin.in(model_->g)});
     states_.emplace_back(model_->g, model_->g.leaf(operation::state, k));
     rates_.emplace_back(0.0);
+    owners_.push_back(effect_);
     return states_.back();
 }
 
@@ -250,6 +280,7 @@ SIVID_DECL effect_scope::effect_scope(recorded_model& model)
     leaves(operation::constant, model.about.constants.size(), constants_);
     leaves(operation::input, model.about.inputs.size(), inputs_);
     rates_.resize(states_.size());
+    owners_.resize(states_.size(), nullptr);
 }
 
 SIVID_DECL recorded_model with(recorded_model const& base, std::vector<effect> effects) {
@@ -268,6 +299,7 @@ SIVID_DECL recorded_model effect_scope::join(recorded_model const& base,
     result.about = base.about;
     result.input_memory = base.input_memory;
     result.channel_delays = base.channel_delays;
+    result.input_copies = base.input_copies;
     std::vector<std::size_t> first;
     auto& constants = result.about.constants;
     for (auto const& e : effects) {
@@ -285,10 +317,11 @@ SIVID_DECL recorded_model effect_scope::join(recorded_model const& base,
     }
     effect_scope scope(result);
     // Where its switch is 0 an effect sees its neutral values. With these a state of its own may
-    // have no rate (a lag of no time), so it goes on by others there, and nothing sees it.
+    // have no rate (a lag of no time), so it goes on by others there, and nothing sees it; by the
+    // same ones where it is seen for a time.
     for (std::size_t k = 0; k < effects.size(); ++k) {
         auto const& e = effects[k];
-        if (e.only_in.empty()) continue;
+        if (e.only_in.empty() || (unseen[k] && e.changes_within())) continue;
         auto const& on = scope.input(e.name);
         for (std::size_t j = 0; j < e.parameters.size(); ++j) {
             auto const value =
@@ -306,7 +339,9 @@ SIVID_DECL recorded_model effect_scope::join(recorded_model const& base,
             (effects[k].*stage)(scope);
             auto const on = scope.switch_of_effect();
             if (on && unseen[k]) scope.keep_where(before.inputs_[*on], before);
-            if (on && scope.states_.size() > before.states_.size()) unseen[k] = true;
+            bool const remembers = scope.states_.size() > before.states_.size() ||
+                                   scope.inputs_.size() > before.inputs_.size();
+            if (on && remembers) unseen[k] = true;
         }
     };
     apply_all(&effect::on_inputs);

@@ -7,6 +7,7 @@
 
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/diagnosis/verification.hpp>
 #include <sivid/model/effects.hpp>
 
 #include <algorithm>
@@ -87,5 +88,25 @@ TEST_CASE("onsets are fitted as closely as bounds ask that the truth nearly fill
         auto const since = found.acting().since;
         REQUIRE(since.size() == 3);
         for (std::size_t e = 0; e < 3; ++e) CHECK(std::abs(since[e] - onsets[e]) < 0.1);
+    }
+}
+
+TEST_CASE("what is remembered behind an input, or by a sensor, is found from a time on") {
+    std::mt19937 chance(20261127);
+    std::uniform_real_distribution<double> times(0.8, 2.8);
+    for (int n = 0; n < support::swept(2, 12); ++n) {
+        for (auto const& one : small_campaign::memories()) {
+            small_campaign::truth real;
+            real.*one.size = std::uniform_real_distribution<double>(one.least, one.most)(chance);
+            std::vector<double> onsets;
+            for (int e = 0; e < 3; ++e) onsets.push_back(times(chance));
+            auto const problem = small_campaign::seen_within(real, onsets, {100, 100, 100});
+            auto const found = looked_for(problem, one.e);
+            CAPTURE(n, one.e.name, real.*one.size, onsets, found.fit().parameters,
+                    found.fit().inflation);
+            REQUIRE(found.explains());
+            CHECK(found.acting().begins_later());
+            CHECK(verify_at(found.problem(), found.fit()).range.upper() <= 1);
+        }
     }
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <random>
 #include <vector>
 
 using namespace sivid;
@@ -111,6 +112,43 @@ TEST_CASE("windows of ends and of episodes hold the true ones") {
         if (begins) CHECK(width(on) < 3.9);
         CHECK(width(off) < 3.9);
     }
+}
+
+TEST_CASE("windows of what is remembered for a time hold the true ones, and its true size") {
+    std::mt19937 chance(20261128);
+    auto const drawn = [&](double from, double to) {
+        return std::uniform_real_distribution<double>(from, to)(chance);
+    };
+    int told = 0;
+    for (int n = 0; n < support::swept(1, 8); ++n) {
+        for (auto const& m : small_campaign::memories()) {
+            small_campaign::truth real;
+            real.k = drawn(0.7, 1.3);
+            real.*m.size = drawn(m.least, m.most);
+            bool const ends = n % 2 == 1;
+            std::vector<double> from, until;
+            for (int e = 0; e < 2; ++e) {
+                from.push_back(n == 2 && e == 1 ? 0.0 : drawn(0.5, 2));
+                until.push_back(ends ? from.back() + drawn(0.5, 2.5) : 100.0);
+            }
+            auto const problem = small_campaign::seen_within(real, from, until);
+            auto const e = only_within(m.e, {"E1", "E2"}, {1, 1},
+                                       ends ? std::vector<double>{3, 3} : std::vector<double>{});
+            auto const found = hulls_of_episodes(problem, e, {.seconds = 3});
+            CAPTURE(n, m.e.name, real.k, real.*m.size, from, until);
+            CAPTURE(found.parameters[0], found.parameters[1]);
+            CHECK(contains(found.parameters[0], real.k));
+            CHECK(contains(found.parameters[1], real.*m.size));
+            for (std::size_t s = 0; s < 2; ++s) {
+                auto const& [on, off] = found.times[s];
+                CAPTURE(s, on.lower(), on.upper(), off.lower(), off.upper());
+                CHECK(contains(on, from[s]));
+                if (ends) CHECK(contains(off, std::min(until[s], 4.0)));
+                told += width(on) < 2.5 ? 1 : 0;
+            }
+        }
+    }
+    CHECK(told >= support::swept(4, 20));
 }
 
 TEST_CASE("nothing is known of onsets without time, and none are left where nothing explains") {

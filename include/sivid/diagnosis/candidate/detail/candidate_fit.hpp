@@ -15,6 +15,18 @@
 
 namespace sivid {
 
+/// The problem with priors of effects that keep a little away from 0: a lag of no time is a limit.
+/// @param first  side of the first effect
+[[nodiscard]] inline identification_problem away_from_zero(identification_problem problem,
+                                                           std::size_t first) {
+    for (std::size_t j = first; j < problem.prior.size(); ++j) {
+        auto& side = problem.prior[j];
+        if (side.lower() == 0)
+            side = interval_traits<interval>::bounds(0.005 * side.upper(), side.upper());
+    }
+    return problem;
+}
+
 /// Which unknowns are widths of plays.
 [[nodiscard]] inline std::vector<std::size_t> widths_of_plays(identification_problem const& p) {
     std::vector<std::size_t> result;
@@ -42,14 +54,7 @@ namespace sivid {
                                                    screened const* known, std::size_t effects,
                                                    std::function<bool()> const& go_on,
                                                    bool& silent) {
-    auto full = problem;
-    for (std::size_t j = base.prior.size(); j < full.prior.size(); ++j) {
-        // A lag of no time is a limit; fits keep a little away from it.
-        auto& side = full.prior[j];
-        if (side.lower() == 0) {
-            side = interval_traits<interval>::bounds(0.005 * side.upper(), side.upper());
-        }
-    }
+    auto const full = away_from_zero(problem, base.prior.size());
     if (known == nullptr) return fitter(full, go_on)();
     bool const many = measurement_count(problem) > 2 * many_measurements;
     auto const narrowed = many ? thinned(full, many_measurements) : full;

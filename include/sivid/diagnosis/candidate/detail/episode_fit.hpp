@@ -6,6 +6,8 @@
 #include <sivid/approximate/fit/detail/thinned.hpp>
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/diagnosis/candidate/detail/candidate_fit.hpp>
+#include <sivid/diagnosis/candidate/detail/soft_switch.hpp>
 #include <sivid/model/effect.hpp>
 #include <sivid/model/problem.hpp>
 
@@ -20,18 +22,13 @@
 
 namespace sivid {
 
-/// Which ends of its time of action an effect may have in the midst of an experiment.
-struct episode_ends {
-    bool begins = true, ends = false;
-};
-
 /// Fits when an effect begins or ends in each experiment, at times of its own. Its switch is a
 /// smooth step in time (a step up, down, or both), which has a slope to follow, then a sharper one,
-/// at last a jump at a time with few digits. Nothing here is proved.
+/// at last a jump at a time with few digits. A sensor that is late from a time on has no such
+/// steps: jumps and all else are fitted in turn. Nothing here is proved.
 class episode_fit {
 public:
     /// @param base    without effects; outlives this object
-    /// @param e       without a delay and a state of its own
     /// @param always  parameters with the effect from the start on
     episode_fit(identification_problem const& base, effect e, std::vector<double> always,
                 episode_ends ends, std::function<bool()> go_on)
@@ -45,6 +42,8 @@ public:
             spans_.push_back(x.end() - x.begin);
         }
         known_.parameters = always_;
+        auto const& late = affected(*base_, {effect_}).model.channel_delays;
+        jumps_only_ = late.size() > base_->model.channel_delays.size();
     }
 
     [[nodiscard]] std::string const& name() const { return effect_.name; }
@@ -56,6 +55,7 @@ public:
         // Shares of the experiments at which it begins and ends, to start from.
         std::vector<std::pair<double, double>> starts{{0.25, 0.75}, {0.6, 0.4}};
         if (ends_.begins && ends_.ends) starts = {{0.2, 0.6}, {0.4, 0.8}};
+        if (jumps_only_) return look_roughly_by_jumps(starts);
         auto const wide = thinned(softened(0.15), few_measurements);
         fitter descend(wide, go_on_);
         for (auto const& [on, off] : starts) {
@@ -75,11 +75,17 @@ public:
         auto const place = static_cast<std::ptrdiff_t>(always_.size()) +
                            (one_step.ends_.begins ? std::ssize(names_) : 0);
         from.insert(from.begin() + place, names_.size(), one_step.ends_.begins ? 1.0 : 0.0);
+        if (jumps_only_) return settle(std::move(from));
         auto const sharper = thinned(softened(0.06), few_measurements);
         take(fitter(sharper, go_on_)({std::move(from), {}}, fit_norm::squares));
     }
     /// By all of them, as sharply as it is; then the fit with the effect switched on there.
     void look_closely() {
+        if (jumps_only_) {
+            fit_at_jumps(8);
+            for (int again = 0; again < 3; ++again) better(5, [this] { move_jumps(); });
+            return;
+        }
         for (double const length : {0.06, 0.03}) {
             look_everywhere(length, many_measurements);
             follow(length, many_measurements, fit_norm::squares);
@@ -153,10 +159,11 @@ private:
     /// Fits with the effect switched on and off where the shares say.
     void fit_at_jumps(int digits) {
         if (!decide_times(known_.parameters, digits)) return;
-        problem_ = affected(*base_, {acting()});
+        problem_ = jumping();
         fit_start from{known_.parameters, {}};
         from.parameters.resize(problem_.prior.size());
-        fitter descend(problem_, go_on_);
+        auto const fitted = off_limits(problem_);
+        fitter descend(fitted, go_on_);
         fit_ = descend(from, fit_norm::largest);
         if (!(fit_.inflation > 1 && fit_.inflation < 1.05)) return;
         auto closer = descend({fit_.parameters, fit_.starts}, fit_norm::largest);
@@ -177,14 +184,44 @@ private:
         if (fit_.inflation > 1) fit_at_jumps(8);
         if (!(fit_.inflation < before.fit_.inflation)) *this = before;
     }
+    void look_roughly_by_jumps(std::vector<std::pair<double, double>> const& starts) {
+        for (auto const& [on, off] : starts) {
+            for (double const share : {0.0, 0.2, 0.5, 0.8}) { // 0: as it is all the time
+                auto from = always_;
+                auto const all = effect_.parameters.front().prior();
+                auto& first = from[base_->prior.size()];
+                if (share > 0) first = all.lower() + share * (all.upper() - all.lower());
+                settle(placed(std::move(from), on, off));
+            }
+        }
+    }
+    /// Moves jumps and fits all else in turn, from there on; kept where that is better.
+    void settle(std::vector<double> from) {
+        auto best = std::move(known_);
+        known_ = {};
+        known_.parameters = std::move(from);
+        for (int again = 0; again < 3 && go_on_(); ++again) {
+            move_jumps(few_measurements);
+            if (!decide_times(known_.parameters, 8)) break;
+            auto const now = thinned(off_limits(jumping()), few_measurements);
+            std::vector<double> own(known_.parameters.begin(),
+                                    known_.parameters.begin() + std::ssize(always_));
+            auto const found = fitter(now, go_on_)({std::move(own), {}}, fit_norm::squares);
+            if (found.parameters.empty() || !(found.squares < known_.squares)) break;
+            std::copy(found.parameters.begin(), found.parameters.end(), known_.parameters.begin());
+            known_.starts = found.starts;
+            known_.squares = found.squares;
+        }
+        if (!(known_.squares < best.squares)) known_ = std::move(best);
+    }
     /// Puts jumps where they fit best.
-    void move_jumps() {
+    void move_jumps(std::size_t measurements = many_measurements) {
         auto const misfits = [&](std::vector<double> const& parameters) {
             if (!go_on_() || !decide_times(parameters, 8)) return squares_of({});
-            auto const jumping = affected(*base_, {acting()});
+            auto const now = thinned(off_limits(jumping()), measurements);
             auto own = parameters;
             own.resize(always_.size());
-            return squares_of(fitter(jumping, go_on_).at(own, known_.starts).residuals);
+            return squares_of(fitter(now, go_on_).at(own, known_.starts).residuals);
         };
         place_steps(misfits, 32, 1e-4);
     }
@@ -220,8 +257,9 @@ private:
     /// comes the sooner the larger the share.
     void fit_jumps(double width, fit_norm norm) {
         using namespace literals;
-        auto const switched = only_within(effect_, names_);
-        auto hard = affected(*base_, {switched});
+        auto const switched = switched_within_all(*base_, effect_);
+        auto hard = off_limits(affected(*base_, {switched}));
+        auto const at_switch = index_of(hard.model.about.inputs, switched.name, "input");
         auto const held = [&](std::size_t s, double from, double to) {
             double const begin = base_->experiments[s].begin;
             std::vector<double> times{begin}, values{from > 0 ? 0.0 : 1.0};
@@ -239,7 +277,7 @@ private:
         for (std::size_t s = 0; s < count; ++s) {
             double const on = ends_.begins ? share[s] + width : 0;
             double const off = ends_.ends ? share[s + (steps() - 1) * count] - width : 2;
-            hard.experiments[s].inputs.back() = held(s, on, std::max(on, off));
+            hard.experiments[s].inputs[at_switch] = held(s, on, std::max(on, off));
         }
         for (std::size_t step = 0; step < halves.size(); ++step) {
             auto& half = halves[step];
@@ -280,47 +318,15 @@ private:
             now = k < always_.size() ? found.parameters[k] : now + later;
         }
     }
-    /// The switch with steps whose length is this share of each experiment; at which share of it
-    /// they are made are further parameters: for all experiments where it begins, then where it
-    /// ends.
+    /// See `with_soft_switch`.
     [[nodiscard]] identification_problem softened(double length) const {
-        using namespace literals;
-        auto const switched = only_within(effect_, names_);
-        auto hard = affected(*base_, {switched});
-        effect soft;
-        soft.name = "episode";
-        auto const share = [&](std::string const& name) {
-            soft.parameters.push_back({name, "1", -0.05_dec, 1.05_dec, 0_dec});
-        };
-        for (std::size_t s = 0; s < names_.size(); ++s) {
-            auto const which = static_cast<double>(s); // the experiment
-            hard.experiments[s].inputs.back() =
-                analytic_signal::from([which](auto const&) { return which; });
-            if (ends_.begins) share(names_[s]);
-        }
-        for (auto const& name : names_)
-            if (ends_.ends) share(name + "_end");
-        soft.on_inputs = [&](effect_scope& h) {
-            auto& on = h.input(switched.name);
-            expression begin(0.0), span(0.0);
-            std::vector<expression> at(2, expression(0.0));
-            for (std::size_t s = 0; s < names_.size(); ++s) {
-                auto const here = max(1 - abs(on - static_cast<double>(s)), 0); // folds to 0 or 1
-                begin += here * base_->experiments[s].begin;
-                span += here * spans_[s];
-                for (std::size_t step = 0; step < steps(); ++step)
-                    at[step] += here * h.parameter(step * names_.size() + s);
-            }
-            auto const so_far = (h.time() - begin) / span;
-            auto const up = [&](expression const& where) {
-                return 0.5 * (1 + tanh((so_far - where) / length));
-            };
-            if (ends_.begins && ends_.ends)
-                on = up(at[0]) * (1 - up(at[1]));
-            else
-                on = ends_.begins ? up(at[0]) : 1 - up(at[0]);
-        };
-        return affected(hard, {soft});
+        return off_limits(with_soft_switch(*base_, effect_, ends_, length));
+    }
+    /// The effect switched on and off as was decided.
+    [[nodiscard]] identification_problem jumping() const { return affected(*base_, {acting()}); }
+    /// Fits keep a little away from lags of no time.
+    [[nodiscard]] identification_problem off_limits(identification_problem p) const {
+        return effect_.lags ? away_from_zero(std::move(p), base_->prior.size()) : p;
     }
     [[nodiscard]] std::size_t steps() const { return ends_.begins && ends_.ends ? 2 : 1; }
     void take(approximate_fit found) {
@@ -385,6 +391,7 @@ private:
     std::vector<double> since_, until_; ///< of those that it acts in
     identification_problem problem_;
     approximate_fit fit_; ///< with the jump
+    bool jumps_only_ = false;
 };
 
 } // namespace sivid

@@ -25,10 +25,10 @@ struct episode_hulls {
 /// which it then explains the data. Over a slice of such times its switch is an input with error
 /// bounds (`switched_within`); slices at either end that cannot explain the data are cut off, as
 /// long as that helps and there is time.
-/// @param e  without a delay and a state of its own. Where it begins later, it may begin at any
-/// time
-///           in each experiment; where it ends, end at any time; else it does not. When it does
-///           says only which slices need not be tried.
+///   The size of a delay, a play, a rate limit or a late sensor is cut likewise: over a range of it
+/// the copied input has error bounds, or the sensor a motion of its own (`with_late_channels`).
+/// @param e  Where it begins later, it may begin at any time in each experiment; where it ends, end
+///           at any time; else it does not. When it does says only which slices need not be tried.
 /// @guarantee  whatever parameters explain the data with the effect switched on, or off, or on and
 ///             off again at a time in each experiment, or never: they and these times lie in the
 ///             result

@@ -20,7 +20,7 @@ namespace sivid {
 class episode_search {
 public:
     struct single {
-        effect e;                   ///< without a delay and a state of its own
+        effect e;
         std::vector<double> always; ///< parameters of a fit with the effect all the time
     };
     struct questions {

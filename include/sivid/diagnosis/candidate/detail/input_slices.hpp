@@ -3,7 +3,10 @@
 #define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_INPUT_SLICES_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/diagnosis/candidate/resolve_memory.hpp>
 #include <sivid/measurement/signal.hpp>
+#include <sivid/model/model.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/number/interval.hpp>
 #include <sivid/number/interval_traits.hpp>
 
@@ -68,6 +71,13 @@ struct input_of_parameter {
                                                                    bool stands,
                                                                    interval const& thresholds);
 
+/// A recorded input behind a delay, a play or a rate limit of any size in a range, as an input with
+/// error bounds.
+/// @guarantee  for every size it lies within the result from begin to end of the experiment
+[[nodiscard]] SIVID_DECL sampled_signal remembered_within(experiment const& x,
+                                                          signal_memory const& m,
+                                                          interval const& sizes);
+
 /// When a switch goes on and off again, each at a time within an interval. Times at or after the
 /// end of an experiment may stand for never.
 struct switch_times {
@@ -83,6 +93,13 @@ struct switch_times {
 /// @cost  five samples at most
 [[nodiscard]] SIVID_DECL sampled_signal switched_within(double begin, double end,
                                                         switch_times const& times);
+
+/// What switches of these times may be at t.
+struct switch_values {
+    bool off = false, on = false;
+};
+[[nodiscard]] SIVID_DECL switch_values switch_at(double begin, double end,
+                                                 switch_times const& times, double t);
 
 /// How long switches of these times may differ, from `begin` to `end`.
 [[nodiscard]] SIVID_DECL double open_time(double begin, double end, switch_times const& times);

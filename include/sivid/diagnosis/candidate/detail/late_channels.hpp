@@ -3,6 +3,7 @@
 #define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_LATE_CHANNELS_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/diagnosis/candidate/detail/input_slices.hpp>
 #include <sivid/model/effect.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/number/interval.hpp>
@@ -24,12 +25,14 @@ namespace sivid {
 /// @param base    with all other effects: they see late inputs and a late time
 /// @param sensor  the late sensor, alone with its parameter
 /// @param delays  range of that parameter, whose place the distance from its middle takes
+/// @param when    for each experiment, when the sensor is late; none: wherever it acts. What it
+///                shows while it may be either is left out
 /// @given  inputs that are recorded, or do not change; no late channel depends on the time itself
 /// @guarantee  parameters with such a delay that explain the data explain this problem: samples of
 ///             late channels between a and b are left out, each part may have all the outliers
-[[nodiscard]] SIVID_DECL identification_problem
-with_late_channels(identification_problem const& base, effect const& sensor,
-                   std::vector<bool> const& late, interval const& delays);
+[[nodiscard]] SIVID_DECL identification_problem with_late_channels(
+    identification_problem const& base, effect const& sensor, std::vector<bool> const& late,
+    interval const& delays, std::vector<switch_times> const& when = {});
 
 } // namespace sivid
 

@@ -153,7 +153,7 @@ private:
         explained_hull hulls;
         for (std::size_t k = 0; k < effects_->size(); ++k) {
             auto const& e = (*effects_)[k];
-            if (!e.lags || e.lags->input.empty() ||
+            if (!e.lags || e.lags->input.empty() || e.changes_within() ||
                 !finds_as_recorded(base_->model, *effects_, k, e.lags->input))
                 continue;
             auto const j = index_of_parameter(whole, e.name + "." + e.parameters[0].name);

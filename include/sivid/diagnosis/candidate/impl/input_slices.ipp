@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <limits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace sivid {
@@ -293,6 +294,20 @@ inline std::vector<switch_piece> switch_pieces(double begin, double end, switch_
     return pieces;
 }
 } // namespace diagnosis_detail
+
+SIVID_DECL sampled_signal remembered_within(experiment const& x, signal_memory const& m,
+                                            interval const& sizes) {
+    auto const& u = std::get<sampled_signal>(x.inputs[m.index]);
+    return m.kind == memory_kind::delay ? delayed_within(u, x.begin, x.end(), sizes)
+                                        : resolved_input(u, m.kind, x, sizes);
+}
+
+SIVID_DECL switch_values switch_at(double begin, double end, switch_times const& times, double t) {
+    auto const pieces = diagnosis_detail::switch_pieces(begin, end, times);
+    auto at = pieces.begin();
+    while (at + 1 != pieces.end() && !(t < at->to)) ++at;
+    return {at->may_be_off, at->may_be_on};
+}
 
 SIVID_DECL sampled_signal switched_within(double begin, double end, switch_times const& times) {
     std::vector<double> at, values, errors;

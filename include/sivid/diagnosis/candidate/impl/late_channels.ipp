@@ -95,7 +95,8 @@ struct late_clock {
 SIVID_DECL identification_problem with_late_channels(identification_problem const& base,
                                                      effect const& sensor,
                                                      std::vector<bool> const& late,
-                                                     interval const& delays) {
+                                                     interval const& delays,
+                                                     std::vector<switch_times> const& when) {
     auto const constant = [](double c) {
         return analytic_signal::from([c](auto const&) { return c; });
     };
@@ -147,17 +148,24 @@ SIVID_DECL identification_problem with_late_channels(identification_problem cons
         return index_of(problem.model.about.inputs, name, "input");
     };
     std::vector<experiment> parts;
-    for (auto const& x : problem.experiments) {
+    for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
+        auto const& x = problem.experiments[s];
         auto in_time = x, behind = x;
         bool const acts = sensor.acts_in(x.name);
-        std::erase_if(in_time.measurements, [&](auto const& m) { return acts && late[m.channel]; });
+        auto const at = [&](double t) {
+            return when.empty() ? switch_values{!acts, acts}
+                                : switch_at(x.begin, x.end(), when[s], t);
+        };
+        std::erase_if(in_time.measurements,
+                      [&](auto const& m) { return late[m.channel] && at(m.time).on; });
         for (auto const& name : own) in_time.inputs[place(name)] = constant(name == clock ? 1 : 0);
         if (timed) {
             in_time.inputs[place(shown)] = analytic_signal::from([](auto const& t) { return t; });
         }
         diagnosis_detail::late_clock const time(x.begin, delays);
         std::erase_if(behind.measurements, [&](auto const& m) {
-            return !acts || !late[m.channel] || (m.time > time.stands && m.time < time.runs);
+            return !late[m.channel] || at(m.time).off ||
+                   (m.time > time.stands && m.time < time.runs);
         });
         behind.name += "_late";
         behind.inputs[place(clock)] = time.rate;

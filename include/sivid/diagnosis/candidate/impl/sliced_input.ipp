@@ -69,14 +69,6 @@ template <class Form>
     return problem;
 }
 
-/// A recorded input behind a delay, a play or a rate limit of any size in a range.
-[[nodiscard]] inline sampled_signal remembered_within(experiment const& x, signal_memory const& m,
-                                                      interval const& range) {
-    auto const& u = std::get<sampled_signal>(x.inputs[m.index]);
-    return m.kind == memory_kind::delay ? delayed_within(u, x.begin, x.end(), range)
-                                        : resolved_input(u, m.kind, x, range);
-}
-
 /// One parameter that changes a recorded input, taken out of the effects.
 struct input_change {
     std::size_t effect, input;
@@ -133,6 +125,9 @@ public:
 
     [[nodiscard]] std::optional<sliced_input> operator()() {
         auto const& memory = whole_.model.input_memory;
+        // What is seen for a time only is behind a copy, which is not among the recorded inputs.
+        if (whole_.model.input_copies.size() > base_->model.input_copies.size())
+            return std::nullopt;
         for (auto const& m : memory) {
             auto const change = change_by(m);
             if (change) {
