@@ -35,12 +35,13 @@ enum class family {
     episode,
     noise,
     slow,
-    memory
+    memory,
+    rate
 };
-inline constexpr std::array<std::string_view, 22> family_names{
+inline constexpr std::array<std::string_view, 23> family_names{
     "single",   "weak",     "wide",       "pose",        "pair",   "outliers", "outside", "none",
     "alias",    "askew",    "instrument", "experiments", "bounds", "strong",   "onset",   "three",
-    "backlash", "friction", "episode",    "noise",       "slow",   "memory"};
+    "backlash", "friction", "episode",    "noise",       "slow",   "memory",   "rate"};
 
 /// The first of them are drawn in every round, the others where they are asked for.
 inline constexpr std::size_t usual_families = 16;

@@ -40,7 +40,8 @@ std::vector<effect> const& catalogue() {
         {"rudder_backlash", {{"b", &v::rudder_play, 0, 0.15, 0.03, 0.1, false}}},
         {"stribeck",
          {{"k", &v::stribeck_rise, 0, 2, 0.6, 1.5, false},
-          {"vs", &v::stribeck_speed, 0.2, 1, 0.3, 0.8, false}}}};
+          {"vs", &v::stribeck_speed, 0.2, 1, 0.3, 0.8, false}}},
+        {"rudder_rate_limit", {{"R", &v::rudder_rate, 0.02, 2, 0.04, 0.2, false}}}};
     return all;
 }
 
@@ -52,7 +53,7 @@ std::vector<effect> wider_catalogue() {
     static std::deque<std::string> names; // effects refer to them
     auto all = catalogue();
     for (auto& e : all) {
-        bool const vanishes_above = e.name == "rudder_saturation";
+        bool const vanishes_above = e.name == "rudder_saturation" || e.name == "rudder_rate_limit";
         e.name = names.emplace_back(std::string{e.name} + std::string{wider});
         for (auto& p : e.parameters) {
             p.lo *= p.lo < 0 ? 4 : 0.25;

@@ -85,7 +85,7 @@ double sensor_offset(true_motion const& m, std::size_t k) {
 /// What acts beside the recorded input, on the average.
 double input_offset(true_motion const& m, bool rudder) {
     auto const& w = m.truth;
-    auto const driven = behind_play(w.rudder, w.e.rudder_play);
+    auto const driven = driven_rudder(w);
     return m.mean([&](std::size_t n) {
         double const t = m.t[n], seen = std::max(t - w.e.input_delay, 0.0);
         bool const begun = w.acting.holds(t);

@@ -80,6 +80,39 @@ polyline behind_play(polyline const& recorded, double half_width) {
     return driven;
 }
 
+polyline behind_rate_limit(polyline const& recorded, double most) {
+    if (std::isinf(most)) return recorded;
+    double t = 0, command = recorded.at(0);
+    polyline driven{{t}, {command}};
+    double rest = command;
+    for (std::size_t i = 0; i < recorded.t.size(); ++i) {
+        double const next_t = recorded.t[i], next = recorded.value[i];
+        if (next_t <= t) continue;
+        double const slope = (next - command) / (next_t - t), ahead = command - rest;
+        // On its way towards the command, by `most`, until both meet.
+        double const way = ahead != 0 ? std::copysign(most, ahead) : std::clamp(slope, -most, most);
+        double const closing = way - slope;
+        double const meets = ahead != 0 && ahead * closing > 0 ? t + ahead / closing : next_t;
+        if (meets < next_t) {
+            driven.t.push_back(meets);
+            driven.value.push_back(rest + way * (meets - t));
+            rest = driven.value.back() + std::clamp(slope, -most, most) * (next_t - meets);
+        } else {
+            rest += way * (next_t - t);
+        }
+        driven.t.push_back(next_t);
+        driven.value.push_back(rest);
+        t = next_t;
+        command = next;
+        if (std::abs(command - rest) < 1e-15) rest = command; // both have met, but for rounding
+    }
+    return driven;
+}
+
+polyline driven_rudder(world const& w) {
+    return behind_play(behind_rate_limit(w.rudder, w.e.rudder_rate), w.e.rudder_play);
+}
+
 namespace {
 
 double gust_force(std::vector<gust_pulse> const& gusts, double t) {

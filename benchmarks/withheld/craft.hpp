@@ -34,8 +34,9 @@ struct effect_values {
     double rudder_limit = std::numeric_limits<double>::infinity();
     double rudder_deadband = 0, position_scale = 0, motor_lag = 0, dry_yaw_friction = 0;
     double friction_anisotropy = 0, position_latency = 0, thrust_loss = 0;
-    double rudder_play = 0;                       // half of the gap
-    double stribeck_rise = 0, stribeck_speed = 1; // more dry friction at low speed
+    double rudder_play = 0;                                       // half of the gap
+    double rudder_rate = std::numeric_limits<double>::infinity(); // rad/s at most
+    double stribeck_rise = 0, stribeck_speed = 1;                 // more dry friction at low speed
 };
 
 /// A lateral push of the shape sin^2, smooth at both ends.
@@ -105,7 +106,7 @@ void act_within(world& w, episode const& when);
 inline constexpr std::size_t state_size = 9;
 using state = std::array<double, state_size>;
 
-/// The commands at one time: W as recorded, delta behind play, delay and dead band.
+/// The commands at one time: W as recorded, delta behind rate limit, play, delay and dead band.
 struct command {
     double motor = 0, rudder = 0;
 };
@@ -116,6 +117,14 @@ double behind_deadband(double delta, double band);
 /// What follows a recording behind a gap of twice half_width: it stands at the recording's value at
 /// time 0 and moves only where that pushes it. Exact between the samples, too.
 polyline behind_play(polyline const& recorded, double half_width);
+
+/// What follows a recording by so much a second at most: it stands at the recording's value at time
+/// 0, and is the recording where it has caught up. Until the last sample; exact between samples,
+/// too.
+polyline behind_rate_limit(polyline const& recorded, double most);
+
+/// The rudder's command behind its rate limit and play.
+polyline driven_rudder(world const& w);
 
 state derivative(world const& w, double t, command const& now, state const& s, state const& start);
 

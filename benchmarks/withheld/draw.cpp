@@ -189,8 +189,9 @@ std::size_t index_of(std::string_view name) {
 }
 
 /// Effects that depend on the past.
-constexpr std::array<std::string_view, 5> memories{"rudder_lag", "input_delay", "motor_lag",
-                                                   "position_latency", "rudder_backlash"};
+constexpr std::array<std::string_view, 6> memories{"rudder_lag",      "input_delay",
+                                                   "motor_lag",       "position_latency",
+                                                   "rudder_backlash", "rudder_rate_limit"};
 bool has_memory(effect const& e) {
     return std::find(memories.begin(), memories.end(), e.name) != memories.end();
 }
@@ -286,6 +287,7 @@ void draw_effects(std::uint64_t seed, std::size_t n, double size, random_source&
     }
     if (c.kind == family::backlash) which = index_of("rudder_backlash");
     if (c.kind == family::friction) which = index_of("stribeck");
+    if (c.kind == family::rate) which = index_of("rudder_rate_limit");
     if (c.kind == family::memory) which = index_of(memories[dealt(deck, n, memories.size())]);
     while (c.effects.size() < count) {
         while (!possible(all[which], c.kind) ||

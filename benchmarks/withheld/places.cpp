@@ -27,6 +27,7 @@ places places_of(std::string const& effect) {
         {"motor_lag", thrust},
         {"thrust_loss_with_speed", thrust},
         {"rudder_backlash", rudder},
+        {"rudder_rate_limit", rudder},
         {"stribeck", force},
         {"cg_offset", {{"surge", "sway", "yaw"}, {}, {}}},
         {"thrust_offset", yaw},

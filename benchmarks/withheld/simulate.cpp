@@ -62,7 +62,7 @@ std::vector<state> states_at(world const& w, channels const& initial,
     std::vector<state> result;
     if (times.empty()) return result;
     result.reserve(times.size());
-    polyline const rudder = behind_play(w.rudder, w.e.rudder_play);
+    polyline const rudder = driven_rudder(w);
     std::vector<double> stops = kinks(w, rudder, times.back());
     stops.insert(stops.end(), times.begin(), times.end());
     std::sort(stops.begin(), stops.end());

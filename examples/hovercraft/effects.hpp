@@ -6,9 +6,9 @@
 
 #include <vector>
 
-/// What the hovercraft's model leaves out: 23 effects, whose names stand in diagnoses. On the
-/// rudder they act in the order backlash, delay, dead band, lag, saturation, trim; on the motor
-/// sag, lag.
+/// What the hovercraft's model leaves out: 24 effects, whose names stand in diagnoses. On the
+/// rudder they act in the order rate limit, backlash, delay, dead band, lag, saturation, trim; on
+/// the motor sag, lag.
 namespace hovercraft_example {
 
 /// Air that moves with (wx, wy) over the ground: the drag follows the speed through the air, dry
@@ -204,7 +204,8 @@ inline sivid::effect stribeck() {
             any::sensor_latency("position_latency", {"x", "y"}, {0_dec, 0.5_dec}),
             thrust_loss_with_speed(),
             any::input_backlash("rudder_backlash", "delta", "rad", {0_dec, 0.15_dec}),
-            stribeck()};
+            stribeck(),
+            any::input_rate_limit("rudder_rate_limit", "delta", "rad/s", {0.02_dec, 2_dec})};
 }
 
 } // namespace hovercraft_example

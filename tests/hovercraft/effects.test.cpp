@@ -145,9 +145,9 @@ void compare(std::vector<effect> const& effects, unsigned seed) {
 
 } // namespace
 
-TEST_CASE("the catalogue has the 23 names of diagnoses") {
+TEST_CASE("the catalogue has the 24 names of diagnoses") {
     auto const all = hovercraft_example::catalogue();
-    CHECK(all.size() == 23);
+    CHECK(all.size() == 24);
     CHECK(names(all) == std::set<std::string>{"wind",
                                               "rudder_lag",
                                               "input_delay",
@@ -170,7 +170,8 @@ TEST_CASE("the catalogue has the 23 names of diagnoses") {
                                               "position_latency",
                                               "thrust_loss_with_speed",
                                               "rudder_backlash",
-                                              "stribeck"});
+                                              "stribeck",
+                                              "rudder_rate_limit"});
 }
 
 TEST_CASE("each effect has the rates and channels of its formula") {
