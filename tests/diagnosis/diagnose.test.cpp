@@ -221,6 +221,27 @@ TEST_CASE("a rate limit is found, bounded, and its witness verified") {
     CHECK(cause.parameters[0].hull->upper() < 2);
 }
 
+TEST_CASE("clocks that run slow are found, bounded, and their witnesses verified") {
+    using namespace sivid::literals;
+    auto catalogue = small_campaign::catalogue();
+    catalogue.push_back(effects::input_clock_drift("command_clock", "u", {0_dec, 0.4_dec}));
+    catalogue.push_back(effects::sensor_clock_drift("position_clock", {"p"}, {0_dec, 0.4_dec}));
+    for (bool const of_sensor : {false, true}) {
+        small_campaign::truth real;
+        (of_sensor ? real.sensor_drift : real.drift) = 0.15;
+        auto const d = diagnose(small_campaign::problem(real), catalogue, {});
+        for (auto const& c : find_contradictions(d.result)) FAIL_CHECK(c.claim + ": " + c.reason);
+        CHECK(d.result.gap == gap_verdict::certified);
+        REQUIRE(d.result.effects == names{of_sensor ? "position_clock" : "command_clock"});
+        auto const& cause = d.result.causes.front();
+        CHECK(cause.verdict == cause_verdict::explains);
+        REQUIRE(cause.parameters.size() == 1);
+        REQUIRE(cause.parameters[0].hull);
+        CHECK(contains(*cause.parameters[0].hull, 0.15));
+        if (!of_sensor) CHECK(cause.parameters[0].hull->lower() > 0);
+    }
+}
+
 TEST_CASE("instruments that drift, are askew, clip or are mixed up are named") {
     using namespace sivid::literals;
     std::vector<effect> const instruments{

@@ -57,7 +57,9 @@ struct truth {
     double play = 0;              ///< half of a gap behind it
     double limit = 0;             ///< of its rate [N/s]; 0: none
     double lag = 0;               ///< time constant behind it [s]
+    double drift = 0;             ///< of its clock
     double sensor_delay = 0;      ///< of the position
+    double sensor_drift = 0;      ///< of its clock
     double from = 0, until = 100; ///< when these are seen [s]
     int every = 100;              ///< milliseconds from one measurement to the next
     sivid::interpolation between = sivid::interpolation::linear; ///< samples of the input
@@ -99,7 +101,7 @@ inline sivid::experiment experiment(std::size_t e, truth const& real) {
     auto const acts = [&](double t) { return t >= real.from && t < real.until; };
     std::vector<double> past{p};
     auto const rate = [&](double t, double w) {
-        double const late = std::max(0.0, t - real.delay);
+        double const late = std::max(0.0, t - real.delay - real.drift * t);
         double const force = !acts(t) ? u.approximate(t)
                              : real.play > 0 || real.limit > 0 || real.lag > 0
                                  ? behind[static_cast<std::size_t>(std::lround(2 * late / h))]
@@ -116,7 +118,8 @@ inline sivid::experiment experiment(std::size_t e, truth const& real) {
         if (step % real.every != 0) continue;
         double const wave = 0.6 * std::sin(12.9898 * step + 4.1 * static_cast<double>(e));
         auto const around = [](double y, double size) { return interval(y - size, y + size); };
-        auto const steps_ago = acts(step * h) ? std::lround(real.sensor_delay / h) : 0;
+        double const ago = real.sensor_delay + real.sensor_drift * step * h;
+        auto const steps_ago = acts(step * h) ? std::lround(ago / h) : 0;
         double const shown = past[static_cast<std::size_t>(std::max(0L, step - steps_ago))];
         result.measurements.push_back(
             {step * h, 0, around(real.seen_position(shown) + 0.02 * wave, 0.02)});

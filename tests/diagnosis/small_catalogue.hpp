@@ -53,6 +53,9 @@ inline std::vector<memory> memories() {
         {any::input_backlash("gap", "u", "N", {0_dec, 0.6_dec}), &truth::play, 0.2, 0.4},
         {any::input_rate_limit("slow", "u", "N/s", {0.1_dec, 5_dec}), &truth::limit, 0.4, 0.7},
         {any::sensor_latency("sensor", {"p"}, {0_dec, 0.6_dec}), &truth::sensor_delay, 0.2, 0.4},
+        {any::input_clock_drift("clock", "u", {0_dec, 0.4_dec}), &truth::drift, 0.1, 0.25},
+        {any::sensor_clock_drift("stamps", {"p"}, {0_dec, 0.4_dec}), &truth::sensor_drift, 0.1,
+         0.25},
         {any::input_lag("lag", "u", "N", {0_dec, 0.8_dec}, 5), &truth::lag, 0.2, 0.4}};
 }
 /// It is seen in each experiment from one time until another one.

@@ -139,4 +139,6 @@ TEST_CASE("states of effects, delays and plays are described") {
     auto const slow = describe(m);
     CHECK(slow.find("plays") == std::string::npos);
     CHECK(slow.find("input w", slow.find("rate limits")) != std::string::npos);
+    m.input_memory[0].kind = memory_kind::drift;
+    CHECK(describe(m).find("input w         k (t - begin)") != std::string::npos);
 }

@@ -56,6 +56,9 @@ TEST_CASE("effects of inputs") {
     REQUIRE(slow.input_memory.size() == 1);
     CHECK(slow.input_memory[0].kind == memory_kind::rate_limit);
     CHECK(slow.about.constants.back().nominal.nearest == nearest(prior.upper));
+    auto const clock = with(cart{}, effects::input_clock_drift("e", "u", prior));
+    REQUIRE(clock.input_memory.size() == 1);
+    CHECK(clock.input_memory[0].kind == memory_kind::drift);
 }
 
 TEST_CASE("effects of equations") {
@@ -124,6 +127,7 @@ TEST_CASE("effects of sensors") {
     CHECK(at(both, both.observe[1], 0, {0.5}) == 0.5);
     auto const late = with(cart{}, effects::sensor_latency("e", {"y", "z"}, prior));
     CHECK(late.channel_delays.size() == 2);
+    CHECK(late.channel_delays[1].kind == memory_kind::delay);
 }
 
 TEST_CASE("priors are widened where an effect may go further, and nowhere else") {

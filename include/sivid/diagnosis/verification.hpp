@@ -50,9 +50,8 @@ namespace sivid {
     }
     auto const& inputs = at.model.input_memory;
     bool const delayed = !at.model.channel_delays.empty() ||
-                         std::any_of(inputs.begin(), inputs.end(), [](signal_memory const& m) {
-                             return m.kind == memory_kind::delay;
-                         });
+                         std::any_of(inputs.begin(), inputs.end(),
+                                     [](signal_memory const& m) { return is_dead_time(m.kind); });
     auto resolved = resolve_memory(at, p);
     if (resolved.problem.prior.size() == 0) {
         // An identification needs an unknown: any constant that is fixed stands in for it.

@@ -132,6 +132,10 @@ public:
     void delay_input(std::string const& name, std::size_t k = 0);
     /// The channel shows the past, by the effect's k-th parameter.
     void delay_channel(std::string const& name, std::size_t k = 0);
+    /// The clock of an input, or of a channel, runs slow: it is late by the effect's k-th parameter
+    /// times the time since the begin.
+    void slow_input_clock(std::string const& name, std::size_t k = 0);
+    void slow_channel_clock(std::string const& name, std::size_t k = 0);
     /// The channel h follows by a first-order lag, whose time constant tau > 0 is the effect's k-th
     /// parameter, from its own value at the begin on: it shows h - w, w' = h' - w/tau, w = 0 there.
     /// @throws std::invalid_argument  for a channel that shows anything but a state as it is
@@ -151,6 +155,7 @@ private:
 
     void begin(effect const& e, std::size_t first_parameter);
     void remember(std::string const& input, std::size_t k, memory_kind kind);
+    void show_late(std::string const& channel, std::size_t k, memory_kind kind);
     /// An input (by index) and its copies, which are behind the same memories.
     [[nodiscard]] std::vector<std::size_t> with_copies(std::size_t input) const;
     /// The switch of the effect, as an input; none: it acts in all experiments.

@@ -26,6 +26,11 @@ SIVID_DECL effect one(std::string name, std::string parameter, std::string unit,
 
 /// The input acts late: u(t - tau), and u at the begin before.
 SIVID_DECL effect input_delay(std::string const& name, std::string const& input, range const& tau);
+/// The clock of the input runs slow by r seconds a second: u(t - r (t - begin)), dead time that
+/// grows.
+/// @param r  0 to below 1
+SIVID_DECL effect input_clock_drift(std::string const& name, std::string const& input,
+                                    range const& r);
 /// u - b above b, u + b below -b, else 0.
 SIVID_DECL effect input_dead_band(std::string const& name, std::string const& input,
                                   std::string const& unit, range const& b);
@@ -130,6 +135,10 @@ SIVID_DECL effect sensor_scale(std::string const& name, std::vector<std::string>
 /// y(t - tau), and its value at the begin before, for all the channels of one instrument.
 SIVID_DECL effect sensor_latency(std::string const& name, std::vector<std::string> const& channels,
                                  range const& tau);
+/// y(t - r (t - begin)): the clock of one instrument runs slow by r seconds a second.
+/// @param r  0 to below 1
+SIVID_DECL effect sensor_clock_drift(std::string const& name,
+                                     std::vector<std::string> const& channels, range const& r);
 /// First-order lag (low-pass): the channel shows y - w with w' = y' - w/tau and w = 0 at the begin,
 /// for all the channels of one instrument, each of which has to show a state. It comes before other
 /// faults of these.

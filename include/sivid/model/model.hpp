@@ -225,10 +225,16 @@ struct model_description {
 };
 
 enum class memory_kind {
-    delay,     ///< by so much time [s]
-    play,      ///< of this half-width, in the unit of the input (see measurement/played_signal.hpp)
-    rate_limit ///< of this size, in that unit per second (see measurement/limited_signal.hpp)
+    delay, ///< by so much time [s]
+    play,  ///< of this half-width, in the unit of the input (see measurement/played_signal.hpp)
+    rate_limit, ///< of this size, in that unit per second (see measurement/limited_signal.hpp)
+    drift       ///< of the clock: a delay by this share of the time since the begin, below 1
 };
+
+/// Whether it moves a signal in time and changes nothing else.
+[[nodiscard]] constexpr bool is_dead_time(memory_kind kind) {
+    return kind == memory_kind::delay || kind == memory_kind::drift;
+}
 
 /// What depends on the past, which no graph in t, x, c, u can express: an input that acts late or
 /// behind a play or a rate limit, or a channel that is seen late.
@@ -269,9 +275,9 @@ struct recorded_model {
     std::vector<node_id> rate;    ///< one node a state
     std::vector<node_id> observe; ///< one node a channel
     /// The model sees input u(t - c) instead of u(t), and u at the begin before; or u behind a
-    /// play.
+    /// play. Delays of one input add up: its dead time at t is a sum of c and of c (t - begin).
     std::vector<signal_memory> input_memory;
-    /// The channel at t shows its value at t - c, and the one at the begin before.
+    /// The channel at t shows its value at t - c, and the one at the begin before; likewise.
     std::vector<signal_memory> channel_delays;
     std::vector<added_state> added_states; ///< of effects (see effect.hpp)
     std::vector<input_copy> input_copies;  ///< likewise; experiments give both the same signal

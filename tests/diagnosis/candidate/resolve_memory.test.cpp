@@ -14,14 +14,14 @@ TEST_CASE("a delayed signal shows the past") {
     sampled_signal const linear({0.0, 1.0, 3.0}, {2.0, 4.0, 0.0}, interpolation::linear);
     sampled_signal const hold({0.0, 1.0, 3.0}, {2.0, 4.0, 0.0}, interpolation::hold);
     auto const formula = analytic_signal::from([](auto const& t) { return 3 * t + 1; });
-    auto const late = std::get<sampled_signal>(delayed(linear, 0.5, 0));
-    auto const late_hold = std::get<sampled_signal>(delayed(hold, 0.5, 0));
+    auto const late = std::get<sampled_signal>(delayed(linear, {0.5}, 0));
+    auto const late_hold = std::get<sampled_signal>(delayed(hold, {0.5}, 0));
     for (double t = 0; t < 4; t += 0.0625) {
         double const past = std::max(t - 0.5, 0.0);
         CHECK(std::abs(late.approximate(t) - linear.approximate(past)) < 1e-14);
         CHECK(late_hold.approximate(t) == hold.approximate(past));
     }
-    auto const late_formula = std::get<analytic_signal>(delayed(formula, 0.5, 0.25));
+    auto const late_formula = std::get<analytic_signal>(delayed(formula, {0.5}, 0.25));
     auto const at = [&](double t) {
         graph g;
         auto const v = copy_into(g, late_formula.g, {late_formula.value},
@@ -32,10 +32,10 @@ TEST_CASE("a delayed signal shows the past") {
     CHECK(at(1.0) == 2.5);
     // A signal that was recorded from before the begin on.
     sampled_signal const early({-2.0, 2.0}, {-2.0, 2.0}, interpolation::linear);
-    auto const held = std::get<sampled_signal>(delayed(early, 0.5, 1));
+    auto const held = std::get<sampled_signal>(delayed(early, {0.5}, 1));
     CHECK(held.approximate(1.25) == 1);
     CHECK(held.approximate(2.0) == 1.5);
-    CHECK(std::get<sampled_signal>(delayed(linear, 0, 0)).times().size() == 3);
+    CHECK(std::get<sampled_signal>(delayed(linear, {0}, 0)).times().size() == 3);
 }
 
 TEST_CASE("resolving a play puts the recorded input behind it, late or not") {
@@ -113,13 +113,55 @@ TEST_CASE("a late signal keeps the error bounds of its samples") {
     std::vector<double> const errors{0.1, 0.3, 0.2};
     for (auto const kind : {interpolation::linear, interpolation::hold}) {
         sampled_signal const u({0.0, 1.0, 3.0}, {2.0, 4.0, 0.0}, kind, errors);
-        auto const late = std::get<sampled_signal>(delayed(u, 0.5, 0));
+        auto const late = std::get<sampled_signal>(delayed(u, {0.5}, 0));
         REQUIRE_FALSE(late.exact());
         for (double t = 0; t < 4; t += 0.0625) {
             double const past = std::max(t - 0.5, 0.0);
             CHECK(std::abs(late.error_bound(late.piece(t), t) -
                            u.error_bound(u.piece(past), past)) < 1e-14);
         }
-        CHECK(std::get<sampled_signal>(delayed(u.nominal(), 0.5, 0)).exact());
+        CHECK(std::get<sampled_signal>(delayed(u.nominal(), {0.5}, 0)).exact());
     }
+}
+
+TEST_CASE("a clock that runs slow makes a signal ever later") {
+    sampled_signal const linear({-1.0, 1.0, 3.0}, {2.0, 4.0, 0.0}, interpolation::linear);
+    sampled_signal const hold({-1.0, 1.0, 3.0}, {2.0, 4.0, 0.0}, interpolation::hold);
+    auto const formula = analytic_signal::from([](auto const& t) { return 3 * t + 1; });
+    double const begin = -0.25;
+    for (dead_time const late : {dead_time{0, 0.25}, {0.5, 0.125}}) {
+        auto const moved = std::get<sampled_signal>(delayed(linear, late, begin));
+        auto const moved_hold = std::get<sampled_signal>(delayed(hold, late, begin));
+        auto const moved_formula = std::get<analytic_signal>(delayed(formula, late, begin));
+        for (double t = begin; t < 5; t += 0.0625) {
+            double const past = std::max(begin, t - late.delay - late.drift * (t - begin));
+            CHECK(std::abs(moved.approximate(t) - linear.approximate(past)) < 1e-13);
+            if (std::abs(past - 1) > 1e-9 && std::abs(past - 3) > 1e-9)
+                CHECK(moved_hold.approximate(t) == hold.approximate(past));
+            graph g;
+            auto const v = copy_into(g, moved_formula.g, {moved_formula.value},
+                                     [t](node const&, graph& to) { return to.constant(t); });
+            CHECK(std::abs(g.value(g[v.front()]).nearest - (3 * past + 1)) < 1e-13);
+        }
+    }
+    // Dead times of one input, and of one sensor, add up.
+    auto const p = affected(small_campaign::problem(),
+                            {effects::input_delay("late", "u", {0_dec, 0.5_dec}),
+                             effects::input_clock_drift("slow", "u", {0_dec, 0.5_dec}),
+                             effects::sensor_clock_drift("clock", {"p"}, {0_dec, 0.5_dec})});
+    auto const r = resolve_memory(p, {1.25, 0.25, 0.125, 0.0625});
+    CHECK(r.kept == std::vector<std::size_t>{0});
+    CHECK_FALSE(r.problem.model.has_memory());
+    auto const& u = std::get<sampled_signal>(p.experiments[0].inputs[0]);
+    auto const& seen = std::get<sampled_signal>(r.problem.experiments[0].inputs[0]);
+    for (double t = 0; t < 4; t += 0.0625)
+        CHECK(std::abs(seen.approximate(t) - u.approximate(std::max(0.0, 0.875 * t - 0.25))) <
+              1e-12);
+    std::vector<double> times;
+    for (auto const& m : r.problem.experiments[0].measurements)
+        if (m.channel == 0) times.push_back(m.time);
+    REQUIRE(times.size() == 40);
+    CHECK(std::abs(times[39] - 0.9375 * 4) < 1e-14);
+    CHECK_THROWS_AS(resolve_memory(p, {1.25, 0.25, 1, 0.0625}), std::invalid_argument);
+    CHECK_THROWS_AS(resolve_memory(p, {1.25, 0.25, -0.1, 0.0625}), std::invalid_argument);
 }

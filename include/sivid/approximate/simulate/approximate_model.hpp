@@ -3,9 +3,11 @@
 #define SIVID_APPROXIMATE_SIMULATE_APPROXIMATE_MODEL_HPP
 
 #include <sivid/approximate/simulate/late_signal.hpp>
+#include <sivid/measurement/dead_time.hpp>
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/graph/plain_program.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
@@ -34,6 +36,15 @@ struct plain_memory {
 
     [[nodiscard]] double value(std::vector<double> const& parameters) const {
         return unknown ? parameters[parameter] : size;
+    }
+    /// Of what moves in time.
+    void add_to(dead_time& late, std::vector<double> const& parameters) const {
+        constexpr double fastest = 0.99; // a clock that stands is none
+        double const more = std::max(0.0, value(parameters));
+        if (kind == memory_kind::drift)
+            late.drift = std::min(fastest, late.drift + more);
+        else
+            late.delay += more;
     }
 };
 

@@ -202,7 +202,7 @@ private:
                 if (e.row != request.channel) continue;
                 slope += memory[e.slot] * mesh_.slope(rate_.piece(), e.column);
             }
-            row[c] -= slope;
+            row[c] -= slope * mesh_.moved_by(d.kind, request);
         }
     }
     void record(std::size_t k, simulated_trace& trace) {

@@ -2,6 +2,7 @@
 #ifndef SIVID_APPROXIMATE_SIMULATE_LATE_SIGNAL_HPP
 #define SIVID_APPROXIMATE_SIMULATE_LATE_SIGNAL_HPP
 
+#include <sivid/measurement/dead_time.hpp>
 #include <sivid/measurement/limited_signal.hpp>
 #include <sivid/measurement/played_signal.hpp>
 #include <sivid/model/bound_model.hpp>
@@ -18,8 +19,8 @@
 
 namespace sivid {
 
-/// An input as a model sees it that has a delay, u(t - delay) and u(begin) before, or a play. In
-/// plain doubles.
+/// An input as a model sees it that has a dead time, with u(begin) before, a play or a rate limit.
+/// In plain doubles.
 class late_signal {
 public:
     late_signal(signal const& source, double begin) : begin_(begin) {
@@ -49,7 +50,7 @@ public:
             std::vector<double> times, values;
             for (int k = 0; k <= fine; ++k) {
                 times.push_back(begin_ + (end - begin_) * k / fine);
-                values.push_back(at(0, times.back()));
+                values.push_back(at({}, times.back()));
                 if (!(end > begin_)) break;
             }
             samples_ = sampled_signal(std::move(times), std::move(values), interpolation::linear);
@@ -67,19 +68,19 @@ public:
         samples_ = std::move(behind.within);
         by_play_ = std::move(behind.slope_by_width);
     }
-    /// Appends the knots within (from, to), late by `delay`.
-    void knots(double delay, double from, double to, std::vector<double>& out) const {
-        if (is_formula_) {
-            if (delay > 0 && begin_ + delay < to) out.push_back(begin_ + delay);
-            return;
-        }
+    /// Appends the knots within (from, to), as late as they are.
+    void knots(dead_time const& late, double from, double to, std::vector<double>& out) const {
+        // Before the begin a late signal stands still; another one has its own knots.
+        double const stands = late.any() ? late.seen(begin_, begin_) : from;
+        if (late.any() && stands < to) out.push_back(stands);
+        if (is_formula_) return;
         auto const& times = samples_.times();
-        // Before the begin a delayed signal stands still; an undelayed one has its own knots.
-        double const first = delay > 0 ? std::max(from, begin_) : from;
-        if (delay > 0 && begin_ + delay < to) out.push_back(begin_ + delay);
-        auto k = std::upper_bound(times.begin(), times.end(), first - delay);
-        for (; k != times.end() && *k + delay < to; ++k) {
-            if (*k + delay > from && (!(delay > 0) || *k > begin_)) out.push_back(*k + delay);
+        double const first = late.any() ? std::max(begin_, late.source(from, begin_)) : from;
+        auto k = std::upper_bound(times.begin(), times.end(), first);
+        for (; k != times.end(); ++k) {
+            double const at = late.any() ? late.seen(*k, begin_) : *k;
+            if (!(at < to)) break;
+            if (at > from) out.push_back(at);
         }
     }
 
@@ -89,31 +90,32 @@ public:
         double value = 0, slope = 0, by_play = 0, by_limit = 0, limit_change = 0;
     };
     /// On (from, to), between neighbouring knots.
-    [[nodiscard]] line on(double delay, double from, double to) {
-        double const middle = 0.5 * (from + to) - delay;
-        if (delay > 0 && middle <= begin_) return {at(0, begin_), 0};
+    [[nodiscard]] line on(dead_time const& late, double from, double to) {
+        double const middle = past(late, 0.5 * (from + to));
+        if (late.any() && middle <= begin_) return {at({}, begin_), 0};
         if (is_formula_) {
-            double const a = at(delay, from);
-            return {a, to > from ? (at(delay, to) - a) / (to - from) : 0};
+            double const a = at(late, from);
+            return {a, to > from ? (at(late, to) - a) / (to - from) : 0};
         }
         auto const k = samples_.piece(middle);
-        double const a = samples_.approximate_on(k, from - delay);
-        double const b = samples_.approximate_on(k, to - delay);
+        double const a = samples_.approximate_on(k, past(late, from));
+        double const b = samples_.approximate_on(k, past(late, to));
         line result{a, to > from ? (b - a) / (to - from) : 0};
         if (k < by_play_.size()) result.by_play = by_play_[k];
         if (!limited_.slope_change.empty()) {
             auto const j = limited_.within.piece(middle);
-            result.limit_change = limited_.slope_change[j];
+            double const change = limited_.slope_change[j];
+            result.limit_change = change * (1 - late.drift);
             result.by_limit = limited_.slope_by_limit[j] +
-                              result.limit_change * (from - delay - limited_.within.times()[j]);
+                              change * (past(late, from) - limited_.within.times()[j]);
         }
         return result;
     }
     /// At one time; after a jump.
-    [[nodiscard]] double at(double delay, double t) {
-        double const seen = delay > 0 ? std::max(t - delay, begin_) : t;
-        if (!is_formula_) return samples_.approximate(seen);
-        memory_[0] = seen;
+    [[nodiscard]] double at(dead_time const& late, double t) {
+        double const source = late.any() ? late.source(t, begin_) : t;
+        if (!is_formula_) return samples_.approximate(source);
+        memory_[0] = source;
         formula_.run(memory_);
         return memory_[formula_.output(0)];
     }
@@ -121,6 +123,11 @@ public:
     [[nodiscard]] bool is_formula() const { return is_formula_; }
 
 private:
+    /// `dead_time::source` without its end at the begin, for lines that begin there.
+    [[nodiscard]] double past(dead_time const& late, double t) const {
+        return t - late.delay - late.drift * (t - begin_);
+    }
+
     double begin_;
     sampled_signal samples_;
     std::optional<sampled_signal> recorded_; ///< before the limit and the play

@@ -30,7 +30,7 @@ public:
                     std::vector<output_request> requests, std::vector<double> const& knots)
         : model_(&model), begin_(begin), requests_(std::move(requests)), knots_(knots) {
         for (auto const& u : inputs) signals_.emplace_back(u, begin);
-        input_delay_.assign(inputs.size(), 0.0);
+        input_late_.assign(inputs.size(), {});
         play_.assign(inputs.size(), 0.0);
         limit_.assign(inputs.size(), late_signal::no_limit);
         for (auto const i : model.used_inputs()) jumps_ = jumps_ || signals_[i].jumps();
@@ -52,12 +52,16 @@ public:
             }
             moved = moved || sizes != before;
         };
-        set(input_delay_, model_->input_memory(), memory_kind::delay);
-        std::vector<double> late;
+        std::vector<dead_time> inputs(input_late_.size());
+        for (auto const& m : model_->input_memory())
+            if (is_dead_time(m.kind)) m.add_to(inputs[m.index], parameters);
+        moved = moved || inputs != input_late_;
+        input_late_ = std::move(inputs);
+        std::vector<dead_time> channels;
         for (auto const& d : model_->channel_delays())
-            late.push_back(std::max(0.0, d.value(parameters)));
-        moved = moved || late != channel_delay_;
-        channel_delay_ = std::move(late);
+            d.add_to(channels.emplace_back(), parameters);
+        moved = moved || channels != channel_late_;
+        channel_late_ = std::move(channels);
         set(play_, model_->input_memory(), memory_kind::play);
         auto const before = limit_;
         std::fill(limit_.begin(), limit_.end(), late_signal::no_limit);
@@ -74,7 +78,7 @@ public:
         std::vector<bool> remembered(signals_.size(), false);
         for (auto const& m : model_->input_memory()) {
             auto const i = m.index;
-            if (m.kind == memory_kind::delay || remembered[i]) continue;
+            if (is_dead_time(m.kind) || remembered[i]) continue;
             auto const plays = [i](plain_memory const& other) {
                 return other.index == i && other.kind == memory_kind::play;
             };
@@ -92,7 +96,7 @@ public:
         for (auto const& r : requests_) within(seen(r));
         for (auto const t : knots_) within(t);
         for (auto const i : model_->used_inputs()) {
-            signals_[i].knots(input_delay_[i], begin_, end, times_);
+            signals_[i].knots(input_late_[i], begin_, end, times_);
             if (!signals_[i].is_formula()) continue;
             for (int k = 1; k < late_signal::fine; ++k)
                 within(begin_ + (end - begin_) * k / late_signal::fine);
@@ -113,9 +117,9 @@ public:
         lines_.assign(times_.size() * n, {});
         for (auto const i : model_->used_inputs()) {
             for (std::size_t k = 0; k + 1 < times_.size(); ++k) {
-                lines_[k * n + i] = signals_[i].on(input_delay_[i], times_[k], times_[k + 1]);
+                lines_[k * n + i] = signals_[i].on(input_late_[i], times_[k], times_[k + 1]);
             }
-            lines_[pieces() * n + i] = {signals_[i].at(input_delay_[i], end), 0, 0};
+            lines_[pieces() * n + i] = {signals_[i].at(input_late_[i], end), 0, 0};
         }
     }
 
@@ -138,7 +142,16 @@ public:
         auto const& l = lines_[k * signals_.size() + i];
         return kind == memory_kind::play         ? l.by_play
                : kind == memory_kind::rate_limit ? l.by_limit + l.limit_change * (t - times_[k])
-                                                 : -l.slope;
+                                                 : -l.slope * knots_moved_by(kind, i, t);
+    }
+    /// How far a knot that is seen at t moves with the size of a dead time of its input.
+    [[nodiscard]] double knots_moved_by(memory_kind kind, std::size_t i, double t) const {
+        double const pace = 1 - input_late_[i].drift;
+        return (kind == memory_kind::drift ? t - begin_ : 1) / pace;
+    }
+    /// The same of the time at which an output that is requested leaves the model.
+    [[nodiscard]] double moved_by(memory_kind kind, output_request const& r) const {
+        return kind == memory_kind::drift ? r.time - begin_ : 1;
     }
     /// Whether some input jumps between its pieces.
     [[nodiscard]] bool jumps() const { return jumps_; }
@@ -149,10 +162,13 @@ public:
     }
     /// When the output that is requested leaves the model.
     [[nodiscard]] double seen(output_request const& r) const {
-        double late = 0;
-        for (std::size_t k = 0; k < channel_delay_.size(); ++k)
-            if (shows_late(model_->channel_delays()[k], r)) late += channel_delay_[k];
-        return std::max(begin_, r.time - late);
+        dead_time late;
+        for (std::size_t k = 0; k < channel_late_.size(); ++k) {
+            if (!shows_late(model_->channel_delays()[k], r)) continue;
+            late.delay += channel_late_[k].delay;
+            late.drift += channel_late_[k].drift;
+        }
+        return late.source(r.time, begin_);
     }
 
 private:
@@ -161,8 +177,9 @@ private:
     std::vector<output_request> requests_;
     std::vector<double> knots_;
     std::vector<late_signal> signals_;
-    std::vector<double> input_delay_, play_, limit_, times_;
-    std::vector<double> channel_delay_; ///< one for each of the model's
+    std::vector<double> play_, limit_, times_;
+    std::vector<dead_time> input_late_;
+    std::vector<dead_time> channel_late_; ///< one for each of the model's delays
     std::vector<std::vector<std::size_t>> observed_;
     std::vector<late_signal::line> lines_; ///< [piece * inputs + input]
     bool jumps_ = false, moves_ = false;

@@ -2,6 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_CANDIDATE_RESOLVE_MEMORY_HPP
 #define SIVID_DIAGNOSIS_CANDIDATE_RESOLVE_MEMORY_HPP
 
+#include <sivid/measurement/dead_time.hpp>
 #include <sivid/measurement/limited_signal.hpp>
 #include <sivid/measurement/played_signal.hpp>
 #include <sivid/model/bound_model.hpp>
@@ -17,17 +18,20 @@
 
 namespace sivid {
 
-/// A signal that acts `delay` later, and holds its value at `begin` until then.
-///   The knots of a sampled signal move to the doubles nearest to t_k + delay.
-[[nodiscard]] inline signal delayed(signal const& s, double delay, double begin) {
-    if (delay == 0) return s;
+/// A signal that acts later, and holds its value at `begin` until then.
+///   The knots of a sampled signal move to the doubles nearest to when they are seen.
+[[nodiscard]] inline signal delayed(signal const& s, dead_time const& late, double begin) {
+    if (!late.any()) return s;
     if (auto const* formula = std::get_if<analytic_signal>(&s)) {
-        analytic_signal late;
-        late.value = copy_into(late.g, formula->g, {formula->value}, [&](node const&, graph& g) {
-                         auto const past = g.sub(g.leaf(operation::time, 0), g.constant(delay));
-                         return g.binary(operation::max, past, g.constant(begin));
-                     }).front();
-        return late;
+        analytic_signal moved;
+        moved.value = copy_into(moved.g, formula->g, {formula->value}, [&](node const&, graph& g) {
+                          auto const t = g.leaf(operation::time, 0), first = g.constant(begin);
+                          auto past = g.sub(t, g.constant(late.delay));
+                          if (late.drift > 0)
+                              past = g.sub(past, g.mul(g.constant(late.drift), g.sub(t, first)));
+                          return g.binary(operation::max, past, first);
+                      }).front();
+        return moved;
     }
     auto const& sampled = std::get<sampled_signal>(s);
     bool const holds = sampled.kind() == interpolation::hold;
@@ -42,10 +46,10 @@ namespace sivid {
         values.push_back(v);
         errors.push_back(e);
     };
-    if (!holds) add(begin + delay, first, first_error);
+    if (!holds) add(late.seen(begin, begin), first, first_error);
     for (std::size_t k = 0; k < sampled.times().size(); ++k) {
         if (!(sampled.times()[k] > begin)) continue;
-        add(sampled.times()[k] + delay, sampled.values()[k],
+        add(late.seen(sampled.times()[k], begin), sampled.values()[k],
             sampled.exact() ? 0 : sampled.errors()[k]);
     }
     if (sampled.exact()) errors.clear();
@@ -70,7 +74,7 @@ struct memory_resolved {
 /// resolved.
 [[nodiscard]] inline bool remembers_formulas(identification_problem const& problem) {
     for (auto const& d : problem.model.input_memory) {
-        if (d.kind == memory_kind::delay) continue;
+        if (is_dead_time(d.kind)) continue;
         for (auto const& e : problem.experiments) {
             bool const formula = std::holds_alternative<analytic_signal>(e.inputs[d.index]);
             if (formula && acts_in(d, e.inputs)) return true;
@@ -83,7 +87,9 @@ struct memory_resolved {
 /// accordingly, and puts inputs behind their limits, then behind their plays, with errors that
 /// cover the roundings.
 ///   Times that a delay moves are rounded to the nearest double; everything else is exact.
-/// @throws std::invalid_argument for a negative size, and for a play or a rate limit of a formula
+/// @throws std::invalid_argument for a negative size, a drift of 1 or more, and for a play or a
+/// rate
+///         limit of a formula
 [[nodiscard]] inline memory_resolved resolve_memory(identification_problem const& original,
                                                     std::vector<double> const& parameters) {
     if (remembers_formulas(original))
@@ -103,24 +109,31 @@ struct memory_resolved {
         if (!(value >= 0)) throw std::invalid_argument("'" + name + "' is negative");
         return value;
     };
+    auto const add_to = [&](dead_time& late, signal_memory const& d) {
+        (d.kind == memory_kind::drift ? late.drift : late.delay) += value_of(d);
+        if (!(late.drift < 1))
+            throw std::invalid_argument("'" + model.about.constants[d.constant].name +
+                                        "' stops the clock");
+    };
     std::vector<bool> is_size(model.about.constants.size(), false);
     for (auto& e : problem.experiments) {
-        for (auto const kind : {memory_kind::rate_limit, memory_kind::play, memory_kind::delay}) {
+        for (auto const kind : {memory_kind::rate_limit, memory_kind::play}) {
             for (auto const& d : model.input_memory) {
                 if (d.kind != kind || !acts_in(d, e.inputs)) continue;
                 auto& u = e.inputs[d.index];
-                double const size = value_of(d);
-                u = kind == memory_kind::delay
-                        ? delayed(u, size, e.begin)
-                        : resolved_input(std::get<sampled_signal>(u), kind, e, interval(size));
+                u = resolved_input(std::get<sampled_signal>(u), kind, e, interval(value_of(d)));
             }
         }
+        std::vector<dead_time> late(e.inputs.size());
+        for (auto const& d : model.input_memory)
+            if (is_dead_time(d.kind) && acts_in(d, e.inputs)) add_to(late[d.index], d);
+        for (std::size_t i = 0; i < late.size(); ++i)
+            e.inputs[i] = delayed(e.inputs[i], late[i], e.begin);
         for (auto& m : e.measurements) {
-            double late = 0;
-            for (auto const& d : model.channel_delays) {
-                if (d.index == m.channel && acts_at(d, e.inputs, m.time)) late += value_of(d);
-            }
-            m.time = std::max(e.begin, m.time - late);
+            dead_time shown;
+            for (auto const& d : model.channel_delays)
+                if (d.index == m.channel && acts_at(d, e.inputs, m.time)) add_to(shown, d);
+            m.time = shown.source(m.time, e.begin);
         }
         e.measurements = sorted(std::move(e.measurements));
     }

@@ -95,9 +95,11 @@ inline void describe(canonical_text& t, recorded_model const& m) {
     for (auto const& d : m.input_memory)
         remembered(d.kind == memory_kind::play         ? "input play"
                    : d.kind == memory_kind::rate_limit ? "input rate limit"
+                   : d.kind == memory_kind::drift      ? "input drift"
                                                        : "input delay",
                    d);
-    for (auto const& d : m.channel_delays) remembered("channel delay", d);
+    for (auto const& d : m.channel_delays)
+        remembered(d.kind == memory_kind::drift ? "channel drift" : "channel delay", d);
     for (auto const& c : m.input_copies) t("input copy", c.copy, c.of);
     for (auto const& s : m.added_states) t("added state", s.state, s.at_begin);
     for (auto const& d : m.derived) t("derived constant", d.constant, d.value, d.always);

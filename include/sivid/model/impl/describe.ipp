@@ -84,7 +84,8 @@ SIVID_DECL std::string describe(recorded_model const& model) {
     }
     auto const size_of = [&about](signal_memory const& d) {
         auto const& name = about.constants[d.constant].name;
-        return d.only_if ? name + " if " + about.inputs[*d.only_if].name : name;
+        auto const size = d.kind == memory_kind::drift ? name + " (t - begin)" : name;
+        return d.only_if ? size + " if " + about.inputs[*d.only_if].name : size;
     };
     for (auto const& d : model.input_memory) {
         (d.kind == memory_kind::play         ? plays

@@ -234,10 +234,22 @@ SIVID_DECL void effect_scope::limit_input_rate(std::string const& name, std::siz
     remember(name, k, memory_kind::rate_limit);
 }
 
+SIVID_DECL void effect_scope::slow_input_clock(std::string const& name, std::size_t k) {
+    remember(name, k, memory_kind::drift);
+}
+
+SIVID_DECL void effect_scope::show_late(std::string const& channel, std::size_t k,
+                                        memory_kind kind) {
+    model_->channel_delays.push_back({index_of(model_->about.channels, channel, "channel"),
+                                      first_parameter_ + k, kind, switch_of_effect()});
+}
+
 SIVID_DECL void effect_scope::delay_channel(std::string const& name, std::size_t k) {
-    model_->channel_delays.push_back({index_of(model_->about.channels, name, "channel"),
-                                      first_parameter_ + k, memory_kind::delay,
-                                      switch_of_effect()});
+    show_late(name, k, memory_kind::delay);
+}
+
+SIVID_DECL void effect_scope::slow_channel_clock(std::string const& name, std::size_t k) {
+    show_late(name, k, memory_kind::drift);
 }
 
 SIVID_DECL void effect_scope::lag_channel(std::string const& name, std::size_t k) {

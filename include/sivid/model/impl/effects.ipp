@@ -41,6 +41,13 @@ SIVID_DECL effect input_delay(std::string const& name, std::string const& input,
     return e;
 }
 
+SIVID_DECL effect input_clock_drift(std::string const& name, std::string const& input,
+                                    range const& r) {
+    auto e = detail::one(name, "r", "s/s", r, "clock of the input " + input + " that runs slow", 0);
+    e.on_inputs = [input](effect_scope& m) { m.slow_input_clock(input); };
+    return e;
+}
+
 SIVID_DECL effect input_dead_band(std::string const& name, std::string const& input,
                                   std::string const& unit, range const& b) {
     auto e = detail::one(name, "b", unit, b, "dead band of the input " + input, 1);
@@ -290,6 +297,16 @@ SIVID_DECL effect sensor_latency(std::string const& name, std::vector<std::strin
         detail::one(name, "tau", "s", tau, "latency of the sensor " + detail::all_of(channels));
     e.on_channels = [channels](effect_scope& m) {
         for (auto const& y : channels) m.delay_channel(y);
+    };
+    return e;
+}
+
+SIVID_DECL effect sensor_clock_drift(std::string const& name,
+                                     std::vector<std::string> const& channels, range const& r) {
+    auto e = detail::one(name, "r", "s/s", r,
+                         "clock of the sensor " + detail::all_of(channels) + " that runs slow");
+    e.on_channels = [channels](effect_scope& m) {
+        for (auto const& y : channels) m.slow_channel_clock(y);
     };
     return e;
 }

@@ -82,21 +82,27 @@ TEST_CASE("a lagged input lies within its slice for every time constant up to th
 
 TEST_CASE("a late input lies within its slice for every delay") {
     support::draws d(8);
-    for (int n = 0; n < 300; ++n) {
+    for (int n = 0; n < 600; ++n) {
         auto const kind = n % 2 == 0 ? interpolation::linear : interpolation::hold;
         auto const u = drawn(d, kind, d.below(2) == 0);
         auto const [begin, end] = span_of(d, u);
         double const low = d.below(3) == 0 ? 0.0 : d.uniform(0.0, 1.0);
         double const high = low + (d.below(4) == 0 ? 0.0 : std::exp(d.uniform(-8.0, 0.5)));
-        auto const wide = delayed_within(u, begin, end, interval(low, high));
+        // Of every other input the clock runs slow, too.
+        double const slow = n < 300 ? 0.0 : d.uniform(0.0, 0.4);
+        double const slower =
+            n < 300 ? 0.0 : slow + (d.below(4) == 0 ? 0.0 : std::exp(d.uniform(-8.0, -1.0)));
+        auto const wide =
+            delayed_within(u, begin, end, interval(low, high), interval(slow, slower));
         for (int i = 0; i < 40; ++i) {
             double const share = d.uniform(0.0, 1.0);
+            double const drift = d.below(3) == 0 ? slower : d.uniform(slow, slower);
             double const tau = std::min(high, d.below(4) == 0   ? low
                                               : d.below(3) == 0 ? high
                                                                 : low + share * (high - low));
             // Where the late input jumps, plain numbers do not tell on which side they are.
             double const t = d.uniform(begin, end);
-            double const past = std::max(begin, t - tau);
+            double const past = std::max(begin, t - tau - drift * (t - begin));
             if (std::abs(u.next_knot(past - 1e-12) - past) < 1e-11) continue;
             for (double const sign : {-1.0, 0.0, 1.0}) {
                 require_within(wide, t, at_edge(u, sign).approximate(past));
@@ -199,6 +205,13 @@ TEST_CASE("slices of inputs are no wider than they must be") {
     auto const late = delayed_within(ramp, 0, 3, interval(0.5, 0.75));
     CHECK(std::abs(late.approximate(2.5) - 2 * (2.5 - 0.625)) < 1e-12);
     CHECK(late.error_bound(late.piece(2.5), 2.5) < 0.2500001);
+    // So does a clock that runs slow by a share: the more, the later.
+    auto const later = delayed_within(ramp, 0, 3, interval(0.0), interval(0.1, 0.2));
+    CHECK(std::abs(later.approximate(2) - 2 * 0.85 * 2) < 1e-12);
+    CHECK(later.error_bound(later.piece(2.9), 2.9) < 2 * 0.05 * 3.01);
+    CHECK(later.error_bound(later.piece(0.5), 0.5) < 2 * 0.05 * 1.7);
+    CHECK_THROWS_AS(delayed_within(ramp, 0, 3, interval(0.0), interval(0.1, 1)),
+                    std::invalid_argument);
     // A jump is forgotten.
     sampled_signal const jump({0.0, 1.0}, {0.0, 1.0}, interpolation::hold);
     auto const soon = lagged_within(jump, 0, 3, 0.05, false);

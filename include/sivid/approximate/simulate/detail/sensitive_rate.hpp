@@ -181,18 +181,19 @@ public:
         auto const& program = model_->rate().values;
         double const t = mesh_->time(k);
         for (auto const& d : model_->input_memory()) {
-            if (!d.unknown || d.kind != memory_kind::delay || !mesh_->jumps(d.index)) continue;
+            if (!d.unknown || !is_dead_time(d.kind) || !mesh_->jumps(d.index)) continue;
             auto const c = layout_->parameter_column[d.parameter];
             double const before = mesh_->input(k - 1, d.index, t);
             double const after = mesh_->input(k, d.index, t);
             if (c == sensitivity_layout::none || before == after) continue;
+            double const moved = mesh_->knots_moved_by(d.kind, d.index, t);
             write_arguments(value_memory_, t, x);
             for (double const side : {after, before}) {
                 value_memory_[model_->shape().input() + d.index] = side;
                 program.run(value_memory_);
                 for (std::size_t i = 0; i < model_->states(); ++i) {
                     double const f = value_memory_[program.output(i)];
-                    x[at(i, c)] += side == after ? -f : f;
+                    x[at(i, c)] += moved * (side == after ? -f : f);
                 }
             }
         }

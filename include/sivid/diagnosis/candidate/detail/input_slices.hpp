@@ -36,11 +36,15 @@ namespace sivid {
 ///   About the middle of the delays, the error is at most half their width times the steepest slope
 /// within reach; held inputs take the range of what is within reach.
 /// @param delays  0 or more
-/// @guarantee  for every delay the late input lies within the result from `begin` to `end`
+/// @param drifts  0 or more, below 1: of the clock, which add to the delay by so much of the time
+///                since the begin
+/// @guarantee  for every delay and drift the late input lies within the result from `begin` to
+///             `end`
 /// @cost  as many samples, twice as many held ones; each looks at those within half the delays'
 /// width
 [[nodiscard]] SIVID_DECL sampled_signal delayed_within(sampled_signal const& u, double begin,
-                                                       double end, interval const& delays);
+                                                       double end, interval const& delays,
+                                                       interval const& drifts = interval(0.0));
 
 /// An input that depends on a parameter p: \f$ u(t) \in middle(t) + slope(t) (p - p_0), \f$ where
 /// the middle has error bounds, and the slope is held.
@@ -71,8 +75,8 @@ struct input_of_parameter {
                                                                    bool stands,
                                                                    interval const& thresholds);
 
-/// A recorded input behind a delay, a play or a rate limit of any size in a range, as an input with
-/// error bounds.
+/// A recorded input behind a delay, a drift, a play or a rate limit of any size in a range, as an
+/// input with error bounds.
 /// @guarantee  for every size it lies within the result from begin to end of the experiment
 [[nodiscard]] SIVID_DECL sampled_signal remembered_within(experiment const& x,
                                                           signal_memory const& m,

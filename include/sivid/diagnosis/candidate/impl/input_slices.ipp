@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -73,43 +74,58 @@ SIVID_DECL sampled_signal lagged_within(sampled_signal const& u, double begin, d
 }
 
 SIVID_DECL sampled_signal delayed_within(sampled_signal const& u, double begin, double end,
-                                         interval const& delays) {
+                                         interval const& delays, interval const& drifts) {
+    if (!(drifts.lower() >= 0 && drifts.upper() < 1))
+        throw std::invalid_argument("delayed_within: drifts are from 0 to below 1");
     bool const holds = u.kind() == interpolation::hold;
-    double const middle = mid(delays);
+    dead_time const middle{mid(delays), mid(drifts)};
     double farthest = std::max(std::abs(begin), std::abs(end));
     for (double const t : u.times()) farthest = std::max(farthest, std::abs(t));
     // Sums of times are rounded: knots lie safely beyond what is within reach.
     double const unit = 4 * std::numeric_limits<double>::epsilon();
-    double const rounding = unit * (farthest + delays.upper());
-    double const reach =
-        std::max(delays.upper() - middle, middle - delays.lower()) * (1 + unit) + rounding;
-    double const half = reach + 2 * rounding;
+    double const pace = 1 - drifts.upper(); // of the slowest clock
+    double const rounding =
+        unit * (farthest + delays.upper()) * (drifts.upper() > 0 ? 8 / (pace * pace) : 1);
+    auto const radius = [](interval const& x) {
+        return std::max(x.upper() - mid(x), mid(x) - x.lower());
+    };
+    // How far what is seen at t may be from where it is in the middle.
+    auto const reach = [&](double t) {
+        double const since = std::max(0.0, t - begin);
+        return (radius(delays) + radius(drifts) * since) * (1 + unit) + rounding;
+    };
+    auto const source = [&](double t) {
+        return t - middle.delay - middle.drift * std::max(0.0, t - begin);
+    };
     std::vector<double> times;
     for (double const t : u.times()) {
-        if (holds) {
-            times.push_back(t + middle - half);
-            times.push_back(t + middle + half);
-        } else {
-            times.push_back(t + middle);
+        if (!holds) {
+            times.push_back(middle.seen(t, begin));
+            continue;
         }
+        double const pad = 3 * rounding / pace;
+        times.push_back(dead_time{delays.lower(), drifts.lower()}.seen(t, begin) - pad);
+        times.push_back(dead_time{delays.upper(), drifts.upper()}.seen(t, begin) + pad);
     }
-    if (!holds) times.push_back(begin + middle); // where u(begin) is left
+    if (!holds) times.push_back(middle.seen(begin, begin)); // where u(begin) is left
     auto const grid = measurement_detail::grid_of(std::move(times), begin, end);
     auto const seen = [&](double from, double until) {
-        return diagnosis_detail::seen_between(u, begin, from - middle - reach,
-                                              until - middle + reach);
+        return diagnosis_detail::seen_between(u, begin, source(from) - reach(from),
+                                              source(until) + reach(until));
     };
     measurement_detail::widened_signal result(u.kind());
     double before = 0; // of the piece to the left
     for (std::size_t k = 0; k < grid.size(); ++k) {
         bool const last = k + 1 == grid.size();
-        auto const after = seen(grid[k], last ? grid[k] : grid[k + 1]);
+        double const next = last ? grid[k] : grid[k + 1];
+        auto const after = seen(grid[k], next);
         if (holds) {
             result.add(grid[k], after.values, after.error);
             continue;
         }
-        double const error = half * after.steepest * (1 + unit) + after.error;
-        double const t = std::max(begin, grid[k] - middle);
+        double const error =
+            (reach(std::min(next, end)) + 2 * rounding) * after.steepest * (1 + unit) + after.error;
+        double const t = std::max(begin, source(grid[k]));
         result.add(grid[k], u.value<interval>(u.piece(t), interval(t)), std::max(before, error));
         before = error;
     }
@@ -298,8 +314,10 @@ inline std::vector<switch_piece> switch_pieces(double begin, double end, switch_
 SIVID_DECL sampled_signal remembered_within(experiment const& x, signal_memory const& m,
                                             interval const& sizes) {
     auto const& u = std::get<sampled_signal>(x.inputs[m.index]);
-    return m.kind == memory_kind::delay ? delayed_within(u, x.begin, x.end(), sizes)
-                                        : resolved_input(u, m.kind, x, sizes);
+    if (m.kind == memory_kind::delay) return delayed_within(u, x.begin, x.end(), sizes);
+    if (m.kind == memory_kind::drift)
+        return delayed_within(u, x.begin, x.end(), interval(0.0), sizes);
+    return resolved_input(u, m.kind, x, sizes);
 }
 
 SIVID_DECL switch_values switch_at(double begin, double end, switch_times const& times, double t) {

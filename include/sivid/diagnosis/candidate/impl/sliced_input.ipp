@@ -193,7 +193,7 @@ private:
         auto const constant = model.channel_delays.front().constant;
         late_channels_.assign(model.about.channels.size(), false);
         for (auto const& d : model.channel_delays) {
-            if (d.constant != constant) return false;
+            if (d.constant != constant || d.kind != memory_kind::delay) return false;
             late_channels_[d.index] = true;
         }
         auto const of_time = [&](node_id n) { return (model.g.depends(n) & on_time) != 0; };
