@@ -39,6 +39,24 @@ namespace sivid {
     return result;
 }
 
+/// Descents end in the corners that a play has by its width: others begin beside them, until one
+/// explains.
+/// @param descend  a fitter of the problem
+inline void leave_corners(identification_problem const& problem, fitter& descend,
+                          approximate_fit& found) {
+    for (auto const j : widths_of_plays(problem)) {
+        auto const& side = problem.prior[j];
+        for (double const share : {-0.05, 0.05, -0.025, 0.025}) {
+            if (found.inflation <= 1) return;
+            auto beside = found.parameters;
+            beside[j] = std::clamp(beside[j] + share * (side.upper() - side.lower()), side.lower(),
+                                   side.upper());
+            auto other = descend({beside});
+            if (other.inflation < found.inflation) found = std::move(other);
+        }
+    }
+}
+
 /// Fits a candidate from the best of a grid over the parameters of its last effect, the others as
 /// a part of the candidate was fitted. An effect that sleeps (a saturation that is never
 /// reached, say) has no slope to follow: where the best of the grid sleeps, which it may while
@@ -139,18 +157,7 @@ namespace sivid {
             auto other = descend({freed});
             if (other.inflation < found.inflation) found = std::move(other);
         }
-        // Descents end in the corners that a play has by its width: others begin beside them.
-        for (auto const j : widths_of_plays(problem)) {
-            auto const& side = narrowed.prior[j];
-            for (double const share : {-0.05, 0.05, -0.025, 0.025}) {
-                if (found.inflation <= 1) break;
-                auto beside = found.parameters;
-                beside[j] = std::clamp(beside[j] + share * (side.upper() - side.lower()),
-                                       side.lower(), side.upper());
-                auto other = descend({beside});
-                if (other.inflation < found.inflation) found = std::move(other);
-            }
-        }
+        leave_corners(narrowed, descend, found);
     }
     if (!(found.inflation < best.inflation)) {
         auto const squares = found.squares; // the descent's, whose least inflation is no better

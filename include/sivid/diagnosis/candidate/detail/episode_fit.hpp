@@ -6,7 +6,9 @@
 #include <sivid/approximate/fit/detail/thinned.hpp>
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/diagnosis/candidate/detail/best_window.hpp>
 #include <sivid/diagnosis/candidate/detail/candidate_fit.hpp>
+#include <sivid/diagnosis/candidate/detail/deepest_valley.hpp>
 #include <sivid/diagnosis/candidate/detail/soft_switch.hpp>
 #include <sivid/model/effect.hpp>
 #include <sivid/model/problem.hpp>
@@ -82,8 +84,10 @@ public:
     /// By all of them, as sharply as it is; then the fit with the effect switched on there.
     void look_closely() {
         if (jumps_only_) {
+            known_.squares = detail::infinity; // of few measurements so far
+            settle(known_.parameters, many_measurements);
             fit_at_jumps(8);
-            for (int again = 0; again < 3; ++again) better(5, [this] { move_jumps(); });
+            better(2, [this] { settle(known_.parameters, many_measurements); });
             return;
         }
         for (double const length : {0.06, 0.03}) {
@@ -104,6 +108,8 @@ public:
         });
         for (double const width : {0.02, 0.004, 0.001, 0.0002})
             better(1.5, [this, width] { fit_jumps(width, fit_norm::largest); });
+        // Jumps and all else, balanced to fit about as badly, may have to move in turn.
+        better(2, [this] { settle(known_.parameters, many_measurements); });
     }
 
     [[nodiscard]] bool explains() const { return fit_.inflation <= 1; }
@@ -165,6 +171,7 @@ private:
         auto const fitted = off_limits(problem_);
         fitter descend(fitted, go_on_);
         fit_ = descend(from, fit_norm::largest);
+        if (fit_.inflation > 1 && fit_.inflation < 5) leave_corners(fitted, descend, fit_);
         if (!(fit_.inflation > 1 && fit_.inflation < 1.05)) return;
         auto closer = descend({fit_.parameters, fit_.starts}, fit_norm::largest);
         if (!(closer.inflation < fit_.inflation)) return;
@@ -196,14 +203,14 @@ private:
         }
     }
     /// Moves jumps and fits all else in turn, from there on; kept where that is better.
-    void settle(std::vector<double> from) {
+    void settle(std::vector<double> from, std::size_t measurements = few_measurements) {
         auto best = std::move(known_);
         known_ = {};
         known_.parameters = std::move(from);
         for (int again = 0; again < 3 && go_on_(); ++again) {
-            move_jumps(few_measurements);
+            move_jumps(measurements);
             if (!decide_times(known_.parameters, 8)) break;
-            auto const now = thinned(off_limits(jumping()), few_measurements);
+            auto const now = thinned(off_limits(jumping()), measurements);
             std::vector<double> own(known_.parameters.begin(),
                                     known_.parameters.begin() + std::ssize(always_));
             auto const found = fitter(now, go_on_)({std::move(own), {}}, fit_norm::squares);
@@ -216,6 +223,7 @@ private:
     }
     /// Puts jumps where they fit best.
     void move_jumps(std::size_t measurements = many_measurements) {
+        if (jumps_only_) return place_between_samples(measurements);
         auto const misfits = [&](std::vector<double> const& parameters) {
             if (!go_on_() || !decide_times(parameters, 8)) return squares_of({});
             auto const now = thinned(off_limits(jumping()), measurements);
@@ -225,95 +233,59 @@ private:
         };
         place_steps(misfits, 32, 1e-4);
     }
-    /// Puts each step where it fits its experiment best, all else as it is: first at one of so many
-    /// places or where it is, then ever closer.
-    /// @param misfits  of each experiment, with all parameters
-    /// @param finest   share of an experiment; 1: it stays at its place
-    template <class Misfits>
-    void place_steps(Misfits const& misfits, int places, double finest) {
-        auto least = misfits(known_.parameters);
-        auto const try_all = [&](std::size_t step, auto const& place) {
-            auto const first = always_.size() + step * names_.size();
-            auto probe = known_.parameters;
-            for (std::size_t s = 0; s < names_.size(); ++s)
-                probe[first + s] = place(probe[first + s]);
-            auto const sums = misfits(probe);
-            for (std::size_t s = 0; s < names_.size(); ++s) {
-                if (!(sums[s] < least[s])) continue;
-                least[s] = sums[s];
-                known_.parameters[first + s] = probe[first + s];
+    /// The same for a sensor, of which each sample alone is late or not: between the samples where
+    /// that fits best.
+    void place_between_samples(std::size_t measurements) {
+        auto const on_time = thinned(*base_, measurements);
+        auto const late = thinned(affected(*base_, {effect_}), measurements);
+        auto own = known_.parameters;
+        own.resize(always_.size());
+        auto const behind = fitter(late, go_on_).at(own, known_.starts).residuals;
+        own.resize(base_->prior.size());
+        auto const ahead = fitter(on_time, go_on_).at(own, known_.starts).residuals;
+        if (ahead.size() != names_.size() || behind.size() != names_.size()) return;
+        auto* const own_steps = known_.parameters.data() + always_.size();
+        for (std::size_t s = 0; s < names_.size(); ++s) {
+            std::vector<double> gains, shares;
+            for (auto const& m : sorted(on_time.experiments[s].measurements)) {
+                auto const k = gains.size();
+                gains.push_back(ahead[s][k] * ahead[s][k] - behind[s][k] * behind[s][k]);
+                shares.push_back((m.time - base_->experiments[s].begin) / spans_[s]);
             }
-        };
-        for (std::size_t step = 0; step < steps(); ++step) {
-            for (int k = 0; k <= places; ++k)
-                try_all(step, [&](double) { return k / double(places); });
-            for (double by = 0.5 / places; by > finest; by /= 2)
-                for (double const way : {-by, by})
-                    try_all(step, [way](double share) { return share + way; });
+            auto const [on, off] = best_window(gains, shares, ends_);
+            if (ends_.begins) own_steps[s] = on;
+            if (ends_.ends) own_steps[s + (steps() - 1) * names_.size()] = off;
         }
     }
-    /// Fits the jumps and all else together. About each jump the effect acts by a share of its own,
-    /// for as long as `width` of the experiment says to either side: nearly what a jump does that
-    /// comes the sooner the larger the share.
+    /// Puts each step where it fits its experiment best, all else as it is (`deepest_valley`).
+    /// @param misfits  of each experiment, with all parameters
+    /// @param finest   share of an experiment
+    template <class Misfits>
+    void place_steps(Misfits const& misfits, int places, double finest) {
+        for (std::size_t step = 0; step < steps(); ++step) {
+            auto const first = static_cast<std::ptrdiff_t>(always_.size() + step * names_.size());
+            auto const own = known_.parameters.begin() + first;
+            auto const at = [&](std::vector<double> const& shares) {
+                auto probe = known_.parameters;
+                std::copy(shares.begin(), shares.end(), probe.begin() + first);
+                return misfits(probe);
+            };
+            auto const best = deepest_valley(at, {own, own + std::ssize(names_)}, places, finest);
+            std::copy(best.begin(), best.end(), own);
+        }
+    }
+    /// Fits the jumps and all else together (`with_soft_jumps`).
     void fit_jumps(double width, fit_norm norm) {
-        using namespace literals;
-        auto const switched = switched_within_all(*base_, effect_);
-        auto hard = off_limits(affected(*base_, {switched}));
-        auto const at_switch = index_of(hard.model.about.inputs, switched.name, "input");
-        auto const held = [&](std::size_t s, double from, double to) {
-            double const begin = base_->experiments[s].begin;
-            std::vector<double> times{begin}, values{from > 0 ? 0.0 : 1.0};
-            auto const add = [&](double share, double value) {
-                double const t = begin + share * spans_[s];
-                if (t > times.back()) times.push_back(t), values.push_back(value);
-            };
-            if (from > 0) add(from, 1);
-            add(to, 0);
-            return sampled_signal(std::move(times), std::move(values), interpolation::hold);
-        };
-        auto* const share = known_.parameters.data() + always_.size();
-        auto const count = names_.size();
-        std::vector<effect> halves(steps() + 1);
-        for (std::size_t s = 0; s < count; ++s) {
-            double const on = ends_.begins ? share[s] + width : 0;
-            double const off = ends_.ends ? share[s + (steps() - 1) * count] - width : 2;
-            hard.experiments[s].inputs[at_switch] = held(s, on, std::max(on, off));
-        }
-        for (std::size_t step = 0; step < halves.size(); ++step) {
-            auto& half = halves[step];
-            half.name = step == steps() ? "which" : "half " + std::to_string(step);
-            half.only_in = names_;
-            if (step == steps()) continue;
-            for (auto const& name : names_)
-                half.parameters.push_back({name, "1", -1_dec, 2_dec, 0_dec});
-            half.on_inputs = [&, count](effect_scope& h) {
-                for (std::size_t s = 0; s < count; ++s) {
-                    auto const here = max(1 - abs(h.input("which") - static_cast<double>(s)), 0);
-                    h.input(switched.name) += here * h.parameter(s); // while it acts
-                }
-            };
-        }
-        auto soft = affected(hard, halves);
-        auto const place = [&](effect const& e) {
-            return index_of(soft.model.about.inputs, e.name, "input");
-        };
-        for (std::size_t s = 0; s < count; ++s) {
-            auto& inputs = soft.experiments[s].inputs;
-            auto const which = static_cast<double>(s);
-            inputs[place(halves.back())] =
-                analytic_signal::from([which](auto const&) { return which; });
-            for (std::size_t step = 0; step < steps(); ++step) {
-                double const at = share[s + step * count];
-                inputs[place(halves[step])] = held(s, std::max(at - width, 1e-9), at + width);
-            }
-        }
+        std::vector<double> const places(known_.parameters.begin() + std::ssize(always_),
+                                         known_.parameters.end());
+        auto const soft = off_limits(with_soft_jumps(*base_, effect_, ends_, places, width));
         auto from = known_.parameters;
         std::fill(from.begin() + std::ssize(always_), from.end(), 0.5);
         auto const found = sivid::fit(soft, norm, {std::move(from), known_.starts}, go_on_);
         if (found.parameters.size() != known_.parameters.size()) return;
         for (std::size_t k = 0; k < known_.parameters.size(); ++k) {
             auto& now = known_.parameters[k];
-            bool const begins = ends_.begins && k < always_.size() + count;
+            bool const begins = ends_.begins && k < always_.size() + names_.size();
             double const later = (begins ? 1 : -1) * width * (1 - 2 * found.parameters[k]);
             now = k < always_.size() ? found.parameters[k] : now + later;
         }

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_DIAGNOSIS_CANDIDATE_DETAIL_DEEPEST_VALLEY_HPP
+#define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_DEEPEST_VALLEY_HPP
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace sivid {
+
+/// Where several functions of one number each, evaluated side by side, are least as far as was
+/// looked: where they are, and down the deepest valleys of a grid over [0, 1], ever closer.
+/// @param at      numbers -> values, one for each function
+/// @param from    where they are
+/// @param places  steps of the grid
+/// @param finest  step at which descents end; 1: none begins
+/// @cost  places + 2 evaluations, and 2 for each halving of a step in each of four descents
+template <class At>
+[[nodiscard]] std::vector<double> deepest_valley(At const& at, std::vector<double> from, int places,
+                                                 double finest) {
+    struct spot {
+        double place, value;
+    };
+    constexpr std::size_t valleys = 3;
+    auto const lower = [](spot const& a, spot const& b) { return a.value < b.value; };
+    auto const count = from.size();
+    auto const now = at(from);
+    std::vector<std::vector<double>> along;
+    for (int k = 0; k <= places; ++k)
+        along.push_back(at(std::vector<double>(count, k / double(places))));
+    std::vector<std::vector<spot>> spots(count);
+    for (std::size_t s = 0; s < count; ++s) {
+        for (std::size_t k = 0; k < along.size(); ++k) {
+            double const here = along[k][s];
+            bool const deep = (k == 0 || here <= along[k - 1][s]) &&
+                              (k + 1 == along.size() || here <= along[k + 1][s]);
+            if (deep) spots[s].push_back({static_cast<double>(k) / places, here});
+        }
+        std::stable_sort(spots[s].begin(), spots[s].end(), lower);
+        spots[s].resize(std::min(spots[s].size(), valleys), spot{});
+        spots[s].insert(spots[s].begin(), {from[s], now[s]});
+    }
+    for (std::size_t rank = 0; rank <= valleys; ++rank) {
+        auto const nth = [&](std::size_t s) -> spot& {
+            return spots[s][std::min(rank, spots[s].size() - 1)];
+        };
+        for (double by = 0.5 / places; by > finest; by /= 2) {
+            for (double const way : {-by, by}) {
+                auto probe = from;
+                for (std::size_t s = 0; s < count; ++s) probe[s] = nth(s).place + way;
+                auto const there = at(probe);
+                for (std::size_t s = 0; s < count; ++s)
+                    if (there[s] < nth(s).value) nth(s) = {probe[s], there[s]};
+            }
+        }
+    }
+    for (std::size_t s = 0; s < count; ++s)
+        from[s] = std::min_element(spots[s].begin(), spots[s].end(), lower)->place;
+    return from;
+}
+
+} // namespace sivid
+
+#endif
