@@ -147,14 +147,31 @@ TEST_CASE("the instrument whose fault is the answer is the first place") {
     CHECK(d.where.size() == 4);
 }
 
-TEST_CASE("a channel whose noise grows is the first place where no effect explains") {
+TEST_CASE("a channel that stands alone is the first place where no effect explains") {
     diagnosis d;
     d.gap = gap_verdict::certified;
     d.answer = answer_kind::unexplained;
-    d.confined = {{.channel = "y"}, {.channel = "v", .grows = noise_growth{}}};
-    d.where.resize(1);
-    d.where[0].kind = "equation";
-    d.where[0].name = "v";
+    suspected_place equation;
+    equation.kind = "equation";
+    equation.name = "v";
+    // Of two that do, one of whose errors something is known.
+    d.confined = {{.channel = "y"}, {.channel = "v"}};
+    d.where = {equation};
+    suspect_instrument(d);
+    CHECK(d.where.size() == 1);
+    for (bool const grows : {false, true}) {
+        d.confined = {{.channel = "y"}, {.channel = "v"}};
+        if (grows)
+            d.confined[1].grows = noise_growth{};
+        else
+            d.confined[1].correlated = error_correlation{};
+        d.where = {equation};
+        suspect_instrument(d);
+        REQUIRE(d.where.size() == 2);
+        CHECK(d.where[0].kind + " " + d.where[0].name == "sensor v");
+    }
+    d.confined = {{.channel = "v"}, {.scenarios = {"S1"}}};
+    d.where = {equation};
     suspect_instrument(d);
     REQUIRE(d.where.size() == 2);
     CHECK(d.where[0].kind + " " + d.where[0].name == "sensor v");

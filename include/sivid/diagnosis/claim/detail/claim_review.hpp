@@ -203,8 +203,9 @@ inline void withdraw_contradictions(diagnosis& d,
 }
 
 /// Puts an instrument before all other places: the one whose fault is the answer, or, where no
-/// effect is, one whose noise grows. Where no place was found, the channel that alone stands
-/// against the model is one.
+/// effect is, the channel that alone stands against the model: what is wrong elsewhere shows in
+/// others, too. Of several such channels one whose noise grows, or whose errors go together, unless
+/// no place was found at all.
 inline void suspect_instrument(diagnosis& d) {
     if (d.gap == gap_verdict::none) return;
     std::vector<std::string> suspects;
@@ -214,10 +215,13 @@ inline void suspect_instrument(diagnosis& d) {
         if (d.effects.size() == 1 && names_sensor_fault(d.effects.front()))
             suspects = faulty_channels(d.effects.front());
     } else {
-        auto const alone = std::find_if(d.confined.begin(), d.confined.end(), [&](auto const& c) {
-            return !c.channel.empty() && (d.where.empty() || c.grows);
-        });
-        if (alone == d.confined.end()) return;
+        auto const of_channel = [](auto const& c) { return !c.channel.empty(); };
+        auto const told = [](auto const& c) { return c.grows || c.correlated; };
+        auto const begin = d.confined.begin(), end = d.confined.end();
+        bool const one = std::count_if(begin, end, of_channel) == 1;
+        auto alone = std::find_if(begin, end, told);
+        if (alone == end && (one || d.where.empty())) alone = std::find_if(begin, end, of_channel);
+        if (alone == end) return;
         suspects = {alone->channel};
         if (alone->scenarios.size() == 1) s.where.scenario = alone->scenarios.front();
     }
