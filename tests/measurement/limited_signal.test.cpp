@@ -75,6 +75,12 @@ TEST_CASE("an input behind a rate limit lies within its slice, for every limit a
                 CAPTURE(n, times[i], r, low, high, sign);
                 double const off = std::abs(truth[i] - y.within.approximate_on(k, times[i]));
                 REQUIRE(off <= y.within.error_bound(k, times[i]) + 1e-13);
+                // And about its line in the limit.
+                auto const& line = y.about_line;
+                double const there =
+                    line.approximate_on(k, times[i]) +
+                    y.by_limit.approximate_on(k, times[i]) * (r - mid(interval(low, high)));
+                REQUIRE(std::abs(truth[i] - there) <= line.error_bound(k, times[i]) + 1e-13);
             }
         }
     }
@@ -119,4 +125,27 @@ TEST_CASE("limits that have caught up are one again") {
     CHECK(off(1.7) < 1e-9);
     CHECK(off(2.9) < 1e-9);
     CHECK(off(4.9) < 1e-9);
+}
+
+TEST_CASE("a line in the limit leaves errors of second order, whether it is met or crossed") {
+    std::vector<double> times, values;
+    for (int k = 0; k <= 120; ++k) {
+        times.push_back(0.05 * k);
+        values.push_back(std::sin(2 * times.back()));
+    }
+    sampled_signal const wave(times, values, interpolation::linear);
+    // 0.5: the wave is always too fast; 1.2 and 1.9: it is met.
+    for (double const limit : {0.5, 1.2, 1.9}) {
+        auto const mean = [&](double share, bool of_line) {
+            auto const y =
+                rate_limited(wave, 0, 6, interval(limit * (1 - share), limit * (1 + share)));
+            auto const& s = of_line ? y.about_line : y.within;
+            double sum = 0;
+            for (int i = 0; i < 6000; ++i) sum += s.error_bound(s.piece(1e-3 * i), 1e-3 * i) / 6000;
+            return sum;
+        };
+        CAPTURE(limit, mean(4e-3, true), mean(1e-3, true), mean(1e-3, false));
+        CHECK(mean(1e-3, true) < 0.1 * mean(4e-3, true));
+        CHECK(mean(1e-3, true) < 0.07 * mean(1e-3, false));
+    }
 }

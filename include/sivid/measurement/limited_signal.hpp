@@ -16,6 +16,10 @@ struct limited_signal {
     /// The slope of the value by the limit, at the middle of the limits, at the begin of each piece
     /// of `within`, and by how much it changes per second.
     std::vector<double> slope_by_limit, slope_change;
+    /// About the line in the limit: \f$ y_R(t) \in about\_line(t) + by\_limit(t) (R - R_0) \f$ with
+    /// R_0 the middle of the limits. Its errors are second order but about the times at which y
+    /// meets u.
+    sampled_signal about_line, by_limit;
 };
 
 /// A recorded input behind a rate limit R (a servo of full speed R): y begins at u, follows it as

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -27,7 +28,7 @@ public:
     rate_limiter(interval const& limit, double begin, interval const& u)
         : limit_(limit), middle_(mid(limit)), time_(begin), value_(mid(u)) {
         spread_ = mag(traits::sub(limit, interval(middle_)));
-        off_ = mag(traits::sub(u, interval(value_)));
+        off_ = from_line_ = mag(traits::sub(u, interval(value_)));
     }
 
     struct knot {
@@ -35,16 +36,21 @@ public:
         double off;                 ///< of any limit from the value there
         double within;              ///< more than the line between the two, until the next knot
         double by_limit, by_change; ///< slope by the limit, and its change per second
+        /// Of any limit from its line in the limit, at both ends of the piece that begins here.
+        double from_line, from_line_at_end;
     };
     /// All but the last one.
     [[nodiscard]] std::vector<knot> const& knots() const { return knots_; }
     /// Where it stands.
-    [[nodiscard]] knot last() const { return {time_, value_, off_, 0, by_limit_, 0}; }
+    [[nodiscard]] knot last() const {
+        return {time_, value_, off_, 0, by_limit_, 0, from_line_, from_line_};
+    }
 
     /// To the end of a straight piece of the input.
     /// @param u  its value at a time of the piece
     template <class Input>
     void follow(double end, interval const& slope, Input const& u) {
+        crossing_.reset();
         while (time_ < end) {
             auto const now = u(time_);
             double const here = mid(now), p = mid(slope);
@@ -59,7 +65,7 @@ public:
                     double const way = std::copysign(1.0, p);
                     // Another limit would have met u at another time, from where it falls behind.
                     by_limit_ *= (p - way * middle_) / (p - came_by_ * middle_);
-                    go_as_fast_as_possible(end, way, false, u);
+                    go_as_fast_as_possible(end, way, false, p, u);
                 }
                 continue;
             }
@@ -67,7 +73,7 @@ public:
             double const closing = middle_ - way * p; // how fast the gap closes
             double met = closing > 0 ? time_ + std::abs(gap) / closing : HUGE_VAL;
             met = std::max(met, std::nextafter(time_, HUGE_VAL));
-            go_as_fast_as_possible(std::min(met, end), way, met <= end, u);
+            go_as_fast_as_possible(std::min(met, end), way, met <= end, p, u);
         }
     }
 
@@ -81,8 +87,9 @@ private:
     [[nodiscard]] static double product(double a, double b) {
         return traits::upper(traits::mul(interval(a), interval(b)), 0);
     }
-    void stand(double within, double change) {
-        knots_.push_back({time_, value_, off_, within, by_limit_, change});
+    void stand(double within, double change, double from_line, double from_line_at_end) {
+        knots_.push_back(
+            {time_, value_, off_, within, by_limit_, change, from_line, from_line_at_end});
     }
     /// It is u. So are limits that have caught up; others come nearer by what they are faster.
     template <class Input>
@@ -100,16 +107,21 @@ private:
         double const rounding =
             std::max(distance(u(time_), interval(value_)), distance(there, interval(value)));
         off_ = sum(off_, rounding); // from u
-        stand(rounding, 0);
+        auto const begin_off = off_;
+        stand(rounding, 0, 0, 0);
         auto const passed = traits::sub(interval(end), interval(time_));
         auto const left = traits::sub(interval(off_), traits::mul(gains, passed));
         off_ = sum(std::max(0.0, left.upper()), rounding);
+        knots_.back().from_line = begin_off;
+        from_line_ = knots_.back().from_line_at_end = off_;
         time_ = end;
         value_ = value;
     }
     /// It goes towards u by its limit, and meets it at the end or does not.
+    ///   Where the gap is larger than any limit is off, all limits go the same way: what they are
+    /// from their line stays as it is. Elsewhere it is what they are off and the line itself.
     template <class Input>
-    void go_as_fast_as_possible(double end, double way, bool meets, Input const& u) {
+    void go_as_fast_as_possible(double end, double way, bool meets, double p, Input const& u) {
         auto const passed = traits::sub(interval(end), interval(time_));
         auto const reached =
             traits::add(interval(value_), traits::mul(interval(way * middle_), passed));
@@ -119,18 +131,89 @@ private:
         auto const beyond = traits::mul(interval(way), traits::sub(reached, there));
         double const passed_by = 2 * std::max(0.0, beyond.upper());
         double const rounding = sum(distance(reached, interval(value)), passed_by);
-        stand(rounding, way);
-        off_ = sum(sum(off_, product(spread_, passed.upper())), rounding);
-        by_limit_ += way * mid(passed);
+        double const off = sum(sum(off_, product(spread_, passed.upper())), rounding);
+        double const slope = by_limit_ + way * mid(passed);
+        double const blurred =
+            off + std::max(std::abs(by_limit_), std::abs(slope)) * spread_ * safe;
+        double const slack = sum(rounding, 64 * unit * (std::abs(slope) + std::abs(end)) * spread_);
+        // How far the gap is from what any limit is off: a line.
+        double const tight = 16 * unit * (std::abs(value_) + std::abs(value));
+        double const gap = way * (mid(u(time_)) - value_);
+        double const left = meets ? 0 : way * (mid(there) - value);
+        double const clear = gap - off_ - tight, clear_at_end = left - off - tight;
+        double const begin = time_, length = end - time_;
+        auto const at = [&](double t) { return begin + length * t; };
+        auto const go_to = [&](double t) { // on the way
+            by_limit_ += way * (t - time_);
+            off_ = sum(off_, product(spread_, t - time_));
+            value_ += way * middle_ * (t - time_);
+            time_ = t;
+        };
+        auto const piece = [&](double until, double from, double to) {
+            stand(sum(rounding, 4 * unit * std::abs(value_)), way, from, to);
+            if (until < end) go_to(until);
+        };
+        from_line_ = sum(from_line_, slack);
+        double const turn = clear / (clear - clear_at_end); // share of the way
+        double const soon = at(turn * (1 - 1e-6)), late = at(turn + (1 - turn) * 1e-6);
+        double const sooner = soon - std::min(0.05 * (end - soon), 0.5 * (soon - begin));
+        double const later = late + std::min(0.05 * (late - begin), 0.5 * (end - late));
+        if (spread_ == 0) { // there is but one limit
+            piece(end, off, off);
+            from_line_ = off;
+        } else if (clear > 0 && clear_at_end > 0) {
+            piece(end, from_line_, from_line_);
+        } else if (clear > 0 && begin < sooner && sooner < soon && soon < end) {
+            piece(sooner, from_line_, from_line_);
+            piece(soon, from_line_, blurred);
+            if (meets)
+                crossing_ = {by_limit_, gap + (left - gap) * (soon - begin) / length, from_line_,
+                             way};
+            piece(end, blurred, blurred);
+            from_line_ = blurred;
+        } else if (clear_at_end > 0 && begin < late && late < later && later < end) {
+            double const behind =
+                after_crossing(way, p, off)
+                    .value_or((off_ + spread_ * (late - begin) +
+                               std::abs(by_limit_ + way * (late - begin)) * spread_) *
+                              safe);
+            from_line_ = std::min(sum(behind, slack), blurred);
+            piece(late, blurred, blurred);
+            piece(later, blurred, from_line_);
+            piece(end, from_line_, from_line_);
+        } else {
+            piece(end, blurred, blurred);
+            from_line_ = blurred;
+        }
+        by_limit_ = slope;
+        off_ = off;
         came_by_ = way;
         time_ = end;
         value_ = value;
     }
+    /// What limits are from their line once all of them have crossed a straight piece of u that is
+    /// too fast for them. With the gap g and the slope s by the limit before, and v = R + |p|,
+    ///     \f$ y_R - y = s d - d t + 2 (f(d) - f(0)), \quad f(d) = (R + d)(g - s d)/(v + d), \f$
+    /// whose part beyond the line in d is \f$ -2 d^2 (s + f'(0))/(v + d) \f$.
+    [[nodiscard]] std::optional<double> after_crossing(double way, double p, double off) const {
+        if (!crossing_ || crossing_->way != -way || !(std::abs(p) > limit_.upper())) return {};
+        auto const& c = *crossing_;
+        double const v = middle_ + std::abs(p), g = std::abs(c.gap), s = std::abs(c.slope);
+        double const change = (g + s * middle_) / v + middle_ * g / (v * v);
+        double const bent = 2 * spread_ * spread_ * (s + change) / (v - spread_);
+        return (c.from_line + bent) * safe + 1e-9 * off;
+    }
 
+    static constexpr double safe = 1 + 1e-9; ///< for roundings of a few operations
+    struct crossing {
+        double slope, gap, from_line, way;
+    };
     static constexpr double unit = std::numeric_limits<double>::epsilon();
     interval limit_;
     double middle_, spread_ = 0, time_, value_, off_ = 0, by_limit_ = 0;
-    double came_by_ = 0; ///< which way it went last
+    double came_by_ = 0;               ///< which way it went last
+    double from_line_ = 0;             ///< of any limit from its line in the limit
+    std::optional<crossing> crossing_; ///< about to begin, on this piece of the input
     std::vector<knot> knots_;
 };
 
@@ -155,11 +238,15 @@ SIVID_DECL limited_signal rate_limited(sampled_signal const& u, double begin, do
         worst.resize(y.knots().size(), so_far);
     }
     limited_signal result;
-    measurement_detail::widened_signal all(interpolation::linear);
-    double before = 0; // what the piece before adds at its end
+    measurement_detail::widened_signal all(interpolation::linear), lines(interpolation::linear);
+    double before = 0, before_line = 0; // what the piece before adds at its end
     auto const add = [&](auto const& knot, double error) {
-        all.add(knot.time, interval(knot.value), std::max(before, knot.within + error) + knot.off);
+        auto const value = interval(knot.value);
+        double const own = std::max(before, knot.within + error);
+        all.add(knot.time, value, own + knot.off);
+        lines.add(knot.time, value, own + std::max(before_line, knot.from_line));
         before = knot.within + error;
+        before_line = knot.from_line_at_end;
     };
     for (std::size_t k = 0; k < y.knots().size(); ++k) {
         add(y.knots()[k], worst[k]);
@@ -167,7 +254,16 @@ SIVID_DECL limited_signal rate_limited(sampled_signal const& u, double begin, do
         result.slope_change.push_back(y.knots()[k].by_change);
     }
     add(y.last(), std::max(so_far, u.error_bound(u.piece(grid.back()), grid.back())));
+    std::vector<double> times, slopes;
+    for (auto const& k : y.knots()) {
+        times.push_back(k.time);
+        slopes.push_back(k.by_limit);
+    }
+    times.push_back(y.last().time);
+    slopes.push_back(y.last().by_limit);
+    result.by_limit = sampled_signal(std::move(times), std::move(slopes), interpolation::linear);
     result.within = std::move(all).take();
+    result.about_line = std::move(lines).take();
     return result;
 }
 

@@ -88,8 +88,8 @@ TEST_CASE("the hull of a rate limit contains it, and excludes that there is none
             CHECK(contains(hulls[0], 1.0));
             CHECK(contains(hulls[1], limit));
             CHECK(hulls[1].upper() < 2); // the fastest that the input is
-            CHECK(width(hulls[1]) < 0.15 * 3.75);
-            CHECK(width(hulls[0]) < 0.3);
+            CHECK(width(hulls[1]) < 0.04);
+            CHECK(width(hulls[0]) < 0.03);
         }
     }
     auto const none = effect_hulls(small_campaign::problem(), slow, {.seconds = 20}).parameters;

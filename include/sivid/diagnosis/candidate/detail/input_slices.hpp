@@ -47,7 +47,7 @@ namespace sivid {
                                                        interval const& drifts = interval(0.0));
 
 /// An input that depends on a parameter p: \f$ u(t) \in middle(t) + slope(t) (p - p_0), \f$ where
-/// the middle has error bounds, and the slope is held.
+/// the middle has error bounds, and the slope is held or straight between its samples.
 struct input_of_parameter {
     sampled_signal middle, slope;
     double at = 0; ///< p_0, the middle of the parameter's interval
@@ -62,6 +62,13 @@ struct input_of_parameter {
 /// @cost  three times as many samples, each looks at those within the delays' width
 [[nodiscard]] SIVID_DECL input_of_parameter late_by_parameter(sampled_signal const& u, double begin,
                                                               double end, interval const& delays);
+
+/// A recorded input behind a rate limit, for every limit in an interval, in the same form
+/// (`limited_signal::about_line`).
+/// @param limits  above 0
+[[nodiscard]] SIVID_DECL input_of_parameter limited_by_parameter(sampled_signal const& u,
+                                                                 double begin, double end,
+                                                                 interval const& limits);
 
 /// A recorded input behind a dead band or a saturation, for every threshold in an interval, in the
 /// same form. Where the input's size is not about the threshold, it is a line in that; there, an

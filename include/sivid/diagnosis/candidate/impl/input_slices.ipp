@@ -212,6 +212,12 @@ SIVID_DECL input_of_parameter late_by_parameter(sampled_signal const& u, double 
     return late;
 }
 
+SIVID_DECL input_of_parameter limited_by_parameter(sampled_signal const& u, double begin,
+                                                   double end, interval const& limits) {
+    auto y = rate_limited(u, begin, end, limits);
+    return {std::move(y.about_line), std::move(y.by_limit), mid(limits)};
+}
+
 SIVID_DECL input_of_parameter threshold_by_parameter(sampled_signal const& u, double begin,
                                                      double end, bool stands,
                                                      interval const& thresholds) {

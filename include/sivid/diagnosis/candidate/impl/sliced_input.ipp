@@ -80,9 +80,11 @@ struct input_change {
     operator()(identification_problem base, sivid::effect const& e, interval const& range) const {
         if (side.is_parameter) {
             auto const form = [&](auto const& u, experiment const& x, interval const& all) {
-                return memory
-                           ? late_by_parameter(u, x.begin, x.end(), all)
-                           : threshold_by_parameter(u, x.begin, x.end(), e.threshold->stands, all);
+                if (!memory)
+                    return threshold_by_parameter(u, x.begin, x.end(), e.threshold->stands, all);
+                return memory->kind == memory_kind::rate_limit
+                           ? limited_by_parameter(u, x.begin, x.end(), all)
+                           : late_by_parameter(u, x.begin, x.end(), all);
             };
             return with_line(base, e, input, range, form);
         }
@@ -165,7 +167,8 @@ private:
             };
             auto const& all = whole_.experiments;
             bool const line =
-                m.kind == memory_kind::delay && std::all_of(all.begin(), all.end(), linear);
+                m.kind == memory_kind::rate_limit ||
+                (m.kind == memory_kind::delay && std::all_of(all.begin(), all.end(), linear));
             return input_change{k, m.index, {side_of(e), line}, m};
         }
         return std::nullopt;
