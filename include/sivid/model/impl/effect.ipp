@@ -7,6 +7,7 @@
 
 #include <array>
 #include <charconv>
+#include <numeric>
 #include <string_view>
 
 namespace sivid {
@@ -195,29 +196,23 @@ SIVID_DECL void effect_scope::remember(std::string const& input, std::size_t k, 
     }
     // Each that the model may see has a copy behind this memory, which takes its place.
     auto& inputs = model_->about.inputs;
-    std::vector<std::pair<std::size_t, std::size_t>> replaced;
+    std::vector<std::size_t> seen_as(inputs.size());
+    std::iota(seen_as.begin(), seen_as.end(), std::size_t{0});
     for (auto const i : with_copies(of)) {
-        auto const copy = inputs.size();
+        auto const copy = seen_as[i] = inputs.size();
         inputs.push_back({effect_->name + "." + inputs[i].name, inputs[i].unit});
         model_->input_copies.push_back({copy, of});
         inputs_.push_back(leaf(operation::input, copy));
-        auto const so_far = model_->input_memory;
-        for (auto m : so_far) {
-            if (m.index != i) continue;
-            m.index = copy;
-            model_->input_memory.push_back(m);
-        }
+        for (auto const& m : std::vector(model_->input_memory))
+            if (m.index == i) model_->input_memory.push_back({copy, m.constant, m.kind, m.only_if});
         model_->input_memory.push_back({copy, constant, kind, {}});
-        replaced.emplace_back(i, copy);
     }
     auto& seen = inputs_[of];
     auto const before = model_->g;
     auto const image =
         copy_into(model_->g, before, {seen.in(model_->g)}, [&](auto const& n, graph& g) {
             auto const index = static_cast<std::size_t>(n.index);
-            for (auto const& [i, copy] : replaced)
-                if (n.op == operation::input && index == i) return g.leaf(n.op, copy);
-            return g.leaf(n.op, index);
+            return g.leaf(n.op, n.op == operation::input ? seen_as.at(index) : index);
         });
     seen = expression(model_->g, image.front());
 }
