@@ -503,7 +503,7 @@ TEST_CASE("diagnose says where, which and how far, ends with 0 whatever it finds
     CHECK(constants.size() == cause["witness"]["parameters"].size());
     CHECK(constants["rudder_lag.tau"]["value"] == cause["witness"]["parameters"]["rudder_lag.tau"]);
     auto const& tried = found["answer"]["tried"];
-    CHECK(tried["singles"]["tried"] == 23);
+    CHECK(tried["singles"]["tried"] == 24);
     CHECK(tried["pairs"]["tried"] == tried["pairs"]["planned"]);
     CHECK(found["shrink"]["holdout"][0].get<double>() > 0.95);
     REQUIRE_FALSE(found["where"].empty());
@@ -524,7 +524,7 @@ TEST_CASE("diagnose says where, which and how far, ends with 0 whatever it finds
     CHECK(r.err.empty());
     auto const stopped = json_of(out / "diagnosis.json");
     CHECK(stopped["answer"]["kind"] == "open");
-    CHECK(stopped["answer"]["tried"]["singles"]["planned"] == 23);
+    CHECK(stopped["answer"]["tried"]["singles"]["planned"] == 24);
     CHECK(stopped["interrupted"] == true);
     CHECK(stopped["gap"]["verdict"] != "none");
 
@@ -937,10 +937,11 @@ TEST_CASE(
     CHECK(unknown.code == 2);
     CHECK_THAT(unknown.err, ContainsSubstring("unknown scenario to fit 'S9'"));
     CHECK_THAT(with("position_latency@S3").err, ContainsSubstring("cannot be joined here"));
-    CHECK_THAT(with("rudder_lag@S3>=1").err, ContainsSubstring("cannot have a state of its own"));
+    CHECK_THAT(with("input_delay@S3>=1").err, ContainsSubstring("cannot be joined here"));
     // A lag may have no time constant, over which nothing is enclosed where it acts.
-    for (auto const& [effect, code] :
-         {std::pair<std::string, int>{"rudder_trim@S3", 0}, {"rudder_lag@S3", 3}}) {
+    for (auto const& [effect, code] : {std::pair<std::string, int>{"rudder_trim@S3", 0},
+                                       {"rudder_lag@S3", 3},
+                                       {"rudder_lag@S3>=1", 3}}) {
         CAPTURE(effect);
         REQUIRE(with(effect).code == code);
         CHECK(json_of(fs::path(result) / "result.json")["effects"] == nlohmann::json{effect});

@@ -179,7 +179,11 @@ TEST_CASE("what each family is about") {
         auto const remembered = draw_campaign(5, i, {family::memory});
         for (auto const& s : remembered.scenarios) CHECK(s.acting.begins_later());
         auto const& e = remembered.true_effects;
-        CHECK(e.rudder_lag + e.input_delay + e.motor_lag + e.position_latency + e.rudder_play > 0);
+        bool const limited = e.rudder_rate < effect_values{}.rudder_rate;
+        double const others =
+            e.rudder_lag + e.input_delay + e.motor_lag + e.position_latency + e.rudder_play;
+        CHECK((limited || others > 0));
+        CHECK(draw_campaign(5, i, {family::rate}).true_effects.rudder_rate < 0.2001);
         CHECK(largest_deviation(remembered, {}, {}) >= 3);
         CHECK(largest_deviation(remembered, e, {}) >= 3); // nor is it there from the start on
         auto const episode = draw_campaign(5, i, {family::episode});
