@@ -14,14 +14,16 @@ namespace sivid {
 /// @param from    where they are
 /// @param places  steps of the grid
 /// @param finest  step at which descents end; 1: none begins
-/// @cost  places + 2 evaluations, and 2 for each halving of a step in each of four descents
+/// @cost  places + 2 evaluations, 2 for each halving of a step; three times as many down to 16
+/// times
+///        the finest step
 template <class At>
 [[nodiscard]] std::vector<double> deepest_valley(At const& at, std::vector<double> from, int places,
                                                  double finest) {
     struct spot {
         double place, value;
     };
-    constexpr std::size_t valleys = 3;
+    constexpr std::size_t valleys = 2;
     auto const lower = [](spot const& a, spot const& b) { return a.value < b.value; };
     auto const count = from.size();
     auto const now = at(from);
@@ -40,11 +42,11 @@ template <class At>
         spots[s].resize(std::min(spots[s].size(), valleys), spot{});
         spots[s].insert(spots[s].begin(), {from[s], now[s]});
     }
-    for (std::size_t rank = 0; rank <= valleys; ++rank) {
+    auto const descend = [&](std::size_t rank, double by, double end) {
         auto const nth = [&](std::size_t s) -> spot& {
             return spots[s][std::min(rank, spots[s].size() - 1)];
         };
-        for (double by = 0.5 / places; by > finest; by /= 2) {
+        for (; by > end; by /= 2) {
             for (double const way : {-by, by}) {
                 auto probe = from;
                 for (std::size_t s = 0; s < count; ++s) probe[s] = nth(s).place + way;
@@ -53,9 +55,17 @@ template <class At>
                     if (there[s] < nth(s).value) nth(s) = {probe[s], there[s]};
             }
         }
+        return by;
+    };
+    double by = 0.5 / places;
+    double const coarse = std::min(1.0, 16 * finest);
+    for (std::size_t rank = 0; rank <= valleys; ++rank) {
+        double const left = descend(rank, 0.5 / places, coarse);
+        if (rank == valleys) by = left;
     }
-    for (std::size_t s = 0; s < count; ++s)
-        from[s] = std::min_element(spots[s].begin(), spots[s].end(), lower)->place;
+    for (auto& own : spots) std::stable_sort(own.begin(), own.end(), lower);
+    (void)descend(0, by, finest); // the best of each
+    for (std::size_t s = 0; s < count; ++s) from[s] = spots[s].front().place;
     return from;
 }
 

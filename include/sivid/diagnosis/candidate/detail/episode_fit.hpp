@@ -108,8 +108,6 @@ public:
         });
         for (double const width : {0.02, 0.004, 0.001, 0.0002})
             better(1.5, [this, width] { fit_jumps(width, fit_norm::largest); });
-        // Jumps and all else, balanced to fit about as badly, may have to move in turn.
-        better(2, [this] { settle(known_.parameters, many_measurements); });
     }
 
     [[nodiscard]] bool explains() const { return fit_.inflation <= 1; }
