@@ -36,12 +36,13 @@ enum class family {
     noise,
     slow,
     memory,
-    rate
+    rate,
+    state
 };
-inline constexpr std::array<std::string_view, 23> family_names{
+inline constexpr std::array<std::string_view, 24> family_names{
     "single",   "weak",     "wide",       "pose",        "pair",   "outliers", "outside", "none",
     "alias",    "askew",    "instrument", "experiments", "bounds", "strong",   "onset",   "three",
-    "backlash", "friction", "episode",    "noise",       "slow",   "memory",   "rate"};
+    "backlash", "friction", "episode",    "noise",       "slow",   "memory",   "rate",    "state"};
 
 /// The first of them are drawn in every round, the others where they are asked for.
 inline constexpr std::size_t usual_families = 16;

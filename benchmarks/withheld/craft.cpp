@@ -181,9 +181,11 @@ state derivative(world const& w, double t, command const& now, state const& s, s
                pressure * c.Sv * air_V * air_v - c.D22 * v + gust_force(w.gusts, t) +
                f.swell_force * std::sin(f.swell_frequency * t);
     double const N = -c.L * lift * c.Sg - c.D33 * r + thrust * e.thrust_offset -
-                     e.quadratic_yaw_damping * std::abs(r) * r -
+                     e.quadratic_yaw_damping * std::abs(r) * r - f.weathervane * u * v -
                      e.dry_yaw_friction * r / std::sqrt(r * r + 0.01 * 0.01);
 
+    X -= f.cubic_drag * u * u * u;
+    Y -= f.cross_coupling * u * r;
     double const weight = mass * 9.81;
     double world_x = weight * e.slope_x, world_y = weight * e.slope_y; // forces in the fixed frame
     if (f.tether_stiffness > 0) {

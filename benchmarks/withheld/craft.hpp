@@ -49,6 +49,9 @@ struct foreign_values {
     double tether_stiffness = 0, tether_slack = 0; // N/m, m: pulls back to the start when taut
     double servo_frequency = 0, servo_damping = 0; // rad/s, 1: second order in place of the lag
     double swell_force = 0, swell_frequency = 1;   // N, rad/s: a lateral force that swings
+    double cubic_drag = 0;                         // N s^3/m^3: against u, as u^3
+    double weathervane = 0;                        // kg: turns the bow as -u v
+    double cross_coupling = 0;                     // kg: pushes aside as -u r
 };
 
 /// u, v, r, x, y, psi.

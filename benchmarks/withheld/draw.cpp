@@ -123,6 +123,23 @@ std::string draw_foreign(std::size_t which, random_source& random, campaign& c) 
     }
 }
 
+/// A law of the state that no catalogue has.
+void draw_law(std::size_t which, random_source& random, campaign& c) {
+    struct law {
+        std::string_view name;
+        double foreign_values::*member;
+        double small, large;
+    };
+    static std::array<law, 3> const laws{
+        {{"cubic_drag", &foreign_values::cubic_drag, 0.02, 0.06},
+         {"weathervane", &foreign_values::weathervane, 0.02, 0.08},
+         {"cross_coupling", &foreign_values::cross_coupling, 0.05, 0.2}}};
+    auto const& one = laws[which];
+    c.true_foreign.*one.member = rounded(random.uniform(one.small, one.large));
+    c.effects = {std::string{one.name}};
+    c.effects_text = c.effects.front() + '(' + six_digits(c.true_foreign.*one.member) + ')';
+}
+
 void name_instrument(std::string_view kind, random_source& random, campaign& c) {
     auto const values = draw_instrument(kind, random);
     set_instrument(c.true_instruments, std::string{kind}, values);
@@ -227,6 +244,9 @@ bool draw_other(std::uint64_t seed, std::size_t n, random_source& random, campai
         return true;
     case family::outside:
         c.effects_text = draw_foreign(dealt(deck, n, 4), random, c);
+        return true;
+    case family::state:
+        draw_law(dealt(deck, n, 3), random, c);
         return true;
     case family::askew:
         name_instrument(askew_kinds()[dealt(deck, n, askew_kinds().size())], random, c);

@@ -161,6 +161,12 @@ world world_of(label const& l, constants const& fixed) {
         } else if (name == "swell") {
             w.f.swell_force = values.at(0);
             w.f.swell_frequency = values.at(1);
+        } else if (name == "cubic_drag") {
+            w.f.cubic_drag = values.at(0);
+        } else if (name == "weathervane") {
+            w.f.weathervane = values.at(0);
+        } else if (name == "cross_coupling") {
+            w.f.cross_coupling = values.at(0);
         } else if (!set_instrument(w.instruments, name, values) && name != "gust" &&
                    !is_noise(name)) {
             throw std::runtime_error("unknown effect " + name);

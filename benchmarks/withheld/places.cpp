@@ -43,6 +43,9 @@ places places_of(std::string const& effect) {
         {"gust", {{"sway"}, {}, {}}},
         {"tether", force},
         {"swell", {{"sway"}, {}, {}}},
+        {"cubic_drag", {{"surge"}, {}, {}}},
+        {"weathervane", yaw},
+        {"cross_coupling", {{"sway"}, {}, {}}},
         {"servo", rudder}};
     auto const name = plain_name(effect);
     // A term that an equation lacks, by its state.

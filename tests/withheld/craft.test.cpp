@@ -247,6 +247,18 @@ TEST_CASE("yaw and surge effects at one state") {
     CHECK_THAT(derivative(stribeck, 0, now, s, s)[1] - plain[1],
                WithinAbs(more * 0.4 / V / 1.297, 1e-12));
 
+    auto const pushed = [&](double foreign_values::*law) {
+        world other = base;
+        other.f.*law = 0.3;
+        state by = derivative(other, 0, now, s, s);
+        for (std::size_t i = 0; i < by.size(); ++i) by[i] -= plain[i];
+        return by;
+    };
+    CHECK_THAT(pushed(&foreign_values::cubic_drag)[0], WithinAbs(-0.3 * 1.728 / 1.297, 1e-12));
+    CHECK_THAT(pushed(&foreign_values::weathervane)[2], WithinAbs(0.3 * 1.2 * 0.4 / 0.058, 1e-12));
+    CHECK_THAT(pushed(&foreign_values::cross_coupling)[1],
+               WithinAbs(-0.3 * 1.2 * s[2] / 1.297, 1e-12));
+
     world swell = base;
     swell.f.swell_force = 0.7;
     swell.f.swell_frequency = 2;

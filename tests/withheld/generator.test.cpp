@@ -176,6 +176,9 @@ TEST_CASE("what each family is about") {
             CHECK(s.acting.from < s.plan.duration);
             CHECK_FALSE(s.acting.ends());
         }
+        auto const law = draw_campaign(5, i, {family::state});
+        CHECK(effect_named(law.effects.at(0)) == nullptr);
+        CHECK(largest_deviation(law, {}, {}) >= 3);
         auto const remembered = draw_campaign(5, i, {family::memory});
         for (auto const& s : remembered.scenarios) CHECK(s.acting.begins_later());
         auto const& e = remembered.true_effects;
