@@ -945,6 +945,7 @@ TEST_CASE(
         CAPTURE(effect);
         REQUIRE(with(effect).code == code);
         CHECK(json_of(fs::path(result) / "result.json")["effects"] == nlohmann::json{effect});
+        if (effect.ends_with(">=1")) continue; // its lag goes on in S1, too, by any time constant
         // S1 goes straight ahead, whatever the trim or the lag is in S3.
         auto const straight = run({"verify", result, "--scenario", "S1", "--require",
                                    "always(abs(v) < 1e-6)", "--budget", "5"});
