@@ -219,14 +219,14 @@ private:
         return tried.candidates().size() > before;
     }
     /// Whether all of the plan was tried in vain, and neither bounds that are too small nor one
-    /// instrument may be the cause. @param parts  though some experiments alone stand against all
-    [[nodiscard]] bool lacks_more(bool parts) const {
-        auto const may_be = [&](confined_gap const& c) { return !parts || !c.channel.empty(); };
+    /// instrument may be the cause. Some experiments may stand alone: others need not show it.
+    [[nodiscard]] bool lacks_more() const {
+        auto const of_channel = [](confined_gap const& c) { return !c.channel.empty(); };
         return run_.result.tried.complete() && !one_sensor_explains(run_.places) &&
-               std::ranges::none_of(run_.result.confined, may_be);
+               std::ranges::none_of(run_.result.confined, of_channel);
     }
     [[nodiscard]] bool try_threes(screening& tried) {
-        if (!lacks_more(true)) return false;
+        if (!lacks_more()) return false;
         kept_ = 0.2 * options_.verdict_share * options_.seconds;
         bool const explains = tried.try_threes();
         run_.result.tried = tried.counts();
@@ -234,7 +234,7 @@ private:
     }
     /// What no effect of the catalogue is, in a fifth of the time at most.
     [[nodiscard]] bool try_terms(screening& tried) {
-        if (!lacks_more(false)) return false;
+        if (!lacks_more()) return false;
         keep_but(options_.terms_share);
         return tried.try_further(proposed_terms(run_.places), true);
     }
