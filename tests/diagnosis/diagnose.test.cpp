@@ -240,6 +240,14 @@ TEST_CASE("clocks that run slow are found, bounded, and their witnesses verified
         CHECK(contains(*cause.parameters[0].hull, 0.15));
         if (!of_sensor) CHECK(cause.parameters[0].hull->lower() > 0);
     }
+    // Beyond its prior, which is widened to clocks that stand.
+    small_campaign::truth fast;
+    fast.drift = 0.55;
+    auto const d = diagnose(small_campaign::problem(fast), catalogue, {});
+    for (auto const& c : find_contradictions(d.result)) FAIL_CHECK(c.claim + ": " + c.reason);
+    REQUIRE(d.result.effects == names{"command_clock_wider"});
+    REQUIRE(d.result.causes.front().parameters[0].hull);
+    CHECK(contains(*d.result.causes.front().parameters[0].hull, 0.55));
 }
 
 TEST_CASE("instruments that drift, are askew, clip or are mixed up are named") {

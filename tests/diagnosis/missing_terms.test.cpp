@@ -21,7 +21,8 @@ namespace {
 using missing = std::function<double(double t, double v, double u)>;
 
 /// With a slope, a scale and a delay in the catalogue, no drag.
-diagnosis_run diagnosed(missing const& what) {
+/// @param resting  so many further experiments in which nothing moves
+diagnosis_run diagnosed(missing const& what, std::size_t resting = 0) {
     small_campaign::truth real;
     real.missing = what;
     auto catalogue = small_campaign::catalogue();
@@ -29,7 +30,14 @@ diagnosis_run diagnosed(missing const& what) {
     diagnosis_options options;
     options.seconds = 60; // a slow machine needs them
     options.hulls.boxes = 200;
-    auto result = diagnose(small_campaign::problem(real), std::move(catalogue), options);
+    auto problem = small_campaign::problem(real);
+    for (std::size_t e = 0; e < resting; ++e) {
+        auto& still = problem.experiments.emplace_back(small_campaign::experiment(0, {}));
+        still.name = "R" + std::to_string(e + 1);
+        still.inputs = {sampled_signal({0.0, 4.0}, {0.0, 0.0}, interpolation::linear)};
+        for (auto& m : still.measurements) m.bound = interval(-0.02, 0.02);
+    }
+    auto result = diagnose(problem, std::move(catalogue), options);
     for (auto const& c : find_contradictions(result.result)) FAIL_CHECK(c.claim + ": " + c.reason);
     judge_by_holdout(result, holdout({small_campaign::experiment(2, real)}));
     return result;
@@ -69,6 +77,14 @@ TEST_CASE("a law that no catalogue has is found and its size bounded with proof"
         bounded = true;
     }
     CHECK(bounded);
+}
+
+TEST_CASE("a law is found though experiments that rest do not show it") {
+    auto const d = diagnosed([](double, double v, double) { return -0.5 * v * v * v; }, 2).result;
+    INFO(joined(d.effects));
+    CHECK_FALSE(d.confined.empty()); // E1 and E2 stand alone
+    explained(d);
+    CHECK_THAT(joined(d.effects), ContainsSubstring("v'~") && ContainsSubstring("*v^3"));
 }
 
 TEST_CASE("a rate that swings is found with its frequency") {

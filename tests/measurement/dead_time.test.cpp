@@ -5,6 +5,7 @@
 #include "support/random.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 using namespace sivid;
 
@@ -20,4 +21,7 @@ TEST_CASE("what happens is seen a dead time later, and the other way round") {
         CHECK(late.source(begin - 1, begin) == begin);
         CHECK(late.any() == (late.delay > 0 || late.drift > 0));
     }
+    dead_time const stands{0.5, 1.25};
+    CHECK(stands.source(7, 2) == 2);
+    CHECK(std::isinf(stands.seen(3, 2)));
 }

@@ -57,6 +57,8 @@ TEST_CASE("an input behind a rate limit lies within its slice, for every limit a
         double const low = std::exp(d.uniform(-4, 3));
         double const high = low * (d.below(3) == 0 ? 1.0 : 1 + std::exp(d.uniform(-8, 0)));
         auto const y = rate_limited(u, begin, end, interval(low, high));
+        auto const lines = rate_limited_line(u, begin, end, interval(low, high));
+        REQUIRE(lines.about.times() == y.within.times());
         REQUIRE(y.slope_by_limit.size() + 1 == y.within.times().size());
         REQUIRE(y.slope_change.size() == y.slope_by_limit.size());
         std::vector<double> times{begin};
@@ -76,10 +78,10 @@ TEST_CASE("an input behind a rate limit lies within its slice, for every limit a
                 double const off = std::abs(truth[i] - y.within.approximate_on(k, times[i]));
                 REQUIRE(off <= y.within.error_bound(k, times[i]) + 1e-13);
                 // And about its line in the limit.
-                auto const& line = y.about_line;
+                auto const& line = lines.about;
                 double const there =
                     line.approximate_on(k, times[i]) +
-                    y.by_limit.approximate_on(k, times[i]) * (r - mid(interval(low, high)));
+                    lines.by_limit.approximate_on(k, times[i]) * (r - mid(interval(low, high)));
                 REQUIRE(std::abs(truth[i] - there) <= line.error_bound(k, times[i]) + 1e-13);
             }
         }
@@ -112,6 +114,9 @@ TEST_CASE("for one limit the lines are what it does, to the rounding") {
         CHECK_THAT(slow.within.values()[k],
                    WithinAbs(fast.approximate(slow.within.times()[k]), 1e-14));
     CHECK_THROWS_AS(rate_limited(fast, 0, 4, interval(0.0, 1.0)), std::invalid_argument);
+    CHECK_THROWS_AS(rate_limited_line(fast, 0, 4, interval(0.0, 1.0)), std::invalid_argument);
+    auto const line = rate_limited_line(fast, 0, 4, interval(1.5)); // of one limit
+    for (std::size_t k = 0; k < 4; ++k) CHECK(line.about.errors()[k] < 1e-12);
 }
 
 TEST_CASE("limits that have caught up are one again") {
@@ -137,9 +142,9 @@ TEST_CASE("a line in the limit leaves errors of second order, whether it is met 
     // 0.5: the wave is always too fast; 1.2 and 1.9: it is met.
     for (double const limit : {0.5, 1.2, 1.9}) {
         auto const mean = [&](double share, bool of_line) {
-            auto const y =
-                rate_limited(wave, 0, 6, interval(limit * (1 - share), limit * (1 + share)));
-            auto const& s = of_line ? y.about_line : y.within;
+            interval const limits(limit * (1 - share), limit * (1 + share));
+            auto const s = of_line ? rate_limited_line(wave, 0, 6, limits).about
+                                   : rate_limited(wave, 0, 6, limits).within;
             double sum = 0;
             for (int i = 0; i < 6000; ++i) sum += s.error_bound(s.piece(1e-3 * i), 1e-3 * i) / 6000;
             return sum;

@@ -52,7 +52,9 @@ TEST_CASE("effects of inputs") {
     REQUIRE(gap.input_memory.size() == 1);
     CHECK(gap.input_memory[0].kind == memory_kind::play);
     CHECK(gap.has_memory());
-    auto const slow = with(cart{}, effects::input_rate_limit("e", "u", "N/s", prior));
+    CHECK_THROWS_AS(effects::input_rate_limit("e", "u", "N/s", prior), std::invalid_argument);
+    auto const slow =
+        with(cart{}, effects::input_rate_limit("e", "u", "N/s", {0.125_dec, prior.upper}));
     REQUIRE(slow.input_memory.size() == 1);
     CHECK(slow.input_memory[0].kind == memory_kind::rate_limit);
     CHECK(slow.about.constants.back().nominal.nearest == nearest(prior.upper));

@@ -3,6 +3,7 @@
 #define SIVID_MEASUREMENT_DEAD_TIME_HPP
 
 #include <algorithm>
+#include <limits>
 
 namespace sivid {
 
@@ -10,15 +11,16 @@ namespace sivid {
 /// runs slow. Before the begin it stands still.
 struct dead_time {
     double delay = 0; ///< [s], at least 0
-    double drift = 0; ///< [s/s], from 0 to below 1
+    double drift = 0; ///< [s/s], at least 0; from 1 on the clock stands, and nothing new is seen
 
     [[nodiscard]] bool any() const { return delay > 0 || drift > 0; }
     /// When what is seen at t happened, in doubles.
     [[nodiscard]] double source(double t, double begin) const {
         return std::max(begin, t - delay - drift * (t - begin));
     }
-    /// When what happens at s is seen, in doubles.
+    /// When what happens at s is seen, in doubles; infinite: never.
     [[nodiscard]] double seen(double s, double begin) const {
+        if (drift >= 1) return std::numeric_limits<double>::infinity();
         return drift > 0 ? begin + (s - begin + delay) / (1 - drift) : s + delay;
     }
     bool operator==(dead_time const&) const = default;

@@ -16,10 +16,6 @@ struct limited_signal {
     /// The slope of the value by the limit, at the middle of the limits, at the begin of each piece
     /// of `within`, and by how much it changes per second.
     std::vector<double> slope_by_limit, slope_change;
-    /// About the line in the limit: \f$ y_R(t) \in about\_line(t) + by\_limit(t) (R - R_0) \f$ with
-    /// R_0 the middle of the limits. Its errors are second order but about the times at which y
-    /// meets u.
-    sampled_signal about_line, by_limit;
 };
 
 /// A recorded input behind a rate limit R (a servo of full speed R): y begins at u, follows it as
@@ -36,6 +32,21 @@ struct limited_signal {
 /// @throws std::invalid_argument  for a limit that is not above 0
 [[nodiscard]] SIVID_DECL limited_signal rate_limited(sampled_signal const& u, double begin,
                                                      double end, interval const& limit);
+
+/// The same with the limit as a parameter.
+struct limited_line {
+    sampled_signal about;    ///< straight lines with error bounds
+    sampled_signal by_limit; ///< straight lines
+};
+
+/// A recorded input behind a rate limit R as a line in R, about the middle of the limits R_0:
+///     \f$ y_R(t) \in about(t) + by\_limit(t) (R - R_0). \f$
+/// Where y is further from u than any limit is off, all limits go the same way, and what they are
+/// from the line stays as it is. About the times at which y meets u it is all that they are off;
+/// where u is too fast and y turns there, the rest is of second order in the width of the limits.
+/// @given, guarantee, cost, throws  as for `rate_limited`
+[[nodiscard]] SIVID_DECL limited_line rate_limited_line(sampled_signal const& u, double begin,
+                                                        double end, interval const& limit);
 
 } // namespace sivid
 

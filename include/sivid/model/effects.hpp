@@ -28,7 +28,7 @@ SIVID_DECL effect one(std::string name, std::string parameter, std::string unit,
 SIVID_DECL effect input_delay(std::string const& name, std::string const& input, range const& tau);
 /// The clock of the input runs slow by r seconds a second: u(t - r (t - begin)), dead time that
 /// grows.
-/// @param r  0 to below 1
+/// @param r  0 or more; from 1 on the clock stands
 SIVID_DECL effect input_clock_drift(std::string const& name, std::string const& input,
                                     range const& r);
 /// u - b above b, u + b below -b, else 0.
@@ -42,6 +42,7 @@ SIVID_DECL effect input_backlash(std::string const& name, std::string const& inp
 /// caught up (`rate_limited`). It acts on the input as recorded, before other effects on it.
 /// @param R  above 0; at its upper end, which belongs above all that u does, the effect vanishes; a
 ///           held u jumps, which no limit lets through
+/// @throws std::invalid_argument  for a prior that is not above 0
 SIVID_DECL effect input_rate_limit(std::string const& name, std::string const& input,
                                    std::string const& unit, range const& R);
 /// First-order lag: d' = (u - d)/tau replaces u. tau = 0 is a limit, where the right-hand side is
@@ -136,7 +137,7 @@ SIVID_DECL effect sensor_scale(std::string const& name, std::vector<std::string>
 SIVID_DECL effect sensor_latency(std::string const& name, std::vector<std::string> const& channels,
                                  range const& tau);
 /// y(t - r (t - begin)): the clock of one instrument runs slow by r seconds a second.
-/// @param r  0 to below 1
+/// @param r  0 or more; from 1 on the clock stands
 SIVID_DECL effect sensor_clock_drift(std::string const& name,
                                      std::vector<std::string> const& channels, range const& r);
 /// First-order lag (low-pass): the channel shows y - w with w' = y' - w/tau and w = 0 at the begin,

@@ -228,7 +228,7 @@ enum class memory_kind {
     delay, ///< by so much time [s]
     play,  ///< of this half-width, in the unit of the input (see measurement/played_signal.hpp)
     rate_limit, ///< of this size, in that unit per second (see measurement/limited_signal.hpp)
-    drift       ///< of the clock: a delay by this share of the time since the begin, below 1
+    drift       ///< of the clock: a delay by this share of the time since the begin
 };
 
 /// Whether it moves a signal in time and changes nothing else.

@@ -162,6 +162,14 @@ TEST_CASE("a clock that runs slow makes a signal ever later") {
         if (m.channel == 0) times.push_back(m.time);
     REQUIRE(times.size() == 40);
     CHECK(std::abs(times[39] - 0.9375 * 4) < 1e-14);
-    CHECK_THROWS_AS(resolve_memory(p, {1.25, 0.25, 1, 0.0625}), std::invalid_argument);
+    // A clock that stands, or would go back, shows nothing new (priors are widened, too).
+    for (double const drift : {1.0, 1.6}) {
+        auto const stands = resolve_memory(p, {1.25, 0.25, drift, drift});
+        auto const& e = stands.problem.experiments[0];
+        for (double t = 0; t < 4; t += 0.0625)
+            CHECK(std::get<sampled_signal>(e.inputs[0]).approximate(t) == u.approximate(0));
+        for (auto const& m : e.measurements)
+            if (m.channel == 0) CHECK(m.time == 0);
+    }
     CHECK_THROWS_AS(resolve_memory(p, {1.25, 0.25, -0.1, 0.0625}), std::invalid_argument);
 }

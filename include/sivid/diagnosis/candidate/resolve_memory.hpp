@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -41,7 +42,7 @@ namespace sivid {
     std::vector<double> values{first};
     std::vector<double> errors{first_error};
     auto const add = [&](double t, double v, double e) {
-        if (!(t > times.back())) return;
+        if (!(t > times.back() && t < std::numeric_limits<double>::infinity())) return;
         times.push_back(t);
         values.push_back(v);
         errors.push_back(e);
@@ -87,9 +88,7 @@ struct memory_resolved {
 /// accordingly, and puts inputs behind their limits, then behind their plays, with errors that
 /// cover the roundings.
 ///   Times that a delay moves are rounded to the nearest double; everything else is exact.
-/// @throws std::invalid_argument for a negative size, a drift of 1 or more, and for a play or a
-/// rate
-///         limit of a formula
+/// @throws std::invalid_argument for a negative size, and for a play or a rate limit of a formula
 [[nodiscard]] inline memory_resolved resolve_memory(identification_problem const& original,
                                                     std::vector<double> const& parameters) {
     if (remembers_formulas(original))
@@ -111,9 +110,6 @@ struct memory_resolved {
     };
     auto const add_to = [&](dead_time& late, signal_memory const& d) {
         (d.kind == memory_kind::drift ? late.drift : late.delay) += value_of(d);
-        if (!(late.drift < 1))
-            throw std::invalid_argument("'" + model.about.constants[d.constant].name +
-                                        "' stops the clock");
     };
     std::vector<bool> is_size(model.about.constants.size(), false);
     for (auto& e : problem.experiments) {

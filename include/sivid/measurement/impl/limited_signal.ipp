@@ -57,7 +57,10 @@ public:
             double const gap = here - value_;
             // Closed, but for rounding.
             if (std::abs(gap) <= 2 * rad(now) + 4 * unit * (std::abs(here) + std::abs(value_))) {
-                off_ = sum(off_, distance(interval(here), interval(value_)));
+                double const closed = distance(interval(here), interval(value_));
+                off_ = sum(off_, closed);
+                from_line_ = sum(from_line_, closed);
+                if (crossing_) crossing_->from_line = sum(crossing_->from_line, closed);
                 value_ = here;
                 if (std::abs(p) <= middle_) {
                     keep_up(end, slope, u);
@@ -134,7 +137,7 @@ private:
         double const off = sum(sum(off_, product(spread_, passed.upper())), rounding);
         double const slope = by_limit_ + way * mid(passed);
         double const blurred =
-            off + std::max(std::abs(by_limit_), std::abs(slope)) * spread_ * safe;
+            (off + std::max(std::abs(by_limit_), std::abs(slope)) * spread_) * safe;
         double const slack = sum(rounding, 64 * unit * (std::abs(slope) + std::abs(end)) * spread_);
         // How far the gap is from what any limit is off: a line.
         double const tight = 16 * unit * (std::abs(value_) + std::abs(value));
@@ -149,8 +152,11 @@ private:
             value_ += way * middle_ * (t - time_);
             time_ = t;
         };
+        // Of the values in between, which are sums of what is on the way.
+        double const ulps =
+            4 * unit * (std::abs(value_) + std::abs(value) + middle_ * passed.upper());
         auto const piece = [&](double until, double from, double to) {
-            stand(sum(rounding, 4 * unit * std::abs(value_)), way, from, to);
+            stand(sum(rounding, ulps), way, from, to);
             if (until < end) go_to(until);
         };
         from_line_ = sum(from_line_, slack);
@@ -196,7 +202,8 @@ private:
     ///     \f$ y_R - y = s d - d t + 2 (f(d) - f(0)), \quad f(d) = (R + d)(g - s d)/(v + d), \f$
     /// whose part beyond the line in d is \f$ -2 d^2 (s + f'(0))/(v + d) \f$.
     [[nodiscard]] std::optional<double> after_crossing(double way, double p, double off) const {
-        if (!crossing_ || crossing_->way != -way || !(std::abs(p) > limit_.upper())) return {};
+        if (!crossing_ || crossing_->way != -way || !(std::abs(p) > limit_.upper() * safe))
+            return {};
         auto const& c = *crossing_;
         double const v = middle_ + std::abs(p), g = std::abs(c.gap), s = std::abs(c.slope);
         double const change = (g + s * middle_) / v + middle_ * g / (v * v);
@@ -217,54 +224,77 @@ private:
     std::vector<knot> knots_;
 };
 
+/// A limiter that has followed the whole input, and errors of that so far, by knot and at the end.
+struct followed_input {
+    rate_limiter limiter;
+    std::vector<double> worst{};
+
+    followed_input(sampled_signal const& u, double begin, double end, interval const& limit)
+        : limiter(limit, begin, u.value<interval>(u.piece(begin), interval(begin))) {
+        auto const grid = grid_of(u.times(), begin, end);
+        double so_far = 0;
+        for (std::size_t k = 0; k + 1 < grid.size(); ++k) {
+            auto const piece = u.piece(grid[k]);
+            so_far = std::max(
+                {so_far, u.error_bound(piece, grid[k]), u.error_bound(piece, grid[k + 1])});
+            limiter.follow(grid[k + 1], u.slope<interval>(piece),
+                           [&](double t) { return u.value<interval>(piece, interval(t)); });
+            worst.resize(limiter.knots().size(), so_far);
+        }
+        worst.push_back(std::max(so_far, u.error_bound(u.piece(grid.back()), grid.back())));
+    }
+    /// The lines between its knots, with these errors at the begin and the end of each piece.
+    template <class Begin, class End>
+    [[nodiscard]] sampled_signal lines(Begin const& at_begin, End const& at_end) const {
+        widened_signal result(interpolation::linear);
+        double before = 0; // what the piece before has at its end
+        for (std::size_t k = 0; k < worst.size(); ++k) {
+            bool const last = k + 1 == worst.size();
+            auto const knot = last ? limiter.last() : limiter.knots()[k];
+            double const more = knot.within + worst[k];
+            result.add(knot.time, interval(knot.value), std::max(before, more + at_begin(knot)));
+            if (!last) before = more + at_end(k);
+        }
+        return std::move(result).take();
+    }
+};
+
 } // namespace measurement_detail
 
 SIVID_DECL limited_signal rate_limited(sampled_signal const& u, double begin, double end,
                                        interval const& limit) {
     if (!(limit.lower() > 0))
         throw std::invalid_argument("rate_limited: the limit of a rate is above 0");
-    auto const grid = measurement_detail::grid_of(u.times(), begin, end);
-    auto const on = [&u](std::size_t piece) {
-        return [&u, piece](double t) { return u.value<interval>(piece, interval(t)); };
-    };
-    measurement_detail::rate_limiter y(limit, begin, on(u.piece(begin))(begin));
-    std::vector<double> worst; // error of the input so far, by knot
-    double so_far = 0;
-    for (std::size_t k = 0; k + 1 < grid.size(); ++k) {
-        auto const piece = u.piece(grid[k]);
-        so_far =
-            std::max({so_far, u.error_bound(piece, grid[k]), u.error_bound(piece, grid[k + 1])});
-        y.follow(grid[k + 1], u.slope<interval>(piece), on(piece));
-        worst.resize(y.knots().size(), so_far);
-    }
+    measurement_detail::followed_input const y(u, begin, end, limit);
+    auto const& knots = y.limiter.knots();
     limited_signal result;
-    measurement_detail::widened_signal all(interpolation::linear), lines(interpolation::linear);
-    double before = 0, before_line = 0; // what the piece before adds at its end
-    auto const add = [&](auto const& knot, double error) {
-        auto const value = interval(knot.value);
-        double const own = std::max(before, knot.within + error);
-        all.add(knot.time, value, own + knot.off);
-        lines.add(knot.time, value, own + std::max(before_line, knot.from_line));
-        before = knot.within + error;
-        before_line = knot.from_line_at_end;
-    };
-    for (std::size_t k = 0; k < y.knots().size(); ++k) {
-        add(y.knots()[k], worst[k]);
-        result.slope_by_limit.push_back(y.knots()[k].by_limit);
-        result.slope_change.push_back(y.knots()[k].by_change);
+    result.within =
+        y.lines([](auto const& knot) { return knot.off; },
+                [&](std::size_t k) {
+                    return k + 1 < knots.size() ? knots[k + 1].off : y.limiter.last().off;
+                });
+    for (auto const& knot : knots) {
+        result.slope_by_limit.push_back(knot.by_limit);
+        result.slope_change.push_back(knot.by_change);
     }
-    add(y.last(), std::max(so_far, u.error_bound(u.piece(grid.back()), grid.back())));
-    std::vector<double> times, slopes;
-    for (auto const& k : y.knots()) {
-        times.push_back(k.time);
-        slopes.push_back(k.by_limit);
-    }
-    times.push_back(y.last().time);
-    slopes.push_back(y.last().by_limit);
-    result.by_limit = sampled_signal(std::move(times), std::move(slopes), interpolation::linear);
-    result.within = std::move(all).take();
-    result.about_line = std::move(lines).take();
     return result;
+}
+
+SIVID_DECL limited_line rate_limited_line(sampled_signal const& u, double begin, double end,
+                                          interval const& limit) {
+    if (!(limit.lower() > 0))
+        throw std::invalid_argument("rate_limited: the limit of a rate is above 0");
+    measurement_detail::followed_input const y(u, begin, end, limit);
+    auto const& knots = y.limiter.knots();
+    std::vector<double> times, slopes;
+    for (std::size_t k = 0; k <= knots.size(); ++k) {
+        auto const knot = k < knots.size() ? knots[k] : y.limiter.last();
+        times.push_back(knot.time);
+        slopes.push_back(knot.by_limit);
+    }
+    return {y.lines([](auto const& knot) { return knot.from_line; },
+                    [&](std::size_t k) { return knots[k].from_line_at_end; }),
+            sampled_signal(std::move(times), std::move(slopes), interpolation::linear)};
 }
 
 } // namespace sivid

@@ -67,6 +67,8 @@ SIVID_DECL effect input_backlash(std::string const& name, std::string const& inp
 
 SIVID_DECL effect input_rate_limit(std::string const& name, std::string const& input,
                                    std::string const& unit, range const& R) {
+    if (!(nearest(R.lower) > 0))
+        throw std::invalid_argument("input_rate_limit '" + name + "': the prior of R is above 0");
     auto e = detail::one(name, "R", unit, R, "rate limit of the input " + input, 0, R.upper);
     e.on_inputs = [input](effect_scope& m) { m.limit_input_rate(input); };
     return e;

@@ -36,8 +36,8 @@ namespace sivid {
 ///   About the middle of the delays, the error is at most half their width times the steepest slope
 /// within reach; held inputs take the range of what is within reach.
 /// @param delays  0 or more
-/// @param drifts  0 or more, below 1: of the clock, which add to the delay by so much of the time
-///                since the begin
+/// @param drifts  0 or more: of the clock, which add to the delay by so much of the time since the
+///                begin; from 1 on the clock stands
 /// @guarantee  for every delay and drift the late input lies within the result from `begin` to
 ///             `end`
 /// @cost  as many samples, twice as many held ones; each looks at those within half the delays'
@@ -64,7 +64,7 @@ struct input_of_parameter {
                                                               double end, interval const& delays);
 
 /// A recorded input behind a rate limit, for every limit in an interval, in the same form
-/// (`limited_signal::about_line`).
+/// (`rate_limited_line`).
 /// @param limits  above 0
 [[nodiscard]] SIVID_DECL input_of_parameter limited_by_parameter(sampled_signal const& u,
                                                                  double begin, double end,

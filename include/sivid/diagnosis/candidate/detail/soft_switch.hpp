@@ -84,9 +84,7 @@ struct episode_ends {
 /// share of its own, for as long as `width` of the experiment says to either side: nearly what a
 /// jump does that comes the sooner the larger the share, which are further parameters in the order
 /// of `places`.
-/// @param places  of the jumps, as shares of the experiments: for all of these where it begins,
-/// then
-///                where it ends
+/// @param places  of the jumps, as shares: for all experiments where it begins, then where it ends
 [[nodiscard]] inline identification_problem with_soft_jumps(identification_problem const& base,
                                                             effect const& e, episode_ends ends,
                                                             std::vector<double> const& places,

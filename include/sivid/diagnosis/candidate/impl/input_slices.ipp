@@ -12,7 +12,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <stdexcept>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -75,8 +74,12 @@ SIVID_DECL sampled_signal lagged_within(sampled_signal const& u, double begin, d
 
 SIVID_DECL sampled_signal delayed_within(sampled_signal const& u, double begin, double end,
                                          interval const& delays, interval const& drifts) {
-    if (!(drifts.lower() >= 0 && drifts.upper() < 1))
-        throw std::invalid_argument("delayed_within: drifts are from 0 to below 1");
+    if (!(drifts.upper() < 1)) { // the clock may stand: anything that was
+        auto const all = diagnosis_detail::seen_between(u, begin, begin, end);
+        measurement_detail::widened_signal any(interpolation::hold);
+        any.add(begin, all.values, all.error);
+        return std::move(any).take();
+    }
     bool const holds = u.kind() == interpolation::hold;
     dead_time const middle{mid(delays), mid(drifts)};
     double farthest = std::max(std::abs(begin), std::abs(end));
@@ -214,8 +217,8 @@ SIVID_DECL input_of_parameter late_by_parameter(sampled_signal const& u, double 
 
 SIVID_DECL input_of_parameter limited_by_parameter(sampled_signal const& u, double begin,
                                                    double end, interval const& limits) {
-    auto y = rate_limited(u, begin, end, limits);
-    return {std::move(y.about_line), std::move(y.by_limit), mid(limits)};
+    auto y = rate_limited_line(u, begin, end, limits);
+    return {std::move(y.about), std::move(y.by_limit), mid(limits)};
 }
 
 SIVID_DECL input_of_parameter threshold_by_parameter(sampled_signal const& u, double begin,
