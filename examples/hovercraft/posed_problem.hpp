@@ -40,9 +40,8 @@ posed(sivid::dataset const& data, sivid::recorded_model const& model,
         throw bad_request(e.what());
     }
     if (problem.model.has_memory())
-        throw bad_request(
-            "an effect that delays, or a backlash, cannot be joined here yet; `diagnose` "
-            "bounds those of an input, and verifies them at points");
+        throw bad_request("an effect that delays, a backlash or a rate limit cannot be joined here "
+                          "yet; `diagnose` bounds those of an input, and verifies them at points");
     if (sivid::starts_follow_parameters(problem))
         throw bad_request("these effects together begin where their parameters say, which an "
                           "identification cannot follow yet; `diagnose` tries them at points");
