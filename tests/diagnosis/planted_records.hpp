@@ -91,6 +91,28 @@ inline std::vector<planted> all_planted() {
                       box{between(0, 2), between(0, 9)},
                       {1},
                       box{between(-1, 1), between(-1, 1)}});
+    result.push_back(
+        {"friction seen by positions",
+         {2, 5, 1},
+         [](expression const&, constants x, constants p, constants u) {
+             auto const direction = x[0] / sqrt(sqr(x[0]) + sqr(expression(0.01)));
+             return list{p[0] * u[0] - p[1] * x[0] - p[2] * direction - p[3] * abs(x[0]) + p[4],
+                         x[0]};
+         },
+         box{between(0.2, 3), between(0, 3), between(0, 1), between(-0.5, 0.5), between(-0.3, 0.3)},
+         {1},
+         box{between(-1, 1), between(-1, 1)},
+         0.0005});
+    result.push_back(
+        {"two masses seen by positions",
+         {4, 4, 1},
+         [](expression const&, constants x, constants p, constants u) {
+             auto const pull = p[1] * (x[2] - x[3]) + p[2] * max(x[0] - x[1], 0);
+             return list{p[0] * u[0] - pull, pull - p[3] * abs(x[1]) * x[1], x[0], x[1]};
+         },
+         box{between(0.5, 2), between(1, 5), between(0, 1), between(0, 2)},
+         {2, 3},
+         box{between(-1, 1), between(-1, 1), between(-1, 1), between(-1, 1)}});
     return result;
 }
 

@@ -49,6 +49,40 @@ TEST_CASE("the rate of a sampled quantity is told in both directions of time") {
     CHECK(widest < 0.4);
 }
 
+TEST_CASE("marks on either side tell a rate together, and better") {
+    draws d(731);
+    std::size_t better = 0, all = 0;
+    for (int n = 0; n < 200; ++n) {
+        // q = a sin(w t) + b t about t = 0, r(0) = a w + b
+        double const a = d.uniform(-1, 1), w = d.uniform(0.2, 4), b = d.uniform(-2, 2);
+        double const period = d.uniform(0.02, 0.3), error = d.uniform(0.0001, 0.02);
+        double const slack = d.uniform(0, 0.2);
+        double const off = d.uniform(-error, error); // of the mark that both end at
+        auto const one_side = [&](double way) {
+            derivative_bound bound;
+            for (int k = 20; k >= 0; --k) {
+                double const t = -way * k * period;
+                double const from = t - way * period;
+                auto const bend =
+                    interval(-a * w * w) * sin(interval(w) * hull(interval(from), interval(t)));
+                if (k < 20)
+                    bound.add(around(period, 1e-12), bend + between(-slack - 1e-12, slack + 1e-12));
+                double const wrong = k == 0 ? off : d.uniform(-error, error);
+                bound.mark(t, around(a * std::sin(w * t) + b * t + wrong, error + 1e-12));
+            }
+            return bound;
+        };
+        auto const before = one_side(1), after = one_side(-1);
+        auto const both = derivative_bound::between(before.views(), after.views());
+        double const truth = a * w + b;
+        CHECK(both.lower() <= truth + 1e-9);
+        CHECK(truth - 1e-9 <= both.upper());
+        ++all;
+        if (width(both) < 0.8 * width(intersect(before.now(), after.now()))) ++better;
+    }
+    CHECK(3 * better > all);
+}
+
 TEST_CASE("a rate that may change by anything tells nothing") {
     derivative_bound bound;
     bound.mark(0, between(0, 0));

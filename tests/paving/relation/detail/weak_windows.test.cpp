@@ -4,6 +4,7 @@
 
 #include "diagnosis/planted_motion.hpp"
 #include "support/catch.hpp"
+#include "support/sweep.hpp"
 
 using namespace diagnosis_support;
 
@@ -23,6 +24,14 @@ TEST_CASE("the bump and its derivatives") {
     CHECK_THAT(mid(bump::slope(between(s, s))), WithinAbs((w(s + h) - w(s - h)) / (2 * h), 1e-6));
     CHECK_THAT(mid(bump::curvature(between(s, s))),
                WithinAbs((w(s + h) - 2 * w(s) + w(s - h)) / (h * h), 1e-2));
+}
+
+TEST_CASE("the descent and its derivative") {
+    CHECK(contains(descent::value(between(0.3, 0.3)), 0.7));
+    CHECK(equal(descent::slope(between(0, 1)), between(-1, -1)));
+    CHECK(equal(descent::curvature(between(0, 1)), between(0, 0)));
+    CHECK(contains(descent::integral(between(0.3, 0.3)), 0.3 - 0.045));
+    CHECK(equal(descent::integral(between(1, 1)), descent::whole()));
 }
 
 TEST_CASE("what is open on the average may lie where the weight is largest") {
@@ -106,6 +115,60 @@ TEST_CASE("functions that are not affine in the rate have no weak form") {
     auto const row = make_relation_row(bound.g, bound.rate[1], 1, box{between(0, 1)});
     auto const set = integrand_set::of(bound.g, row.functions, 2, 0);
     CHECK_FALSE(weak_windows::of(bound.g, set, {1, 0}));
+    CHECK(weak_windows::of(bound.g, set, {1, 0}, {}, true)); // unless it is known otherwise
+}
+
+TEST_CASE("windows from a known start contain the truth, whatever the rate stands in") {
+    // x1' = p0 u - p1 x1 - p2 |x1| - p3 x1/sqrt(x1^2 + 0.05^2) - p4 max(x1, 0.3)
+    auto const m = support::model_of(
+        {2, 5, 1, 20}, [](auto const&, auto const& x, auto const& p, auto const& u) {
+            auto const direction = x[1] / sqrt(sqr(x[1]) + sqr(expression(0.05)));
+            return std::vector{x[1], p[0] * u[0] - p[1] * x[1] - p[2] * abs(x[1]) -
+                                         p[3] * direction - p[4] * max(x[1], 0.3)};
+        });
+    auto bound = bind(m, {support::all_constants(5), {}},
+                      {sampled_signal({0.0}, {0.0}, interpolation::linear)});
+    box const prior{between(0.5, 2), between(0, 1), between(-0.4, 0.4), between(0, 0.5),
+                    between(-0.3, 0.3)};
+    auto const row = make_relation_row(bound.g, bound.rate[1], 1, prior);
+    auto const set = integrand_set::of(bound.g, row.functions, 2, 1);
+    auto const weak = weak_windows::of(bound.g, set, {1, 0}, {{1, 0}}, true);
+    REQUIRE(weak);
+    draws d(24);
+    std::size_t sharp = 0, all = 0;
+    auto const count = support::swept(std::size_t{24}, std::size_t{2000});
+    for (std::size_t n = 0; n < count; ++n) {
+        auto const p = d.in(prior);
+        std::vector<sampled_signal> const inputs{sine_input(d.uniform(0, 3), d.uniform(1, 5), 2)};
+        std::vector<double> const start{d.uniform(-1, 1), d.uniform(-1, 1)};
+        auto const truth = simulate(m, p, inputs, start, 2, 0.001);
+        double const error = d.coin() ? 0.001 : 0.02;
+        auto e = measured(d, "S", truth, inputs, {0}, error, static_cast<noise>(n % 4));
+        for (std::size_t i = 0; d.coin() && i < 2; ++i)
+            e.initial[i] = around(start[i] + d.uniform(-0.009, 0.009), 0.01);
+        auto const channels = measured_states(bound, {&e});
+        auto const motion = proved_motion(bound, prior, e, channels, 4);
+        auto const windows = weak->over(motion, 0, 0.5, 2);
+        for (auto const& w : windows) {
+            auto sum = w.a.back();
+            double open = 0;
+            for (std::size_t j = 0; j < row.theta.size(); ++j) {
+                double v = 1;
+                for (auto const& [node, power] : row.theta[j])
+                    v *= std::pow(p[static_cast<std::size_t>(bound.g[node].index)], power);
+                sum = sum + w.a[j] * v;
+                open += width(w.a[j]) * std::abs(v);
+            }
+            INFO(n << ": " << w.from << " to " << w.to);
+            CHECK_FALSE(disjoint(sum, w.difference));
+            bool const begins = w.from == 0 && std::abs(mid(w.length) - w.to / 2) < 1e-9;
+            if (!begins || error > 0.01) continue;
+            ++all;
+            if (width(w.difference) + open < 0.2 * mid(w.length)) ++sharp;
+        }
+    }
+    CHECK(all > 0);
+    CHECK(2 * sharp > all);
 }
 
 TEST_CASE(

@@ -5,6 +5,7 @@
 #include <sivid/number/interval_traits.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace sivid {
 /// piece in between,
 ///   \f[ r(t) = \frac{\Delta q}{T} + \frac 1 T \int_{t_0}^t (s - t_0) \, r'(s) \, ds \f]
 /// since \f$ q(t) - q(t_0) = T r(t) - \int (s - t_0) r'(s) ds \f$: far marks tell the mean well,
-/// near ones what r has done since.
+/// near ones what r has done since. A mark on either side tells more: q(t) itself and its error
+/// cancel (`between`).
 class derivative_bound {
     using traits = interval_traits<interval>;
 
@@ -43,9 +45,14 @@ public:
         lower_ = upper_ = {};
         bounded_ = true;
     }
-    /// Encloses r at the last mark.
-    [[nodiscard]] interval now() const {
-        auto result = traits::entire();
+    /// What an earlier mark says: \f$ T r(t) = q(t) - q_0 + M \f$.
+    struct view {
+        interval T, q0, moment;
+    };
+    /// What earlier marks say of r at the last one, from the nearest on, as far as it helps.
+    [[nodiscard]] std::vector<view> views() const {
+        std::vector<view> result;
+        double best = HUGE_VAL;
         auto const& last = marks_.back();
         auto const most = std::min(marks_.size() - 1, farthest);
         // Backward, s - t_0 and ds change their signs both: the integral is the same, T is
@@ -57,18 +64,41 @@ public:
             if (!next.bounded) break;
             low = earlier(next.lower, next.elapsed, low);
             high = earlier(next.upper, next.elapsed, high);
+            auto const moment = traits::bounds(low.moment.lower(), high.moment.upper());
             auto const T = traits::sub(traits::point(last.t), traits::point(first.t));
-            bool undefined = false;
-            auto const mean = traits::div(traits::sub(last.q, first.q), T, undefined);
-            auto const size = traits::point(mag(T));
-            auto bent = traits::bounds(traits::div(low.moment, size, undefined).lower(),
-                                       traits::div(high.moment, size, undefined).upper());
-            if (last.t < first.t) bent = traits::neg(bent);
-            auto const here = traits::add(mean, bent);
-            if (undefined || !is_bounded(here)) break;
-            auto const both = traits::intersect(result, here);
+            result.push_back({T, first.q, moment});
+            double const open = width(told(result.back()));
+            if (!std::isfinite(open)) {
+                result.pop_back();
+                break;
+            }
+            best = std::min(best, open);
+            if (open > 4 * best) break; // r does too much
+        }
+        return result;
+    }
+    /// Encloses r at the last mark.
+    [[nodiscard]] interval now() const {
+        auto result = traits::entire();
+        for (auto const& v : views()) {
+            auto const both = traits::intersect(result, told(v));
             if (!is_empty(both)) result = both;
-            if (width(here) > 4 * width(result)) break; // r does too much
+        }
+        return result;
+    }
+    /// Encloses r at a mark from what marks before and after it say.
+    [[nodiscard]] static interval between(std::vector<view> const& before,
+                                          std::vector<view> const& after) {
+        auto result = traits::entire();
+        for (auto const& a : before) {
+            for (auto const& b : after) {
+                bool undefined = false;
+                auto const change =
+                    traits::add(traits::sub(b.q0, a.q0), traits::sub(a.moment, b.moment));
+                auto const here = traits::div(change, traits::sub(a.T, b.T), undefined);
+                auto const both = undefined ? result : traits::intersect(result, here);
+                if (!is_empty(both)) result = both;
+            }
         }
         return result;
     }
@@ -79,6 +109,12 @@ private:
     struct sums {
         interval sum{0.0}, moment{0.0};
     };
+    [[nodiscard]] interval told(view const& v) const {
+        bool undefined = false;
+        auto const change = traits::add(traits::sub(marks_.back().q, v.q0), v.moment);
+        auto const r = traits::div(change, v.T, undefined);
+        return undefined ? traits::entire() : r;
+    }
     /// A stretch and what comes after it.
     [[nodiscard]] static sums earlier(sums const& first, interval const& lasting,
                                       sums const& after) {

@@ -113,7 +113,12 @@ public:
             }
         }
         motion_reach result{std::vector<box>(count, box(n)), std::vector<box>(count + 1, box(n))};
-        for (bool const forward : {true, false}) {
+        // What the marks of the pass before say at each boundary: [pair][boundary]
+        std::vector<std::vector<std::vector<derivative_bound::view>>> other(
+            pairs_.size(), std::vector<std::vector<derivative_bound::view>>(count + 1));
+        int const passes = pairs_.empty() ? 2 : 3; // once more with what both directions say
+        for (int pass = 0; pass < passes; ++pass) {
+            bool const forward = pass % 2 == 0, again = pass > 0;
             box at(n);
             for (std::size_t i = 0; i < n; ++i) {
                 at[i] = forward && i < initial_.size() ? initial_[i] : own_range(i);
@@ -123,21 +128,31 @@ public:
                 double const t = boundary == count ? cells_.back().to : cells_[boundary].from;
                 for (std::size_t i = 0; i < n; ++i) {
                     if (auto const seen = sample_at(i, t)) at[i] = agreed(*seen, at[i]);
+                    if (again) at[i] = agreed(at[i], result.at[boundary][i]);
                 }
                 for (std::size_t p = 0; p < pairs_.size(); ++p) {
                     if (!sample_at(pairs_[p].q, t)) continue;
                     derived[p].mark(t, at[pairs_[p].q]);
-                    at[pairs_[p].r] = agreed(at[pairs_[p].r], derived[p].now());
+                    auto& r = at[pairs_[p].r];
+                    r = agreed(r, derived[p].now());
+                    auto views = derived[p].views();
+                    auto& others = other[p][boundary];
+                    if (again) {
+                        r = agreed(r, forward ? derivative_bound::between(views, others)
+                                              : derivative_bound::between(others, views));
+                    }
+                    others = std::move(views);
                 }
                 for (std::size_t i = 0; i < n; ++i) {
-                    auto& known = result.at[boundary][i];
-                    known = forward ? at[i] : agreed(known, at[i]);
+                    result.at[boundary][i] = at[i];
                 }
             };
             for (std::size_t s = 0; s < count; ++s) {
                 auto const c = forward ? s : count - 1 - s;
                 arrive(forward ? c : c + 1);
-                auto const over = step(range, c, at, forward);
+                auto over = step(range, c, at, forward);
+                for (std::size_t i = 0; i < n && again; ++i)
+                    over[i] = agreed(over[i], result.over[c][i]);
                 auto const rates = rates_in(range, c, over);
                 auto const lasting = forward ? length(c) : traits::neg(length(c));
                 for (std::size_t p = 0; p < pairs_.size(); ++p) {
@@ -149,9 +164,7 @@ public:
                     at[i] = samples_[i]
                                 ? end
                                 : agreed(end, damped_end(own.at(i), c, i, at[i], over, lasting));
-                    auto& known = result.over[c][i];
-                    auto const both = forward ? over[i] : intersect(known, over[i]);
-                    known = is_empty(both) ? hull(known, over[i]) : both;
+                    result.over[c][i] = over[i];
                 }
             }
             if (count > 0) arrive(forward ? count : 0);

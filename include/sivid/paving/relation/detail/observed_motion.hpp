@@ -32,6 +32,8 @@ struct observed_motion {
     std::vector<rate_variation> variation; ///< if declared; of measured states
     std::vector<double> boundaries;        ///< of the cells
     std::vector<time_cell> cells;
+    double begin = 0;
+    box start; ///< holds all states at `begin`
 
     [[nodiscard]] std::size_t boundary_at(double t) const {
         return static_cast<std::size_t>(std::lower_bound(boundaries.begin(), boundaries.end(), t) -
@@ -87,6 +89,8 @@ observe_motion(bound_model const& model, box const& prior, experiment const& e,
     observed_motion result;
     result.name = e.name;
     result.variation = known.declared;
+    result.begin = e.begin;
+    result.start = e.initial;
     result.tubes.resize(n);
     result.sensed.resize(n);
     double period = HUGE_VAL;

@@ -116,7 +116,7 @@ public:
 
     /// The ways in which equation i can be enclosed, the one with the fewest sensors first.
     [[nodiscard]] std::vector<window_way> ways(std::size_t i) {
-        if (!shown(i)) return {window_way::weak};
+        if (!shown(i) || (!channels_[i] && weak_form(i))) return {window_way::weak};
         std::vector<window_way> result{window_way::direct};
         if (!pairs_of(i).empty()) result.push_back(window_way::by_parts);
         if (source_ == tube_source::proved) {
@@ -264,9 +264,9 @@ private:
     [[nodiscard]] std::optional<weak_windows> weak_form(std::size_t i) {
         auto const own = weak_pair(i);
         if (!own) return std::nullopt;
-        auto const others =
-            source_ == tube_source::proved ? pairs_ : std::vector<derivative_pair>{};
-        return weak_windows::of(model_.g, prepared(i).set, *own, others);
+        bool const known = source_ == tube_source::proved;
+        auto const others = known ? pairs_ : std::vector<derivative_pair>{};
+        return weak_windows::of(model_.g, prepared(i).set, *own, others, known);
     }
     void add_pair(derivative_pair const& p, std::set<std::size_t>& states,
                   relation_finding& result) const {
