@@ -213,7 +213,7 @@ private:
         if (!run_.result.tried.complete() || !can_stand_in_a_name(names)) return false;
         auto const before = tried.candidates().size();
         kept_ = 0.4 * options_.verdict_share * options_.seconds; // when they begin, too
-        tried.try_episodes(!one_sensor_explains(run_.places));
+        tried.try_episodes(lacks_more());
         return tried.candidates().size() > before;
     }
     /// Whether all of the plan was tried in vain, and neither bounds that are too small nor one
