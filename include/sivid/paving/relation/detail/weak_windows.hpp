@@ -195,7 +195,8 @@ public:
                 add(bump(), times[a], *at);
             }
         }
-        if (!from_start_ || motion.boundaries.front() != motion.begin) return result;
+        bool const begins = from_start_ && motion.boundaries.front() == motion.begin;
+        if (!begins || pairs_[0].r >= motion.start.size()) return result; // a state of an effect
         double next = motion.begin;
         for (double const to : times) {
             if (to <= motion.begin || to < next || (go_on && !go_on())) continue;
