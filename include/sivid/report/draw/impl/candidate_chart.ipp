@@ -98,10 +98,12 @@ SIVID_DECL svg draw_candidate_chart(std::vector<candidate_bar> const& bars,
     };
     double label_width = 60, note_width = 90;
     for (candidate_bar const& b : bars) {
-        label_width = std::max(label_width, approximate_text_width(shorten(b.label, 44), 12.5));
+        double const bold = b.answer ? 1.12 : 1;
+        label_width =
+            std::max(label_width, bold * approximate_text_width(shorten(b.label, 44), 12.5));
         note_width = std::max(note_width, approximate_text_width(note(b), 11.5));
     }
-    double const left = std::min(label_width + 34, o.width * 0.36);
+    double const left = std::min(label_width + 34, o.width * 0.42);
     double const right = std::max(o.width - note_width - 18, left + 80);
     detail::inflation_scale const scale(bars);
     auto const px = [&](double v) { return left + (right - left) * scale.share(v); };
