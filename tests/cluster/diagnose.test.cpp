@@ -70,14 +70,18 @@ TEST_CASE("a diagnosis refuses helpers with another catalogue, and keeps to its 
     auto const catalogue = small_campaign::catalogue();
     diagnosis_options options;
     options.seconds = 600;
-    {
-        auto fewer = catalogue;
-        fewer.pop_back();
+    auto fewer = catalogue;
+    fewer.pop_back();
+    std::string refused; // a helper that comes to speak after the end was not needed
+    for (int n = 0; refused.empty() && n < 50; ++n) {
         helpers others(1, problem, fewer);
-        CHECK_THROWS_WITH(
-            (void)cluster::diagnose(*others.office.of_first, problem, catalogue, options),
-            ContainsSubstring("thread 0 differs"));
+        try {
+            (void)cluster::diagnose(*others.office.of_first, problem, catalogue, options);
+        } catch (cluster::worker_mismatch const& e) {
+            refused = e.what();
+        }
     }
+    CHECK_THAT(refused, ContainsSubstring("thread 0 differs"));
     options.seconds = 0;
     helpers others(1, problem, catalogue);
     auto const none = cluster::diagnose(*others.office.of_first, problem, catalogue, options);

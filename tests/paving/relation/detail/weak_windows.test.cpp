@@ -26,12 +26,12 @@ TEST_CASE("the bump and its derivatives") {
                WithinAbs((w(s + h) - 2 * w(s) + w(s - h)) / (h * h), 1e-2));
 }
 
-TEST_CASE("the descent and its derivative") {
-    CHECK(contains(descent::value(between(0.3, 0.3)), 0.7));
-    CHECK(equal(descent::slope(between(0, 1)), between(-1, -1)));
-    CHECK(equal(descent::curvature(between(0, 1)), between(0, 0)));
-    CHECK(contains(descent::integral(between(0.3, 0.3)), 0.3 - 0.045));
-    CHECK(equal(descent::integral(between(1, 1)), descent::whole()));
+TEST_CASE("the ramp and its derivative") {
+    CHECK(contains(ramp::value(between(0.3, 0.3)), 0.7));
+    CHECK(equal(ramp::slope(between(0, 1)), between(-1, -1)));
+    CHECK(equal(ramp::curvature(between(0, 1)), between(0, 0)));
+    CHECK(contains(ramp::integral(between(0.3, 0.3)), 0.3 - 0.045));
+    CHECK(equal(ramp::integral(between(1, 1)), ramp::whole()));
 }
 
 TEST_CASE("what is open on the average may lie where the weight is largest") {

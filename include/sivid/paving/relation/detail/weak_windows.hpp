@@ -62,7 +62,7 @@ private:
 
 /// A weight that begins where a motion does: \f$ w(s) = 1 - s \f$ on [0, 1], zero at the end,
 /// \f$ \int w = 1/2 \f$.
-struct descent {
+struct ramp {
     using traits = interval_traits<interval>;
 
     [[nodiscard]] static interval value(interval const& s) {
@@ -84,7 +84,7 @@ struct descent {
 /// in which r stands no longer, nor do the rates \f$ r_p \f$ of other measured states, and a
 /// constant error of q does not either: where \f$ \phi_j \f$ is affine in a rate, with a constant
 /// slope \f$ \kappa_j \f$. Where it is not, the rate stays in \f$ \psi_j \f$.
-///   A motion whose start is known says more with a weight that is not zero there (`descent`), over
+///   A motion whose start is known says more with a weight that is not zero there (`ramp`), over
 /// a time T:
 ///   \f[ \int_0^T (1 - t/T) \, r' \, dt = \frac{q(T) - q(0)}{T} - r(0) , \f]
 /// in which the error of one position counts once, divided by T.
@@ -202,7 +202,7 @@ public:
             if (to <= motion.begin || to < next || (go_on && !go_on())) continue;
             if (to - motion.begin > longest * (1 + 1e-9)) break;
             next = to + 0.1 * (to - motion.begin);
-            add(descent(), motion.begin, to);
+            add(ramp(), motion.begin, to);
         }
         return result;
     }
@@ -262,7 +262,7 @@ private:
         return result;
     }
 
-    /// @tparam Weight  a `bump`, or a `descent` where the motion begins with the window
+    /// @tparam Weight  a `bump`, or a `ramp` where the motion begins with the window
     template <class Weight>
     [[nodiscard]] bool fill(Weight const&, observed_motion const& motion, known_cells const& known,
                             window_row& w) const {
@@ -282,7 +282,7 @@ private:
                 traits::bounds(0.0, 1.0));
         };
         auto from = place(motion.cells[first].from);
-        if constexpr (std::is_same_v<Weight, descent>) {
+        if constexpr (std::is_same_v<Weight, ramp>) {
             auto const open = beside_line(motion, pairs_[0].q, w.to);
             bent = traits::sub(traits::div(open, length, undefined), motion.start[pairs_[0].r]);
             for (std::size_t p = 0; p < pairs_.size(); ++p)
