@@ -86,6 +86,48 @@ TEST_CASE("rates that no channel shows are told by what changes at them") {
     CHECK(width(rest[0]) < 0.9 * width(problem.prior[0]));
 }
 
+TEST_CASE("positions alone tell friction from known starts, without any trajectory") {
+    draws d(717);
+    auto const what = all_planted()[7];
+    REQUIRE(what.name == "friction seen by positions");
+    auto const m = model_of(what.shape, what.rate);
+    std::vector<double> const truth{1.5, 0.8, 0.4, 0.2, -0.1};
+    identification_problem problem{m, {support::all_constants(5), {}}, what.prior, {}};
+    for (std::size_t k = 0; k < 12; ++k) {
+        std::vector<sampled_signal> const inputs{drawn_input(d, 1, interpolation::linear)};
+        std::vector<double> const start{d.uniform(-1, 1), 0};
+        auto const motion = simulate(m, truth, inputs, start, 1, what.step);
+        problem.experiments.push_back(measured(d, support::numbered('S', k), motion, inputs,
+                                               what.shown, 0.002, noise::uniform));
+        problem.experiments.back().initial[0] = around(start[0], 0.002);
+    }
+    auto const rest = contract_by_relations(problem);
+    REQUIRE(contains(rest, truth));
+    for (std::size_t j = 0; j < 5; ++j) {
+        INFO(j);
+        CHECK(width(rest[j]) < 0.6 * width(problem.prior[j]));
+    }
+}
+
+TEST_CASE("a position that only some records show, or for a while, takes nothing away") {
+    draws d(718);
+    auto const what = all_planted().back();
+    REQUIRE(what.name == "two masses seen by positions");
+    auto const m = model_of(what.shape, what.rate);
+    for (int n = 0; n < 4; ++n) {
+        auto r = record_of(d, what, m);
+        auto const& first = r.problem.experiments[0];
+        auto some = first, begun = first;
+        std::erase_if(some.measurements, [](auto const& x) { return x.channel == 1; });
+        std::erase_if(begun.measurements,
+                      [](auto const& x) { return x.channel == 1 && x.time > 1; });
+        r.problem.experiments = {first, some, begun};
+        CHECK(contains(contract_by_relations(r.problem), r.truth));
+        r.problem.experiments = {some};
+        CHECK(contains(contract_by_relations(r.problem), r.truth));
+    }
+}
+
 TEST_CASE("data that no parameter explains leave nothing") {
     draws d(713);
     auto const what = all_planted()[0];

@@ -38,7 +38,7 @@ TEST_CASE("the rate of a sampled quantity is told in both directions of time") {
             }
             bound.mark(
                 t, around(a * std::sin(w * t) + b * t + d.uniform(-error, error), error + 1e-12));
-            auto const r = bound.now();
+            auto const r = bound.told().rate;
             double const truth = a * w * std::cos(w * t) + b;
             CHECK(r.lower() <= truth + 1e-9);
             CHECK(truth - 1e-9 <= r.upper());
@@ -73,12 +73,12 @@ TEST_CASE("marks on either side tell a rate together, and better") {
             return bound;
         };
         auto const before = one_side(1), after = one_side(-1);
-        auto const both = derivative_bound::between(before.views(), after.views());
+        auto const both = derivative_bound::between(before.told().views, after.told().views);
         double const truth = a * w + b;
         CHECK(both.lower() <= truth + 1e-9);
         CHECK(truth - 1e-9 <= both.upper());
         ++all;
-        if (width(both) < 0.8 * width(intersect(before.now(), after.now()))) ++better;
+        if (width(both) < 0.8 * width(intersect(before.told().rate, after.told().rate))) ++better;
     }
     CHECK(3 * better > all);
 }
@@ -88,8 +88,8 @@ TEST_CASE("a rate that may change by anything tells nothing") {
     bound.mark(0, between(0, 0));
     bound.add(interval(1.0), interval_traits<interval>::entire());
     bound.mark(1, between(1, 1));
-    CHECK_FALSE(is_bounded(bound.now()));
+    CHECK_FALSE(is_bounded(bound.told().rate));
     bound.add(interval(1.0), between(0, 0)); // from here on it is known
     bound.mark(2, between(3, 3));
-    CHECK(equal(bound.now(), between(2, 2)));
+    CHECK(equal(bound.told().rate, between(2, 2)));
 }

@@ -5,7 +5,6 @@
 #include <sivid/number/interval_traits.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -49,40 +48,38 @@ public:
     struct view {
         interval T, q0, moment;
     };
-    /// What earlier marks say of r at the last one, from the nearest on, as far as it helps.
-    [[nodiscard]] std::vector<view> views() const {
-        std::vector<view> result;
-        double best = HUGE_VAL;
+    /// What earlier marks say of r at the last one.
+    struct account {
+        interval rate = traits::entire(); ///< encloses r
+        std::vector<view> views; ///< of the marks 1, 2, 3, 5, 8, 12 ... before, while they help
+    };
+    /// @cost  looks at 64 marks at most, and keeps 10
+    [[nodiscard]] account told() const {
+        account result;
         auto const& last = marks_.back();
         auto const most = std::min(marks_.size() - 1, farthest);
         // Backward, s - t_0 and ds change their signs both: the integral is the same, T is
         // negative.
         sums low, high;
+        std::size_t kept = 1;
         for (std::size_t k = 1; k <= most; ++k) {
             auto const& next = marks_[marks_.size() - k]; // with what lies before it
             auto const& first = marks_[marks_.size() - 1 - k];
             if (!next.bounded) break;
             low = earlier(next.lower, next.elapsed, low);
             high = earlier(next.upper, next.elapsed, high);
-            auto const moment = traits::bounds(low.moment.lower(), high.moment.upper());
-            auto const T = traits::sub(traits::point(last.t), traits::point(first.t));
-            result.push_back({T, first.q, moment});
-            double const open = width(told(result.back()));
-            if (!std::isfinite(open)) {
-                result.pop_back();
-                break;
-            }
-            best = std::min(best, open);
-            if (open > 4 * best) break; // r does too much
-        }
-        return result;
-    }
-    /// Encloses r at the last mark.
-    [[nodiscard]] interval now() const {
-        auto result = traits::entire();
-        for (auto const& v : views()) {
-            auto const both = traits::intersect(result, told(v));
-            if (!is_empty(both)) result = both;
+            view const v{traits::sub(traits::point(last.t), traits::point(first.t)), first.q,
+                         traits::bounds(low.moment.lower(), high.moment.upper())};
+            bool undefined = false;
+            auto const change = traits::add(traits::sub(last.q, v.q0), v.moment);
+            auto const here = traits::div(change, v.T, undefined);
+            if (undefined || !is_bounded(here)) break;
+            auto const both = traits::intersect(result.rate, here);
+            if (!is_empty(both)) result.rate = both;
+            if (width(here) > 4 * width(result.rate)) break; // r does too much
+            if (k < kept) continue;
+            result.views.push_back(v);
+            kept = k + (k + 1) / 2;
         }
         return result;
     }
@@ -109,12 +106,6 @@ private:
     struct sums {
         interval sum{0.0}, moment{0.0};
     };
-    [[nodiscard]] interval told(view const& v) const {
-        bool undefined = false;
-        auto const change = traits::add(traits::sub(marks_.back().q, v.q0), v.moment);
-        auto const r = traits::div(change, v.T, undefined);
-        return undefined ? traits::entire() : r;
-    }
     /// A stretch and what comes after it.
     [[nodiscard]] static sums earlier(sums const& first, interval const& lasting,
                                       sums const& after) {

@@ -134,18 +134,16 @@ public:
                     if (!sample_at(pairs_[p].q, t)) continue;
                     derived[p].mark(t, at[pairs_[p].q]);
                     auto& r = at[pairs_[p].r];
-                    r = agreed(r, derived[p].now());
-                    auto views = derived[p].views();
+                    auto told = derived[p].told();
+                    r = agreed(r, told.rate);
                     auto& others = other[p][boundary];
                     if (again) {
-                        r = agreed(r, forward ? derivative_bound::between(views, others)
-                                              : derivative_bound::between(others, views));
+                        r = agreed(r, forward ? derivative_bound::between(told.views, others)
+                                              : derivative_bound::between(others, told.views));
                     }
-                    others = std::move(views);
+                    others = std::move(told.views);
                 }
-                for (std::size_t i = 0; i < n; ++i) {
-                    result.at[boundary][i] = at[i];
-                }
+                result.at[boundary] = at;
             };
             for (std::size_t s = 0; s < count; ++s) {
                 auto const c = forward ? s : count - 1 - s;
@@ -164,8 +162,8 @@ public:
                     at[i] = samples_[i]
                                 ? end
                                 : agreed(end, damped_end(own.at(i), c, i, at[i], over, lasting));
-                    result.over[c][i] = over[i];
                 }
+                result.over[c] = std::move(over);
             }
             if (count > 0) arrive(forward ? count : 0);
         }

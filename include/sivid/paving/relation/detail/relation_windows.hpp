@@ -114,20 +114,20 @@ public:
         return {};
     }
 
-    /// The ways in which equation i can be enclosed, the one with the fewest sensors first.
+    /// The ways in which equation i can be enclosed, the one with the fewest sensors first; of a
+    /// state that is known by its integral alone the weak form, beside which others tell nothing.
     [[nodiscard]] std::vector<window_way> ways(std::size_t i) {
-        if (!shown(i) || (!channels_[i] && weak_form(i))) return {window_way::weak};
+        if (!shown(i) || (!channels_[i] && weak_pair(i))) return {window_way::weak};
         std::vector<window_way> result{window_way::direct};
         if (!pairs_of(i).empty()) result.push_back(window_way::by_parts);
         if (source_ == tube_source::proved) {
             result.push_back(window_way::damped);
-            if (weak_form(i)) result.push_back(window_way::weak);
+            if (weak_pair(i)) result.push_back(window_way::weak);
         }
         return result;
     }
 
-    /// All windows between the shortest and the longest; every so many of them if there are too
-    /// many.
+    /// All windows between the shortest and the longest; of too many every so many.
     [[nodiscard]] std::vector<window_row> all(std::size_t i, window_way way) {
         return windows(i, way, options_.shortest, options_.longest);
     }
